@@ -1,0 +1,284 @@
+//! What a gear is: the validated definition, in SI units.
+
+use crate::microgeometry::Microgeometry;
+use crate::tooth::ToothGeometry;
+
+/// Hand of a flank: the right flank faces clockwise seen from +z.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum FlankSide {
+    /// Faces clockwise; a load on it turns the gear counter-clockwise.
+    Right,
+    /// Faces counter-clockwise; the mirror image.
+    Left,
+}
+
+impl FlankSide {
+    /// +1 for the right flank, −1 for its mirror image: the factor of y.
+    pub fn mirror(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+
+    /// The other flank of the same tooth.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Right => Self::Left,
+            Self::Left => Self::Right,
+        }
+    }
+
+    /// Name in files and prints.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        }
+    }
+}
+
+/// Involute spur teeth cut by a rack. Lengths in metres, coefficients in multiples of the module.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothDefinition {
+    /// Number of teeth.
+    pub teeth: usize,
+    /// Module \[m\].
+    pub module_m: f64,
+    /// Pressure angle of the rack \[rad\].
+    pub pressure_angle_rad: f64,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Addendum coefficient of the gear's tip, ignored when `tip_diameter_m` is given.
+    pub addendum: f64,
+    /// Dedendum coefficient: addendum of the cutting rack.
+    pub dedendum: f64,
+    /// Tip radius coefficient of the cutting rack.
+    pub rack_tip_radius: f64,
+    /// Tip diameter \[m\] where it is not reference diameter + 2 m (addendum + x).
+    pub tip_diameter_m: Option<f64>,
+    /// Reduction of the tooth thickness on the reference circle \[m\].
+    pub thickness_allowance_m: f64,
+    /// Tip chamfer \[m\], taken radially and circumferentially.
+    pub tip_chamfer_m: f64,
+    /// Face width \[m\].
+    pub face_width_m: f64,
+}
+
+/// The body below the teeth. Held at the bore.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blank {
+    /// Bore radius \[m\].
+    pub bore_radius_m: f64,
+    /// Hub, web and rim; `None` for a solid disc of full width.
+    pub web: Option<Web>,
+    /// Openings through the web (or through the whole solid disc).
+    pub openings: Option<Openings>,
+}
+
+/// Hub and web of a thin-rimmed blank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Web {
+    /// Outer radius of the hub \[m\].
+    pub hub_radius_m: f64,
+    /// Inner radius of the rim \[m\].
+    pub rim_inner_radius_m: f64,
+    /// Web thickness \[m\].
+    pub thickness_m: f64,
+    /// Axial position of the web's mid-plane from mid-face \[m\].
+    pub offset_m: f64,
+}
+
+/// Openings through the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Openings {
+    /// Annular sectors.
+    Slots(Slots),
+    /// Round holes.
+    Holes(Holes),
+}
+
+impl Openings {
+    /// Number of equal openings round the axis.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Slots(s) => s.count,
+            Self::Holes(h) => h.count,
+        }
+    }
+
+    /// Polar angle of the first opening's centre from tooth 0 \[rad\].
+    pub fn phase_rad(&self) -> f64 {
+        match self {
+            Self::Slots(s) => s.phase_rad,
+            Self::Holes(h) => h.phase_rad,
+        }
+    }
+
+    /// Half of the angle that one opening covers \[rad\].
+    pub fn half_width_rad(&self) -> f64 {
+        match self {
+            Self::Slots(s) => 0.5 * s.width_rad,
+            Self::Holes(h) => (h.radius_m / h.pitch_radius_m).asin(),
+        }
+    }
+
+    /// Innermost and outermost radius \[m\].
+    pub fn radii_m(&self) -> (f64, f64) {
+        match self {
+            Self::Slots(s) => (s.inner_radius_m, s.outer_radius_m),
+            Self::Holes(h) => (h.pitch_radius_m - h.radius_m, h.pitch_radius_m + h.radius_m),
+        }
+    }
+}
+
+/// Annular slots with radial flanks and rounded corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slots {
+    /// Number of slots.
+    pub count: usize,
+    /// Inner radius \[m\].
+    pub inner_radius_m: f64,
+    /// Outer radius \[m\].
+    pub outer_radius_m: f64,
+    /// Angle covered by one slot \[rad\].
+    pub width_rad: f64,
+    /// Polar angle of the first slot's centre from tooth 0 \[rad\].
+    pub phase_rad: f64,
+    /// Radius of the four corners \[m\].
+    pub corner_radius_m: f64,
+}
+
+/// Round holes on a pitch circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Holes {
+    /// Number of holes.
+    pub count: usize,
+    /// Radius of the pitch circle \[m\].
+    pub pitch_radius_m: f64,
+    /// Radius of a hole \[m\].
+    pub radius_m: f64,
+    /// Polar angle of the first hole's centre from tooth 0 \[rad\].
+    pub phase_rad: f64,
+}
+
+/// Linear elastic, isotropic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus \[Pa\].
+    pub young_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+/// Finite element of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ElementKind {
+    /// Eight nodes, full integration.
+    Hex8,
+    /// Eight nodes with incompatible bending modes.
+    Hex8Incompatible,
+}
+
+/// Element sizes and the quality that the mesh must reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshSettings {
+    /// Element.
+    pub element: ElementKind,
+    /// Element length along the flank \[m\].
+    pub flank_m: f64,
+    /// Element length along the root fillet \[m\].
+    pub fillet_m: f64,
+    /// Largest element length in the body \[m\].
+    pub body_m: f64,
+    /// Element length along the axis \[m\].
+    pub axial_m: f64,
+    /// Smallest scaled Jacobian that is accepted.
+    pub min_scaled_jacobian: f64,
+}
+
+/// What the reduction computes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReductionSettings {
+    /// Stations of the flank grid along the profile.
+    pub roll_stations: usize,
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Flanks that carry loads.
+    pub flanks: Vec<FlankSide>,
+}
+
+/// Where a gauge sits on the root fillet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RootPosition {
+    /// Where the profile tangent makes this angle with the tooth's centre line \[rad\].
+    TangentAngle(f64),
+    /// Where the profile has this radius \[m\].
+    Radius(f64),
+}
+
+/// A strain gauge on the surface of a tooth root, reading along the profile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaugeDefinition {
+    /// Name in prints and files.
+    pub name: String,
+    /// Tooth.
+    pub tooth: usize,
+    /// Side of the tooth.
+    pub side: FlankSide,
+    /// Centre of the gauge on the profile.
+    pub position: RootPosition,
+    /// Length along the profile \[m\].
+    pub length_m: f64,
+    /// Axial centre from mid-face \[m\].
+    pub z_m: f64,
+    /// Width along the axis \[m\].
+    pub width_m: f64,
+}
+
+/// A gear that has been read, checked and found possible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearDefinition {
+    /// Name in prints and files.
+    pub name: String,
+    /// Teeth.
+    pub tooth: ToothDefinition,
+    /// Body.
+    pub blank: Blank,
+    /// Material.
+    pub material: Material,
+    /// Microgeometry of both flanks.
+    pub microgeometry: Microgeometry,
+    /// Mesh.
+    pub mesh: MeshSettings,
+    /// Reduction.
+    pub reduction: ReductionSettings,
+    /// Gauges.
+    pub gauges: Vec<GaugeDefinition>,
+    /// The profile that follows from `tooth`.
+    pub profile: ToothGeometry,
+    /// The file's text, verbatim.
+    pub source: String,
+}
+
+impl GearDefinition {
+    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth.
+    pub fn sectors(&self) -> usize {
+        let z = self.tooth.teeth;
+        self.blank
+            .openings
+            .map_or(z, |o| greatest_common_divisor(z, o.count()))
+    }
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
+}

@@ -1,0 +1,77 @@
+//! The trochoidal root fillet that a rack with a rounded tip cuts.
+//!
+//! The rack's pitch line rolls on the reference circle (radius r). The centre of the rounding (radius ρ) runs at
+//! depth H_c below that line; the normal of the cut curve passes through the instantaneous pitch point, hence, with
+//! the centre's distance t from the radial line through that point,
+//!
+//! C(t) = (r − H_c) e_r(β) + t e_t(β),  β = c₀ + (E − t)/r,  P(t) = C + ρ sgn(H_c) (−H_c e_r + t e_t)/√(H_c² + t²).
+//!
+//! t = 0 is the deepest point (root circle), t = H_c / tan α the tangent transition to the involute. c₀ is the
+//! polar angle of the tooth space's centre, E the distance of the rounding's centre from the rack tooth's centre
+//! line. Derivation: docs/theory/geometry.md; the same construction is in ISO 6336-3 and Litvin.
+
+/// The curve cut by one rounded corner of the rack, for the right flank of the tooth centred on +x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trochoid {
+    /// Reference radius r \[m\].
+    pub reference_radius_m: f64,
+    /// Depth H_c of the rounding's centre below the rolling line \[m\]; negative above it, never zero.
+    pub centre_depth_m: f64,
+    /// Distance E of the rounding's centre from the rack tooth's centre line \[m\].
+    pub centre_offset_m: f64,
+    /// Radius ρ of the rounding \[m\].
+    pub tip_radius_m: f64,
+    /// Polar angle c₀ of the tooth space's centre \[rad\].
+    pub space_angle_rad: f64,
+}
+
+impl Trochoid {
+    /// Keeps the depth of the rounding's centre away from zero, where the curve degenerates to an arc and its
+    /// parameter to a point: a billionth of the module moves no point of the gear by more than that.
+    pub fn regular_depth_m(depth_m: f64, module_m: f64) -> f64 {
+        let least = 1e-9 * module_m;
+        if depth_m.abs() < least {
+            least
+        } else {
+            depth_m
+        }
+    }
+
+    fn contact_angle_rad(&self, t_m: f64) -> f64 {
+        self.space_angle_rad + (self.centre_offset_m - t_m) / self.reference_radius_m
+    }
+
+    /// Point \[x, y\] \[m\] of the cut curve.
+    pub fn point_m(&self, t_m: f64) -> [f64; 2] {
+        let (s, c) = self.contact_angle_rad(t_m).sin_cos();
+        let scale =
+            1.0 + self.tip_radius_m * self.centre_depth_m.signum() / self.centre_depth_m.hypot(t_m);
+        let radial = self.reference_radius_m - self.centre_depth_m * scale;
+        let tangential = t_m * scale;
+        [radial * c - tangential * s, radial * s + tangential * c]
+    }
+
+    /// Angle τ \[rad\] between the tangent (towards the tip) and the tooth's centre line: about π/2 at the root
+    /// circle, falling to about the pressure angle at the involute.
+    pub fn tangent_angle_rad(&self, t_m: f64) -> f64 {
+        self.contact_angle_rad(t_m) + std::f64::consts::FRAC_PI_2
+            - (t_m / self.centre_depth_m).atan()
+    }
+
+    /// Parameter t \[m\] between 0 and `t_end_m` at which the tangent angle equals `tangent_rad`, if it is reached.
+    pub fn parameter_at_tangent(&self, tangent_rad: f64, t_end_m: f64) -> Option<f64> {
+        let (mut low, mut high) = (0.0, t_end_m);
+        if self.tangent_angle_rad(low) < tangent_rad || self.tangent_angle_rad(high) > tangent_rad {
+            return None;
+        }
+        for _ in 0..100 {
+            let mid = 0.5 * (low + high);
+            if self.tangent_angle_rad(mid) > tangent_rad {
+                low = mid;
+            } else {
+                high = mid;
+            }
+        }
+        Some(0.5 * (low + high))
+    }
+}

@@ -1,0 +1,35 @@
+//! Gear definition, tooth flanks, fillet, microgeometry and the kinematics of a pair.
+//!
+//! The way through this crate is the way the theory goes:
+//!
+//! | step | type | file |
+//! | --- | --- | --- |
+//! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `definition.rs` |
+//! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
+//! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
+//! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
+//! | two gears at a centre distance | [`GearPair`] | `pair.rs` |
+//!
+//! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
+//! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
+//! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
+
+pub mod definition;
+pub mod fillet;
+pub mod gear_file;
+pub mod input;
+pub mod involute;
+pub mod microgeometry;
+pub mod pair;
+pub mod profile_curve;
+pub mod tooth;
+
+pub use definition::{
+    Blank, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes, Material, MeshSettings,
+    Openings, ReductionSettings, RootPosition, Slots, ToothDefinition,
+};
+pub use input::InputError;
+pub use microgeometry::Microgeometry;
+pub use pair::{GearPair, Misalignment, PairError};
+pub use profile_curve::ProfileCurve;
+pub use tooth::{GeometryError, ToothGeometry};

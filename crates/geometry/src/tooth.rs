@@ -1,0 +1,289 @@
+//! One tooth: root arc, trochoidal fillet, involute flank, chamfer and tip, as functions of simple parameters.
+
+use crate::definition::{FlankSide, ToothDefinition};
+use crate::fillet::Trochoid;
+use crate::involute;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Why no gear can be cut from a definition.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GeometryError {
+    /// The two flanks meet below the tip circle.
+    #[error(
+        "the tooth is pointed: at the tip radius {tip_radius_mm:.4} mm the flanks have crossed (thickness {thickness_mm:.4} mm); lower the addendum or the profile shift, or give a smaller tip diameter"
+    )]
+    PointedTooth {
+        /// Tip radius.
+        tip_radius_mm: f64,
+        /// Circular tooth thickness there.
+        thickness_mm: f64,
+    },
+    /// The rounding does not fit on the tip of the rack.
+    #[error(
+        "a rack tip radius of {rack_tip_radius} modules does not fit: the rack tooth's tip is too narrow by {excess_mm:.4} mm; at most {allowed:.4} modules fit"
+    )]
+    RackTipTooNarrow {
+        /// Rounding asked for, in modules.
+        rack_tip_radius: f64,
+        /// Missing half width.
+        excess_mm: f64,
+        /// Largest rounding that fits, in modules.
+        allowed: f64,
+    },
+    /// The fillet cuts so much away that no usable involute is left.
+    #[error(
+        "undercut destroys the tooth: the involute would start at radius {form_radius_mm:.4} mm, not below the tip at {tip_radius_mm:.4} mm; raise the profile shift above {needed_profile_shift:.4} or the number of teeth"
+    )]
+    Undercut {
+        /// Radius at which the involute would start.
+        form_radius_mm: f64,
+        /// Radius at which it would end.
+        tip_radius_mm: f64,
+        /// Profile shift without undercut.
+        needed_profile_shift: f64,
+    },
+    /// Tip at or below the root, or root at or below the axis.
+    #[error(
+        "the radii are impossible: root {root_radius_mm:.4} mm, tip {tip_radius_mm:.4} mm; the root must be above 0 and the tip above the root"
+    )]
+    ImpossibleRadii {
+        /// Root radius.
+        root_radius_mm: f64,
+        /// Tip radius.
+        tip_radius_mm: f64,
+    },
+    /// The chamfer takes away the flank or the tip land.
+    #[error(
+        "a tip chamfer of {chamfer_mm:.4} mm leaves no {lost}; at most {allowed_mm:.4} mm is possible"
+    )]
+    ChamferTooLarge {
+        /// Chamfer asked for.
+        chamfer_mm: f64,
+        /// What it destroys.
+        lost: &'static str,
+        /// Largest possible chamfer.
+        allowed_mm: f64,
+    },
+}
+
+/// The transverse profile of a tooth centred on +x. Radii in metres, angles in radians.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothGeometry {
+    /// Number of teeth.
+    pub teeth: usize,
+    /// Reference radius m z / 2.
+    pub reference_radius_m: f64,
+    /// Base radius.
+    pub base_radius_m: f64,
+    /// Tip radius.
+    pub tip_radius_m: f64,
+    /// Root radius.
+    pub root_radius_m: f64,
+    /// Half the angle that the tooth covers on the base circle: thickness/(2r) + inv α.
+    pub base_half_angle_rad: f64,
+    /// Roll angle at which the fillet hands over to the involute.
+    pub form_roll_rad: f64,
+    /// Roll angle at which the usable flank ends: tip circle, or start of the chamfer.
+    pub flank_end_roll_rad: f64,
+    /// Roll angle of the involute on the tip circle.
+    pub tip_roll_rad: f64,
+    /// Chamfer.
+    pub tip_chamfer_m: f64,
+    /// True when the fillet crosses the involute instead of touching it.
+    pub undercut: bool,
+    /// The fillet of the right flank.
+    pub trochoid: Trochoid,
+    /// Fillet parameter at the hand-over to the involute.
+    pub fillet_end_m: f64,
+}
+
+impl ToothGeometry {
+    /// Derives the profile.
+    ///
+    /// # Errors
+    /// [`GeometryError`] when no tooth with these numbers exists; the reason carries the numbers.
+    pub fn new(d: &ToothDefinition) -> Result<Self, GeometryError> {
+        let (sin, cos, tan) = (
+            d.pressure_angle_rad.sin(),
+            d.pressure_angle_rad.cos(),
+            d.pressure_angle_rad.tan(),
+        );
+        let m = d.module_m;
+        let reference = 0.5 * m * d.teeth as f64;
+        let base = reference * cos;
+        let tip = d
+            .tip_diameter_m
+            .map_or(reference + m * (d.addendum + d.profile_shift), |v| 0.5 * v);
+        let depth = m * (d.dedendum - d.profile_shift);
+        let root = reference - depth;
+        if !(root > 0.0 && tip > root) {
+            return Err(GeometryError::ImpossibleRadii {
+                root_radius_mm: root * 1e3,
+                tip_radius_mm: tip * 1e3,
+            });
+        }
+
+        let rho = d.rack_tip_radius * m;
+        let offset = 0.25 * PI * m - d.dedendum * m * tan - rho * (1.0 - sin) / cos;
+        if offset < -1e-12 * m {
+            return Err(GeometryError::RackTipTooNarrow {
+                rack_tip_radius: d.rack_tip_radius,
+                excess_mm: -offset * 1e3,
+                allowed: (0.25 * PI - d.dedendum * tan) * cos / (1.0 - sin),
+            });
+        }
+        let trochoid = Trochoid {
+            reference_radius_m: reference,
+            centre_depth_m: Trochoid::regular_depth_m(depth - rho, m),
+            centre_offset_m: offset.max(0.0) + 0.5 * d.thickness_allowance_m,
+            tip_radius_m: rho,
+            space_angle_rad: -PI / d.teeth as f64,
+        };
+        let thickness = m * (FRAC_PI_2 + 2.0 * d.profile_shift * tan) - d.thickness_allowance_m;
+        let base_half_angle =
+            0.5 * thickness / reference + involute::involute_function(d.pressure_angle_rad);
+        let tip_roll = involute::roll_angle_rad(tip, base);
+        let mut tooth = Self {
+            teeth: d.teeth,
+            reference_radius_m: reference,
+            base_radius_m: base,
+            tip_radius_m: tip,
+            root_radius_m: root,
+            base_half_angle_rad: base_half_angle,
+            form_roll_rad: 0.0,
+            flank_end_roll_rad: tip_roll,
+            tip_roll_rad: tip_roll,
+            tip_chamfer_m: d.tip_chamfer_m,
+            undercut: false,
+            trochoid,
+            fillet_end_m: 0.0,
+        };
+        let tip_half_angle = tooth.half_angle_rad(tip_roll);
+        if tip_half_angle <= 0.0 || tip <= base {
+            return Err(GeometryError::PointedTooth {
+                tip_radius_mm: tip * 1e3,
+                thickness_mm: 2.0 * tip_half_angle * tip * 1e3,
+            });
+        }
+
+        // The rack's straight flank ends where the rounding begins; its contact point is the involute's start.
+        let undercut_error = |form_roll: f64| GeometryError::Undercut {
+            form_radius_mm: involute::radius_m(form_roll, base) * 1e3,
+            tip_radius_mm: tip * 1e3,
+            needed_profile_shift: d.dedendum
+                - d.rack_tip_radius * (1.0 - sin)
+                - 0.5 * d.teeth as f64 * sin * sin,
+        };
+        let form_roll = (reference * sin - (trochoid.centre_depth_m / sin + rho)) / base;
+        if form_roll >= 0.0 {
+            tooth.form_roll_rad = form_roll;
+            tooth.fillet_end_m = trochoid.centre_depth_m / tan;
+        } else {
+            tooth.undercut = true;
+            tooth.fillet_end_m = tooth
+                .undercut_crossing()
+                .ok_or_else(|| undercut_error(tip_roll))?;
+            let p = trochoid.point_m(tooth.fillet_end_m);
+            tooth.form_roll_rad = involute::roll_angle_rad(p[0].hypot(p[1]), base);
+        }
+        if tooth.form_roll_rad >= tip_roll {
+            return Err(undercut_error(tooth.form_roll_rad));
+        }
+
+        if d.tip_chamfer_m > 0.0 {
+            let form_radius = involute::radius_m(tooth.form_roll_rad, base);
+            if tip - d.tip_chamfer_m <= form_radius {
+                return Err(GeometryError::ChamferTooLarge {
+                    chamfer_mm: d.tip_chamfer_m * 1e3,
+                    lost: "usable flank",
+                    allowed_mm: (tip - form_radius) * 1e3,
+                });
+            }
+            tooth.flank_end_roll_rad = involute::roll_angle_rad(tip - d.tip_chamfer_m, base);
+            if tooth.tip_half_angle_rad() <= 0.0 {
+                return Err(GeometryError::ChamferTooLarge {
+                    chamfer_mm: d.tip_chamfer_m * 1e3,
+                    lost: "tip land",
+                    allowed_mm: tip_half_angle * tip * 1e3,
+                });
+            }
+        }
+        Ok(tooth)
+    }
+
+    /// Half the angle that the tooth covers at a roll angle: ψ = ψ_b − (ξ − atan ξ).
+    pub fn half_angle_rad(&self, roll_rad: f64) -> f64 {
+        self.base_half_angle_rad - involute::polar_angle_rad(roll_rad)
+    }
+
+    /// Half the angle of the tip land, after the chamfer.
+    pub fn tip_half_angle_rad(&self) -> f64 {
+        if self.tip_chamfer_m > 0.0 {
+            self.half_angle_rad(self.flank_end_roll_rad) - self.tip_chamfer_m / self.tip_radius_m
+        } else {
+            self.half_angle_rad(self.tip_roll_rad)
+        }
+    }
+
+    /// Point of a flank \[m\] at a roll angle, for the tooth centred on +x.
+    pub fn flank_point_m(&self, side: FlankSide, roll_rad: f64) -> [f64; 2] {
+        let r = involute::radius_m(roll_rad, self.base_radius_m);
+        let psi = self.half_angle_rad(roll_rad);
+        [r * psi.cos(), -side.mirror() * r * psi.sin()]
+    }
+
+    /// Unit normal of a flank, into the material, and unit tangent towards the tip.
+    ///
+    /// With φ = ξ − ψ_b the base tangent's polar angle on the right flank: normal e_t(φ), tangent e_r(φ).
+    pub fn flank_frame(&self, side: FlankSide, roll_rad: f64) -> ([f64; 2], [f64; 2]) {
+        let (s, c) = (roll_rad - self.base_half_angle_rad).sin_cos();
+        let mirror = side.mirror();
+        ([-s, mirror * c], [c, mirror * s])
+    }
+
+    /// Fillet parameter at which an undercut trochoid crosses the involute.
+    fn undercut_crossing(&self) -> Option<f64> {
+        // Positive while the trochoid runs in the tooth space, clockwise of the involute.
+        let clearance = |t: f64| {
+            let p = self.trochoid.point_m(t);
+            let r = p[0].hypot(p[1]);
+            if r < self.base_radius_m {
+                return None;
+            }
+            let roll = involute::roll_angle_rad(r, self.base_radius_m);
+            Some(-self.half_angle_rad(roll) - p[1].atan2(p[0]))
+        };
+        let end = 3.0 * self.reference_radius_m;
+        let steps = 20_000;
+        let mut previous: Option<(f64, f64)> = None;
+        for k in 0..=steps {
+            let t = end * k as f64 / steps as f64;
+            let p = self.trochoid.point_m(t);
+            if p[0].hypot(p[1]) > self.tip_radius_m {
+                break;
+            }
+            let Some(value) = clearance(t) else { continue };
+            let Some((t0, v0)) = previous else {
+                if value >= 0.0 {
+                    return Some(t);
+                }
+                previous = Some((t, value));
+                continue;
+            };
+            if v0 < 0.0 && value >= 0.0 {
+                let (mut low, mut high) = (t0, t);
+                for _ in 0..100 {
+                    let mid = 0.5 * (low + high);
+                    if clearance(mid).is_some_and(|v| v < 0.0) {
+                        low = mid
+                    } else {
+                        high = mid
+                    }
+                }
+                return Some(0.5 * (low + high));
+            }
+            previous = Some((t, value));
+        }
+        None
+    }
+}

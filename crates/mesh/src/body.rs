@@ -1,0 +1,271 @@
+//! Hub, web and rim of one repeating sector below the teeth, with its openings.
+
+use crate::MeshError;
+use crate::plane_mesher::{PlaneProblem, Region};
+use crate::tooth_cell::{Pieces, graded, ring_radius_m};
+use gearmesh_geometry::{GearDefinition, Openings, Slots};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Growth of element length with the distance from the ring.
+const GRADING: f64 = 0.35;
+
+/// One sector of the body, ready for the mesher.
+#[derive(Debug, Clone)]
+pub struct BodyProblem {
+    /// What the mesher gets.
+    pub problem: PlaneProblem,
+    /// True for regions that exist only in the web's layers.
+    pub web_region: Vec<bool>,
+    /// Points on the ring's inner circle, counter-clockwise, shared with the tooth cells.
+    pub ring: Vec<usize>,
+    /// Points on the sector's edges, outwards to inwards, without those on the ring; empty when there is one sector.
+    pub right_side: Vec<usize>,
+    /// The same on the edge at the larger angle.
+    pub left_side: Vec<usize>,
+    /// Points on the bore.
+    pub bore: Vec<usize>,
+    /// First tooth of the sector.
+    pub first_tooth: usize,
+}
+
+/// The first tooth of a sector such that the cut before it keeps clear of all openings.
+fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
+    let Some(openings) = gear.blank.openings else {
+        return Ok(0);
+    };
+    if gear.sectors() == 1 {
+        return Ok(0);
+    }
+    let pitch = TAU / gear.tooth.teeth as f64;
+    let repeat = TAU / openings.count() as f64;
+    let clearance = |tooth: usize| {
+        let angle = (tooth as f64 - 0.5) * pitch - openings.phase_rad();
+        let from_centre = (angle - repeat * (angle / repeat).round()).abs();
+        from_centre - openings.half_width_rad()
+    };
+    let teeth_per_sector = gear.tooth.teeth / gear.sectors();
+    // Where several cuts are equally clear, the first is taken, so that the choice does not hang on rounding.
+    let mut best = 0;
+    for tooth in 1..teeth_per_sector {
+        if clearance(tooth) > clearance(best) + 1e-9 {
+            best = tooth;
+        }
+    }
+    let needed = 0.2 * gear.tooth.module_m / openings.radii_m().0;
+    if clearance(best) < needed {
+        return Err(MeshError::NoCut {
+            needed_deg: needed.to_degrees(),
+            best_deg: clearance(best).to_degrees(),
+        });
+    }
+    Ok(best)
+}
+
+/// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
+///
+/// # Errors
+/// [`MeshError::NoCut`] when no tooth space lies clear of the openings.
+pub fn body_problem(
+    gear: &GearDefinition,
+    ring_per_tooth: usize,
+) -> Result<BodyProblem, MeshError> {
+    let sectors = gear.sectors();
+    let teeth = gear.tooth.teeth / sectors;
+    let first_tooth = first_tooth(gear)?;
+    let pitch = TAU / gear.tooth.teeth as f64;
+    let start = (first_tooth as f64 - 0.5) * pitch;
+    let angle = TAU / sectors as f64;
+    let closed = sectors == 1;
+    let ring = ring_radius_m(gear);
+    let ring_size = ring * pitch / ring_per_tooth as f64;
+    let size = |r: f64| (ring_size + GRADING * (ring - r).abs()).min(gear.mesh.body_m);
+
+    // Circles that separate the regions, from the ring inwards, and whether the region below each is web only.
+    let mut levels = vec![(ring, false)];
+    if let Some(web) = gear.blank.web {
+        if web.rim_inner_radius_m < ring - 1e-9 {
+            levels.push((web.rim_inner_radius_m, true));
+        } else {
+            levels[0].1 = true;
+        }
+        levels.push((web.hub_radius_m, false));
+    }
+    levels.push((gear.blank.bore_radius_m, false));
+
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    let mut add = |r: f64, phi: f64| {
+        points.push([r * phi.cos(), r * phi.sin(), size(r)]);
+        points.len() - 1
+    };
+    let mut n = ring_per_tooth * teeth;
+    let circles: Vec<Vec<usize>> = levels
+        .iter()
+        .enumerate()
+        .map(|(level, &(r, _))| {
+            // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
+            let hub_inside = level + 1 == levels.len() && gear.blank.web.is_some();
+            if r != ring && !hub_inside {
+                // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:
+                // the outline of a region has a multiple of four pieces, of which two equal edges are even already.
+                let least = if closed { 8 } else { 2 };
+                let outer = n;
+                n = ((r * angle / size(r)).ceil() as usize)
+                    .max(least)
+                    .next_multiple_of(2);
+                n += (n + outer) % 4;
+            }
+            let nodes = if closed { n } else { n + 1 };
+            (0..nodes)
+                .map(|k| add(r, start + angle * k as f64 / n as f64))
+                .collect()
+        })
+        .collect();
+    let mut right_side = Vec::new();
+    let mut left_side = Vec::new();
+    let mut regions = Vec::new();
+    let mut web_region = Vec::new();
+    for (i, pair) in circles.windows(2).enumerate() {
+        let (outer, inner) = (&pair[0], &pair[1]);
+        let mut loops = Vec::new();
+        if closed {
+            loops.push(outer.clone());
+            loops.push(inner.clone());
+        } else {
+            let radii = graded(
+                levels[i].0,
+                levels[i + 1].0,
+                size,
+                Pieces {
+                    least: 2,
+                    even: true,
+                },
+            );
+            let steps = &radii[1..radii.len() - 1];
+            let right: Vec<usize> = steps.iter().map(|&r| add(r, start)).collect();
+            let left: Vec<usize> = steps.iter().map(|&r| add(r, start + angle)).collect();
+            let mut outline = outer.clone();
+            outline.extend(&left);
+            outline.extend(inner.iter().rev());
+            outline.extend(right.iter().rev());
+            loops.push(outline);
+            right_side.extend(&right);
+            right_side.push(inner[0]);
+            left_side.extend(&left);
+            left_side.push(inner[inner.len() - 1]);
+        }
+        if let Some(openings) = gear.blank.openings {
+            let (r_in, r_out) = openings.radii_m();
+            if r_out < levels[i].0 && r_in > levels[i + 1].0 {
+                let repeat = TAU / openings.count() as f64;
+                let first = ((start - openings.phase_rad()) / repeat).ceil() as i64;
+                for k in 0..(openings.count() / sectors) as i64 {
+                    let centre = openings.phase_rad() + repeat * (first + k) as f64;
+                    let outline = opening_outline(&openings, gear.mesh.body_m);
+                    loops.push(
+                        outline
+                            .iter()
+                            .map(|&(r, phi)| add(r, centre + phi))
+                            .collect(),
+                    );
+                }
+            }
+        }
+        regions.push(Region {
+            loops,
+            corners: Vec::new(),
+        });
+        web_region.push(levels[i].1);
+    }
+    Ok(BodyProblem {
+        web_region,
+        ring: circles[0].clone(),
+        right_side,
+        left_side,
+        bore: circles[circles.len() - 1].clone(),
+        first_tooth,
+        problem: PlaneProblem {
+            name: "body".into(),
+            points,
+            regions,
+            largest: gear.mesh.body_m,
+        },
+    })
+}
+
+/// Outline of an opening as (radius, polar angle from its centre), a multiple of four points.
+fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
+    match openings {
+        Openings::Holes(h) => {
+            let n = ((TAU * h.radius_m / body_m.min(0.35 * h.radius_m)).ceil() as usize)
+                .next_multiple_of(4);
+            (0..n)
+                .map(|k| {
+                    let a = TAU * k as f64 / n as f64;
+                    cartesian_to_polar(
+                        h.pitch_radius_m + h.radius_m * a.cos(),
+                        h.radius_m * a.sin(),
+                    )
+                })
+                .collect()
+        }
+        Openings::Slots(s) => slot_outline(s, body_m.min(0.6 * s.corner_radius_m)),
+    }
+}
+
+fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
+    (x.hypot(y), y.atan2(x))
+}
+
+/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
+fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
+    let (r_in, r_out, c, half) = (
+        s.inner_radius_m,
+        s.outer_radius_m,
+        s.corner_radius_m,
+        0.5 * s.width_rad,
+    );
+    let outer_centre = half - (c / (r_out - c)).asin();
+    let inner_centre = half - (c / (r_in + c)).asin();
+    let corner = |radius: f64, angle: f64, from: f64, to: f64| -> Vec<(f64, f64)> {
+        let n = ((c * (to - from).abs() / size).ceil() as usize).max(3);
+        (0..=n)
+            .map(|k| {
+                let a = angle + from + (to - from) * k as f64 / n as f64;
+                cartesian_to_polar(
+                    radius * angle.cos() + c * a.cos(),
+                    radius * angle.sin() + c * a.sin(),
+                )
+            })
+            .collect()
+    };
+    // Upper half (positive angles): outer arc from the middle, corner, edge, corner, inner arc to the middle.
+    let mut upper: Vec<(f64, f64)> = Vec::new();
+    let n_outer = ((r_out * outer_centre / size).ceil() as usize).max(1);
+    upper.extend((0..n_outer).map(|k| (r_out, outer_centre * k as f64 / n_outer as f64)));
+    let edge_turn = FRAC_PI_2 + half - outer_centre;
+    upper.extend(corner(r_out - c, outer_centre, 0.0, edge_turn));
+    let (from, to) = (
+        ((r_out - c).powi(2) - c * c).sqrt(),
+        ((r_in + c).powi(2) - c * c).sqrt(),
+    );
+    let n_edge = (((from - to).max(0.0) / size).ceil() as usize).max(1);
+    upper.extend((1..n_edge).map(|k| (from + (to - from) * k as f64 / n_edge as f64, half)));
+    let inner_turn = FRAC_PI_2 + half - inner_centre;
+    upper.extend(corner(
+        r_in + c,
+        inner_centre,
+        inner_turn,
+        std::f64::consts::PI,
+    ));
+    // The whole outline has twice as many pieces as this half; an even half makes it a multiple of four.
+    let mut n_inner = ((r_in * inner_centre / size).ceil() as usize).max(1);
+    n_inner += (upper.len() - 1 + n_inner) % 2;
+    upper.extend((1..=n_inner).map(|k| (r_in, inner_centre * (1.0 - k as f64 / n_inner as f64))));
+    let lower: Vec<(f64, f64)> = upper[1..upper.len() - 1]
+        .iter()
+        .rev()
+        .map(|&(r, phi)| (r, -phi))
+        .collect();
+    upper.extend(lower);
+    upper
+}

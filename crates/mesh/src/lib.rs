@@ -1,0 +1,64 @@
+//! From a gear definition to hexahedra: one tooth cell and one body sector of the cross-section are meshed in quads
+//! by gmsh, copied round the axis and layered along it.
+//!
+//! | step | type | file |
+//! | --- | --- | --- |
+//! | the Python that has gmsh | [`python::PythonEnvironment`] | `python.rs` |
+//! | quads in outlines whose nodes are given | [`plane_mesher`] | `plane_mesher.rs`, `plane_mesher.py` |
+//! | one tooth: blocks that follow its outline | [`tooth_cell::ToothCell`] | `tooth_cell.rs` |
+//! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
+//! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
+//! | layers along the axis | [`layers`] | `layers.rs` |
+//! | nodes, hexahedra and sets | [`GearMesh`] | `gear_mesh.rs` |
+//! | scaled Jacobian | [`quality`] | `quality.rs` |
+//!
+//! Every node of the tooth outline lies on the exact profile, and its place along the outline is kept: loads and
+//! gauges find their faces by arc length and z, never by projection on a facet.
+
+pub mod body;
+pub mod gear_mesh;
+pub mod layers;
+pub mod plane_mesher;
+pub mod python;
+pub mod quality;
+pub mod section;
+pub mod tooth_cell;
+
+pub use gear_mesh::GearMesh;
+
+/// Why no mesh could be made.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// No Python with gmsh.
+    #[error(transparent)]
+    Python(#[from] python::PythonError),
+    /// gmsh failed or left triangles.
+    #[error(transparent)]
+    Plane(#[from] plane_mesher::PlaneMeshError),
+    /// Openings leave no place for the cut between two sectors.
+    #[error(
+        "no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"
+    )]
+    NoCut {
+        /// Clearance needed.
+        needed_deg: f64,
+        /// Best clearance found.
+        best_deg: f64,
+    },
+    /// Quality below what the definition demands.
+    #[error(
+        "the mesh is too poor: smallest scaled Jacobian {found:.3} at x {x_mm:.2} mm, y {y_mm:.2} mm, z {z_mm:.2} mm, demanded {demanded:.3}; choose smaller or more even element sizes in [mesh], or lower min_scaled_jacobian"
+    )]
+    Quality {
+        /// Smallest scaled Jacobian.
+        found: f64,
+        /// Demanded.
+        demanded: f64,
+        /// Where.
+        x_mm: f64,
+        /// Where.
+        y_mm: f64,
+        /// Where.
+        z_mm: f64,
+    },
+}

@@ -1,0 +1,112 @@
+//! Quads in plane regions whose boundary nodes are all given, by gmsh in a child process.
+
+use crate::python::{PythonEnvironment, PythonError};
+use serde::{Deserialize, Serialize};
+
+const SCRIPT: &str = include_str!("plane_mesher.py");
+
+/// Why the regions could not be meshed.
+#[derive(Debug, thiserror::Error)]
+pub enum PlaneMeshError {
+    /// The child process failed.
+    #[error(transparent)]
+    Python(#[from] PythonError),
+    /// It answered something else than a mesh.
+    #[error("the mesher's answer cannot be read: {0}")]
+    Answer(#[from] serde_json::Error),
+    /// It answered for another number of problems or with nodes that do not exist.
+    #[error("the mesher's answer does not fit the question: {0}")]
+    Mismatch(&'static str),
+}
+
+/// A region: loops of point numbers (the outline first, then openings). With corners it is structured.
+#[derive(Debug, Clone, Serialize)]
+pub struct Region {
+    /// Closed loops of point numbers; the last point is joined to the first.
+    pub loops: Vec<Vec<usize>>,
+    /// The four corner points of a structured region; empty for a free one.
+    pub corners: Vec<usize>,
+}
+
+/// Regions that share points.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlaneProblem {
+    /// Name in error messages.
+    pub name: String,
+    /// x \[m\], y \[m\] and wanted element size \[m\].
+    pub points: Vec<[f64; 3]>,
+    /// Regions.
+    #[serde(rename = "surfaces")]
+    pub regions: Vec<Region>,
+    /// Largest element size \[m\].
+    pub largest: f64,
+}
+
+/// The mesh of a [`PlaneProblem`]: its points keep their numbers, new nodes follow.
+#[derive(Debug, Clone)]
+pub struct PlaneMesh {
+    /// \[x, y\] \[m\].
+    pub nodes: Vec<[f64; 2]>,
+    /// Node numbers, counter-clockwise.
+    pub quads: Vec<[usize; 4]>,
+    /// Region of each quad.
+    pub owners: Vec<usize>,
+}
+
+#[derive(Deserialize)]
+struct Answer {
+    nodes: Vec<[f64; 2]>,
+    quads: Vec<[usize; 4]>,
+    owners: Vec<usize>,
+}
+
+/// Meshes several problems in one child process.
+///
+/// # Errors
+/// [`PlaneMeshError`] when gmsh fails, when a free region keeps triangles with every algorithm, or when the answer
+/// does not fit.
+pub fn mesh_plane(
+    python: &PythonEnvironment,
+    problems: &[PlaneProblem],
+) -> Result<Vec<PlaneMesh>, PlaneMeshError> {
+    let input = serde_json::to_vec(problems)?;
+    let output = python.run("meshing the cross-section", SCRIPT, &[], &input)?;
+    let answers: Vec<Answer> = serde_json::from_slice(&output)?;
+    if answers.len() != problems.len() {
+        return Err(PlaneMeshError::Mismatch("another number of meshes"));
+    }
+    problems
+        .iter()
+        .zip(answers)
+        .map(|(problem, answer)| {
+            let mut nodes: Vec<[f64; 2]> = problem.points.iter().map(|p| [p[0], p[1]]).collect();
+            nodes.extend(answer.nodes);
+            if answer.owners.len() != answer.quads.len()
+                || answer.quads.iter().flatten().any(|&n| n >= nodes.len())
+            {
+                return Err(PlaneMeshError::Mismatch("a node number is out of range"));
+            }
+            let quads = answer
+                .quads
+                .into_iter()
+                .map(|q| counter_clockwise(q, &nodes))
+                .collect();
+            Ok(PlaneMesh {
+                nodes,
+                quads,
+                owners: answer.owners,
+            })
+        })
+        .collect()
+}
+
+fn counter_clockwise(q: [usize; 4], nodes: &[[f64; 2]]) -> [usize; 4] {
+    let p = q.map(|n| nodes[n]);
+    let area =
+        (p[2][0] - p[0][0]) * (p[3][1] - p[1][1]) - (p[3][0] - p[1][0]) * (p[2][1] - p[0][1]);
+    if area >= 0.0 {
+        q
+    } else {
+        [q[0], q[3], q[2], q[1]]
+    }
+}

@@ -1,0 +1,113 @@
+//! The Python environment with gmsh and meshio. Both run as child processes, never inside this program.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Environment variable that names the Python interpreter.
+pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
+
+/// Why the Python side did not answer.
+#[derive(Debug, thiserror::Error)]
+pub enum PythonError {
+    /// No interpreter found.
+    #[error(
+        "no Python environment: `.venv/bin/python` is neither in {searched} nor above; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
+    )]
+    NotFound {
+        /// Where the search began.
+        searched: String,
+    },
+    /// The interpreter could not be started or talked to.
+    #[error("cannot run {python}: {cause}")]
+    Start {
+        /// The interpreter.
+        python: String,
+        /// What the system said.
+        cause: std::io::Error,
+    },
+    /// The script ended with an error.
+    #[error("{task} failed in Python:\n{message}")]
+    Failed {
+        /// What was being done.
+        task: String,
+        /// The last lines of its error output.
+        message: String,
+    },
+}
+
+/// A Python interpreter that has the project's packages.
+#[derive(Debug, Clone)]
+pub struct PythonEnvironment {
+    interpreter: PathBuf,
+}
+
+impl PythonEnvironment {
+    /// Finds the interpreter: `GEARMESH_PYTHON`, else `.venv/bin/python` in the working directory, above it, or
+    /// above the program's own file.
+    ///
+    /// # Errors
+    /// [`PythonError::NotFound`] with the way to make one.
+    pub fn find() -> Result<Self, PythonError> {
+        if let Some(path) = std::env::var_os(PYTHON_VARIABLE) {
+            return Ok(Self {
+                interpreter: path.into(),
+            });
+        }
+        let here = std::env::current_dir().unwrap_or_default();
+        let program = std::env::current_exe().unwrap_or_default();
+        here.ancestors()
+            .chain(program.ancestors())
+            .map(|dir| dir.join(".venv/bin/python"))
+            .find(|path| path.exists())
+            .map(|interpreter| Self { interpreter })
+            .ok_or_else(|| PythonError::NotFound {
+                searched: here.display().to_string(),
+            })
+    }
+
+    /// The interpreter's path.
+    pub fn interpreter(&self) -> &Path {
+        &self.interpreter
+    }
+
+    /// Runs a script text in an isolated interpreter with `input` on its standard input; returns its standard output.
+    ///
+    /// # Errors
+    /// [`PythonError`] when it cannot be started or ends with an error; the message holds the end of its output.
+    pub fn run(
+        &self,
+        task: &str,
+        script: &str,
+        arguments: &[&str],
+        input: &[u8],
+    ) -> Result<Vec<u8>, PythonError> {
+        let start = |cause| PythonError::Start {
+            python: self.interpreter.display().to_string(),
+            cause,
+        };
+        let mut child = Command::new(&self.interpreter)
+            .args(["-I", "-c", script])
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(start)?;
+        // The scripts read all their input before they write, so this cannot block for ever. A child that dies
+        // early closes the pipe; its own message, read below, tells why.
+        if let Some(mut pipe) = child.stdin.take() {
+            let _ = pipe.write_all(input);
+        }
+        let output = child.wait_with_output().map_err(start)?;
+        if output.status.success() {
+            return Ok(output.stdout);
+        }
+        let text = String::from_utf8_lossy(&output.stderr);
+        let lines: Vec<&str> = text.lines().collect();
+        Err(PythonError::Failed {
+            task: task.to_string(),
+            message: lines[lines.len().saturating_sub(8)..].join("\n"),
+        })
+    }
+}

@@ -1,0 +1,132 @@
+//! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
+
+use crate::MeshError;
+use crate::body::body_problem;
+use crate::plane_mesher::mesh_plane;
+use crate::python::PythonEnvironment;
+use crate::tooth_cell::{ToothCell, ToothCellProblem};
+use gearmesh_geometry::GearDefinition;
+use std::f64::consts::TAU;
+
+/// Quads of the full cross-section.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// \[x, y\] \[m\].
+    pub nodes: Vec<[f64; 2]>,
+    /// Node numbers, counter-clockwise.
+    pub quads: Vec<[usize; 4]>,
+    /// True for quads that exist only in the web's layers.
+    pub web_only: Vec<bool>,
+    /// Nodes of the bore.
+    pub bore: Vec<usize>,
+    /// The cell of tooth 0, in its own numbering.
+    pub cell: ToothCell,
+    /// Section node of each cell node, by tooth.
+    pub cell_nodes: Vec<Vec<usize>>,
+    /// Section quad of the first cell quad, by tooth; the others follow.
+    pub cell_first_quad: Vec<usize>,
+}
+
+fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
+    let (s, c) = angle.sin_cos();
+    [c * p[0] - s * p[1], s * p[0] + c * p[1]]
+}
+
+impl Section {
+    /// Meshes one tooth and one sector of the body and copies them.
+    ///
+    /// # Errors
+    /// [`MeshError`] when gmsh is missing or fails, or when no sector can be cut.
+    pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
+        let teeth = gear.tooth.teeth;
+        let sectors = gear.sectors();
+        let teeth_per_sector = teeth / sectors;
+        let cell_problem = ToothCellProblem::new(gear);
+        let ring_per_tooth = cell_problem.ring_pieces();
+        let body = body_problem(gear, ring_per_tooth)?;
+        let mut meshes = mesh_plane(
+            python,
+            &[cell_problem.problem.clone(), body.problem.clone()],
+        )?
+        .into_iter();
+        let (Some(cell_mesh), Some(body_mesh)) = (meshes.next(), meshes.next()) else {
+            return Err(
+                crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes").into(),
+            );
+        };
+        let cell = cell_problem.finish(cell_mesh);
+
+        let mut nodes: Vec<[f64; 2]> = Vec::new();
+        // Teeth: the left edge of each is the right edge of the next.
+        let mut cell_nodes = vec![vec![usize::MAX; cell.nodes.len()]; teeth];
+        for (tooth, map) in cell_nodes.iter_mut().enumerate() {
+            for (local, &p) in cell.nodes.iter().enumerate() {
+                if !cell.left_side.contains(&local) {
+                    map[local] = nodes.len();
+                    nodes.push(rotated(p, TAU * tooth as f64 / teeth as f64));
+                }
+            }
+        }
+        for tooth in 0..teeth {
+            let next = (tooth + 1) % teeth;
+            for (&left, &right) in cell.left_side.iter().zip(&cell.right_side) {
+                cell_nodes[tooth][left] = cell_nodes[next][right];
+            }
+        }
+        // Sectors: ring nodes are the cells'; the left edge of each is the right edge of the next.
+        let mut body_nodes = vec![vec![usize::MAX; body_mesh.nodes.len()]; sectors];
+        for (sector, map) in body_nodes.iter_mut().enumerate() {
+            for (k, &local) in body.ring.iter().enumerate() {
+                let tooth =
+                    (body.first_tooth + sector * teeth_per_sector + k / ring_per_tooth) % teeth;
+                map[local] = cell_nodes[tooth][cell.bottom[k % ring_per_tooth]];
+            }
+            for (local, &p) in body_mesh.nodes.iter().enumerate() {
+                if map[local] == usize::MAX && !body.left_side.contains(&local) {
+                    map[local] = nodes.len();
+                    nodes.push(rotated(p, TAU * sector as f64 / sectors as f64));
+                }
+            }
+        }
+        for sector in 0..sectors {
+            let next = (sector + 1) % sectors;
+            for (&left, &right) in body.left_side.iter().zip(&body.right_side) {
+                body_nodes[sector][left] = body_nodes[next][right];
+            }
+        }
+
+        let mut quads =
+            Vec::with_capacity(teeth * cell.quads.len() + sectors * body_mesh.quads.len());
+        let mut web_only = Vec::with_capacity(quads.capacity());
+        let mut cell_first_quad = Vec::with_capacity(teeth);
+        for map in &cell_nodes {
+            cell_first_quad.push(quads.len());
+            quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
+            web_only.extend(std::iter::repeat_n(false, cell.quads.len()));
+        }
+        for map in &body_nodes {
+            quads.extend(body_mesh.quads.iter().map(|q| q.map(|n| map[n])));
+            web_only.extend(
+                body_mesh
+                    .owners
+                    .iter()
+                    .map(|&region| body.web_region[region]),
+            );
+        }
+        let mut bore: Vec<usize> = body_nodes
+            .iter()
+            .flat_map(|map| body.bore.iter().map(|&local| map[local]))
+            .collect();
+        bore.sort_unstable();
+        bore.dedup();
+        Ok(Self {
+            nodes,
+            quads,
+            web_only,
+            bore,
+            cell,
+            cell_nodes,
+            cell_first_quad,
+        })
+    }
+}

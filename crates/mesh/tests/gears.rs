@@ -1,0 +1,185 @@
+//! Meshes of the gears of seed 004 and of a drilled one: counts, sets, volume and quality.
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_mesh::GearMesh;
+use gearmesh_mesh::python::PythonEnvironment;
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+fn source(name: &str) -> String {
+    std::fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../fe_models")
+            .join(name),
+    )
+    .unwrap()
+}
+
+fn mesh(text: &str) -> (GearDefinition, GearMesh) {
+    let coarse =
+        format!("{text}\n[mesh]\nflank_mm = 1.2\nfillet_mm = 0.5\nbody_mm = 2.6\naxial_mm = 4.0\n");
+    let gear = GearDefinition::from_document(&InputDocument::new("gear.toml", coarse)).unwrap();
+    let mesh = GearMesh::new(&gear, &PythonEnvironment::find().unwrap()).unwrap();
+    (gear, mesh)
+}
+
+fn volume(mesh: &GearMesh) -> f64 {
+    // Prisms on plane quads: exact.
+    let mut sum = 0.0;
+    for hex in &mesh.hexes {
+        let p = hex.map(|n| mesh.nodes[n as usize]);
+        let area = 0.5
+            * ((p[2][0] - p[0][0]) * (p[3][1] - p[1][1])
+                - (p[3][0] - p[1][0]) * (p[2][1] - p[0][1]));
+        sum += area * (p[4][2] - p[0][2]);
+    }
+    sum
+}
+
+/// Area of the teeth and the ring above `radius`, by the outline's polygon.
+fn outline_area(gear: &GearDefinition) -> f64 {
+    let curve = ProfileCurve::new(&gear.profile);
+    let n = 4000;
+    let mut half = 0.0;
+    for k in 0..n {
+        let p = curve.point_at(curve.length_m() * f64::from(k) / f64::from(n));
+        let q = curve.point_at(curve.length_m() * f64::from(k + 1) / f64::from(n));
+        half += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    2.0 * half * gear.tooth.teeth as f64
+}
+
+fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
+    let (gear, mesh) = mesh(text);
+    println!(
+        "{}: {} nodes, {} elements, quality {:?}",
+        gear.name,
+        mesh.nodes.len(),
+        mesh.hexes.len(),
+        mesh.quality
+    );
+    let expected = volume_m3(&gear);
+    let found = volume(&mesh);
+    assert!(
+        (found / expected - 1.0).abs() < 0.006,
+        "volume {found} against {expected}: chords of a coarse mesh"
+    );
+    assert!(mesh.quality.smallest > 0.2);
+    // Every node is used, every interior face is shared by exactly two elements.
+    let mut used = vec![false; mesh.nodes.len()];
+    mesh.hexes
+        .iter()
+        .flatten()
+        .for_each(|&n| used[n as usize] = true);
+    assert!(used.iter().all(|u| *u));
+    // No two nodes at the same place: sectors are joined, not only side by side.
+    let mut keys: Vec<[i64; 3]> = mesh
+        .nodes
+        .iter()
+        .map(|p| p.map(|v| (v * 1e9).round() as i64))
+        .collect();
+    keys.sort_unstable();
+    assert!(keys.windows(2).all(|w| w[0] != w[1]));
+    let bore = mesh.bore();
+    assert!(bore.iter().all(|&n| {
+        let p = mesh.nodes[n as usize];
+        (p[0].hypot(p[1]) - gear.blank.bore_radius_m).abs() < 1e-12
+    }));
+    // Flank nodes lie on the involute; supports of the submodel are disjoint from the loaded flank.
+    let sets = mesh.node_sets(&gear);
+    for tooth in [0, gear.tooth.teeth - 1] {
+        for side in [FlankSide::Right, FlankSide::Left] {
+            let centre = TAU * tooth as f64 / gear.tooth.teeth as f64;
+            let flank = &sets[&format!("tooth{tooth}_{}_flank", side.name())];
+            assert!(flank.len() >= 4 * mesh.layers.planes_m.len());
+            for &n in flank {
+                let [x, y, _] = mesh.nodes[n as usize];
+                let (r, polar) = (x.hypot(y), y.atan2(x) - centre);
+                let roll =
+                    gearmesh_geometry::involute::roll_angle_rad(r, gear.profile.base_radius_m);
+                let half = gear.profile.half_angle_rad(roll);
+                let wrapped = (polar + PI).rem_euclid(TAU) - PI;
+                assert!(
+                    (wrapped + side.mirror() * half).abs() < 1e-12,
+                    "{wrapped} {half}"
+                );
+            }
+            let supports = mesh.tooth_supports(tooth, side);
+            assert!(flank.iter().all(|n| !supports.contains(n)));
+            let opposite = &sets[&format!("tooth{tooth}_{}_flank", side.opposite().name())];
+            assert!(opposite.iter().all(|n| supports.contains(n)));
+            assert!(!mesh.tooth_hexes(tooth).is_empty());
+        }
+    }
+    let total: f64 = mesh
+        .outline_faces(1, FlankSide::Left, [0.0, f64::INFINITY])
+        .iter()
+        .filter(|f| f.z_m[0] == mesh.layers.planes_m[0])
+        .map(|f| f.arc_m[1] - f.arc_m[0])
+        .sum();
+    assert!((total - 2.0 * ProfileCurve::new(&gear.profile).length_m()).abs() < 1e-12);
+}
+
+#[test]
+fn solid_gear() {
+    check(&source("gear1.toml"), |g| {
+        (outline_area(g) - PI * g.blank.bore_radius_m.powi(2)) * g.tooth.face_width_m
+    });
+}
+
+fn thin_rim_volume(g: &GearDefinition) -> f64 {
+    let web = g.blank.web.unwrap();
+    let annulus = |a: f64, b: f64| PI * (b * b - a * a);
+    (outline_area(g) - PI * web.rim_inner_radius_m.powi(2)) * g.tooth.face_width_m
+        + annulus(web.hub_radius_m, web.rim_inner_radius_m) * web.thickness_m
+        + annulus(g.blank.bore_radius_m, web.hub_radius_m) * g.tooth.face_width_m
+}
+
+#[test]
+fn thin_rim() {
+    check(&source("gear2.toml"), thin_rim_volume);
+}
+
+#[test]
+fn thin_rim_with_offset_web_and_chamfer() {
+    let text = source("gear2.toml")
+        .replace(
+            "web_thickness_mm = 5.0",
+            "web_thickness_mm = 5.0\nweb_offset_mm = 4.0",
+        )
+        .replace(
+            "face_width_mm = 23.0",
+            "face_width_mm = 23.0\ntip_chamfer_mm = 0.2",
+        );
+    check(&text, thin_rim_volume);
+}
+
+#[test]
+fn three_slots() {
+    check(&source("gear3.toml"), |g| {
+        let web = g.blank.web.unwrap();
+        // Corners: each of the four takes (1 − π/4) c² from the slot.
+        let slot = 0.5 * 80f64.to_radians() * (0.060f64.powi(2) - 0.042f64.powi(2))
+            - (4.0 - PI) * 0.003f64.powi(2);
+        thin_rim_volume(g) - 3.0 * slot * web.thickness_m
+    });
+}
+
+#[test]
+fn slots_that_do_not_divide_the_teeth_and_drilled_holes() {
+    let two = source("gear3.toml").replace("count = 3", "count = 2");
+    check(&two, |g| {
+        let slot = 0.5 * 80f64.to_radians() * (0.060f64.powi(2) - 0.042f64.powi(2))
+            - (4.0 - PI) * 0.003f64.powi(2);
+        thin_rim_volume(g) - 2.0 * slot * 0.005
+    });
+    let drilled = source("gear2.toml").replace(
+        "web_thickness_mm = 5.0",
+        "web_thickness_mm = 5.0\nholes = { count = 19, pitch_circle_diameter_mm = 104.0, diameter_mm = 10.0, phase_deg = 3.0 }",
+    );
+    check(&drilled, |g| {
+        thin_rim_volume(g) - 19.0 * PI * 0.005f64.powi(2) * 0.005
+    });
+}
