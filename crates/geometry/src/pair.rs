@@ -208,8 +208,9 @@ impl GearPair {
         self.gear_1.base_radius_m * (roll_1_rad - self.working_pressure_angle_rad.tan())
     }
 
-    /// Sliding velocity \[m/s\] of gear 1's flank over gear 2's, towards gear 1's tip: (ω₁ + ω₂) s with s the
-    /// distance from the pitch point. Zero at the pitch point, where it changes its sign.
+    /// Sliding velocity \[m/s\] of gear 1's flank over gear 2's, positive towards gear 1's *root* (and gear 2's tip):
+    /// (ω₁ + ω₂) s with s the distance from the pitch point. Zero at the pitch point, where it changes its sign. The
+    /// contact runs outwards over gear 1, so the material below it moves inwards.
     pub fn sliding_velocity_m_per_s(&self, roll_1_rad: f64, speed_1_rad_per_s: f64) -> f64 {
         let ratio = self.gear_1.base_radius_m / self.gear_2.base_radius_m;
         speed_1_rad_per_s * (1.0 + ratio) * self.path_from_pitch_point_m(roll_1_rad)

@@ -232,7 +232,10 @@ impl ProfileCurve {
     }
 
     /// Distance \[m\] along the inward normal from the right flank at `roll_rad` to the opposite side of the tooth.
-    /// Where the normal leaves through the root of the tooth space, the distance to that point of the root.
+    ///
+    /// Low on the flank the normal leaves the tooth through its foot instead: then the distance to the root circle,
+    /// t = r_b ξ − √(r_f² − r_b²) (the normal is a tangent of the base circle), or to the point of tangency where the
+    /// root lies inside the base circle.
     pub fn opposite_distance_m(&self, roll_rad: f64) -> f64 {
         let p = self.tooth.flank_point_m(FlankSide::Right, roll_rad);
         let (n, _) = self.tooth.flank_frame(FlankSide::Right, roll_rad);
@@ -240,7 +243,9 @@ impl ProfileCurve {
             let q = self.point(s.piece, s.parameter);
             [q[0], -q[1]]
         };
-        let mut best = f64::INFINITY;
+        let t = &self.tooth;
+        let below_base = (t.root_radius_m * t.root_radius_m - t.base_radius_m * t.base_radius_m).max(0.0);
+        let mut best = t.base_radius_m * roll_rad - below_base.sqrt();
         for w in self.samples.windows(2) {
             let (a, b) = (mirrored(&w[0]), mirrored(&w[1]));
             let e = [b[0] - a[0], b[1] - a[1]];

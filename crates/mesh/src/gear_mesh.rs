@@ -108,6 +108,11 @@ impl GearMesh {
         Some(self.node_of[n * self.layers.planes_m.len() + plane]).filter(|&id| id != NONE)
     }
 
+    /// Element of the cross-section quad `quad` in `layer`, where it exists.
+    pub fn hex(&self, quad: usize, layer: usize) -> Option<u32> {
+        Some(self.hex_of[quad * self.layers.count() + layer]).filter(|&id| id != NONE)
+    }
+
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
         let planes = 0..self.layers.planes_m.len();

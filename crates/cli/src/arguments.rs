@@ -1,0 +1,207 @@
+//! The command line. Each argument is described once, here; help follows from it.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Gear mesh stiffness from finite elements, once; contact and root strain from then on in microseconds.
+#[derive(Debug, Parser)]
+#[command(name = "gearmesh", version, max_term_width = 110)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf, msh, ...)
+    Mesh(MeshArguments),
+    /// Reduce a gear to its compliance at the flanks (the offline stage)
+    Reduce(ReduceArguments),
+    /// Print the deflection along a flank under a line load
+    Compliance(ComplianceArguments),
+    /// Say what a scene will compute
+    Plan(PlanArguments),
+    /// Run a scene
+    Run(RunArguments),
+    /// Recover the strain of all gauges from a result, and whole fields on request
+    Recover(RecoverArguments),
+    /// Compare a result with a reference record
+    Compare(CompareArguments),
+    /// Write a report page
+    Report(ReportArguments),
+    /// Check a gear file, scene, model or result
+    Check(CheckArguments),
+    /// Make gear pairs A and B from definition to report
+    Demo(DemoArguments),
+}
+
+/// `gearmesh mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    /// Gear file
+    pub gear: PathBuf,
+    /// Mesh file; its extension names the format
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh reduce`.
+#[derive(Debug, Args)]
+pub struct ReduceArguments {
+    /// Gear file
+    pub gear: PathBuf,
+    /// Model file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Do not reduce a coarser mesh to estimate the discretisation error
+    #[arg(long)]
+    pub no_error_estimate: bool,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Side of a tooth.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Side {
+    /// Faces clockwise.
+    Right,
+    /// Faces counter-clockwise.
+    Left,
+}
+
+/// Local contact term.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Local {
+    /// The mesh's own near field.
+    None,
+    /// Weber and Banaschek's logarithm.
+    WeberBanaschek,
+}
+
+/// `gearmesh compliance`.
+#[derive(Debug, Args)]
+#[allow(non_snake_case)]
+pub struct ComplianceArguments {
+    /// Model file
+    pub model: PathBuf,
+    /// Loaded tooth
+    #[arg(long)]
+    pub tooth: usize,
+    /// Loaded side
+    #[arg(long, value_enum, default_value = "right")]
+    pub flank: Side,
+    /// Radius of the load; several, separated by commas, give a table
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub radius_mm: Vec<f64>,
+    /// Line load, uniform over the face width
+    #[arg(long = "line-load-N-per-mm")]
+    pub line_load_N_per_mm: f64,
+    /// Half width of the Hertz contact (for the local term)
+    #[arg(long)]
+    pub half_width_mm: f64,
+    /// Tooth at which the deflection is read, same radius and side; the loaded one where not given
+    #[arg(long)]
+    pub at_tooth: Option<usize>,
+    /// Local contact term
+    #[arg(long, value_enum, default_value = "weber-banaschek")]
+    pub local: Local,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh plan`.
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Result file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh recover`.
+#[derive(Debug, Args)]
+#[allow(non_snake_case)]
+pub struct RecoverArguments {
+    /// Result file
+    pub result: PathBuf,
+    /// Strain file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Write the displacement and von Mises field of this gear (1 or 2), too
+    #[arg(long, requires = "field_angle_deg", requires = "field_output")]
+    pub field_gear: Option<usize>,
+    /// Driver angle of the field: the nearest computed position is taken
+    #[arg(long)]
+    pub field_angle_deg: Option<f64>,
+    /// Torque of the field; the largest computed one where not given
+    #[arg(long = "field-torque-Nm")]
+    pub field_torque_Nm: Option<f64>,
+    /// Mesh file of the field (vtu, ...)
+    #[arg(long)]
+    pub field_output: Option<PathBuf>,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh compare`.
+#[derive(Debug, Args)]
+pub struct CompareArguments {
+    /// Result file
+    pub result: PathBuf,
+    /// Folder of a reference record
+    pub reference: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// Result files, one section each
+    #[arg(required = true)]
+    pub results: Vec<PathBuf>,
+    /// HTML file
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Folder of a reference record for each result, in the same order
+    #[arg(long)]
+    pub reference: Vec<PathBuf>,
+}
+
+/// `gearmesh check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// Gear file, scene, model or result
+    pub file: PathBuf,
+}
+
+/// `gearmesh demo`.
+#[derive(Debug, Args)]
+pub struct DemoArguments {
+    /// Folder for models, results and the report
+    #[arg(short, long)]
+    pub output: PathBuf,
+}

@@ -1,0 +1,12 @@
+//! One file per command.
+
+pub mod check;
+pub mod compare;
+pub mod compliance;
+pub mod demo;
+pub mod mesh;
+pub mod plan;
+pub mod recover;
+pub mod reduce;
+pub mod report;
+pub mod run;

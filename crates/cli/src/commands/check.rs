@@ -1,0 +1,61 @@
+//! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
+
+use crate::arguments::CheckArguments;
+use crate::commands::reduce;
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_model::{FileError, read_reduced_gear};
+use gearmesh_scene::{Scene, SceneResult};
+
+/// Runs the command.
+pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let path = &arguments.file;
+    if path.extension().is_some_and(|e| e == "h5") {
+        return match read_reduced_gear(path) {
+            Ok(model) => {
+                console::data(format!("{}: reduced gear, sound", path.display()));
+                reduce::summary(&model).into_iter().for_each(console::data);
+                Ok(())
+            }
+            Err(FileError::WrongFormat { .. }) => {
+                let result = SceneResult::read(path).map_err(Failure::input)?;
+                console::data(format!(
+                    "{}: result of `{}`, {} torques x {} angles, sound",
+                    path.display(),
+                    result.title,
+                    result.torque_nm.len(),
+                    result.angles()
+                ));
+                Ok(())
+            }
+            Err(error) => Err(Failure::input(error)),
+        };
+    }
+    let document = InputDocument::read(path)?;
+    // A scene has a [pair], a gear has [tooth]; the word decides which complaints the user sees.
+    let is_scene = document.text.lines().any(|line| line.trim() == "[pair]");
+    if is_scene {
+        let folder = path.parent().unwrap_or(std::path::Path::new(""));
+        let scene = Scene::from_document(document, folder)?;
+        console::data(format!("{}: scene `{}`, sound", path.display(), scene.title));
+    } else {
+        let gear = GearDefinition::from_document(&document)?;
+        let p = &gear.profile;
+        console::data(format!("{}: gear `{}`, sound", path.display(), gear.name));
+        console::data(format!(
+            "radii mm: tip {:.4}, reference {:.4}, base {:.4}, form {:.4}, root {:.4}{}",
+            p.tip_radius_m * 1e3,
+            p.reference_radius_m * 1e3,
+            p.base_radius_m * 1e3,
+            gearmesh_geometry::involute::radius_m(p.form_roll_rad, p.base_radius_m) * 1e3,
+            p.root_radius_m * 1e3,
+            if p.undercut { "; undercut" } else { "" }
+        ));
+        if gear.blank.openings.is_some() && gear.sectors() == 1 {
+            console::warning("the openings do not divide the teeth: the body does not repeat, and every tooth is solved");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,40 @@
+//! `gearmesh mesh`: a gear's mesh in any format that meshio writes.
+
+use crate::arguments::MeshArguments;
+use crate::failure::Failure;
+use crate::{console, offline};
+use gearmesh_geometry::GearDefinition;
+use gearmesh_mesh::GearMesh;
+use serde_json::json;
+
+/// Runs the command.
+pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
+    let gear = GearDefinition::read(&arguments.gear)?;
+    let mesh = GearMesh::new(&gear, &offline::python()?).map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
+    offline::export_mesh(&gear, &mesh, None, &arguments.output)?;
+    let quality = mesh.quality;
+    if arguments.json {
+        console::json(&json!({
+            "nodes": mesh.nodes.len(),
+            "elements": mesh.hexes.len(),
+            "dofs": mesh.dofs(),
+            "sectors": gear.sectors(),
+            "scaled_jacobian_smallest": quality.smallest,
+            "scaled_jacobian_mean": quality.mean,
+        }));
+    } else {
+        console::data(format!(
+            "{}: {} nodes, {} hexahedra, {} degrees of freedom, {} repeating sectors",
+            gear.name,
+            mesh.nodes.len(),
+            mesh.hexes.len(),
+            mesh.dofs(),
+            gear.sectors()
+        ));
+        console::data(format!(
+            "scaled Jacobian: smallest {:.3}, mean {:.3} (demanded {:.3})",
+            quality.smallest, quality.mean, gear.mesh.min_scaled_jacobian
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,77 @@
+//! `gearmesh reduce`: the offline stage.
+
+use crate::arguments::ReduceArguments;
+use crate::failure::Failure;
+use crate::{console, offline};
+use gearmesh_geometry::GearDefinition;
+use gearmesh_model::{ReducedGear, write_reduced_gear};
+use serde_json::json;
+
+/// Runs the command.
+pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
+    let gear = GearDefinition::read(&arguments.gear)?;
+    let (model, _) = offline::reduced(&gear, !arguments.no_error_estimate)?;
+    write_reduced_gear(&arguments.output, &model).map_err(Failure::work)?;
+    if arguments.json {
+        console::json(&figures(&model));
+    } else {
+        summary(&model).into_iter().for_each(console::data);
+    }
+    Ok(())
+}
+
+/// The figures of a model for machines.
+pub fn figures(model: &ReducedGear) -> serde_json::Value {
+    let gauges: Vec<_> = model
+        .gauges
+        .iter()
+        .map(|g| json!({"name": g.name, "error_estimate_relative": g.error_estimate_relative}))
+        .collect();
+    json!({
+        "name": model.name,
+        "dofs": model.provenance.dofs,
+        "nodes": model.provenance.nodes,
+        "elements": model.provenance.elements,
+        "element": model.provenance.element,
+        "sectors": model.sectors,
+        "flank_loads": model.grid.len(),
+        "symmetry": model.checks.symmetry,
+        "pattern_identity": model.checks.pattern_identity,
+        "further": model.checks.further.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
+        "gauges": gauges,
+        "stage_seconds": model.provenance.stage_seconds.iter().map(|(n, s)| json!({"stage": n, "seconds": s})).collect::<Vec<_>>(),
+    })
+}
+
+/// The figures of a model for people.
+pub fn summary(model: &ReducedGear) -> Vec<String> {
+    let p = &model.provenance;
+    let mut lines = vec![
+        format!(
+            "{}: {} nodes, {} {} elements, {} degrees of freedom, {} repeating sectors",
+            model.name, p.nodes, p.elements, p.element, p.dofs, model.sectors
+        ),
+        format!(
+            "flank grid {} x {}, {} slices; C_hub asymmetry {:.1e}, pattern identity {:.1e}",
+            model.grid.roll_angles_rad.len(),
+            model.grid.z_m.len(),
+            model.grid.slices,
+            model.checks.symmetry,
+            model.checks.pattern_identity
+        ),
+    ];
+    for (name, value) in &model.checks.further {
+        lines.push(format!("{name}: {:.2} %", 100.0 * value));
+    }
+    for g in &model.gauges {
+        lines.push(format!(
+            "gauge {}: {}; mesh error about {:.2} %",
+            g.name,
+            g.description,
+            100.0 * g.error_estimate_relative
+        ));
+    }
+    let times: Vec<String> = p.stage_seconds.iter().map(|(name, s)| format!("{name} {s:.1} s")).collect();
+    lines.push(format!("time on {} threads: {}", p.threads, times.join(", ")));
+    lines
+}

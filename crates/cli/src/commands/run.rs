@@ -1,0 +1,90 @@
+//! `gearmesh run`: a scene to a result file.
+
+use crate::arguments::RunArguments;
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_contact::mesh_stiffness::fourier;
+use gearmesh_scene::{Scene, SceneResult, load, run as run_scene};
+use gearmesh_signal::statistics::{mean, peak_to_peak};
+use serde_json::json;
+
+/// Runs the command.
+pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let loaded = load(Scene::read(&arguments.scene)?)?;
+    let result = run_scene(&loaded, &|done, total| console::note(format!("torque {done} of {total} solved")))?;
+    result.write(&arguments.output).map_err(Failure::work)?;
+    result.warnings.iter().for_each(console::warning);
+    if arguments.json {
+        console::json(&figures(&result)?);
+    } else {
+        table(&result)?.into_iter().for_each(console::data);
+    }
+    Ok(())
+}
+
+/// Mean and peak-to-peak of the transmission error of one torque \[m\].
+pub fn transmission_error(result: &SceneResult, torque: usize) -> Result<(f64, f64), Failure> {
+    let te = result.curve(&result.te_m, torque);
+    Ok((mean(te).map_err(Failure::work)?, peak_to_peak(te).map_err(Failure::work)?))
+}
+
+/// The curves' figures for people.
+fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
+    let mut lines = vec![
+        format!("{}: {} positions per torque", result.title, result.angles()),
+        format!(
+            "{:>10} {:>12} {:>12} {:>14} {:>14} {:>8} {:>12} {:>12} {:>9}",
+            "torque N m", "TE mean um", "TE pk-pk um", "secant N/mm/um", "tangent N/mm/um", "K_Hbeta", "p_H max MPa", "balance", "iter/pos"
+        ),
+    ];
+    for (k, torque) in result.torque_nm.iter().enumerate() {
+        let (te_mean, te_range) = transmission_error(result, k)?;
+        let width_mm = 1e3 * face_width_m(result)?;
+        let per_width = |values: &[f64]| fourier(result.curve(values, k), 0).0 / width_mm * 1e-6;
+        let block = result.pressure_pa.len() / result.torque_nm.len();
+        let pressure = result.pressure_pa[k * block..(k + 1) * block].iter().copied().fold(0.0, f64::max);
+        lines.push(format!(
+            "{torque:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}",
+            te_mean * 1e6,
+            te_range * 1e6,
+            per_width(&result.secant_n_per_m),
+            per_width(&result.tangent_n_per_m),
+            result.k_h_beta[k],
+            pressure * 1e-6,
+            result.torque_balance[k],
+            f64::from(result.iterations[k]) / result.angles() as f64
+        ));
+    }
+    lines.push(format!(
+        "contact {:.3} s ({:.1} us a position), strain {:.3} s",
+        result.seconds[0],
+        1e6 * result.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
+        result.seconds[1]
+    ));
+    Ok(lines)
+}
+
+fn face_width_m(result: &SceneResult) -> Result<f64, Failure> {
+    use gearmesh_geometry::{GearDefinition, input::InputDocument};
+    let gear = GearDefinition::from_document(&InputDocument::new("gear in result", result.gear_toml[0].clone()))?;
+    Ok(gear.tooth.face_width_m)
+}
+
+fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
+    let rows = (0..result.torque_nm.len())
+        .map(|k| {
+            let (te_mean, te_range) = transmission_error(result, k)?;
+            let cycle = result.curve(&result.tangent_n_per_m, k);
+            let (mean, harmonics) = fourier(cycle, 5);
+            Ok(json!({
+                "torque_Nm": result.torque_nm[k], "te_mean_m": te_mean, "te_peak_to_peak_m": te_range,
+                "tangent_stiffness_mean_N_per_m": mean,
+                "secant_stiffness_mean_N_per_m": fourier(result.curve(&result.secant_n_per_m, k), 0).0,
+                "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
+                "k_h_beta": result.k_h_beta[k], "torque_balance": result.torque_balance[k],
+                "residual": result.residual[k], "iterations": result.iterations[k],
+            }))
+        })
+        .collect::<Result<Vec<_>, Failure>>()?;
+    Ok(json!({"title": result.title, "rows": rows, "warnings": result.warnings, "seconds": result.seconds}))
+}

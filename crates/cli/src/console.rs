@@ -1,0 +1,77 @@
+//! Printing: data to standard output, progress, warnings and errors to standard error.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this is the one place that prints")]
+
+use gearmesh_reduction::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::Mutex;
+
+/// A line of data.
+pub fn data(text: impl std::fmt::Display) {
+    println!("{text}");
+}
+
+/// A JSON document.
+pub fn json(value: &serde_json::Value) {
+    println!("{value:#}");
+}
+
+/// A remark on standard error.
+pub fn note(text: impl std::fmt::Display) {
+    eprintln!("{text}");
+}
+
+/// A warning.
+pub fn warning(text: impl std::fmt::Display) {
+    eprintln!("warning: {text}");
+}
+
+/// An error.
+pub fn error(text: impl std::fmt::Display) {
+    eprintln!("error: {text}");
+}
+
+/// Stages with a bar and the time to go.
+pub struct StageBar {
+    title: String,
+    bar: Mutex<ProgressBar>,
+}
+
+impl StageBar {
+    /// A bar for the stages of `title`.
+    pub fn new(title: &str) -> Self {
+        Self { title: title.to_string(), bar: Mutex::new(ProgressBar::new_spinner()) }
+    }
+
+    fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
+        if let Ok(mut bar) = self.bar.lock() {
+            act(&mut bar);
+        }
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        self.with(|bar| bar.finish_and_clear());
+    }
+}
+
+impl Progress for StageBar {
+    fn stage(&self, name: &str) {
+        self.with(|bar| {
+            bar.finish_and_clear();
+            *bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
+            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+        });
+    }
+
+    fn advance(&self, done: usize, total: usize) {
+        self.with(|bar| {
+            if bar.length().is_none() {
+                bar.set_length(total as u64);
+                if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}, {eta} to go") {
+                    bar.set_style(style);
+                }
+            }
+            bar.set_position(done as u64);
+        });
+    }
+}

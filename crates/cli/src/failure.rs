@@ -1,0 +1,65 @@
+//! What a command ends with when it does not succeed: a message and whose fault it was.
+
+use std::process::ExitCode;
+
+/// Whose fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The work failed: exit code 1.
+    Work,
+    /// The input is wrong: exit code 2.
+    Input,
+}
+
+/// A failed command.
+#[derive(Debug, Clone)]
+pub struct Failure {
+    /// Exit code's reason.
+    pub fault: Fault,
+    /// What to tell the user.
+    pub message: String,
+}
+
+impl Failure {
+    /// The input is wrong.
+    pub fn input(cause: impl std::fmt::Display) -> Self {
+        Self { fault: Fault::Input, message: cause.to_string() }
+    }
+
+    /// The work failed.
+    pub fn work(cause: impl std::fmt::Display) -> Self {
+        Self { fault: Fault::Work, message: cause.to_string() }
+    }
+
+    /// 1 or 2.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self.fault {
+            Fault::Work => 1,
+            Fault::Input => 2,
+        })
+    }
+}
+
+impl From<gearmesh_geometry::InputError> for Failure {
+    fn from(error: gearmesh_geometry::InputError) -> Self {
+        Self::input(error)
+    }
+}
+
+impl From<gearmesh_scene::RunError> for Failure {
+    fn from(error: gearmesh_scene::RunError) -> Self {
+        if error.is_input() { Self::input(error) } else { Self::work(error) }
+    }
+}
+
+impl From<gearmesh_reduction::ReductionError> for Failure {
+    fn from(error: gearmesh_reduction::ReductionError) -> Self {
+        use gearmesh_mesh::MeshError;
+        use gearmesh_reduction::ReductionError;
+        match error {
+            ReductionError::EmptyGauge { .. }
+            | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => Self::input(error),
+            _ => Self::work(error),
+        }
+    }
+}

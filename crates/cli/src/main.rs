@@ -1,0 +1,35 @@
+//! The `gearmesh` program: parses arguments, calls the crates, prints. Data go to standard output, progress to
+//! standard error; exit code 0, 1 (the work failed) or 2 (the input is wrong).
+
+mod arguments;
+mod commands;
+mod console;
+mod failure;
+mod offline;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.command {
+        Command::Mesh(a) => commands::mesh::run(a),
+        Command::Reduce(a) => commands::reduce::run(a),
+        Command::Compliance(a) => commands::compliance::run(a),
+        Command::Plan(a) => commands::plan::run(a),
+        Command::Run(a) => commands::run::run(a),
+        Command::Recover(a) => commands::recover::run(a),
+        Command::Compare(a) => commands::compare::run(a),
+        Command::Report(a) => commands::report::run(a),
+        Command::Check(a) => commands::check::run(a),
+        Command::Demo(a) => commands::demo::run(a),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            console::error(&failure.message);
+            failure.exit_code()
+        }
+    }
+}

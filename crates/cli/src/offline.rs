@@ -1,0 +1,113 @@
+//! The offline side as the commands use it: reading a gear, meshing, reducing, writing meshes, making fields.
+
+use crate::console::StageBar;
+use crate::failure::Failure;
+use gearmesh_geometry::GearDefinition;
+use gearmesh_mesh::GearMesh;
+use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
+use gearmesh_recovery::{LoadedLine, grid_forces};
+use gearmesh_reduction::field::{Field, GridForce, fields};
+use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
+use gearmesh_scene::{LoadedScene, SceneResult};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The Python that has gmsh and meshio.
+pub fn python() -> Result<PythonEnvironment, Failure> {
+    PythonEnvironment::find().map_err(Failure::work)
+}
+
+/// Meshes and reduces a gear, with a progress bar.
+pub fn reduced(gear: &GearDefinition, estimate_error: bool) -> Result<(ReducedGear, GearBody), Failure> {
+    let bar = StageBar::new(&gear.name);
+    let outcome = reduce(gear, &python()?, ReductionOptions { estimate_error }, &bar);
+    bar.finish();
+    Ok(outcome?)
+}
+
+/// Writes a mesh with its sets, and a field where given, in the format that the extension names.
+pub fn export_mesh(
+    gear: &GearDefinition,
+    mesh: &GearMesh,
+    field: Option<&Field>,
+    output: &Path,
+) -> Result<(), Failure> {
+    let scalar = |values: Vec<f64>, unit: &str| MeshField { components: 1, values, unit: unit.into() };
+    let mut data = MeshData {
+        points: mesh.nodes.clone(),
+        hexes: mesh.hexes.clone(),
+        point_sets: mesh.node_sets(gear),
+        point_fields: BTreeMap::new(),
+        cell_fields: BTreeMap::new(),
+    };
+    if let Some(field) = field {
+        let displacement = field.displacement_m.iter().flatten().copied().collect();
+        data.point_fields
+            .insert("displacement_m".into(), MeshField { components: 3, values: displacement, unit: "m".into() });
+        data.cell_fields.insert("von_mises_Pa".into(), scalar(field.von_mises_pa.clone(), "Pa"));
+    }
+    let folder = tempfile::tempdir().map_err(Failure::work)?;
+    let exchange = folder.path().join("mesh.h5");
+    write_mesh(&exchange, &data).map_err(Failure::work)?;
+    // Written beside and renamed, so that a killed run leaves the old file or none.
+    let name = output.file_name().and_then(|n| n.to_str()).ok_or_else(|| {
+        Failure::input(format!("{}: not a file name", output.display()))
+    })?;
+    let beside = output.with_file_name(format!(".part-{}-{name}", std::process::id()));
+    let written = python()?.run(
+        &format!("writing {}", output.display()),
+        "import sys, gearmesh\ntry:\n    gearmesh.export_mesh(sys.argv[1], sys.argv[2])\nexcept (ValueError, OSError) as error:\n    sys.exit(str(error))\n",
+        &[&exchange.display().to_string(), &beside.display().to_string()],
+        b"",
+    );
+    let outcome = written
+        .map_err(Failure::input)
+        .and_then(|_| std::fs::rename(&beside, output).map_err(|e| Failure::work(format!("{}: {e}", output.display()))));
+    if outcome.is_err() {
+        let _ = std::fs::remove_file(&beside);
+    }
+    outcome
+}
+
+/// Which computed position a field is made for.
+#[derive(Debug, Clone, Copy)]
+pub struct FieldCase {
+    /// Gear 1 or 2.
+    pub gear: usize,
+    /// Index of the torque in the result.
+    pub torque: usize,
+    /// Index of the angle in the result.
+    pub angle: usize,
+}
+
+/// Displacement and stress of a gear at one position of a result.
+pub fn field_of(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    definition: &GearDefinition,
+    body: &GearBody,
+    case: FieldCase,
+) -> Result<Field, Failure> {
+    let model = &loaded.models[case.gear - 1];
+    let mut lines = Vec::new();
+    loaded.lines.at(result.angle_rad[case.angle], &mut lines);
+    let loads = lines.iter().enumerate().map(|(slot, line)| LoadedLine {
+        tooth: if case.gear == 1 { line.tooth_1 } else { line.tooth_2 },
+        roll_rad: if case.gear == 1 { line.roll_1_rad } else { line.roll_2_rad },
+        friction_ratio: loaded.scene.contact.friction.map_or(0.0, |f| f.ratio(line.path_m)),
+        forces_n: result.forces(case.torque, case.angle, slot),
+    });
+    let forces: Vec<GridForce> = grid_forces(&model.grid, loads)
+        .into_iter()
+        .map(|f| GridForce {
+            tooth: f.tooth,
+            side: loaded.scene.flank,
+            load: f.load,
+            normal_n: f.normal_n,
+            tangential_n: f.tangential_n,
+        })
+        .collect();
+    let mut made = fields(definition, body, &[forces])?;
+    made.pop().ok_or_else(|| Failure::work("no field was made"))
+}

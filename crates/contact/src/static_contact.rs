@@ -1,0 +1,361 @@
+//! Forces and transmission error of a pair at one position.
+//!
+//! g = C F + local(F) + e − x ≥ 0, F ≥ 0, gᵀF = 0, with x = −TE the rigid approach along the line of action, and where
+//! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn it).
+
+use crate::contact_lines::{ContactLine, ContactLines, Friction};
+use crate::nlcp::{
+    ContactBody, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
+    Problem, Workspace, solve_load, solve_position,
+};
+use crate::slice_compliance::{CompliancePart, SliceCompliance};
+use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
+
+/// Local contact compliance added to the model's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LocalContact {
+    /// None: C_hub as the mesh gives it, near field of the hats included. Cheapest, and mesh dependent.
+    None,
+    /// C_g and the Weber-Banaschek term, as in seed 004.
+    WeberBanaschek,
+}
+
+/// What a contact computation includes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactOptions {
+    /// Local contact compliance.
+    pub local: LocalContact,
+    /// Friction, or none.
+    pub friction: Option<Friction>,
+}
+
+/// Why no contact state could be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum ContactError {
+    /// The model does not carry loads on the flank in contact.
+    #[error(transparent)]
+    Model(#[from] ReducedGearError),
+    /// The two models have different slices.
+    #[error(
+        "the gears have {slices_1} and {slices_2} slices of {width_1_mm:.4} and {width_2_mm:.4} mm; reduce both with the same reduction.slices and face width"
+    )]
+    Slices {
+        /// Slices of gear 1.
+        slices_1: usize,
+        /// Slices of gear 2.
+        slices_2: usize,
+        /// Slice width of gear 1.
+        width_1_mm: f64,
+        /// Slice width of gear 2.
+        width_2_mm: f64,
+    },
+    /// The model's teeth are not those of the pair.
+    #[error("the model of gear {gear} has {found} teeth, the pair needs {needed}")]
+    Teeth {
+        /// Gear 1 or 2.
+        gear: usize,
+        /// Teeth of the model.
+        found: usize,
+        /// Teeth of the pair.
+        needed: usize,
+    },
+    /// No local law.
+    #[error("at driver angle {angle_deg:.4} deg: {cause}")]
+    LocalLaw {
+        /// Driver angle.
+        angle_deg: f64,
+        /// Cause.
+        cause: LocalLawError,
+    },
+    /// No solution.
+    #[error("at driver angle {angle_deg:.4} deg: {cause}")]
+    Nlcp {
+        /// Driver angle.
+        angle_deg: f64,
+        /// Cause.
+        cause: NlcpError,
+    },
+}
+
+/// What drives the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// Torque on gear 2 \[N·m\]; the transmission error follows.
+    Torque(f64),
+    /// Transmission error \[m\]; the torque follows.
+    TransmissionError(f64),
+}
+
+/// The solution at one position, besides lines and forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactState {
+    /// Transmission error r_b2 θ₂ − r_b1 θ₁ \[m\]; negative under load.
+    pub transmission_error_m: f64,
+    /// Transmission error without load at this position \[m\]: first touch.
+    pub unloaded_m: f64,
+    /// Torque on gear 2 \[N·m\].
+    pub torque_2_nm: f64,
+    /// Torque on gear 1 \[N·m\]; differs from T₂ r_b1/r_b2 by friction.
+    pub torque_1_nm: f64,
+    /// −dT₂/dTE \[N\]: tangent.
+    pub torque_rate_n: f64,
+    /// Solver effort and flags.
+    pub info: Info,
+}
+
+/// Contact of two reduced gears, with all memory it needs.
+#[derive(Debug)]
+pub struct StaticContact {
+    lines: ContactLines,
+    compliance_1: SliceCompliance,
+    compliance_2: SliceCompliance,
+    options: ContactOptions,
+    params: Params,
+    active: Vec<ContactLine>,
+    c: Vec<f64>,
+    local: Vec<LocalLaw>,
+    separation: Vec<f64>,
+    closing: Vec<f64>,
+    lever_2: Vec<f64>,
+    lever_1: Vec<f64>,
+    work: Workspace,
+}
+
+impl StaticContact {
+    /// Prepares the contact of two gears on flanks of the given hand.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the models do not fit the pair or each other.
+    pub fn new(
+        lines: ContactLines,
+        gear_1: &ReducedGear,
+        gear_2: &ReducedGear,
+        flank: Flank,
+        options: ContactOptions,
+    ) -> Result<Self, ContactError> {
+        for (gear, model, needed) in [
+            (1, gear_1, lines.pair.gear_1.teeth),
+            (2, gear_2, lines.pair.gear_2.teeth),
+        ] {
+            if model.teeth != needed {
+                return Err(ContactError::Teeth {
+                    gear,
+                    found: model.teeth,
+                    needed,
+                });
+            }
+        }
+        let part = match options.local {
+            LocalContact::None => CompliancePart::Hub,
+            LocalContact::WeberBanaschek => CompliancePart::Patterns,
+        };
+        let compliance_1 = SliceCompliance::new(gear_1, flank, part)?;
+        let compliance_2 = SliceCompliance::new(gear_2, flank, part)?;
+        let (w1, w2) = (compliance_1.slice_width_m(), compliance_2.slice_width_m());
+        if compliance_1.slices() != compliance_2.slices() || (w1 - w2).abs() > 1e-9 * w1 {
+            return Err(ContactError::Slices {
+                slices_1: compliance_1.slices(),
+                slices_2: compliance_2.slices(),
+                width_1_mm: w1 * 1e3,
+                width_2_mm: w2 * 1e3,
+            });
+        }
+        let capacity = (lines.most_pairs() + 1) * compliance_1.slices();
+        Ok(Self {
+            lines,
+            compliance_1,
+            compliance_2,
+            options,
+            params: Params::default(),
+            active: Vec::with_capacity(capacity),
+            c: vec![0.0; capacity * capacity],
+            local: Vec::with_capacity(capacity),
+            separation: Vec::with_capacity(capacity),
+            closing: vec![1.0; capacity],
+            lever_2: Vec::with_capacity(capacity),
+            lever_1: Vec::with_capacity(capacity),
+            work: Workspace::new(capacity),
+        })
+    }
+
+    /// Kinematics and microgeometry.
+    pub fn contact_lines(&self) -> &ContactLines {
+        &self.lines
+    }
+
+    /// What the computation includes.
+    pub fn options(&self) -> &ContactOptions {
+        &self.options
+    }
+
+    /// Slices per contact line.
+    pub fn slices(&self) -> usize {
+        self.compliance_1.slices()
+    }
+
+    /// Width of a slice \[m\].
+    pub fn slice_width_m(&self) -> f64 {
+        self.compliance_1.slice_width_m()
+    }
+
+    /// Contact lines of the last position, in the order of the forces.
+    pub fn active_lines(&self) -> &[ContactLine] {
+        &self.active
+    }
+
+    /// Slice forces of the last position \[N\], `[line][slice]`.
+    pub fn forces_n(&self) -> &[f64] {
+        self.work.forces()
+    }
+
+    /// Forgets the last solution: the next position starts cold.
+    pub fn reset(&mut self) {
+        self.work.reset();
+    }
+
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\].
+    pub fn hertz(&self, line: &ContactLine, line_load_n_per_m: f64) -> (f64, f64) {
+        let contact = self.line_contact(line);
+        let a = contact.half_width_m(line_load_n_per_m * contact.width_m);
+        if a > 0.0 {
+            (a, 2.0 * line_load_n_per_m / (std::f64::consts::PI * a))
+        } else {
+            (0.0, 0.0)
+        }
+    }
+
+    fn line_contact(&self, line: &ContactLine) -> LineContact {
+        let body = |compliance: &SliceCompliance, roll: f64| {
+            let (youngs_modulus_pa, poisson_ratio) = compliance.material();
+            ContactBody {
+                youngs_modulus_pa,
+                poisson_ratio,
+                depth_m: compliance.opposite_distance_m(compliance.place(roll)),
+            }
+        };
+        LineContact {
+            width_m: self.slice_width_m(),
+            relative_radius_m: self.lines.relative_radius_m(line),
+            bodies: [
+                body(&self.compliance_1, line.roll_1_rad),
+                body(&self.compliance_2, line.roll_2_rad),
+            ],
+        }
+    }
+
+    /// Solves one position. Lines and forces are left in [`StaticContact::active_lines`] and
+    /// [`StaticContact::forces_n`]. No allocation.
+    ///
+    /// # Errors
+    /// [`ContactError::Nlcp`] when the solver does not converge, [`ContactError::LocalLaw`] when no local law exists.
+    pub fn solve(
+        &mut self,
+        driver_angle_rad: f64,
+        drive: Drive,
+    ) -> Result<ContactState, ContactError> {
+        self.lines.at(driver_angle_rad, &mut self.active);
+        let slices = self.slices();
+        let n = self.active.len() * slices;
+        let c = &mut self.c[..n * n];
+        c.fill(0.0);
+        for (i, a) in self.active.iter().enumerate() {
+            for (j, b) in self.active.iter().enumerate() {
+                let first = i * slices * n + j * slices;
+                for (compliance, of) in [
+                    (
+                        &self.compliance_1,
+                        [(a.tooth_1, a.roll_1_rad), (b.tooth_1, b.roll_1_rad)],
+                    ),
+                    (
+                        &self.compliance_2,
+                        [(a.tooth_2, a.roll_2_rad), (b.tooth_2, b.roll_2_rad)],
+                    ),
+                ] {
+                    let [(tooth_a, roll_a), (tooth_b, roll_b)] = of;
+                    let places = (compliance.place(roll_a), compliance.place(roll_b));
+                    compliance.add_block((tooth_a, places.0), (tooth_b, places.1), c, first, n);
+                }
+            }
+        }
+        symmetrise(c, n);
+
+        let base_1 = self.lines.pair.gear_1.base_radius_m;
+        let base_2 = self.lines.pair.gear_2.base_radius_m;
+        let scale_force = match drive {
+            Drive::Torque(torque) => torque.abs() / (base_2 * n as f64),
+            Drive::TransmissionError(_) => 0.0,
+        };
+        let floor = FLOOR_FRACTION * scale_force.max(1.0);
+        self.local.clear();
+        self.separation.clear();
+        self.lever_1.clear();
+        self.lever_2.clear();
+        for line in &self.active {
+            let law = match self.options.local {
+                LocalContact::None => LocalLaw::none(),
+                LocalContact::WeberBanaschek => {
+                    LocalLaw::weber_banaschek(&self.line_contact(line), floor).map_err(|cause| {
+                        ContactError::LocalLaw {
+                            angle_deg: driver_angle_rad.to_degrees(),
+                            cause,
+                        }
+                    })?
+                }
+            };
+            let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
+            for &z in self.compliance_1.slice_centres_m() {
+                self.local.push(law);
+                self.separation.push(self.lines.separation_m(line, z));
+                self.lever_1
+                    .push(base_1 + friction * base_1 * line.roll_1_rad);
+                self.lever_2
+                    .push(base_2 + friction * base_2 * line.roll_2_rad);
+            }
+        }
+        let nlcp = |cause| ContactError::Nlcp {
+            angle_deg: driver_angle_rad.to_degrees(),
+            cause,
+        };
+        let problem = Problem::new(&self.c[..n * n], &self.local,
+            &self.separation,
+            &self.closing[..n],
+            &self.lever_2,
+        )
+        .map_err(nlcp)?;
+        let unloaded_m = -problem.first_contact();
+        let info = match drive {
+            Drive::Torque(torque) => solve_load(&problem, torque, &self.params, &mut self.work),
+            Drive::TransmissionError(te) => {
+                solve_position(&problem, -te, &self.params, &mut self.work)
+            }
+        }
+        .map_err(nlcp)?;
+        let torque_1_nm = self
+            .work
+            .forces()
+            .iter()
+            .zip(&self.lever_1)
+            .map(|(f, b)| f * b)
+            .sum();
+        Ok(ContactState {
+            transmission_error_m: -info.approach_m,
+            unloaded_m,
+            torque_2_nm: info.load,
+            torque_1_nm,
+            torque_rate_n: info.stiffness,
+            info,
+        })
+    }
+}
+
+/// The blocks between two teeth are stored for each of them as load and as response; they agree to the round-off of
+/// the reduction, and the solver wants them equal.
+fn symmetrise(c: &mut [f64], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            let mean = 0.5 * (c[i * n + j] + c[j * n + i]);
+            c[i * n + j] = mean;
+            c[j * n + i] = mean;
+        }
+    }
+}

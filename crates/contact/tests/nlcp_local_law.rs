@@ -1,0 +1,147 @@
+//! The local law: its two numbers against the textbook formula, its continuation at both ends.
+#![allow(clippy::unwrap_used, clippy::needless_range_loop)] // test code in index notation
+
+use std::f64::consts::PI;
+
+use gearmesh_contact::nlcp::{ContactBody, HALF_WIDTH_LIMIT, LineContact, LocalLaw, LocalLawError};
+
+fn contact() -> LineContact {
+    LineContact {
+        width_m: 4.6e-3,
+        relative_radius_m: 13e-3,
+        bodies: [
+            ContactBody {
+                youngs_modulus_pa: 210e9,
+                poisson_ratio: 0.3,
+                depth_m: 4.1e-3,
+            },
+            ContactBody {
+                youngs_modulus_pa: 70e9,
+                poisson_ratio: 0.33,
+                depth_m: 3.2e-3,
+            },
+        ],
+    }
+}
+
+/// Weber-Banaschek as printed, no collapse of constants.
+fn textbook(contact: &LineContact, force: f64) -> f64 {
+    let q = force / contact.width_m;
+    let sum: f64 = contact
+        .bodies
+        .iter()
+        .map(|b| (1.0 - b.poisson_ratio.powi(2)) / b.youngs_modulus_pa)
+        .sum();
+    let a = (4.0 * q * contact.relative_radius_m / PI * sum).sqrt();
+    let body = |b: &ContactBody| {
+        let k = 2.0 * (1.0 - b.poisson_ratio.powi(2)) / (PI * b.youngs_modulus_pa);
+        k * q * ((2.0 * b.depth_m / a).ln() - b.poisson_ratio / (2.0 * (1.0 - b.poisson_ratio)))
+    };
+    contact.bodies.iter().map(body).sum()
+}
+
+#[test]
+fn collapsed_law_is_the_textbook_formula() {
+    let law = LocalLaw::weber_banaschek(&contact(), 1e-3).unwrap();
+    for force in [1e-2, 1.0, 50.0, 1e3, 2e4] {
+        assert!(force < law.cap_n());
+        assert!((law.deflection(force) / textbook(&contact(), force) - 1.0).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn half_width_of_a_steel_pair() {
+    // Equal steel bodies, q = 100 N/mm, relative radius 10 mm: a = sqrt(8 q ρ (1 − ν²)/(π E)).
+    let body = ContactBody {
+        youngs_modulus_pa: 210e9,
+        poisson_ratio: 0.3,
+        depth_m: 1e-2,
+    };
+    let contact = LineContact {
+        width_m: 1e-2,
+        relative_radius_m: 1e-2,
+        bodies: [body; 2],
+    };
+    let expected = (8.0 * 1e5 * 1e-2 * 0.91 / (PI * 210e9)).sqrt();
+    assert!((contact.half_width_m(1e3) / expected - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn law_is_monotone_and_smooth_at_both_ends() {
+    let law = LocalLaw::weber_banaschek(&contact(), 1e-3).unwrap();
+    assert!(law.is_monotone());
+    assert_eq!(law.deflection(0.0), 0.0);
+    let (mut force, mut last, mut last_slope) = (1e-9, 0.0, law.slope(0.0));
+    while force < 1e9 {
+        let (deflection, slope) = law.evaluate(force);
+        assert!(deflection > last && slope > 0.0 && slope <= last_slope);
+        (last, last_slope) = (deflection, slope);
+        force *= 1.1;
+    }
+    for joint in [law.floor_n(), law.cap_n()] {
+        let (below, above) = (
+            law.evaluate(joint * (1.0 - 1e-12)),
+            law.evaluate(joint * (1.0 + 1e-12)),
+        );
+        assert!((below.0 / above.0 - 1.0).abs() < 1e-11);
+        assert!((below.1 / above.1 - 1.0).abs() < 1e-11);
+    }
+    assert!(law.is_below_floor(0.5e-3) && !law.is_below_floor(0.0) && !law.is_below_floor(1.0));
+    assert!(law.is_above_cap(2.0 * law.cap_n()) && !law.is_above_cap(1.0));
+}
+
+#[test]
+fn cap_is_where_the_half_width_reaches_its_limit() {
+    let law = LocalLaw::weber_banaschek(&contact(), 1e-3).unwrap();
+    let half_width = contact().half_width_m(law.cap_n());
+    assert!((half_width / (HALF_WIDTH_LIMIT * 3.2e-3) - 1.0).abs() < 1e-13);
+}
+
+#[test]
+fn slope_and_energy_are_derivative_and_integral() {
+    let law = LocalLaw::weber_banaschek(&contact(), 1.0).unwrap();
+    for force in [0.3, 0.9, 1.5, 800.0, 0.9 * law.cap_n(), 3.0 * law.cap_n()] {
+        let h = 1e-4 * force;
+        let difference = (law.deflection(force + h) - law.deflection(force - h)) / (2.0 * h);
+        // Truncation of the central difference, O(h²/F²) = 1e-8.
+        assert!((difference / law.slope(force) - 1.0).abs() < 1e-7);
+        let work = (law.stored_energy(force + h) - law.stored_energy(force - h)) / (2.0 * h);
+        assert!((work / (force * law.slope(force)) - 1.0).abs() < 1e-6);
+    }
+    assert_eq!(law.stored_energy(0.0), 0.0);
+}
+
+#[test]
+fn no_law_and_bad_laws() {
+    assert_eq!(LocalLaw::none().evaluate(1e3), (0.0, 0.0));
+    assert_eq!(LocalLaw::none().stored_energy(1e3), 0.0);
+    assert!(LocalLaw::none().is_monotone());
+    let mut bad = contact();
+    bad.bodies[1].poisson_ratio = 0.6;
+    assert_eq!(
+        LocalLaw::weber_banaschek(&bad, 1.0),
+        Err(LocalLawError::PoissonRatio { found: 0.6 })
+    );
+    assert!(matches!(
+        LocalLaw::weber_banaschek(
+            &LineContact {
+                width_m: 0.0,
+                ..contact()
+            },
+            1.0
+        ),
+        Err(LocalLawError::NotPositive { .. })
+    ));
+    assert!(matches!(
+        LocalLaw::weber_banaschek(&contact(), 1e9),
+        Err(LocalLawError::FloorAboveCap { .. })
+    ));
+    assert!(matches!(
+        LocalLaw::logarithmic(f64::NAN, 0.0, 1.0, 2.0),
+        Err(LocalLawError::Coefficient { what: "alpha", .. })
+    ));
+    assert!(matches!(
+        LocalLaw::logarithmic(0.0, -1.0, 1.0, 2.0),
+        Err(LocalLawError::Coefficient { what: "beta", .. })
+    ));
+}

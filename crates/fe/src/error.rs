@@ -1,0 +1,170 @@
+//! What can go wrong between a mesh and a factor, one variant per cause.
+
+use thiserror::Error;
+
+/// A failure inside one element.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ElementError {
+    /// The map from the reference cube to the element folds over or collapses.
+    #[error(
+        "the Jacobian determinant is {determinant_m3:e} m^3 at the natural point {natural:?}; it must be positive: \
+         order the nodes as bottom 0-3 counter-clockwise, top 4-7, or repair the shape"
+    )]
+    JacobianNotPositive {
+        /// Natural coordinates of the point, each in [-1, 1].
+        natural: [f64; 3],
+        /// Determinant found (m³).
+        determinant_m3: f64,
+    },
+    /// The 9x9 stiffness of the incompatible modes has no Cholesky factor: only coordinates that overflow reach this.
+    #[error(
+        "the stiffness of the incompatible modes is not positive definite; the coordinates must be finite and of ordinary size (m)"
+    )]
+    ModesNotPositiveDefinite,
+}
+
+/// A failure of model building, assembly, ordering or factorisation.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FeError {
+    /// Young's modulus outside its range.
+    #[error("Young's modulus is {young_pa:e} Pa; it must be positive and finite")]
+    YoungOutOfRange {
+        /// Value found (Pa).
+        young_pa: f64,
+    },
+    /// Poisson's ratio outside its range.
+    #[error("Poisson's ratio is {poisson}; it must lie strictly between -1 and 0.5")]
+    PoissonOutOfRange {
+        /// Value found.
+        poisson: f64,
+    },
+    /// The model has no elements.
+    #[error("the model has {nodes} nodes and no elements; give at least one hexahedron")]
+    NoElements {
+        /// Number of nodes given.
+        nodes: usize,
+    },
+    /// More nodes than 32-bit indices allow.
+    #[error(
+        "{found} nodes and edges exceed the {allowed} that 32-bit indices allow; use a coarser mesh or a sector"
+    )]
+    TooLarge {
+        /// Count found.
+        found: usize,
+        /// Largest count allowed.
+        allowed: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("node {node} has the coordinates {coordinates_m:?} m; all must be finite")]
+    CoordinateNotFinite {
+        /// Node index.
+        node: usize,
+        /// Coordinates found (m).
+        coordinates_m: [f64; 3],
+    },
+    /// An element refers to a node that does not exist.
+    #[error("element {element} names node {node}; the model has the nodes 0 to {}", node_count.saturating_sub(1))]
+    NodeOutOfRange {
+        /// Element index.
+        element: usize,
+        /// Node index found.
+        node: u32,
+        /// Number of nodes of the model.
+        node_count: usize,
+    },
+    /// A node belongs to no element: its degrees of freedom would have no stiffness.
+    #[error("node {node} belongs to no element; remove it or connect it")]
+    NodeWithoutElement {
+        /// Node index.
+        node: usize,
+    },
+    /// An element failed.
+    #[error("element {element}: {source}")]
+    Element {
+        /// Element index.
+        element: usize,
+        /// Cause.
+        source: ElementError,
+    },
+    /// An element index that the model does not have.
+    #[error("element {element} was asked for; the model has {element_count} elements")]
+    ElementOutOfRange {
+        /// Index asked for.
+        element: usize,
+        /// Number of elements.
+        element_count: usize,
+    },
+    /// A constraint on a degree of freedom that does not exist.
+    #[error("degree of freedom {dof} is to be fixed; the model has {dof_count} (three per node)")]
+    DofOutOfRange {
+        /// Index found.
+        dof: usize,
+        /// Number of degrees of freedom.
+        dof_count: usize,
+    },
+    /// Everything is fixed.
+    #[error("all {dof_count} degrees of freedom are fixed; leave at least one free")]
+    NothingFree {
+        /// Number of degrees of freedom.
+        dof_count: usize,
+    },
+    /// Two objects were built for different sizes.
+    #[error(
+        "{what} has the size {found}, expected {expected}; build both from the same model and constraints"
+    )]
+    SizeMismatch {
+        /// Which object.
+        what: &'static str,
+        /// Its size.
+        found: usize,
+        /// The size needed.
+        expected: usize,
+    },
+    /// An ordering that leaves out or repeats an index.
+    #[error(
+        "the ordering is not a permutation: index {index} of {size} is out of range or repeated"
+    )]
+    NotAPermutation {
+        /// Offending index.
+        index: usize,
+        /// Length of the ordering.
+        size: usize,
+    },
+    /// METIS returned an error code.
+    #[error(
+        "METIS nested dissection of {nodes} nodes failed with status {status} ({meaning}); free memory or use a coarser mesh"
+    )]
+    Metis {
+        /// Number of nodes of the graph.
+        nodes: usize,
+        /// METIS status code.
+        status: i32,
+        /// What METIS calls it.
+        meaning: &'static str,
+    },
+    /// The stiffness matrix has a pivot that is zero or negative.
+    #[error(
+        "the stiffness matrix is not positive definite (pivot of free degree of freedom {free_dof} after ordering): \
+         the body is not held against all six rigid motions, a part is loose, or an element is broken"
+    )]
+    NotPositiveDefinite {
+        /// Free degree of freedom whose pivot failed.
+        free_dof: usize,
+    },
+    /// The matrix does not have the pattern that was analysed.
+    #[error(
+        "the matrix has {found} nonzeros, the analysed pattern {expected}; analyse again for this mesh and constraints"
+    )]
+    PatternChanged {
+        /// Nonzeros of the matrix.
+        found: usize,
+        /// Nonzeros analysed.
+        expected: usize,
+    },
+    /// Not enough memory.
+    #[error("no memory for the factor ({bytes} bytes asked for); use a coarser mesh or one sector")]
+    OutOfMemory {
+        /// Bytes asked for; 0 where the count itself failed.
+        bytes: usize,
+    },
+}

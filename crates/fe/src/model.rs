@@ -1,0 +1,294 @@
+//! The finite element model: nodes, hexahedra, material and element, checked once.
+
+use rayon::prelude::*;
+
+use crate::element::{
+    ElementStiffness, HexCoordinates, HexElement, StrainOperator, check_shape, element_volume,
+};
+use crate::error::{ElementError, FeError};
+use crate::material::Material;
+
+/// Nodes, hexahedra, one material, one element formulation. Valid by construction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeModel {
+    nodes: Vec<[f64; 3]>,
+    hexes: Vec<[u32; 8]>,
+    material: Material,
+    element: HexElement,
+}
+
+impl FeModel {
+    /// Checks and keeps a mesh.
+    ///
+    /// `nodes`: coordinates (m). `hexes`: node indices in VTK order (bottom 0-3 counter-clockwise, top 4-7).
+    ///
+    /// # Errors
+    /// [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
+    /// [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and [`FeError::Element`] naming the first
+    /// element whose Jacobian is not positive at all Gauss points, corners and the centre.
+    pub fn new(
+        nodes: Vec<[f64; 3]>,
+        hexes: Vec<[u32; 8]>,
+        material: Material,
+        element: HexElement,
+    ) -> Result<Self, FeError> {
+        if hexes.is_empty() {
+            return Err(FeError::NoElements { nodes: nodes.len() });
+        }
+        // METIS counts in 32 bits; a third of that leaves room for three degrees of freedom per node.
+        let allowed = i32::MAX as usize / 3;
+        if nodes.len().max(hexes.len()) > allowed {
+            return Err(FeError::TooLarge {
+                found: nodes.len().max(hexes.len()),
+                allowed,
+            });
+        }
+        for (node, coordinates) in nodes.iter().enumerate() {
+            if !coordinates.iter().all(|v| v.is_finite()) {
+                return Err(FeError::CoordinateNotFinite {
+                    node,
+                    coordinates_m: *coordinates,
+                });
+            }
+        }
+        let mut used = vec![false; nodes.len()];
+        for (element, hex) in hexes.iter().enumerate() {
+            for &node in hex {
+                match used.get_mut(node as usize) {
+                    Some(flag) => *flag = true,
+                    None => {
+                        return Err(FeError::NodeOutOfRange {
+                            element,
+                            node,
+                            node_count: nodes.len(),
+                        });
+                    }
+                }
+            }
+        }
+        if let Some(node) = used.iter().position(|u| !u) {
+            return Err(FeError::NodeWithoutElement { node });
+        }
+        let model = Self {
+            nodes,
+            hexes,
+            material,
+            element,
+        };
+        let broken = (0..model.hexes.len()).into_par_iter().find_map_first(|e| {
+            check_shape(&model.gather(e))
+                .err()
+                .map(|source| (e, source))
+        });
+        match broken {
+            Some((element, source)) => Err(FeError::Element { element, source }),
+            None => Ok(model),
+        }
+    }
+
+    /// The same mesh with another element formulation.
+    #[must_use]
+    pub fn with_element(self, element: HexElement) -> Self {
+        Self { element, ..self }
+    }
+
+    /// Node coordinates (m).
+    pub fn nodes(&self) -> &[[f64; 3]] {
+        &self.nodes
+    }
+
+    /// Node indices of each hexahedron, VTK order.
+    pub fn hexes(&self) -> &[[u32; 8]] {
+        &self.hexes
+    }
+
+    /// The material.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// The element formulation.
+    pub fn element(&self) -> HexElement {
+        self.element
+    }
+
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Number of degrees of freedom, free and fixed: three per node, 3 n + a for node n along axis a.
+    pub fn dof_count(&self) -> usize {
+        3 * self.nodes.len()
+    }
+
+    /// Coordinates (m) of an element's nodes.
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`].
+    pub fn element_coordinates(&self, element: usize) -> Result<HexCoordinates, FeError> {
+        self.check_element(element)?;
+        Ok(self.gather(element))
+    }
+
+    /// The 24 degrees of freedom of an element, in the column order of its operators.
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`].
+    pub fn element_dofs(&self, element: usize) -> Result<[usize; 24], FeError> {
+        self.check_element(element)?;
+        let hex = self.hexes[element];
+        Ok(std::array::from_fn(|i| 3 * hex[i / 3] as usize + i % 3))
+    }
+
+    /// Stiffness of one element (24x24, N/m).
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
+    pub fn element_stiffness(&self, element: usize) -> Result<ElementStiffness, FeError> {
+        let coordinates = self.element_coordinates(element)?;
+        self.element
+            .stiffness(&coordinates, &self.material)
+            .map_err(|source| FeError::Element { element, source })
+    }
+
+    /// Strain operator (6x24, 1/m) of one element at a natural point, modes included; see
+    /// [`HexElement::strain_operator`]. Columns follow [`FeModel::element_dofs`].
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
+    pub fn strain_operator(
+        &self,
+        element: usize,
+        natural: [f64; 3],
+    ) -> Result<StrainOperator, FeError> {
+        let coordinates = self.element_coordinates(element)?;
+        self.element
+            .strain_operator(&coordinates, &self.material, natural)
+            .map_err(|source| FeError::Element { element, source })
+    }
+
+    /// Strain (xx, yy, zz, xy, yz, xz; engineering shear) at a natural point of an element from the displacements
+    /// of all degrees of freedom (m).
+    ///
+    /// # Errors
+    /// [`FeError::SizeMismatch`] unless `displacement` has [`FeModel::dof_count`] entries;
+    /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
+    pub fn strain(
+        &self,
+        element: usize,
+        natural: [f64; 3],
+        displacement: &[f64],
+    ) -> Result<[f64; 6], FeError> {
+        if displacement.len() != self.dof_count() {
+            return Err(FeError::SizeMismatch {
+                what: "the displacement vector",
+                found: displacement.len(),
+                expected: self.dof_count(),
+            });
+        }
+        let operator = self.strain_operator(element, natural)?;
+        let dofs = self.element_dofs(element)?;
+        Ok(operator.map(|row| {
+            row.iter()
+                .zip(dofs)
+                .map(|(b, dof)| b * displacement[dof])
+                .sum()
+        }))
+    }
+
+    /// Volume (m³) of the body.
+    ///
+    /// # Errors
+    /// [`FeError::Element`]; not for a model that was accepted.
+    pub fn volume(&self) -> Result<f64, FeError> {
+        (0..self.hexes.len())
+            .map(|element| {
+                element_volume(&self.gather(element))
+                    .map_err(|source: ElementError| FeError::Element { element, source })
+            })
+            .sum()
+    }
+
+    fn check_element(&self, element: usize) -> Result<(), FeError> {
+        if element < self.hexes.len() {
+            Ok(())
+        } else {
+            Err(FeError::ElementOutOfRange {
+                element,
+                element_count: self.hexes.len(),
+            })
+        }
+    }
+
+    /// Coordinates of an element that exists.
+    pub(crate) fn gather(&self, element: usize) -> HexCoordinates {
+        self.hexes[element].map(|node| self.nodes[node as usize])
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::structured::StructuredMesh;
+
+    fn build(mesh: StructuredMesh) -> Result<FeModel, FeError> {
+        FeModel::new(
+            mesh.nodes,
+            mesh.hexes,
+            Material::new(210e9, 0.3).unwrap(),
+            HexElement::Hex8,
+        )
+    }
+
+    #[test]
+    fn broken_meshes_name_the_culprit() {
+        let good = || StructuredMesh::block([2, 1, 1], [2.0, 1.0, 1.0]);
+        assert!(build(good()).is_ok());
+
+        let mut mesh = good();
+        mesh.hexes[1].swap(0, 1);
+        assert!(matches!(
+            build(mesh),
+            Err(FeError::Element { element: 1, .. })
+        ));
+
+        let mut mesh = good();
+        mesh.hexes[1][3] = 99;
+        assert_eq!(
+            build(mesh),
+            Err(FeError::NodeOutOfRange {
+                element: 1,
+                node: 99,
+                node_count: 12
+            })
+        );
+
+        let mut mesh = good();
+        mesh.nodes.push([9.0; 3]);
+        assert_eq!(build(mesh), Err(FeError::NodeWithoutElement { node: 12 }));
+
+        let mut mesh = good();
+        mesh.nodes[4][1] = f64::NAN;
+        assert!(matches!(
+            build(mesh),
+            Err(FeError::CoordinateNotFinite { node: 4, .. })
+        ));
+
+        let mut mesh = good();
+        mesh.hexes.clear();
+        assert_eq!(build(mesh), Err(FeError::NoElements { nodes: 12 }));
+    }
+
+    #[test]
+    fn volume_of_a_block_and_of_a_ring() {
+        let block = build(StructuredMesh::block([3, 2, 4], [0.3, 0.2, 0.1])).unwrap();
+        assert!((block.volume().unwrap() - 0.006).abs() < 1e-15);
+        // n chords instead of the circle: area n/2 sin(2 pi/n) (R² − r²), height 1.
+        let n = 24.0_f64;
+        let ring = build(StructuredMesh::ring([24, 3, 2], [1.0, 2.0], 1.0)).unwrap();
+        let exact = 0.5 * n * (std::f64::consts::TAU / n).sin() * 3.0;
+        assert!((ring.volume().unwrap() - exact).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,47 @@
+//! What the integration tests share: a steel, the element list, a distorted block.
+#![allow(dead_code, missing_docs, clippy::unwrap_used)]
+
+use gearmesh_fe::{FeModel, HexElement, Material, StructuredMesh};
+
+pub const ELEMENTS: [HexElement; 2] = [HexElement::Hex8, HexElement::Hex8Incompatible];
+
+pub fn steel() -> Material {
+    Material::new(210e9, 0.3).unwrap()
+}
+
+/// A unit cube of n³ elements whose inner nodes are moved by up to 0.15 of the element size; the boundary
+/// stays plane.
+pub fn distorted_cube(n: usize) -> StructuredMesh {
+    let mut mesh = StructuredMesh::block([n; 3], [1.0; 3]);
+    let inside = |v: f64| v > 1e-9 && v < 1.0 - 1e-9;
+    for (i, node) in mesh.nodes.iter_mut().enumerate() {
+        if node.iter().all(|v| inside(*v)) {
+            for (axis, v) in node.iter_mut().enumerate() {
+                *v +=
+                    0.15 / n as f64 * ((12.9898 * (3 * i + axis) as f64).sin() * 43758.5453).sin();
+            }
+        }
+    }
+    mesh
+}
+
+pub fn model(mesh: StructuredMesh, element: HexElement) -> FeModel {
+    FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap()
+}
+
+/// Rotation matrix about a unit-scaled axis by an angle (Rodrigues).
+pub fn rotation(axis: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
+    let length = axis.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let [x, y, z] = axis.map(|v| v / length);
+    let (s, c) = angle.sin_cos();
+    let d = 1.0 - c;
+    [
+        [c + x * x * d, x * y * d - z * s, x * z * d + y * s],
+        [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
+        [z * x * d - y * s, z * y * d + x * s, c + z * z * d],
+    ]
+}
+
+pub fn rotate(r: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| (0..3).map(|j| r[i][j] * v[j]).sum())
+}

@@ -1,0 +1,150 @@
+//! Zero-energy modes and invariance: what a solid must not feel.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{ELEMENTS, distorted_cube, model, rotate, rotation, steel};
+use faer::{Mat, Side};
+use gearmesh_fe::{
+    CORNERS, DofMap, Factor, FeError, HexCoordinates, HexElement, assemble_stiffness,
+};
+
+fn distorted_element() -> HexCoordinates {
+    let mut x = CORNERS.map(|c| c.map(|v| 0.5 * v));
+    x[6] = [0.7, 0.6, 0.65];
+    x[1] = [0.45, -0.6, -0.4];
+    x[3] = [-0.55, 0.4, -0.6];
+    x
+}
+
+/// Number of eigenvalues below 1e-10 of the largest; asserts none is negative and the others are well above.
+fn zero_modes(k: &Mat<f64>) -> usize {
+    let eigenvalues = k.self_adjoint_eigenvalues(Side::Lower).unwrap();
+    let largest = eigenvalues.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    assert!(eigenvalues.iter().all(|v| *v > -1e-12 * largest));
+    // The zero ones are rounding, near 1e-16; the lowest elastic one of these bodies is above 1e-4.
+    assert!(
+        eigenvalues
+            .iter()
+            .all(|v| *v < 1e-12 * largest || *v > 1e-5 * largest)
+    );
+    eigenvalues.iter().filter(|v| **v < 1e-10 * largest).count()
+}
+
+#[test]
+fn one_distorted_element_has_six_zero_modes() {
+    for element in ELEMENTS {
+        let k = element.stiffness(&distorted_element(), &steel()).unwrap();
+        assert_eq!(
+            zero_modes(&Mat::from_fn(24, 24, |i, j| k[i][j])),
+            6,
+            "{element:?}"
+        );
+    }
+}
+
+#[test]
+fn a_free_mesh_has_six_zero_modes() {
+    for element in ELEMENTS {
+        let model = model(distorted_cube(3), element);
+        let k = assemble_stiffness(&model, &DofMap::all_free(model.node_count()).unwrap()).unwrap();
+        assert_eq!(zero_modes(&k.to_dense()), 6, "{element:?}");
+    }
+}
+
+/// A body held too little is refused, not solved: free, and pinned at one edge only (still free to turn).
+#[test]
+fn a_body_that_is_not_held_is_named() {
+    for element in ELEMENTS {
+        let mesh = distorted_cube(4);
+        let edge = mesh.nodes_where(|x| x[0] == 0.0 && x[1] == 0.0);
+        let model = model(mesh, element);
+        for held in [vec![], edge] {
+            let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
+            let k = assemble_stiffness(&model, &dofs).unwrap();
+            let error = Factor::of_model(&model, &dofs, &k).unwrap_err();
+            assert!(matches!(error, FeError::NotPositiveDefinite { .. }));
+            assert!(error.to_string().contains("not held"));
+        }
+    }
+}
+
+/// K of the rotated element is the rotated K: R K Rᵀ.
+#[test]
+fn stiffness_turns_with_the_element() {
+    let r = rotation([1.0, -2.0, 0.5], 0.9);
+    for element in ELEMENTS {
+        let k = element.stiffness(&distorted_element(), &steel()).unwrap();
+        let turned = element
+            .stiffness(&distorted_element().map(|x| rotate(&r, x)), &steel())
+            .unwrap();
+        let k = Mat::from_fn(24, 24, |i, j| k[i][j]);
+        let big = Mat::from_fn(
+            24,
+            24,
+            |i, j| if i / 3 == j / 3 { r[i % 3][j % 3] } else { 0.0 },
+        );
+        let expected = &big * &k * big.transpose();
+        let difference = Mat::from_fn(24, 24, |i, j| turned[i][j] - expected[(i, j)]);
+        assert!(difference.norm_max() < 1e-13 * k.norm_max(), "{element:?}");
+    }
+}
+
+/// Rigid motion, linearised rotation included, gives no strain anywhere in the element.
+#[test]
+fn rigid_motion_gives_no_strain() {
+    let x = distorted_element();
+    for element in ELEMENTS {
+        let operator = element
+            .strain_operator(&x, &steel(), [0.3, -0.8, 0.5])
+            .unwrap();
+        for axis in 0..3 {
+            let turn = |p: [f64; 3]| -> [f64; 3] {
+                let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+                let mut u = [0.0; 3];
+                u[a] = -p[b];
+                u[b] = p[a];
+                u
+            };
+            for field in [
+                x.map(turn),
+                [std::array::from_fn(|i| f64::from(u8::from(i == axis))); 8],
+            ] {
+                for row in operator {
+                    let strain: f64 = row
+                        .iter()
+                        .zip(field.as_flattened())
+                        .map(|(b, u)| b * u)
+                        .sum();
+                    assert!(strain.abs() < 1e-13, "{element:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Displacement of a loaded body is inversely proportional to Young's modulus, by the exact factor 2.
+#[test]
+fn half_the_modulus_gives_twice_the_displacement() {
+    let solve = |young: f64| {
+        let mesh = distorted_cube(2);
+        let held = mesh.nodes_where(|x| x[2] == 0.0);
+        let material = gearmesh_fe::Material::new(young, 0.3).unwrap();
+        let model =
+            gearmesh_fe::FeModel::new(mesh.nodes, mesh.hexes, material, HexElement::default())
+                .unwrap();
+        let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
+        let k = assemble_stiffness(&model, &dofs).unwrap();
+        let mut u = vec![0.0; dofs.free_count()];
+        u[dofs.free_count() - 2] = 1000.0;
+        Factor::of_model(&model, &dofs, &k)
+            .unwrap()
+            .solve_slice_in_place(&mut u);
+        u
+    };
+    let (stiff, soft) = (solve(200e9), solve(100e9));
+    let scale = soft.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    for (a, b) in stiff.iter().zip(&soft) {
+        assert!((2.0 * a - b).abs() < 1e-12 * scale);
+    }
+}

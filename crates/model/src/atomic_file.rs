@@ -1,0 +1,64 @@
+//! Writing beside and renaming: a killed run or a full disk leaves the old file or none.
+
+use std::fs::File;
+use std::path::Path;
+
+use crate::file_error::FileError;
+
+/// Lets `fill` write a temporary file in the folder of `path`, forces it to the disk and gives it its name.
+///
+/// `fill` gets the temporary file's path and an open handle to it. When it fails, the temporary file is removed and
+/// `path` is as it was.
+///
+/// # Errors
+/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::Io`].
+pub(crate) fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&Path, &mut File) -> Result<(), FileError>,
+) -> Result<(), FileError> {
+    let io = |action| {
+        move |source| FileError::Io {
+            path: path.to_owned(),
+            action,
+            source,
+        }
+    };
+    // A rename would replace a device such as /dev/null by a file.
+    if path.metadata().is_ok_and(|found| !found.is_file()) {
+        return Err(FileError::NotARegularFile {
+            path: path.to_owned(),
+        });
+    }
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".gearmesh-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // The usual rights under the user's umask instead of a temporary file's 0600.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut temporary = builder
+        .tempfile_in(folder)
+        .map_err(io("create a file beside"))?;
+    let temporary_path = temporary.path().to_owned();
+    fill(&temporary_path, temporary.as_file_mut())?;
+    temporary
+        .as_file()
+        .sync_all()
+        .map_err(io("force to the disk"))?;
+    temporary
+        .persist(path)
+        .map_err(|failed| failed.error)
+        .map_err(io("rename the new file to"))?;
+    // The new name is on the disk only when its folder is. Where folders cannot be opened, the rename still holds.
+    if let Ok(folder) = File::open(folder) {
+        folder
+            .sync_all()
+            .map_err(io("force to the disk the folder of"))?;
+    }
+    Ok(())
+}

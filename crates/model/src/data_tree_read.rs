@@ -1,0 +1,278 @@
+//! Reading a [`DataTree`] from an HDF5 file.
+
+use std::path::Path;
+
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::{File, Group, H5Type, Location};
+
+use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
+use crate::data_tree_file::{DEEPEST_GROUP, OWN_ATTRIBUTES, hdf5_error, missing, wrong_type};
+use crate::file_error::FileError;
+use crate::seal::verify_seal;
+
+impl DataTree {
+    /// Reads a sealed HDF5 file of the given format.
+    ///
+    /// # Errors
+    /// Every kind of [`FileError`] except those about the contents of reduced gears and meshes.
+    pub fn read(path: &Path, format: &FileFormat) -> Result<Self, FileError> {
+        let file_bytes = verify_seal(path)?;
+        let reader = Reader { path, file_bytes };
+        let file = File::with_options()
+            .with_fapl(|access| access.file_locking(false))
+            .open(path)
+            .map_err(hdf5_error(path, "open"))?;
+        let found = reader.text_attribute(&file, "format")?;
+        if found != format.name {
+            return Err(FileError::WrongFormat {
+                path: path.to_owned(),
+                found,
+                expected: format.name,
+            });
+        }
+        let version = reader.number_attribute::<u32>(&file, "formatVersion")?;
+        if version == 0 || version > format.version {
+            return Err(FileError::UnknownVersion {
+                path: path.to_owned(),
+                format: format.name,
+                found: version,
+                newest: format.version,
+            });
+        }
+        let mut tree = Self::default();
+        for name in file
+            .attr_names()
+            .map_err(hdf5_error(path, "list the attributes of"))?
+        {
+            if !OWN_ATTRIBUTES.contains(&name.as_str()) {
+                let text = reader.text_attribute(&file, &name)?;
+                tree.attributes.insert(name, text);
+            }
+        }
+        reader.group(&file, "", 0, &mut tree)?;
+        Ok(tree)
+    }
+}
+
+struct Reader<'a> {
+    path: &'a Path,
+    file_bytes: u64,
+}
+
+impl Reader<'_> {
+    fn group(
+        &self,
+        group: &Group,
+        prefix: &str,
+        depth: usize,
+        tree: &mut DataTree,
+    ) -> Result<(), FileError> {
+        if depth > DEEPEST_GROUP {
+            return Err(FileError::InvalidName {
+                path: self.path.to_owned(),
+                item: "a group",
+                name: prefix.to_owned(),
+                allowed: "at most eight levels of groups are allowed",
+            });
+        }
+        let local_name = |location: &Location| {
+            location
+                .name()
+                .rsplit('/')
+                .next()
+                .unwrap_or_default()
+                .to_owned()
+        };
+        for dataset in group
+            .datasets()
+            .map_err(hdf5_error(self.path, "list the datasets of"))?
+        {
+            let name = format!("{prefix}{}", local_name(&dataset));
+            self.dataset(&dataset, name, tree)?;
+        }
+        for child in group
+            .groups()
+            .map_err(hdf5_error(self.path, "list the groups of"))?
+        {
+            let name = format!("{prefix}{}/", local_name(&child));
+            self.group(&child, &name, depth + 1, tree)?;
+        }
+        Ok(())
+    }
+
+    fn dataset(
+        &self,
+        dataset: &hdf5::Dataset,
+        name: String,
+        tree: &mut DataTree,
+    ) -> Result<(), FileError> {
+        let failed = |error| hdf5_error(self.path, &format!("read \"{name}\" of"))(error);
+        let stored_type = dataset
+            .dtype()
+            .and_then(|stored| stored.to_descriptor())
+            .map_err(failed)?;
+        let shape = dataset.shape();
+        let bytes = shape
+            .iter()
+            .try_fold(stored_type.size() as u64, |bytes, &length| {
+                bytes.checked_mul(length as u64)
+            });
+        if bytes.is_none_or(|bytes| bytes > self.file_bytes) {
+            let (path, file_bytes) = (self.path.to_owned(), self.file_bytes);
+            return Err(FileError::TooLarge {
+                path,
+                item: format!("array \"{name}\""),
+                shape,
+                file_bytes,
+            });
+        }
+        let values = if stored_type == f64::type_descriptor() {
+            Values::F64(dataset.read_raw().map_err(failed)?)
+        } else if stored_type == u32::type_descriptor() {
+            Values::U32(dataset.read_raw().map_err(failed)?)
+        } else if stored_type == TypeDescriptor::VarLenUnicode && shape.is_empty() {
+            let text = dataset.read_scalar::<VarLenUnicode>().map_err(failed)?;
+            tree.texts.insert(name, text.as_str().to_owned());
+            return Ok(());
+        } else {
+            let expected = "64-bit floating point, 32-bit counts or one text";
+            return Err(wrong_type(
+                self.path,
+                &name,
+                &format!("{stored_type}"),
+                expected,
+            ));
+        };
+        let array = DataArray {
+            shape,
+            values,
+            axis_labels: self.axis_labels(dataset)?,
+            unit: self.text_attribute(dataset, "unit")?,
+            unit_si: self.number_attribute(dataset, "unitSI")?,
+            description: self.text_attribute(dataset, "description")?,
+            frame: self.text_attribute(dataset, "frame")?,
+        };
+        tree.arrays.insert(name, array);
+        Ok(())
+    }
+
+    fn axis_labels(&self, dataset: &hdf5::Dataset) -> Result<Vec<String>, FileError> {
+        if dataset.is_scalar() {
+            return Ok(Vec::new());
+        }
+        let labels = dataset
+            .attr("axisLabels")
+            .and_then(|attribute| attribute.read_raw::<VarLenUnicode>());
+        let labels = labels.map_err(|_| self.bad_attribute(dataset, "axisLabels"))?;
+        Ok(labels
+            .iter()
+            .map(|label| label.as_str().to_owned())
+            .collect())
+    }
+
+    fn text_attribute(&self, object: &Location, name: &str) -> Result<String, FileError> {
+        self.number_attribute::<VarLenUnicode>(object, name)
+            .map(|text| text.as_str().to_owned())
+    }
+
+    fn number_attribute<T: H5Type>(&self, object: &Location, name: &str) -> Result<T, FileError> {
+        let value = object
+            .attr(name)
+            .and_then(|attribute| attribute.read_scalar::<T>());
+        value.map_err(|_| self.bad_attribute(object, name))
+    }
+
+    fn bad_attribute(&self, object: &Location, name: &str) -> FileError {
+        missing(
+            self.path,
+            "readable attribute",
+            &format!("{name}\" of \"{}", object.name()),
+        )
+    }
+}
+
+/// Files with a good seal that this writer would never make.
+/// Files with a good seal that the writer would never make.
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::seal::{SEAL_BYTES, write_seal};
+
+    const FORMAT: FileFormat = FileFormat {
+        name: "test",
+        version: 1,
+    };
+
+    fn read_back(make: impl FnOnce(&File)) -> FileError {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("tree.h5");
+        let file = File::with_options()
+            .with_fcpl(|create| create.userblock(SEAL_BYTES))
+            .create(&path)
+            .unwrap();
+        DataTree::default()
+            .fill_open(&path, &file, &FORMAT)
+            .unwrap();
+        make(&file);
+        file.close().unwrap();
+        let mut handle = std::fs::OpenOptions::new()
+            .read(true)
+            .write(true)
+            .open(&path)
+            .unwrap();
+        write_seal(&mut handle, &path).unwrap();
+        DataTree::read(&path, &FORMAT).unwrap_err()
+    }
+
+    #[test]
+    fn a_claimed_size_is_not_allocated() {
+        // Eight terabytes, of which nothing was ever written.
+        let error = read_back(|file| {
+            drop(
+                file.new_dataset::<f64>()
+                    .shape(1_usize << 40)
+                    .create("huge")
+                    .unwrap(),
+            )
+        });
+        assert!(
+            matches!(&error, FileError::TooLarge { shape, .. } if *shape == [1 << 40]),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn other_types_and_bare_arrays_are_named() {
+        let error =
+            read_back(|file| drop(file.new_dataset::<i64>().shape(3).create("signed").unwrap()));
+        assert!(
+            matches!(&error, FileError::WrongType { item, .. } if item.contains("signed")),
+            "{error}"
+        );
+        let error =
+            read_back(|file| drop(file.new_dataset::<f64>().shape(3).create("bare").unwrap()));
+        assert!(
+            matches!(&error, FileError::Missing { item, .. } if item.contains("axisLabels")),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn groups_in_a_circle_end() {
+        let error = read_back(|file| {
+            file.create_group("a").unwrap();
+            file.link_hard("a", "a/a").unwrap();
+        });
+        assert!(
+            matches!(
+                error,
+                FileError::InvalidName {
+                    item: "a group",
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+}

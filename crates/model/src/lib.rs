@@ -1,0 +1,43 @@
+//! The contract between the offline and the online side, and every HDF5 file of gearmesh.
+//!
+//! | to store | use |
+//! | --- | --- |
+//! | a reduced gear (compliance, gauges, provenance) | [`ReducedGear`], [`write_reduced_gear`], [`read_reduced_gear`] |
+//! | a hexahedral mesh with sets and fields | [`MeshData`], [`write_mesh`], [`read_mesh`] |
+//! | anything else made of named arrays (a result, a strain record) | [`DataTree`] with a [`FileFormat`] of your own |
+//!
+//! All three are the same kind of file: HDF5 with named arrays that carry their unit, axis labels and description,
+//! root attributes `format`, `formatVersion`, `software`, `softwareVersion` and `date`, and a seal (size and BLAKE3
+//! digest of the bytes) in the HDF5 user block. Writing is atomic: the file appears complete under its name, or the old one
+//! stays. Reading checks the seal before libhdf5 parses a byte, so that a truncated or altered file is a typed
+//! [`FileError`] and never a wrong number.
+//!
+//! No other crate calls HDF5.
+
+mod atomic_file;
+mod data_tree;
+mod data_tree_file;
+mod data_tree_read;
+mod data_tree_take;
+mod data_tree_write;
+mod file_error;
+mod mesh_data;
+mod mesh_file;
+mod reduced_gear;
+mod reduced_gear_check;
+mod reduced_gear_error;
+mod reduced_gear_file;
+mod seal;
+#[doc(hidden)]
+pub mod synthetic;
+mod timestamp;
+
+pub use data_tree::{DataArray, DataTree, FileFormat, Values};
+pub use file_error::FileError;
+pub use mesh_data::{Field, MeshData, MeshDataError};
+pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
+pub use reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+pub use reduced_gear_error::ReducedGearError;
+pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
+pub use seal::file_digest;
+pub use timestamp::utc_now;

@@ -1,0 +1,337 @@
+//! A gear body condensed to unit loads on its flanks: what the online side knows of the finite element model.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use crate::reduced_gear_error::ReducedGearError;
+
+/// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Flank {
+    /// Faces clockwise; a load on it turns the gear counter-clockwise.
+    Right,
+    /// Faces counter-clockwise; a load on it turns the gear clockwise.
+    Left,
+}
+
+impl fmt::Display for Flank {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        })
+    }
+}
+
+/// The points of a flank at which unit loads act. Loads are numbered roll-major: load = roll station · `z_m.len()` +
+/// axial station. Between the points a load is spread by hat functions in roll angle and z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankGrid {
+    /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²).
+    pub roll_angles_rad: Vec<f64>,
+    /// Axial positions of the stations, increasing; zero at mid-face.
+    pub z_m: Vec<f64>,
+    /// Slices across the face width that the grid was made for.
+    pub slices: usize,
+}
+
+impl FlankGrid {
+    /// Number of unit loads on one flank.
+    pub fn len(&self) -> usize {
+        self.roll_angles_rad.len() * self.z_m.len()
+    }
+
+    /// Whether the grid has no points; never true for a valid reduced gear.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of the unit load at a roll station and an axial station.
+    pub fn load(&self, roll_station: usize, axial_station: usize) -> usize {
+        roll_station * self.z_m.len() + axial_station
+    }
+}
+
+/// What a strain gauge reads per unit load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaugeRows {
+    /// Name by which results list it.
+    pub name: String,
+    /// Tooth it sits on.
+    pub tooth: usize,
+    /// Side of that tooth.
+    pub side: Flank,
+    /// Position and size in words.
+    pub description: String,
+    /// Estimated relative discretisation error of its strain.
+    pub error_estimate_relative: f64,
+    /// Strain per newton (1/N), `[tooth][flank][load][component]`; components: inward normal, profile tangential
+    /// towards the tip, axial +z. (K⁻¹g)ᵀN, method 2 of seed 004.
+    pub adjoint: Vec<f64>,
+    /// Strain per newton (1/N), `[flank][load]`: gᵀW for normal loads on the gauge's own tooth. Method 1 is the normal
+    /// component of `adjoint` less this on the own tooth.
+    pub own_tooth: Vec<f64>,
+}
+
+/// Where a reduced gear comes from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Provenance {
+    /// Program that reduced the gear.
+    pub program: String,
+    /// Its version.
+    pub version: String,
+    /// When, UTC, ISO 8601; see [`crate::utc_now`].
+    pub created_utc: String,
+    /// Threads used; sums in parallel loops may differ in their last bits between thread counts.
+    pub threads: usize,
+    /// Finite element, for example `"hex8-incompatible"`.
+    pub element: String,
+    /// Nodes of the finite element model.
+    pub nodes: usize,
+    /// Elements of the model.
+    pub elements: usize,
+    /// Free degrees of freedom of the model.
+    pub dofs: usize,
+    /// Wall-clock time of each stage in seconds, in the order they ran.
+    pub stage_seconds: Vec<(String, f64)>,
+}
+
+/// Errors of identities that hold exactly in exact arithmetic, relative, as measured during the reduction.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReductionChecks {
+    /// ‖C_hub − C_hubᵀ‖ / ‖C_hub‖ (Betti's reciprocity).
+    pub symmetry: f64,
+    /// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖.
+    pub pattern_identity: f64,
+    /// Further checks by name, for example the residual of the solution.
+    pub further: Vec<(String, f64)>,
+}
+
+/// A reduced gear body: linear compliance of all flanks, gauges, and where they come from.
+///
+/// With f = `flanks.len()` hands that carry loads, L = `grid.len()` loads a flank, z = `teeth` and N = `sectors`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReducedGear {
+    /// Name of the gear.
+    pub name: String,
+    /// The gear definition it was made from, word for word.
+    pub input_toml: String,
+    /// Number of teeth z.
+    pub teeth: usize,
+    /// The body repeats N times around; a divisor of z.
+    pub sectors: usize,
+    /// Base circle radius r_b.
+    pub base_radius_m: f64,
+    /// Face width.
+    pub face_width_m: f64,
+    /// Young's modulus.
+    pub young_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Load points, the same on every flank.
+    pub grid: FlankGrid,
+    /// Hands of flank that carry loads; the index into this list is the flank index of all arrays.
+    pub flanks: Vec<Flank>,
+    /// C_hub in m/N, `[load tooth in sector z/N][load flank f][response tooth z][response flank f][load L][response L]`:
+    /// deflection along the inward normal at the response point for a unit force along the inward normal at the load
+    /// point, hub held. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
+    pub c_hub: Vec<f64>,
+    /// C_tooth in m/N, `[flank f][load L][response L]`: the same on the tooth-only submodel, equal for all teeth.
+    pub c_tooth: Vec<f64>,
+    /// `[flank f][roll station]`: distance along the normal to the opposite side of the tooth in metres, the h of the
+    /// Weber-Banaschek local term.
+    pub opposite_distance_m: Vec<f64>,
+    /// Strain gauges.
+    pub gauges: Vec<GaugeRows>,
+    /// Where it comes from.
+    pub provenance: Provenance,
+    /// How well the reduction fulfilled its identities.
+    pub checks: ReductionChecks,
+}
+
+impl ReducedGear {
+    /// Teeth in one sector.
+    pub fn teeth_per_sector(&self) -> usize {
+        self.teeth / self.sectors
+    }
+
+    /// Index of a hand in `flanks` and in all arrays.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::FlankNotReduced`] if that hand carries no loads.
+    pub fn flank_index(&self, flank: Flank) -> Result<usize, ReducedGearError> {
+        self.flanks
+            .iter()
+            .position(|&reduced| reduced == flank)
+            .ok_or_else(|| ReducedGearError::FlankNotReduced {
+                gear: self.name.clone(),
+                missing: flank,
+            })
+    }
+
+    /// C_hub between two flanks in m/N, `[load L][response L]`. Any two teeth; a load on tooth s·z/N + r acts as one on
+    /// tooth r with all teeth renumbered by s sectors. No allocation.
+    ///
+    /// # Panics
+    /// If a tooth does not exist or a hand carries no loads (ask [`ReducedGear::flank_index`] once beforehand).
+    pub fn c_hub_block(
+        &self,
+        load_tooth: usize,
+        load_flank: Flank,
+        response_tooth: usize,
+        response_flank: Flank,
+    ) -> &[f64] {
+        let (load_flank, response_flank) =
+            (self.carrying(load_flank), self.carrying(response_flank));
+        let teeth = self.teeth;
+        assert!(
+            load_tooth < teeth && response_tooth < teeth,
+            "teeth {load_tooth}, {response_tooth} of {teeth}"
+        );
+        let tooth_in_sector = load_tooth % self.teeth_per_sector();
+        let response = (response_tooth + teeth - (load_tooth - tooth_in_sector)) % teeth;
+        let flanks = self.flanks.len();
+        let block =
+            ((tooth_in_sector * flanks + load_flank) * teeth + response) * flanks + response_flank;
+        let size = self.grid.len() * self.grid.len();
+        &self.c_hub[block * size..(block + 1) * size]
+    }
+
+    /// C_tooth of a hand of flank in m/N, `[load L][response L]`.
+    ///
+    /// # Panics
+    /// If the hand carries no loads.
+    pub fn c_tooth_block(&self, flank: Flank) -> &[f64] {
+        let flank = self.carrying(flank);
+        let size = self.grid.len() * self.grid.len();
+        &self.c_tooth[flank * size..(flank + 1) * size]
+    }
+
+    /// C_g between two flanks in m/N, `[load L][response L]`: C_hub − C_tooth on the own tooth and own flank, C_hub
+    /// elsewhere. Allocates only where it subtracts.
+    ///
+    /// # Panics
+    /// As [`ReducedGear::c_hub_block`].
+    pub fn c_g_block(
+        &self,
+        load_tooth: usize,
+        load_flank: Flank,
+        response_tooth: usize,
+        response_flank: Flank,
+    ) -> Cow<'_, [f64]> {
+        let hub = self.c_hub_block(load_tooth, load_flank, response_tooth, response_flank);
+        if load_tooth != response_tooth || load_flank != response_flank {
+            return Cow::Borrowed(hub);
+        }
+        let tooth = self.c_tooth_block(load_flank);
+        Cow::Owned(
+            hub.iter()
+                .zip(tooth)
+                .map(|(hub, tooth)| hub - tooth)
+                .collect(),
+        )
+    }
+
+    /// Distance along the normal to the opposite side of the tooth, one value a roll station, in metres.
+    ///
+    /// # Panics
+    /// If the hand carries no loads.
+    pub fn opposite_distances_m(&self, flank: Flank) -> &[f64] {
+        let flank = self.carrying(flank);
+        let stations = self.grid.roll_angles_rad.len();
+        &self.opposite_distance_m[flank * stations..(flank + 1) * stations]
+    }
+
+    fn carrying(&self, flank: Flank) -> usize {
+        let index = self.flanks.iter().position(|&reduced| reduced == flank);
+        assert!(
+            index.is_some(),
+            "gear \"{}\" was not reduced for loads on its {flank} flanks",
+            self.name
+        );
+        index.unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::synthetic::small_reduced_gear;
+
+    /// Entry of the full matrix by its definition in [`small_reduced_gear`], without the storage scheme.
+    fn entry(
+        gear: &ReducedGear,
+        load: (usize, Flank),
+        response: (usize, Flank),
+        l: usize,
+        m: usize,
+    ) -> f64 {
+        gear.c_hub_block(load.0, load.1, response.0, response.1)[l * gear.grid.len() + m]
+    }
+
+    #[test]
+    fn blocks_rotate_by_whole_sectors() {
+        let gear = small_reduced_gear();
+        let step = gear.teeth_per_sector();
+        let (right, left) = (Flank::Right, Flank::Left);
+        for load in 0..gear.teeth {
+            for response in 0..gear.teeth {
+                let turned = ((load + step) % gear.teeth, (response + step) % gear.teeth);
+                assert_eq!(
+                    gear.c_hub_block(load, right, response, left),
+                    gear.c_hub_block(turned.0, right, turned.1, left)
+                );
+            }
+        }
+        // Not by single teeth: the two teeth of a sector differ.
+        assert_ne!(
+            gear.c_hub_block(0, right, 0, right),
+            gear.c_hub_block(1, right, 1, right)
+        );
+    }
+
+    #[test]
+    fn full_matrix_is_symmetric() {
+        let gear = small_reduced_gear();
+        for (a, fa, b, fb) in [
+            (0, Flank::Right, 3, Flank::Left),
+            (5, Flank::Left, 2, Flank::Left),
+            (1, Flank::Right, 4, Flank::Right),
+        ] {
+            for (l, m) in [(0, 0), (0, 5), (3, 1)] {
+                let there = entry(&gear, (a, fa), (b, fb), l, m);
+                let back = entry(&gear, (b, fb), (a, fa), m, l);
+                assert!(
+                    (there - back).abs() <= 1e-15 * there.abs(),
+                    "{there} {back}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn c_g_subtracts_the_tooth_on_own_tooth_and_flank_only() {
+        let gear = small_reduced_gear();
+        let own = gear.c_g_block(4, Flank::Left, 4, Flank::Left);
+        let hub = gear.c_hub_block(4, Flank::Left, 4, Flank::Left);
+        let tooth = gear.c_tooth_block(Flank::Left);
+        assert!((0..own.len()).all(|i| own[i] == hub[i] - tooth[i]) && tooth[0] > 0.0);
+        assert!(matches!(
+            gear.c_g_block(4, Flank::Left, 4, Flank::Right),
+            Cow::Borrowed(_)
+        ));
+        assert!(matches!(
+            gear.c_g_block(4, Flank::Left, 3, Flank::Left),
+            Cow::Borrowed(_)
+        ));
+    }
+
+    #[test]
+    fn a_hand_without_loads_is_an_error() {
+        let mut gear = small_reduced_gear();
+        gear.flanks = vec![Flank::Right];
+        let message = gear.flank_index(Flank::Left).unwrap_err().to_string();
+        assert!(message.contains("left flanks"), "{message}");
+    }
+}

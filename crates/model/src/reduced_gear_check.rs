@@ -1,0 +1,260 @@
+//! Checks that a reduced gear does not contradict itself.
+
+use std::fmt;
+
+use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_error::ReducedGearError;
+
+impl ReducedGear {
+    /// Checks counts, ranges, lengths of all arrays and that every number is finite.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::OutOfRange`], [`ReducedGearError::WrongLength`], [`ReducedGearError::NotFinite`].
+    pub fn validate(&self) -> Result<(), ReducedGearError> {
+        self.check_counts()?;
+        self.check_quantities()?;
+        let (teeth, flanks, loads) = (self.teeth, self.flanks.len(), self.grid.len());
+        let own = self.teeth_per_sector();
+        let expected = own * flanks * teeth * flanks * loads * loads;
+        check_array(
+            "c_hub",
+            &self.c_hub,
+            expected,
+            "teeth/sectors * flanks * teeth * flanks * loads * loads",
+        )?;
+        check_array(
+            "c_tooth",
+            &self.c_tooth,
+            flanks * loads * loads,
+            "flanks * loads * loads",
+        )?;
+        let stations = self.grid.roll_angles_rad.len();
+        check_array(
+            "opposite_distance_m",
+            &self.opposite_distance_m,
+            flanks * stations,
+            "flanks * roll stations",
+        )?;
+        in_range(
+            "the smallest opposite_distance_m",
+            smallest(&self.opposite_distance_m),
+            |h| h > 0.0,
+            "above 0 m",
+        )?;
+        for (index, gauge) in self.gauges.iter().enumerate() {
+            let name = &gauge.name;
+            if gauge.tooth >= teeth {
+                return Err(out_of_range(
+                    &format!("the tooth of gauge \"{name}\""),
+                    gauge.tooth,
+                    "less than teeth",
+                ));
+            }
+            if self.gauges[..index].iter().any(|other| other.name == *name) || name.is_empty() {
+                return Err(out_of_range(
+                    "a gauge name",
+                    format!("\"{name}\""),
+                    "unique and not empty",
+                ));
+            }
+            let item = format!("error_estimate_relative of gauge \"{name}\"");
+            in_range(
+                &item,
+                gauge.error_estimate_relative,
+                |e| e >= 0.0 && e.is_finite(),
+                "finite and not negative",
+            )?;
+            let item = format!("adjoint of gauge \"{name}\"");
+            check_array(
+                &item,
+                &gauge.adjoint,
+                teeth * flanks * loads * 3,
+                "teeth * flanks * loads * 3",
+            )?;
+            let item = format!("own_tooth of gauge \"{name}\"");
+            check_array(&item, &gauge.own_tooth, flanks * loads, "flanks * loads")?;
+        }
+        let times = self
+            .provenance
+            .stage_seconds
+            .iter()
+            .chain(&self.checks.further);
+        for (name, value) in times {
+            in_range(name, *value, f64::is_finite, "finite")?;
+        }
+        in_range(
+            "the symmetry check",
+            self.checks.symmetry,
+            f64::is_finite,
+            "finite",
+        )?;
+        in_range(
+            "the pattern identity check",
+            self.checks.pattern_identity,
+            f64::is_finite,
+            "finite",
+        )
+    }
+
+    fn check_counts(&self) -> Result<(), ReducedGearError> {
+        if self.teeth == 0 || u32::try_from(self.teeth).is_err() {
+            return Err(out_of_range("teeth", self.teeth, "at least 1"));
+        }
+        if self.sectors == 0 || !self.teeth.is_multiple_of(self.sectors) {
+            return Err(out_of_range("sectors", self.sectors, "a divisor of teeth"));
+        }
+        let twice = self.flanks.len() == 2 && self.flanks[0] == self.flanks[1];
+        if self.flanks.is_empty() || self.flanks.len() > 2 || twice {
+            return Err(out_of_range(
+                "flanks",
+                format!("{:?}", self.flanks),
+                "one hand or both, each once",
+            ));
+        }
+        if self.grid.slices == 0 {
+            return Err(out_of_range("slices", 0, "at least 1"));
+        }
+        Ok(())
+    }
+
+    fn check_quantities(&self) -> Result<(), ReducedGearError> {
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        in_range("base_radius_m", self.base_radius_m, positive, "above 0 m")?;
+        in_range("face_width_m", self.face_width_m, positive, "above 0 m")?;
+        in_range("young_pa", self.young_pa, positive, "above 0 Pa")?;
+        in_range(
+            "poisson",
+            self.poisson,
+            |nu| nu > -1.0 && nu < 0.5,
+            "between -1 and 0.5",
+        )?;
+        check_stations("grid.roll_angles_rad", &self.grid.roll_angles_rad)?;
+        check_stations("grid.z_m", &self.grid.z_m)?;
+        in_range(
+            "the first of grid.roll_angles_rad",
+            self.grid.roll_angles_rad[0],
+            |xi| xi >= 0.0,
+            "at least 0 rad",
+        )?;
+        // A nanometre of rounding is allowed at the edges of the face.
+        let half_width = 0.5 * self.face_width_m + 1e-9;
+        let inside = |z: f64| z.abs() <= half_width;
+        in_range(
+            "the first of grid.z_m",
+            self.grid.z_m[0],
+            inside,
+            "on the face width",
+        )?;
+        in_range(
+            "the last of grid.z_m",
+            self.grid.z_m[self.grid.z_m.len() - 1],
+            inside,
+            "on the face width",
+        )
+    }
+}
+
+fn out_of_range(item: &str, found: impl fmt::Display, allowed: &'static str) -> ReducedGearError {
+    ReducedGearError::OutOfRange {
+        item: item.to_owned(),
+        found: found.to_string(),
+        allowed,
+    }
+}
+
+fn in_range(
+    item: &str,
+    value: f64,
+    holds: impl Fn(f64) -> bool,
+    allowed: &'static str,
+) -> Result<(), ReducedGearError> {
+    if holds(value) {
+        Ok(())
+    } else {
+        Err(out_of_range(item, value, allowed))
+    }
+}
+
+fn check_array(
+    item: &str,
+    values: &[f64],
+    expected: usize,
+    formula: &'static str,
+) -> Result<(), ReducedGearError> {
+    if values.len() != expected {
+        return Err(ReducedGearError::WrongLength {
+            item: item.to_owned(),
+            found: values.len(),
+            expected,
+            formula,
+        });
+    }
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(index) => Err(ReducedGearError::NotFinite {
+            item: item.to_owned(),
+            index,
+            value: values[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// At least two finite values, strictly increasing.
+fn check_stations(item: &str, values: &[f64]) -> Result<(), ReducedGearError> {
+    check_array(item, values, values.len(), "any number")?;
+    if values.len() < 2 || values.windows(2).any(|pair| pair[0] >= pair[1]) {
+        return Err(out_of_range(
+            item,
+            format!("{values:?}"),
+            "at least two strictly increasing values",
+        ));
+    }
+    Ok(())
+}
+
+fn smallest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::reduced_gear::Flank;
+    use crate::synthetic::small_reduced_gear;
+
+    #[test]
+    fn every_wrong_figure_is_found() {
+        let gear = small_reduced_gear();
+        gear.validate().unwrap();
+        type Change = fn(&mut ReducedGear);
+        let spoil: [(&str, Change); 16] = [
+            ("teeth", |g| g.teeth = 0),
+            ("sectors", |g| g.sectors = 4),
+            ("flanks", |g| g.flanks = vec![Flank::Left, Flank::Left]),
+            ("slices", |g| g.grid.slices = 0),
+            ("base_radius_m", |g| g.base_radius_m = -1.0),
+            ("young_pa", |g| g.young_pa = f64::INFINITY),
+            ("poisson", |g| g.poisson = 0.5),
+            ("grid.roll_angles_rad", |g| g.grid.roll_angles_rad[1] = 0.0),
+            ("grid.z_m", |g| g.grid.z_m[0] = -1.0),
+            ("c_hub", |g| g.c_hub.truncate(7)),
+            ("c_hub", |g| g.c_hub[7] = f64::NAN),
+            ("c_tooth", |g| g.c_tooth[0] = f64::INFINITY),
+            ("opposite_distance_m", |g| g.opposite_distance_m[0] = 0.0),
+            ("tooth of gauge", |g| g.gauges[0].tooth = 6),
+            ("gauge name", |g| {
+                g.gauges[1].name = g.gauges[0].name.clone()
+            }),
+            ("adjoint of gauge \"root\"", |g| {
+                g.gauges[0].adjoint[0] = f64::NAN
+            }),
+        ];
+        for (item, change) in spoil {
+            let mut spoiled = gear.clone();
+            change(&mut spoiled);
+            let message = spoiled.validate().unwrap_err().to_string();
+            assert!(message.contains(item), "{item}: {message}");
+        }
+    }
+}

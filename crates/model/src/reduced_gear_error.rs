@@ -1,0 +1,55 @@
+//! What can be wrong with a reduced gear.
+
+use thiserror::Error;
+
+use crate::reduced_gear::Flank;
+
+/// A reduced gear that contradicts itself.
+#[derive(Debug, Clone, Error, PartialEq)]
+pub enum ReducedGearError {
+    /// A count or quantity outside its range.
+    #[error("{item} is {found}, but must be {allowed}; reduce the gear again")]
+    OutOfRange {
+        /// The quantity.
+        item: String,
+        /// Its value.
+        found: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// An array has the wrong number of values.
+    #[error(
+        "{item} has {found} values, but {expected} are needed ({formula}); reduce the gear again"
+    )]
+    WrongLength {
+        /// The array.
+        item: String,
+        /// How many values it has.
+        found: usize,
+        /// How many it must have.
+        expected: usize,
+        /// How that number comes about.
+        formula: &'static str,
+    },
+    /// A value is not a finite number.
+    #[error("{item} holds {value} at index {index}; all must be finite: reduce the gear again")]
+    NotFinite {
+        /// The array.
+        item: String,
+        /// Where.
+        index: usize,
+        /// What is there.
+        value: f64,
+    },
+    /// The gear was reduced for the other hand of flank only.
+    #[error(
+        "gear \"{gear}\" was not reduced for loads on its {missing} flanks; add that hand to the gear's file and \
+        reduce it again"
+    )]
+    FlankNotReduced {
+        /// The gear.
+        gear: String,
+        /// The flank that carries no loads.
+        missing: Flank,
+    },
+}

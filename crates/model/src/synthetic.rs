@@ -1,0 +1,138 @@
+//! Small made-up objects for the tests of several crates and of the Python module. Not results of any computation.
+
+use std::collections::BTreeMap;
+
+use crate::mesh_data::{Field, MeshData};
+use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+
+/// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
+pub fn small_reduced_gear() -> ReducedGear {
+    let (teeth, sectors) = (6, 3);
+    let own = teeth / sectors;
+    let flanks = vec![Flank::Right, Flank::Left];
+    let grid = FlankGrid {
+        roll_angles_rad: vec![0.2, 0.35, 0.5],
+        z_m: vec![-0.01, 0.0, 0.01],
+        slices: 1,
+    };
+    let loads = grid.len();
+    // Teeth of even number are stiffer, as those over a spoke are. Symmetric in its two triples by construction.
+    let compliance = |a: (usize, usize, usize), b: (usize, usize, usize)| {
+        let around = (a.0 + teeth - b.0) % teeth;
+        let apart = around.min(teeth - around) as f64;
+        let weight = |t: (usize, usize, usize)| 1.0 + 0.3 * (t.0 % own) as f64 + 0.1 * t.2 as f64;
+        let same_side = if a.1 == b.1 { 1.0 } else { -0.4 };
+        1e-9 * same_side
+            * weight(a)
+            * weight(b)
+            * (-apart - 0.2 * (a.2 as f64 - b.2 as f64).abs()).exp()
+    };
+    let mut c_hub = Vec::new();
+    for load_tooth in 0..own {
+        for load_flank in 0..2 {
+            for response_tooth in 0..teeth {
+                for response_flank in 0..2 {
+                    for l in 0..loads {
+                        let load = (load_tooth, load_flank, l);
+                        c_hub.extend(
+                            (0..loads)
+                                .map(|m| compliance(load, (response_tooth, response_flank, m))),
+                        );
+                    }
+                }
+            }
+        }
+    }
+    let pair = |i: usize| (i / loads % loads, i % loads);
+    let c_tooth = (0..2 * loads * loads)
+        .map(|i| 2e-10 * (-(pair(i).0 as f64 - pair(i).1 as f64).abs()).exp())
+        .collect();
+    let gauge = |name: &str, tooth: usize, side: Flank| GaugeRows {
+        name: name.to_owned(),
+        tooth,
+        side,
+        description: format!("made up, {side} side of tooth {tooth}"),
+        error_estimate_relative: 0.01,
+        adjoint: (0..teeth * 2 * loads * 3)
+            .map(|i| 1e-9 * (i as f64).sin())
+            .collect(),
+        own_tooth: (0..2 * loads).map(|i| 1e-10 * (i as f64).cos()).collect(),
+    };
+    ReducedGear {
+        name: "synthetic".to_owned(),
+        input_toml: "# made up\nname = \"synthetic\"\nnote = \"α = 20°\"\n".to_owned(),
+        teeth,
+        sectors,
+        base_radius_m: 0.07,
+        face_width_m: 0.02,
+        young_pa: 210e9,
+        poisson: 0.3,
+        grid,
+        flanks,
+        c_hub,
+        c_tooth,
+        opposite_distance_m: vec![0.004, 0.003, 0.002, 0.0041, 0.0031, 0.0021],
+        gauges: vec![
+            gauge("root", 0, Flank::Right),
+            gauge("opposite", 3, Flank::Left),
+        ],
+        provenance: Provenance {
+            program: "gearmesh".to_owned(),
+            version: "0.0.0".to_owned(),
+            created_utc: "2000-01-01T00:00:00Z".to_owned(),
+            threads: 2,
+            element: "none".to_owned(),
+            nodes: 12,
+            elements: 2,
+            dofs: 24,
+            stage_seconds: vec![("mesh".to_owned(), 0.5), ("assemble".to_owned(), 0.25)],
+        },
+        checks: ReductionChecks {
+            symmetry: 1e-16,
+            pattern_identity: 2e-12,
+            further: vec![("residual".to_owned(), 3e-13)],
+        },
+    }
+}
+
+/// Two bricks side by side in x with a node set and a field.
+pub fn block_mesh() -> MeshData {
+    let index = |i: u32, j: u32, k: u32| i + 3 * (j + 2 * k);
+    let mut points = Vec::new();
+    for k in 0..2 {
+        for j in 0..2 {
+            for i in 0..3 {
+                points.push([
+                    0.001 * f64::from(i) / 3.0,
+                    0.002 * f64::from(j),
+                    0.1 + 0.003 * f64::from(k),
+                ]);
+            }
+        }
+    }
+    let hex = |i: u32| {
+        let ring = |k| {
+            [
+                index(i, 0, k),
+                index(i + 1, 0, k),
+                index(i + 1, 1, k),
+                index(i, 1, k),
+            ]
+        };
+        let ([a, b, c, d], [e, f, g, h]) = (ring(0), ring(1));
+        [a, b, c, d, e, f, g, h]
+    };
+    let displacement = (0..36).map(|i| 1e-6 * f64::from(i).sqrt()).collect();
+    let field = Field {
+        components: 3,
+        values: displacement,
+        unit: "m".to_owned(),
+    };
+    MeshData {
+        points,
+        hexes: vec![hex(0), hex(1)],
+        point_sets: BTreeMap::from([("bore".to_owned(), vec![0, 3, 6, 9])]),
+        point_fields: BTreeMap::from([("displacement".to_owned(), field)]),
+        cell_fields: BTreeMap::new(),
+    }
+}

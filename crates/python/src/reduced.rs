@@ -1,0 +1,121 @@
+//! Reduced gears as NumPy arrays.
+
+use std::path::PathBuf;
+
+use gearmesh_model::{GaugeRows, ReducedGear};
+use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::errors::file_error;
+
+/// Reads a reduced gear into a dict of NumPy arrays and numbers, SI units.
+///
+/// c_hub has the axes load tooth in sector, load flank, response tooth, response flank, load, response (m/N); c_tooth
+/// flank, load, response. A load is roll station * len(z_m) + axial station. gauges is a list of dicts with adjoint
+/// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N.
+#[pyfunction]
+pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
+    let gear = py
+        .detach(|| gearmesh_model::read_reduced_gear(&path))
+        .map_err(file_error)?;
+    let (teeth, hands, loads) = (gear.teeth, gear.flanks.len(), gear.grid.len());
+    let (own, stations) = (gear.teeth_per_sector(), gear.grid.roll_angles_rad.len());
+    let result = PyDict::new(py);
+    let gauges = gear
+        .gauges
+        .iter()
+        .map(|gauge| gauge_dict(py, &gear, gauge))
+        .collect::<PyResult<Vec<_>>>()?;
+    result.set_item("gauges", PyList::new(py, gauges)?)?;
+    result.set_item("name", gear.name)?;
+    result.set_item("input_toml", gear.input_toml)?;
+    result.set_item("teeth", teeth)?;
+    result.set_item("sectors", gear.sectors)?;
+    result.set_item("base_radius_m", gear.base_radius_m)?;
+    result.set_item("face_width_m", gear.face_width_m)?;
+    result.set_item("young_pa", gear.young_pa)?;
+    result.set_item("poisson", gear.poisson)?;
+    result.set_item(
+        "roll_angles_rad",
+        PyArray1::from_vec(py, gear.grid.roll_angles_rad),
+    )?;
+    result.set_item("z_m", PyArray1::from_vec(py, gear.grid.z_m))?;
+    result.set_item("slices", gear.grid.slices)?;
+    result.set_item(
+        "flanks",
+        gear.flanks
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>(),
+    )?;
+    result.set_item(
+        "c_hub",
+        shaped(py, gear.c_hub, vec![own, hands, teeth, hands, loads, loads])?,
+    )?;
+    result.set_item(
+        "c_tooth",
+        shaped(py, gear.c_tooth, vec![hands, loads, loads])?,
+    )?;
+    result.set_item(
+        "opposite_distance_m",
+        shaped(py, gear.opposite_distance_m, vec![hands, stations])?,
+    )?;
+    let provenance = PyDict::new(py);
+    provenance.set_item("program", gear.provenance.program)?;
+    provenance.set_item("version", gear.provenance.version)?;
+    provenance.set_item("created_utc", gear.provenance.created_utc)?;
+    provenance.set_item("threads", gear.provenance.threads)?;
+    provenance.set_item("element", gear.provenance.element)?;
+    provenance.set_item("nodes", gear.provenance.nodes)?;
+    provenance.set_item("elements", gear.provenance.elements)?;
+    provenance.set_item("dofs", gear.provenance.dofs)?;
+    provenance.set_item("stage_seconds", gear.provenance.stage_seconds)?;
+    result.set_item("provenance", provenance)?;
+    let checks = PyDict::new(py);
+    checks.set_item("symmetry", gear.checks.symmetry)?;
+    checks.set_item("pattern_identity", gear.checks.pattern_identity)?;
+    for (name, value) in gear.checks.further {
+        checks.set_item(name, value)?;
+    }
+    result.set_item("checks", checks)?;
+    Ok(result)
+}
+
+fn gauge_dict<'py>(
+    py: Python<'py>,
+    gear: &ReducedGear,
+    gauge: &GaugeRows,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (teeth, hands, loads) = (gear.teeth, gear.flanks.len(), gear.grid.len());
+    let result = PyDict::new(py);
+    result.set_item("name", &gauge.name)?;
+    result.set_item("tooth", gauge.tooth)?;
+    result.set_item("side", gauge.side.to_string())?;
+    result.set_item("description", &gauge.description)?;
+    result.set_item("error_estimate_relative", gauge.error_estimate_relative)?;
+    result.set_item(
+        "adjoint",
+        shaped(py, gauge.adjoint.clone(), vec![teeth, hands, loads, 3])?,
+    )?;
+    result.set_item(
+        "own_tooth",
+        shaped(py, gauge.own_tooth.clone(), vec![hands, loads])?,
+    )?;
+    Ok(result)
+}
+
+fn shaped<T: Element>(
+    py: Python<'_>,
+    values: Vec<T>,
+    shape: Vec<usize>,
+) -> PyResult<Bound<'_, PyArrayDyn<T>>> {
+    PyArray1::from_vec(py, values).reshape(shape)
+}
+
+/// Writes a made-up reduced gear, for tests of programs that read such files.
+#[pyfunction]
+pub(crate) fn _write_synthetic_reduced(path: PathBuf) -> PyResult<()> {
+    gearmesh_model::write_reduced_gear(&path, &gearmesh_model::synthetic::small_reduced_gear())
+        .map_err(file_error)
+}

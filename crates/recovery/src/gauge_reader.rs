@@ -1,0 +1,128 @@
+//! One gauge of one gear, ready to be read for any forces on contact lines.
+
+use gearmesh_contact::slice_compliance::{AXIAL_SHARES, centroids, roll_place};
+use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
+
+/// Forces on one contact line of this gear.
+#[derive(Debug, Clone, Copy)]
+pub struct LoadedLine<'a> {
+    /// Tooth of this gear.
+    pub tooth: usize,
+    /// Roll angle on this gear \[rad\].
+    pub roll_rad: f64,
+    /// Tangential over normal force, positive towards this gear's tip.
+    pub friction_ratio: f64,
+    /// Normal force of each slice \[N\].
+    pub forces_n: &'a [f64],
+}
+
+/// Strain by both methods, dimensionless, positive in tension.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Strain {
+    /// Patterns and participation factors; normal forces only.
+    pub method_1: f64,
+    /// True loads on the finite element model; friction included.
+    pub method_2: f64,
+}
+
+/// A gauge's rows condensed to slices: strain per newton on a slice at a roll station.
+#[derive(Debug, Clone)]
+pub struct GaugeReader {
+    /// Name of the gauge.
+    pub name: String,
+    slices: usize,
+    stations: usize,
+    centroids_rad: Vec<f64>,
+    /// `[tooth][station][slice]` of (method 1 normal, method 2 normal, method 2 tangential).
+    rows: Vec<[f64; 3]>,
+}
+
+impl GaugeReader {
+    /// Condenses a gauge of a model for loads on one hand of flank.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads there.
+    pub fn new(model: &ReducedGear, gauge: &GaugeRows, flank: Flank) -> Result<Self, ReducedGearError> {
+        let f = model.flank_index(flank)?;
+        let grid = &model.grid;
+        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
+        let mut rows = Vec::with_capacity(model.teeth * stations * slices);
+        for tooth in 0..model.teeth {
+            for station in 0..stations {
+                for slice in 0..slices {
+                    let mut row = [0.0; 3];
+                    for (k, share) in AXIAL_SHARES.iter().enumerate() {
+                        let load = grid.load(station, 2 * slice + k);
+                        let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
+                        let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
+                        let local = if tooth == gauge.tooth { gauge.own_tooth[f * loads + load] } else { 0.0 };
+                        row[0] += share * (normal - local);
+                        row[1] += share * normal;
+                        row[2] += share * tangential;
+                    }
+                    rows.push(row);
+                }
+            }
+        }
+        Ok(Self {
+            name: gauge.name.clone(),
+            slices,
+            stations,
+            centroids_rad: centroids(&grid.roll_angles_rad),
+            rows,
+        })
+    }
+
+    /// Strain under the forces on all contact lines: a few dozen multiplications.
+    pub fn read<'a>(&self, lines: impl IntoIterator<Item = LoadedLine<'a>>) -> Strain {
+        let mut strain = Strain::default();
+        for line in lines {
+            let place = roll_place(&self.centroids_rad, line.roll_rad);
+            for (station, weight) in [(place.station, 1.0 - place.share), (place.station + 1, place.share)] {
+                let first = (line.tooth * self.stations + station) * self.slices;
+                for (row, force) in self.rows[first..first + self.slices].iter().zip(line.forces_n) {
+                    strain.method_1 += weight * force * row[0];
+                    strain.method_2 += weight * force * (row[1] + line.friction_ratio * row[2]);
+                }
+            }
+        }
+        strain
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use gearmesh_model::synthetic::small_reduced_gear;
+
+    #[test]
+    fn without_friction_the_methods_differ_by_the_submodels_strain() {
+        let model = small_reduced_gear();
+        let gauge = &model.gauges[0];
+        let reader = GaugeReader::new(&model, gauge, Flank::Right).unwrap();
+        let forces: Vec<f64> = (0..model.grid.slices).map(|k| 100.0 + 30.0 * k as f64).collect();
+        // On a roll station's centroid in the middle: only that station's loads.
+        let stations = model.grid.roll_angles_rad.len();
+        let station = stations / 2;
+        let roll_rad = centroids(&model.grid.roll_angles_rad)[station];
+        let line = LoadedLine { tooth: gauge.tooth, roll_rad, friction_ratio: 0.0, forces_n: &forces };
+        let strain = reader.read([line]);
+        let expected: f64 = forces
+            .iter()
+            .enumerate()
+            .flat_map(|(slice, f)| AXIAL_SHARES.iter().enumerate().map(move |(k, s)| (2 * slice + k, f * s)))
+            .map(|(axial, f)| f * gauge.own_tooth[model.grid.load(station, axial)])
+            .sum();
+        let scale = strain.method_2.abs().max(expected.abs());
+        assert!((strain.method_2 - strain.method_1 - expected).abs() < 1e-14 * scale);
+        assert!(expected != 0.0);
+
+        let elsewhere = LoadedLine { tooth: (gauge.tooth + 2) % model.teeth, ..line };
+        let far = reader.read([elsewhere]);
+        assert_eq!(far.method_1, far.method_2);
+        let rubbed = reader.read([LoadedLine { friction_ratio: 0.3, ..line }]);
+        assert_eq!(rubbed.method_1, strain.method_1, "method 1 knows no friction");
+        assert_ne!(rubbed.method_2, strain.method_2);
+    }
+}

@@ -1,0 +1,124 @@
+//! Discretisation error of the reduced compliance and of the gauges, from a second, coarser mesh.
+//!
+//! With all element lengths larger by s and an error of order p, the fine value's error is about
+//! |fine − coarse| / (s^p − 1). Compliance of linear elements converges with p = 2; a gauge reads a strain on the
+//! surface, p = 1 is assumed. Graded meshes are not similar to the last element, so that this is an estimate.
+
+use crate::flank_loads::{SparseVector, dot};
+use crate::gauge_row::gauge_row;
+use crate::gear_body::GearBody;
+use crate::reduce::all_loads;
+use crate::tooth_submodel::ToothSubmodel;
+use crate::{ReductionError, Silent};
+use gearmesh_geometry::GearDefinition;
+use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_model::{FlankGrid, GaugeRows};
+
+/// Ratio of the element lengths.
+const COARSENING: f64 = 1.5;
+
+/// Estimated relative errors.
+pub struct ErrorEstimate {
+    /// Of the compliance under a load over the whole width in the middle of the flank, C_g, own tooth.
+    pub compliance: f64,
+    /// Of each gauge's reading for loads on its own tooth.
+    pub gauges: Vec<f64>,
+}
+
+/// The same gear with coarser elements.
+fn coarsened(gear: &GearDefinition) -> GearDefinition {
+    let mut coarse = gear.clone();
+    let mesh = &mut coarse.mesh;
+    mesh.flank_m *= COARSENING;
+    mesh.fillet_m *= COARSENING;
+    mesh.axial_m *= COARSENING;
+    mesh.body_m *= COARSENING;
+    // Judged by the fine mesh; the coarse one only serves to estimate.
+    mesh.min_scaled_jacobian = 0.05;
+    coarse
+}
+
+/// Weights of a load over the whole width at the middle roll station, per load of one flank: the axial hats overlap,
+/// each inner one carries its share of the width.
+fn middle_load(grid: &FlankGrid) -> Vec<(usize, f64)> {
+    let middle = grid.roll_angles_rad.len() / 2;
+    let n = grid.z_m.len();
+    (0..n)
+        .map(|j| {
+            let share = if j == 0 || j == n - 1 { 0.5 } else { 1.0 } / (n - 1) as f64;
+            (grid.load(middle, j), share)
+        })
+        .collect()
+}
+
+fn compliance_of(weights: &[(usize, f64)], c: impl Fn(usize, usize) -> f64) -> f64 {
+    weights.iter().flat_map(|&(l, a)| weights.iter().map(move |&(m, b)| (l, m, a * b))).map(|(l, m, w)| w * c(l, m)).sum()
+}
+
+/// Estimates the errors of a reduction that has just been made.
+///
+/// # Errors
+/// [`ReductionError`] when the coarse mesh cannot be made or solved.
+pub fn estimate(
+    gear: &GearDefinition,
+    python: &PythonEnvironment,
+    gauges: &[GaugeRows],
+    c_hub: &[f64],
+    c_tooth: &[f64],
+    grid: &FlankGrid,
+) -> Result<ErrorEstimate, ReductionError> {
+    let coarse = coarsened(gear);
+    let body = GearBody::new(&coarse, python, &Silent)?;
+    let loads = all_loads(&coarse, &body, grid);
+    let count = grid.len();
+    let side = gear.reduction.flanks[0];
+    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][0])?;
+    let weights = middle_load(grid);
+
+    let mut line: SparseVector = Vec::new();
+    for &(load, share) in &weights {
+        line.extend(loads[0][0][load].normal.iter().map(|&(dof, value)| (dof, share * value)));
+    }
+    line.sort_unstable_by_key(|entry| entry.0);
+    line.dedup_by(|b, a| {
+        let same = a.0 == b.0;
+        if same {
+            a.1 += b.1;
+        }
+        same
+    });
+    let normals: Vec<&SparseVector> = loads[0][0].iter().map(|l| &l.normal).collect();
+    let w = submodel.products(&normals, body.dofs.dof_count());
+    let mut rows = vec![line.clone()];
+    for gauge in &gear.gauges {
+        rows.push(gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth)?);
+    }
+    let mut hub = 0.0;
+    let mut readings: Vec<Vec<f64>> = Vec::new();
+    body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, |column, u| {
+        if column == 0 {
+            hub = dot(&line, u);
+        } else {
+            let tooth = gear.gauges[column - 1].tooth;
+            readings.push(loads[tooth][0].iter().map(|l| dot(&l.normal, u)).collect());
+        }
+    });
+    let coarse_compliance = hub - compliance_of(&weights, |l, m| w[m * count + l]);
+    let fine_compliance = compliance_of(&weights, |l, m| c_hub[l * count + m] - c_tooth[l * count + m]);
+    let flanks = gear.reduction.flanks.len();
+    let gauge_errors = gauges
+        .iter()
+        .zip(&readings)
+        .map(|(gauge, coarse)| {
+            let first = gauge.tooth * flanks * count;
+            let fine = |l: usize| gauge.adjoint[3 * (first + l)];
+            let difference: f64 = (0..count).map(|l| (fine(l) - coarse[l]).powi(2)).sum();
+            let norm: f64 = (0..count).map(|l| fine(l).powi(2)).sum();
+            (difference / norm).sqrt() / (COARSENING - 1.0)
+        })
+        .collect();
+    Ok(ErrorEstimate {
+        compliance: (fine_compliance / coarse_compliance - 1.0).abs() / (COARSENING * COARSENING - 1.0),
+        gauges: gauge_errors,
+    })
+}

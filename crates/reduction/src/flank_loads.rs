@@ -1,0 +1,144 @@
+//! Unit loads on a flank, spread by hat functions over a grid of roll stations and axial stations.
+//!
+//! Load (i, j) is the traction h_i(ξ) h_j(z) d(ξ), scaled to a total of one newton, on the flank surface; d is the
+//! inward normal, the profile tangent towards the tip, or +z. Consistent nodal loads: ∫ N_a h_i h_j d dA. The integral
+//! is split at the stations, so that a 3×3 Gauss rule in each piece is exact up to the curvature of the involute.
+
+use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_mesh::GearMesh;
+use gearmesh_model::FlankGrid;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+/// A sparse load or row: (degree of freedom, weight), by increasing degree of freedom.
+pub type SparseVector = Vec<(usize, f64)>;
+
+/// The three unit loads of one grid point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridLoad {
+    /// Along the inward normal.
+    pub normal: SparseVector,
+    /// Along the profile towards the tip.
+    pub tangential: SparseVector,
+    /// Along +z.
+    pub axial: SparseVector,
+}
+
+/// Nodes (0, ½, 1) and weights of Gauss's three-point rule on \[0, 1\].
+const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+
+/// The flank grid of a gear: roll stations evenly from the form circle to the end of the flank, axial stations at
+/// the edges and middles of the slices.
+pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
+    let profile = &gear.profile;
+    let n = gear.reduction.roll_stations - 1;
+    let span = profile.flank_end_roll_rad - profile.form_roll_rad;
+    let slices = gear.reduction.slices;
+    let width = gear.tooth.face_width_m;
+    FlankGrid {
+        roll_angles_rad: (0..=n).map(|i| profile.form_roll_rad + span * i as f64 / n as f64).collect(),
+        z_m: (0..=2 * slices).map(|j| width * (j as f64 / (2 * slices) as f64 - 0.5)).collect(),
+        slices,
+    }
+}
+
+/// Value at `x` of the hat function of station `i`.
+fn hat(stations: &[f64], i: usize, x: f64) -> f64 {
+    if i > 0 && x <= stations[i] {
+        ((x - stations[i - 1]) / (stations[i] - stations[i - 1])).max(0.0)
+    } else if i + 1 < stations.len() && x >= stations[i] {
+        ((stations[i + 1] - x) / (stations[i + 1] - stations[i])).max(0.0)
+    } else if x == stations[i] {
+        1.0
+    } else {
+        0.0
+    }
+}
+
+/// `from`, the stations strictly between, `to`.
+fn pieces(stations: &[f64], from: f64, to: f64) -> Vec<f64> {
+    let mut cuts = vec![from];
+    cuts.extend(stations.iter().copied().filter(|s| *s > from && *s < to));
+    cuts.push(to);
+    cuts
+}
+
+/// All unit loads on one flank of one tooth, numbered as [`FlankGrid::load`].
+pub fn flank_loads(
+    gear: &GearDefinition,
+    mesh: &GearMesh,
+    grid: &FlankGrid,
+    tooth: usize,
+    side: FlankSide,
+) -> Vec<GridLoad> {
+    let profile = &gear.profile;
+    let curve = ProfileCurve::new(profile);
+    let (start, end) = (curve.flank_start_m(), curve.flank_end_m());
+    // Arc length and roll angle on the involute: s = s₀ + r_b (ξ² − ξ₀²)/2.
+    let (s0, xi0, r_b) = (start, profile.form_roll_rad, profile.base_radius_m);
+    let roll_at = |s: f64| (xi0 * xi0 + 2.0 * (s - s0) / r_b).max(0.0).sqrt();
+    let station_arcs: Vec<f64> = grid.roll_angles_rad.iter().map(|&xi| curve.arc_length_at_roll_m(xi)).collect();
+    let (sin, cos) = (TAU * tooth as f64 / gear.tooth.teeth as f64).sin_cos();
+    let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+
+    let count = grid.len();
+    let mut sums = vec![0.0; count];
+    let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); count];
+    for face in mesh.outline_faces(tooth, side, [start, end]) {
+        let arcs = pieces(&station_arcs, face.arc_m[0].max(start), face.arc_m[1].min(end));
+        let heights = pieces(&grid.z_m, face.z_m[0], face.z_m[1]);
+        for (s, z) in arcs.windows(2).flat_map(|s| heights.windows(2).map(move |z| (s, z))) {
+            for (gs, ws) in GAUSS {
+                let arc = s[0] + gs * (s[1] - s[0]);
+                let roll = roll_at(arc);
+                let (normal, tangent) = profile.flank_frame(side, roll);
+                let (normal, tangent) = (turn(normal), turn(tangent));
+                let u = (arc - face.arc_m[0]) / (face.arc_m[1] - face.arc_m[0]);
+                for (gz, wz) in GAUSS {
+                    let height = z[0] + gz * (z[1] - z[0]);
+                    let v = (height - face.z_m[0]) / (face.z_m[1] - face.z_m[0]);
+                    let shape = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
+                    let area = ws * wz * (s[1] - s[0]) * (z[1] - z[0]);
+                    for i in 0..grid.roll_angles_rad.len() {
+                        let h_i = hat(&grid.roll_angles_rad, i, roll);
+                        if h_i == 0.0 {
+                            continue;
+                        }
+                        for j in 0..grid.z_m.len() {
+                            let weight = area * h_i * hat(&grid.z_m, j, height);
+                            if weight == 0.0 {
+                                continue;
+                            }
+                            let load = grid.load(i, j);
+                            sums[load] += weight;
+                            for (node, n) in face.nodes.iter().zip(shape) {
+                                let dof = 3 * *node as usize;
+                                let value = weight * n;
+                                for axis in 0..2 {
+                                    *parts[load][0].entry(dof + axis).or_default() += value * normal[axis];
+                                    *parts[load][1].entry(dof + axis).or_default() += value * tangent[axis];
+                                }
+                                *parts[load][2].entry(dof + 2).or_default() += value;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    parts
+        .into_iter()
+        .zip(sums)
+        .map(|(directions, sum)| {
+            let [normal, tangential, axial] =
+                directions.map(|map| map.into_iter().map(|(dof, value)| (dof, value / sum)).collect());
+            GridLoad { normal, tangential, axial }
+        })
+        .collect()
+}
+
+/// Product of a sparse row with a full vector.
+pub fn dot(row: &SparseVector, full: &[f64]) -> f64 {
+    row.iter().map(|&(dof, value)| value * full[dof]).sum()
+}

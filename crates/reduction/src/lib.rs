@@ -1,0 +1,80 @@
+//! The offline stage: from a gear definition to its [`ReducedGear`](gearmesh_model::ReducedGear).
+//!
+//! | step | file |
+//! | --- | --- |
+//! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
+//! | mesh, stiffness and factor of the whole gear | `gear_body.rs` |
+//! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
+//! | a gauge as one row of nodal weights | `gauge_row.rs` |
+//! | compliance, checks, gauges: the reduction | `reduce.rs` |
+//! | discretisation error from a coarser mesh | `error_estimate.rs` |
+//! | the whole displacement and stress field | `field.rs` |
+//!
+//! With N the unit loads, U = K⁻¹N, W the same loads on the tooth-only submodel and Ψ = U − W the deformation
+//! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
+//! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
+
+pub mod error_estimate;
+pub mod field;
+pub mod flank_loads;
+pub mod gauge_row;
+pub mod gear_body;
+pub mod reduce;
+pub mod tooth_submodel;
+
+pub use gear_body::GearBody;
+pub use reduce::{ReductionOptions, reduce};
+
+use gearmesh_geometry::FlankSide;
+use gearmesh_model::Flank;
+
+/// Why a gear could not be reduced.
+#[derive(Debug, thiserror::Error)]
+pub enum ReductionError {
+    /// No mesh.
+    #[error(transparent)]
+    Mesh(#[from] gearmesh_mesh::MeshError),
+    /// The finite element model is not sound.
+    #[error(transparent)]
+    Fe(#[from] gearmesh_fe::FeError),
+    /// A gauge covers no element face.
+    #[error("gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm")]
+    EmptyGauge {
+        /// Name of the gauge.
+        name: String,
+    },
+    /// An identity that holds exactly was violated: the numbers cannot be trusted.
+    #[error("the reduction failed its own check: {check} is {found:.2e}, at most {allowed:.0e} is expected; the stiffness matrix is too ill-conditioned (very thin web, very slender elements?)")]
+    Check {
+        /// Which identity.
+        check: &'static str,
+        /// Relative violation.
+        found: f64,
+        /// What round-off explains.
+        allowed: f64,
+    },
+}
+
+/// Where a long computation stands.
+pub trait Progress: Sync {
+    /// A stage begins.
+    fn stage(&self, name: &str);
+    /// `done` of `total` pieces of the present stage are finished.
+    fn advance(&self, done: usize, total: usize);
+}
+
+/// Says nothing.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn stage(&self, _name: &str) {}
+    fn advance(&self, _done: usize, _total: usize) {}
+}
+
+/// The model file's word for a side.
+pub fn flank_of(side: FlankSide) -> Flank {
+    match side {
+        FlankSide::Right => Flank::Right,
+        FlankSide::Left => Flank::Left,
+    }
+}

@@ -1,0 +1,94 @@
+//! The tooth-only submodel: the tooth above the cut, held at the cut and on its opposite side.
+//!
+//! Its solution W for the flank loads carries the same near field under the load as the whole gear's U on the same
+//! mesh, so that the patterns Ψ = U − W are free of it.
+
+use crate::ReductionError;
+use crate::flank_loads::{GridLoad, SparseVector, dot};
+use faer::Mat;
+use gearmesh_fe::{DofMap, Factor, FeModel, NodeGraph, assemble_stiffness};
+use gearmesh_geometry::FlankSide;
+use gearmesh_mesh::GearMesh;
+
+/// W on tooth 0 for the loads of one flank.
+pub struct ToothSubmodel {
+    /// Whole-gear degree of freedom of each submodel degree of freedom.
+    full_dofs: Vec<usize>,
+    /// Solution, submodel degrees of freedom × loads \[m/N\].
+    w: Mat<f64>,
+}
+
+impl ToothSubmodel {
+    /// Solves the submodel of tooth 0 for its flank loads.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when the submodel is not held.
+    pub fn new(
+        model: &FeModel,
+        mesh: &GearMesh,
+        side: FlankSide,
+        loads: &[GridLoad],
+    ) -> Result<Self, ReductionError> {
+        let hexes = mesh.tooth_hexes(0);
+        let mut nodes: Vec<u32> = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let local = |n: u32| nodes.binary_search(&n).map(|i| i as u32).unwrap_or(u32::MAX);
+        let part = FeModel::new(
+            nodes.iter().map(|&n| mesh.nodes[n as usize]).collect(),
+            hexes.iter().map(|&h| mesh.hexes[h as usize].map(local)).collect(),
+            *model.material(),
+            model.element(),
+        )?;
+        let supports: Vec<usize> = mesh
+            .tooth_supports(0, side)
+            .into_iter()
+            .filter_map(|n| nodes.binary_search(&n).ok())
+            .collect();
+        let dofs = DofMap::with_fixed_nodes(part.node_count(), &supports)?;
+        let stiffness = assemble_stiffness(&part, &dofs)?;
+        let factor = Factor::of_model(&part, &dofs, &stiffness)?;
+        debug_assert_eq!(NodeGraph::new(&part, &dofs)?.active_nodes().len() + supports.len(), part.node_count());
+        let mut w = Mat::<f64>::zeros(dofs.free_count(), loads.len());
+        for (column, load) in loads.iter().enumerate() {
+            for &(dof, value) in &load.normal {
+                let node = local((dof / 3) as u32);
+                if node != u32::MAX
+                    && let Some(free) = dofs.free_of(3 * node as usize + dof % 3)
+                {
+                    w[(free, column)] = value;
+                }
+            }
+        }
+        factor.solve_in_place(w.as_mut());
+        let full_dofs = (0..dofs.free_count())
+            .map(|free| {
+                let d = dofs.full_of(free);
+                3 * nodes[d / 3] as usize + d % 3
+            })
+            .collect();
+        Ok(Self { full_dofs, w })
+    }
+
+    /// Column of W over all degrees of freedom of the whole gear, zero outside the submodel.
+    pub fn column(&self, load: usize, dof_count: usize) -> Vec<f64> {
+        let mut full = vec![0.0; dof_count];
+        for (k, &dof) in self.full_dofs.iter().enumerate() {
+            full[dof] = self.w[(k, load)];
+        }
+        full
+    }
+
+    /// rowᵀ W for each load, for rows over the whole gear's degrees of freedom: `[row][load]`.
+    pub fn products(&self, rows: &[&SparseVector], dof_count: usize) -> Vec<f64> {
+        let loads = self.w.ncols();
+        let mut result = vec![0.0; rows.len() * loads];
+        for load in 0..loads {
+            let column = self.column(load, dof_count);
+            for (k, row) in rows.iter().enumerate() {
+                result[k * loads + load] = dot(row, &column);
+            }
+        }
+        result
+    }
+}

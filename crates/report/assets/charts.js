@@ -1,0 +1,142 @@
+// Line charts and order spectra, drawn by uPlot.
+const DASHES = { solid: [], dashed: [9, 5], dotted: [2, 4] };
+
+function axis(label, unit, more = {}) {
+  const font = "12px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+  return {
+    label: withUnit(label, unit), labelFont: "600 " + font, font, labelSize: 24, labelGap: 2,
+    stroke: cssColour("--faint"), grid: { stroke: cssColour("--grid"), width: 1 }, ticks: { stroke: cssColour("--line"), width: 1, size: 6 },
+    values: (u, splits) => splits.map(v => (v == null ? "" : number(v, 6))), ...more,
+  };
+}
+
+// Powers of ten, of many every second or third; where the axis spans less than two, also 2 and 5 times them.
+function logSplits(u, axisIndex, min, max) {
+  const steps = max / min > 100 ? [1] : [1, 2, 5], splits = [];
+  const room = Math.max(2, Math.floor(u.bbox.height / devicePixelRatio / 28)), every = Math.ceil(Math.log10(max / min) / room);
+  for (let p = Math.floor(Math.log10(min)); p <= Math.ceil(Math.log10(max)); p++) if (p % every === 0) for (const m of steps) splits.push(m * 10 ** p);
+  return splits.filter(v => v >= min * 0.999 && v <= max * 1.001);
+}
+const logAxis = { size: 64, splits: logSplits, filter: (u, splits) => splits, values: (u, splits) => splits.map(power) };
+
+// The toolbar, the chart made anew for every theme and width, and the legend for the keyboard.
+function chart(figure, place, hint, data, optionsFor, window) {
+  let plot = null, shown = null, range = window;
+  const reset = () => { range = null; draw(); };
+  place.before(element("div", { className: "tools" }, element("span", { className: "hint", textContent: hint }), button("Show all", reset)));
+  place.setAttribute("role", "group");
+  place.setAttribute("aria-label", figure.querySelector("figcaption").textContent);
+
+  function draw() {
+    if (plot) { shown = plot.series.map(s => s.show); plot.destroy(); }
+    const width = drawingWidth(place), options = optionsFor(width);
+    options.width = width;
+    options.height = Math.round(Math.min(430, Math.max(260, width * 0.38)));
+    if (shown) options.series.forEach((s, i) => { s.show = shown[i]; });
+    options.scales.x = { ...options.scales.x, time: false };
+    options.hooks = { ...options.hooks, setScale: [(u, key) => { if (key === "x" && u.status === 1) range = zoomed(u); }] };
+    plot = new uPlot(options, data, place);
+    if (range) plot.setScale("x", { min: range[0], max: range[1] });
+    legendForKeyboard(plot);
+  }
+  const zoomed = u => {
+    const { min, max } = u.scales.x, x = data[0];
+    return min > x[0] || max < x[x.length - 1] ? [min, max] : null;
+  };
+  figures.push(draw);
+}
+
+function legendForKeyboard(plot) {
+  plot.root.querySelectorAll(".u-legend .u-series").forEach((row, i) => {
+    if (i === 0) return;
+    const head = row.querySelector("th");
+    head.tabIndex = 0;
+    head.setAttribute("role", "switch");
+    const state = () => head.setAttribute("aria-checked", String(plot.series[i].show));
+    state();
+    head.addEventListener("click", () => setTimeout(state));
+    head.addEventListener("keydown", e => {
+      if (e.key === "Enter" || e.key === " ") { e.preventDefault(); plot.setSeries(i, { show: !plot.series[i].show }); state(); }
+    });
+  });
+}
+
+const legendValue = (u, v) => number(v, 5);
+
+function lineChart(figure, place, d) {
+  const gap = d.log ? v => (Number.isNaN(v) || v <= 0 ? null : v) : v => (Number.isNaN(v) ? null : v);
+  const data = [Array.from(unpack(d.abscissas, Float32Array)), ...d.series.map(s => Array.from(unpack(s.values, Float32Array), gap))];
+  const options = () => ({
+    scales: { x: {}, y: d.log ? { distr: 3 } : {} },
+    axes: [axis(d.x.label, d.x.unit, { size: 34 }), axis(d.y.label, d.y.unit, d.log ? logAxis : { size: 64 })],
+    series: [{ label: withUnit(d.x.label, d.x.unit), value: legendValue }, ...d.series.map(s => ({
+      label: s.name, stroke: seriesColour(s.colour), width: 1.5, dash: DASHES[s.dash], show: s.shown, points: { show: false }, value: legendValue,
+    }))],
+    legend: { markers: { width: 2, dash: (u, i) => ({ solid: "solid", dashed: "dashed", dotted: "dotted" })[d.series[i - 1].dash] } },
+    focus: { alpha: 0.5 },
+    cursor: { drag: { x: true, y: true, uni: 40 }, focus: { prox: 14 }, points: { size: 6 } },
+  });
+  chart(figure, place, "Drag to zoom, double click for all, click a name to switch a curve.", data, options, d.window);
+}
+
+function spectrumChart(figure, place, d) {
+  const data = [Array.from(unpack(d.orders, Float32Array)), ...d.series.map(s => Array.from(unpack(s.values, Float32Array)))];
+  const strongest = Math.max(...data.slice(1).map(v => v.reduce((m, a) => Math.max(m, a), 0)));
+  const top = strongest > 0 ? 10 ** Math.ceil(Math.log10(strongest) + 0.05) : 1, floor = top / 10 ** d.decades;
+  const marked = new Map(d.highlighted.map(h => [h.order, h.label]));
+
+  const stems = u => {
+    const { ctx } = u, ratio = devicePixelRatio, base = u.valToPos(floor, "y", true), { left, top: roof, width } = u.bbox;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left, roof - 22 * ratio, width, u.bbox.height + 22 * ratio);
+    ctx.clip();
+    names(u, ctx, ratio, base, left, roof, width);
+    const shown = d.series.map((_, i) => i + 1).filter(i => u.series[i].show);
+    const perOrder = width / Math.max(1, u.scales.x.max - u.scales.x.min);
+    const spread = Math.min(6 * ratio, Math.max(3 * ratio, perOrder * 0.8 / Math.max(1, shown.length)));
+    shown.forEach((i, n) => {
+      const offset = (n - (shown.length - 1) / 2) * spread;
+      ctx.strokeStyle = ctx.fillStyle = cssColour(`--c${(i - 1) % 8}`);
+      for (let k = 0; k < data[0].length; k++) {
+        if (!(data[i][k] > floor)) continue;
+        const x = u.valToPos(data[0][k], "x", true) + offset, y = u.valToPos(data[i][k], "y", true), strong = marked.has(data[0][k]);
+        ctx.globalAlpha = strong || marked.size === 0 ? 1 : 0.6;
+        ctx.lineWidth = (strong ? 2.5 : 1.25) * ratio;
+        ctx.beginPath(); ctx.moveTo(x, base); ctx.lineTo(x, y); ctx.stroke();
+        if (strong || perOrder >= 8 * ratio) { ctx.beginPath(); ctx.arc(x, y, (strong ? 3.5 : 2) * ratio, 0, 7); ctx.fill(); }
+      }
+    });
+    ctx.restore();
+  };
+  const names = (u, ctx, ratio, base, left, roof, width) => {
+    let free = -Infinity;
+    ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+    ctx.textBaseline = "bottom"; ctx.textAlign = "left";
+    for (const { order, label } of [...d.highlighted].sort((a, b) => a.order - b.order)) {
+      const x = u.valToPos(order, "x", true);
+      if (x < left || x > left + width) continue;
+      ctx.strokeStyle = cssColour("--line"); ctx.lineWidth = ratio;
+      ctx.setLineDash([3 * ratio, 3 * ratio]);
+      ctx.beginPath(); ctx.moveTo(x, roof); ctx.lineTo(x, base); ctx.stroke();
+      ctx.setLineDash([]);
+      const text = label ? `${number(order)} · ${label}` : number(order), half = ctx.measureText(text).width / 2;
+      const at = Math.min(Math.max(x - half, left), left + width - 2 * half);
+      if (at < free) continue;
+      ctx.fillStyle = cssColour("--faint"); ctx.fillText(text, at, roof - 4 * ratio);
+      free = at + 2 * half + 8 * ratio;
+    }
+  };
+  const options = () => ({
+    padding: [24, null, null, null],
+    scales: { x: { range: (u, a, b) => (b - a < 1 ? [a - 1, b + 1] : [a - (b - a) * 0.01, b + (b - a) * 0.01]) }, y: { distr: 3, range: () => [floor, top] } },
+    axes: [axis("order", "1/rev", { size: 34 }), axis(d.y.label, d.y.unit, logAxis)],
+    series: [{ label: "order", value: legendValue }, ...d.series.map((s, i) => ({
+      label: s.name, stroke: cssColour(`--c${i % 8}`), width: 2, paths: () => null, points: { show: false }, value: legendValue,
+    }))],
+    legend: { markers: { width: 2 } },
+    cursor: { drag: { x: true, y: false }, points: { show: false } },
+    hooks: { draw: [stems] },
+  });
+  chart(figure, place, "Amplitude of the cosine. Drag to zoom, double click for all, click a name to switch a signal.", data, options, null);
+}

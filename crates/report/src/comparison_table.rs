@@ -1,0 +1,226 @@
+//! The comparison as text: one block for each quantity, one line for each torque, units in the heads.
+
+use crate::comparison::{BothSides, HarmonicComparison, SeriesComparison};
+use std::fmt::Write as _;
+
+/// Below this part of the peak-to-peak value an amplitude is rounding and its phase says nothing.
+const WEAKEST_HARMONIC: f64 = 1e-5;
+
+/// Text tables of comparisons, grouped by quantity in the order of their first occurrence.
+///
+/// For each quantity: the overall figures, the stated uncertainty of the reference, the harmonics. Values are in the unit of the
+/// quantity (µm, µε); differences are ours/reference − 1.
+pub fn comparison_table(comparisons: &[SeriesComparison]) -> String {
+    let mut text = String::new();
+    let mut done: Vec<&SeriesComparison> = Vec::new();
+    for first in comparisons {
+        if done.iter().any(|c| c.quantity == first.quantity) {
+            continue;
+        }
+        done.push(first);
+        let group: Vec<&SeriesComparison> = comparisons
+            .iter()
+            .filter(|c| c.quantity == first.quantity)
+            .collect();
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        figures(&mut text, first, &group);
+        harmonics(&mut text, first, &group);
+    }
+    text
+}
+
+fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparison]) {
+    let unit = first.quantity.unit();
+    let mut rows = vec![
+        [
+            "torque", "mean", "mean", "diff.", "pk-pk", "pk-pk", "diff.", "RMS", "RMS", "correl.",
+            "max dev.", "at angle",
+        ]
+        .map(String::from)
+        .to_vec(),
+        [
+            "", "ours", "ref.", "", "ours", "ref.", "", "ours", "ref.", "", "", "",
+        ]
+        .map(String::from)
+        .to_vec(),
+        [
+            "N·m",
+            unit.symbol,
+            unit.symbol,
+            "%",
+            unit.symbol,
+            unit.symbol,
+            "%",
+            unit.symbol,
+            unit.symbol,
+            "-",
+            unit.symbol,
+            "deg",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    let shown = |value: f64| format!("{:.3}", value * unit.per_si);
+    for c in group {
+        rows.push(vec![
+            format!("{}", c.torque_nm),
+            shown(c.mean.ours),
+            shown(c.mean.reference),
+            percent(&c.mean),
+            shown(c.peak_to_peak.ours),
+            shown(c.peak_to_peak.reference),
+            percent(&c.peak_to_peak),
+            shown(c.rms.ours),
+            shown(c.rms.reference),
+            c.correlation
+                .map_or_else(|| "-".into(), |r| format!("{r:.5}")),
+            shown(c.largest_deviation),
+            format!("{:.2}", c.largest_deviation_angle_rad.to_degrees()),
+        ]);
+    }
+    let _ = writeln!(text, "{} ({})", first.quantity, unit.symbol);
+    write_aligned(text, &rows);
+    let stated = |value: Option<f64>| {
+        value.map_or_else(
+            || "not stated".into(),
+            |v| format!("± {} {}", shown(v), unit.symbol),
+        )
+    };
+    let _ = writeln!(
+        text,
+        "  stated uncertainty of the reference: mean {}, pk-pk {}",
+        stated(first.mean.uncertainty),
+        stated(first.peak_to_peak.uncertainty)
+    );
+}
+
+fn harmonics(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparison]) {
+    if first.harmonics.is_empty() {
+        return;
+    }
+    let unit = first.quantity.unit();
+    let mut rows = vec![
+        [
+            "torque",
+            "order",
+            "amplitude",
+            "amplitude",
+            "diff.",
+            "phase diff.",
+        ]
+        .map(String::from)
+        .to_vec(),
+        ["", "", "ours", "ref.", "", ""].map(String::from).to_vec(),
+        ["N·m", "1/rev", unit.symbol, unit.symbol, "%", "deg"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    for c in group {
+        for h in &c.harmonics {
+            let both = BothSides {
+                ours: h.ours,
+                reference: h.reference,
+                uncertainty: None,
+            };
+            rows.push(vec![
+                format!("{}", c.torque_nm),
+                format!("{}", h.order),
+                format!("{:.4}", h.ours * unit.per_si),
+                format!("{:.4}", h.reference * unit.per_si),
+                percent(&both),
+                phase(c, h),
+            ]);
+        }
+    }
+    write_aligned(text, &rows);
+}
+
+/// Phase difference in degrees, or a dash where one of the amplitudes is too weak to have a phase.
+fn phase(c: &SeriesComparison, h: &HarmonicComparison) -> String {
+    let floor = WEAKEST_HARMONIC * c.peak_to_peak.reference.abs();
+    if h.ours < floor || h.reference < floor {
+        "-".into()
+    } else {
+        format!("{:.1}", h.phase_difference_rad.to_degrees())
+    }
+}
+
+/// Relative difference in per cent, or a dash where it says nothing.
+fn percent(both: &BothSides) -> String {
+    match both.relative_difference() {
+        Some(r) if r.abs() < 10.0 => format!("{:+.2}", 100.0 * r),
+        _ => "-".into(),
+    }
+}
+
+/// Right-aligned columns, two blanks between them.
+fn write_aligned(text: &mut String, rows: &[Vec<String>]) {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |i: usize| {
+        rows.iter()
+            .filter_map(|r| r.get(i))
+            .map(|s| s.chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for row in rows {
+        for (cell, width) in row.iter().zip(&widths) {
+            let _ = write!(text, "  {cell:>width$}");
+        }
+        text.push('\n');
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::comparison::compare;
+    use crate::quantity::Quantity;
+    use gearmesh_signal::{AngleSeries, RigSettings};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn heads_carry_units_and_columns_line_up() {
+        let series = |scale: f64| {
+            let values: Vec<f64> = (0..1368)
+                .map(|i| scale * (-30e-6 + 2e-6 * (57.0 * TAU * f64::from(i) / 1368.0).cos()))
+                .collect();
+            AngleSeries::uniform(0.0, &values, 1).unwrap()
+        };
+        let mut c = compare(
+            &series(1.02),
+            &series(1.0),
+            &Quantity::TransmissionError,
+            &RigSettings::default(),
+            &[57.0],
+        )
+        .unwrap();
+        c.torque_nm = 300.0;
+        c.mean.uncertainty = Some(5e-8);
+        let text = comparison_table(&[c.clone(), c]);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "TE (µm)");
+        assert!(lines[3].contains("N·m") && lines[3].contains("µm") && lines[3].contains("deg"));
+        assert!(
+            lines[4].contains("-30.600")
+                && lines[4].contains("-30.000")
+                && lines[4].contains("+2.00")
+        );
+        assert!(
+            lines[4].contains("4.080")
+                && lines[4].contains("+2.00")
+                && lines[4].contains("1.00000")
+        );
+        assert!(
+            lines[6].contains("mean ± 0.050 µm, pk-pk not stated"),
+            "{}",
+            lines[6]
+        );
+        let lengths: Vec<usize> = lines[1..6].iter().map(|l| l.chars().count()).collect();
+        assert!(lengths.iter().all(|l| *l == lengths[0]), "{lengths:?}");
+    }
+}

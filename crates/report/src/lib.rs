@@ -1,0 +1,26 @@
+//! Comparison with reference records, tables and the HTML report.
+//!
+//! | you have | you want | use |
+//! | --- | --- | --- |
+//! | a folder with record.toml and data.csv | the reference as columns in SI units | [`ReferenceRecord::read`] |
+//! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
+//! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
+//! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] |
+//!
+//! [`page`] knows nothing of gears: it draws what it is given.
+
+pub mod comparison;
+mod comparison_table;
+pub mod page;
+pub mod quantity;
+pub mod record;
+mod record_data;
+pub mod scene_comparison;
+pub mod scene_page;
+
+pub use comparison::{
+    ComparisonError, HarmonicComparison, SeriesComparison, compare, compare_with_column,
+};
+pub use comparison_table::comparison_table;
+pub use quantity::{Quantity, Unit};
+pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};

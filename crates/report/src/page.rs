@@ -1,0 +1,471 @@
+//! A report as one HTML file that opens without a network.
+//!
+//! ```
+//! use gearmesh_report::page::{Axis, LineChart, LineSeries, Page, Section, Text};
+//! let chart = LineChart::new("Transmission error", Axis::new("driver angle", "deg"), Axis::new("TE", "µm"))
+//!     .x_values(vec![0.0, 1.0, 2.0])
+//!     .series(LineSeries::new("50 N·m", vec![-20.0, -21.0, -20.5]));
+//! let html = Page::new("Gear pair A")
+//!     .section(Section::new("Static run").push(Text::paragraph("Quasi-static.")).push(chart))
+//!     .render()?;
+//! assert!(html.contains("Gear pair A"));
+//! # Ok::<(), gearmesh_report::page::PageError>(())
+//! ```
+//!
+//! Style, script and data are inside the file: the numbers as base64 of 32-bit floats, the charts drawn by uPlot (MIT,
+//! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security policy in the
+//! page forbids every request. All texts are escaped.
+
+mod field_picture;
+mod line_chart;
+mod markup;
+mod packed;
+mod spectrum_chart;
+mod table;
+mod text;
+
+pub use field_picture::{FieldPicture, FieldValues, ViewWindow};
+pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
+pub use spectrum_chart::{SpectrumChart, SpectrumSeries};
+pub use table::{Align, KeyFigures, Table};
+pub use text::Text;
+
+use markup::{escape, json_for_script};
+use std::fmt::Write as _;
+
+const STYLE: &str = include_str!("../assets/page.css");
+const CHART_SCRIPT: &str = include_str!("../assets/charts.js");
+const FIELD_SCRIPT: &str = include_str!("../assets/field.js");
+const PAGE_SCRIPT: &str = include_str!("../assets/page.js");
+const UPLOT_SCRIPT: &str = include_str!("../assets/uPlot-1.6.32.iife.min.js");
+const UPLOT_STYLE: &str = include_str!("../assets/uPlot-1.6.32.min.css");
+const UPLOT_LICENCE: &str = include_str!("../assets/uPlot-LICENSE.txt");
+
+/// Why a page cannot be made. `block` is the title of the chart, table or picture.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PageError {
+    /// A chart or picture without data.
+    #[error("'{block}': {what} is empty; leave the block out where there is nothing to show")]
+    Empty {
+        /// Title of the block.
+        block: String,
+        /// What is empty.
+        what: &'static str,
+    },
+    /// Numbers of different counts that belong together.
+    #[error("'{block}': {what} has {found} entries; {expected} are expected")]
+    Count {
+        /// Title of the block.
+        block: String,
+        /// Name of the series, row or array.
+        what: String,
+        /// Entries found.
+        found: usize,
+        /// Entries expected.
+        expected: usize,
+    },
+    /// Abscissas that do not increase.
+    #[error(
+        "'{block}': abscissa {index} is {found}, not above {before}; abscissas must increase and be finite"
+    )]
+    NotIncreasing {
+        /// Title of the block.
+        block: String,
+        /// Index from 0.
+        index: usize,
+        /// The value there.
+        found: f64,
+        /// The value before.
+        before: f64,
+    },
+    /// NaN or infinity where a number is needed (in line charts NaN is a gap and allowed).
+    #[error("'{block}': {what} holds {found} at index {index}; a finite number is needed")]
+    NotFinite {
+        /// Title of the block.
+        block: String,
+        /// Name of the series or array.
+        what: String,
+        /// Index from 0.
+        index: usize,
+        /// The value.
+        found: f64,
+    },
+    /// A quad that names a node that does not exist.
+    #[error("'{block}': quad {quad} uses node {node}, but there are {nodes} nodes")]
+    NoSuchNode {
+        /// Title of the block.
+        block: String,
+        /// Index of the quad.
+        quad: usize,
+        /// The node it names.
+        node: u32,
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// A colour scale or window without extent.
+    #[error(
+        "'{block}': {what} runs from {low} to {high}; it needs finite ends, the first below the second"
+    )]
+    Range {
+        /// Title of the block.
+        block: String,
+        /// What it is.
+        what: &'static str,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// The data could not be written as JSON.
+    #[error("'{block}': its data could not be written: {reason}")]
+    Data {
+        /// Title of the block.
+        block: String,
+        /// What the writer said.
+        reason: String,
+    },
+}
+
+/// Something in a section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Block {
+    /// A paragraph, a note or preformatted text.
+    Text(Text),
+    /// A few large figures.
+    KeyFigures(KeyFigures),
+    /// A table.
+    Table(Table),
+    /// Curves over a common abscissa.
+    LineChart(LineChart),
+    /// Stems over orders, logarithmic.
+    SpectrumChart(SpectrumChart),
+    /// A coloured plane mesh.
+    FieldPicture(FieldPicture),
+}
+
+macro_rules! block_from {
+    ($($kind:ident),*) => { $(
+        impl From<$kind> for Block {
+            fn from(block: $kind) -> Self {
+                Self::$kind(block)
+            }
+        }
+    )* };
+}
+block_from!(
+    Text,
+    KeyFigures,
+    Table,
+    LineChart,
+    SpectrumChart,
+    FieldPicture
+);
+
+/// A heading and what stands under it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    heading: String,
+    blocks: Vec<Block>,
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(heading: impl Into<String>) -> Self {
+        Self {
+            heading: heading.into(),
+            blocks: Vec::new(),
+        }
+    }
+
+    /// Adds a block at the end.
+    #[must_use]
+    pub fn push(mut self, block: impl Into<Block>) -> Self {
+        self.blocks.push(block.into());
+        self
+    }
+}
+
+/// A report page.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Page {
+    title: String,
+    subtitle: Option<String>,
+    sections: Vec<Section>,
+    footer: Option<String>,
+}
+
+impl Page {
+    /// A page with a title and nothing else.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            subtitle: None,
+            sections: Vec::new(),
+            footer: None,
+        }
+    }
+
+    /// One line under the title.
+    #[must_use]
+    pub fn subtitle(mut self, subtitle: impl Into<String>) -> Self {
+        self.subtitle = Some(subtitle.into());
+        self
+    }
+
+    /// One line at the end: version, date, input files.
+    #[must_use]
+    pub fn footer(mut self, footer: impl Into<String>) -> Self {
+        self.footer = Some(footer.into());
+        self
+    }
+
+    /// Adds a section at the end.
+    #[must_use]
+    pub fn section(mut self, section: Section) -> Self {
+        self.sections.push(section);
+        self
+    }
+
+    /// The page as HTML text (UTF-8).
+    ///
+    /// # Errors
+    /// [`PageError`]: the block, what was found and what is expected.
+    pub fn render(&self) -> Result<String, PageError> {
+        let mut html = String::new();
+        let title = escape(&self.title);
+        let _ = write!(
+            html,
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+             script-src 'unsafe-inline'; img-src data:\">\n<title>{title}</title>\n\
+             <style>{UPLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
+        );
+        if let Some(subtitle) = &self.subtitle {
+            let _ = writeln!(html, "<p class=\"subtitle\">{}</p>", escape(subtitle));
+        }
+        html.push_str("</header>\n");
+        self.navigation(&mut html);
+        html.push_str("<main>\n");
+        for (i, section) in self.sections.iter().enumerate() {
+            let _ = writeln!(
+                html,
+                "<section id=\"s{i}\">\n<h2>{}</h2>",
+                escape(&section.heading)
+            );
+            for block in &section.blocks {
+                render_block(&mut html, block)?;
+            }
+            html.push_str("</section>\n");
+        }
+        html.push_str("</main>\n");
+        if let Some(footer) = &self.footer {
+            let _ = writeln!(html, "<footer>{}</footer>", escape(footer));
+        }
+        let _ = write!(
+            html,
+            "<script>\n/* uPlot 1.6.32\n{UPLOT_LICENCE}*/\n{UPLOT_SCRIPT}\n</script>\n\
+             <script>\n\"use strict\";\n{PAGE_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n</script>\n</body>\n</html>\n"
+        );
+        Ok(html)
+    }
+
+    fn navigation(&self, html: &mut String) {
+        html.push_str("<nav aria-label=\"Sections\"><ul>");
+        for (i, section) in self.sections.iter().enumerate() {
+            let _ = write!(
+                html,
+                "<li><a href=\"#s{i}\">{}</a></li>",
+                escape(&section.heading)
+            );
+        }
+        html.push_str("</ul><button type=\"button\" id=\"theme\" hidden>Dark</button></nav>\n");
+    }
+}
+
+fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
+    match block {
+        Block::Text(text) => text.render(html),
+        Block::KeyFigures(figures) => figures.render(html),
+        Block::Table(table) => table.render(html)?,
+        Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
+        Block::SpectrumChart(chart) => {
+            render_figure(html, "spectrum", chart.title(), &chart.payload()?)?
+        }
+        Block::FieldPicture(picture) => {
+            render_figure(html, "field", picture.title(), &picture.payload()?)?
+        }
+    }
+    Ok(())
+}
+
+/// A figure that the script fills from its payload.
+fn render_figure(
+    html: &mut String,
+    kind: &str,
+    title: &str,
+    payload: &serde_json::Value,
+) -> Result<(), PageError> {
+    let json = json_for_script(payload).map_err(|e| PageError::Data {
+        block: title.to_string(),
+        reason: e.to_string(),
+    })?;
+    let title = escape(title);
+    let _ = write!(
+        html,
+        "<figure class=\"chart\" data-kind=\"{kind}\">\n<figcaption>{title}</figcaption>\n<div class=\"drawing\"></div>\n\
+         <noscript>This figure needs JavaScript.</noscript>\n<script type=\"application/json\">{json}</script>\n</figure>\n"
+    );
+    Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn chart(title: &str) -> LineChart {
+        LineChart::new(title, Axis::new("x", "deg"), Axis::new("y", "µm"))
+            .x_values((0..100).map(f64::from).collect())
+            .series(LineSeries::new(title, vec![1.0; 100]))
+    }
+
+    #[test]
+    fn nothing_is_fetched() {
+        let html = Page::new("t")
+            .section(Section::new("s").push(chart("c")))
+            .render()
+            .unwrap();
+        for forbidden in [
+            "src=",
+            "@import",
+            "url(",
+            "fetch(",
+            "XMLHttpRequest",
+            "<link",
+        ] {
+            assert!(!html.contains(forbidden), "{forbidden}");
+        }
+        assert!(html.contains("default-src 'none'") && html.contains("Leon Sorokin"));
+    }
+
+    #[test]
+    fn texts_are_escaped_everywhere() {
+        let evil = "</script><script>alert('x')</script>&\"<!--";
+        let picture = FieldPicture::new(evil, evil, evil)
+            .mesh(
+                vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+                vec![[0, 1, 2, 3]],
+            )
+            .values(FieldValues::PerElement(vec![1.0]));
+        let spectrum = SpectrumChart::new(evil, Axis::new(evil, evil))
+            .orders(vec![0.0, 1.0])
+            .series(SpectrumSeries::new(evil, vec![1.0, 2.0]))
+            .highlight(1.0, evil);
+        let section = Section::new(evil)
+            .push(Text::paragraph(evil))
+            .push(Text::note(evil))
+            .push(Text::preformatted(evil))
+            .push(KeyFigures::new().figure(evil, evil, evil))
+            .push(Table::new(evil).column(evil, Align::Left).row([evil]))
+            .push(chart(evil))
+            .push(spectrum)
+            .push(picture);
+        let html = Page::new(evil)
+            .subtitle(evil)
+            .footer(evil)
+            .section(section)
+            .render()
+            .unwrap();
+        assert!(
+            !html.contains("alert('x')")
+                && !html.contains("<!--")
+                && !html.contains("<script>alert")
+        );
+        // Two programs and three payloads, nothing else.
+        assert_eq!(html.matches("<script").count(), 5);
+        assert_eq!(html.matches("</script").count(), 5);
+    }
+
+    #[test]
+    fn a_large_page_stays_below_three_megabytes() {
+        let mut section = Section::new("s");
+        for _ in 0..3 {
+            let mut c = LineChart::new("c", Axis::new("x", "deg"), Axis::new("y", "µm"))
+                .x_values((0..2300).map(f64::from).collect());
+            for k in 0..12 {
+                c = c.series(LineSeries::new(
+                    format!("{k}"),
+                    (0..2300).map(|i| f64::from(i * k).sin()).collect(),
+                ));
+            }
+            section = section.push(c);
+        }
+        let (columns, rows) = (301, 101);
+        let nodes = (0..columns * rows)
+            .map(|i| [f64::from(i % columns), f64::from(i / columns)])
+            .collect::<Vec<_>>();
+        let quads: Vec<[u32; 4]> = (0..(rows - 1) as u32)
+            .flat_map(|r| (0..(columns - 1) as u32).map(move |c| r * columns as u32 + c))
+            .map(|n| [n, n + 1, n + 1 + columns as u32, n + columns as u32])
+            .collect();
+        assert_eq!(quads.len(), 30_000);
+        for _ in 0..2 {
+            let values = (0..nodes.len()).map(|i| (i as f64).cos()).collect();
+            section = section.push(
+                FieldPicture::new("p", "q", "MPa")
+                    .mesh(nodes.clone(), quads.clone())
+                    .values(FieldValues::PerNode(values)),
+            );
+        }
+        let html = Page::new("large").section(section).render().unwrap();
+        assert!(html.len() < 3_000_000, "{}", html.len());
+    }
+
+    #[test]
+    fn errors_name_the_block() {
+        let render = |block: Block| {
+            let section = Section {
+                heading: "s".into(),
+                blocks: vec![block],
+            };
+            Page::new("t").section(section).render().unwrap_err()
+        };
+        let short = chart("c").series(LineSeries::new("short", vec![0.0]));
+        assert_eq!(
+            render(short.into()).to_string(),
+            "'c': series 'short' has 1 entries; 100 are expected"
+        );
+        let repeated = chart("c").x_values(vec![1.0; 100]);
+        assert!(matches!(
+            render(repeated.into()),
+            PageError::NotIncreasing { index: 1, .. }
+        ));
+        let row = Table::new("t").column("a", Align::Left).row(["1", "2"]);
+        assert!(matches!(
+            render(row.into()),
+            PageError::Count {
+                found: 2,
+                expected: 1,
+                ..
+            }
+        ));
+        let picture = FieldPicture::new("p", "q", "MPa")
+            .mesh(vec![[0.0; 2]; 4], vec![[0, 1, 2, 4]])
+            .values(FieldValues::PerElement(vec![1.0]));
+        assert!(matches!(
+            render(picture.into()),
+            PageError::NoSuchNode { node: 4, .. }
+        ));
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_leaves_the_structure_alone(text in any::<String>()) {
+            let html = Page::new(&text).section(Section::new(&text).push(Text::paragraph(&text)).push(chart(&text))).render().unwrap();
+            prop_assert_eq!(html.matches("<script").count(), 3);
+            prop_assert_eq!(html.matches("<section").count(), 1);
+        }
+    }
+}

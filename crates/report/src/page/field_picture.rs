@@ -1,0 +1,230 @@
+//! A plane mesh of quads coloured by a value.
+
+use super::PageError;
+use super::line_chart::check_range;
+use super::packed::{floats, shorts, words};
+use serde_json::{Value, json};
+
+/// Coordinates are stored as 16-bit steps of the mesh's larger extent: 2.4 µm for a gear of 155 mm.
+const COORDINATE_STEPS: f64 = 65_535.0;
+
+/// Values of the field.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FieldValues {
+    /// One for each node: colours run smoothly.
+    PerNode(Vec<f64>),
+    /// One for each quad: each quad has one colour.
+    PerElement(Vec<f64>),
+}
+
+/// Part of the plane, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewWindow {
+    /// Centre, mm.
+    pub centre_mm: [f64; 2],
+    /// Width that is seen, mm.
+    pub width_mm: f64,
+}
+
+/// A picture of a field on a plane mesh: wheel or +/− to zoom, drag or arrows to move, value under the cursor, colour bar
+/// with an upper end that the reader can change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldPicture {
+    title: String,
+    quantity: String,
+    unit: String,
+    nodes_mm: Vec<[f64; 2]>,
+    quads: Vec<[u32; 4]>,
+    values: FieldValues,
+    colour_range: Option<[f64; 2]>,
+    window: Option<ViewWindow>,
+}
+
+impl FieldPicture {
+    /// A picture without mesh; `quantity` names the value, `unit` its unit.
+    pub fn new(
+        title: impl Into<String>,
+        quantity: impl Into<String>,
+        unit: impl Into<String>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            quantity: quantity.into(),
+            unit: unit.into(),
+            nodes_mm: Vec::new(),
+            quads: Vec::new(),
+            values: FieldValues::PerElement(Vec::new()),
+            colour_range: None,
+            window: None,
+        }
+    }
+
+    /// Node coordinates in mm (y up) and the quads' corner nodes in cyclic order.
+    #[must_use]
+    pub fn mesh(mut self, nodes_mm: Vec<[f64; 2]>, quads: Vec<[u32; 4]>) -> Self {
+        self.nodes_mm = nodes_mm;
+        self.quads = quads;
+        self
+    }
+
+    /// The values.
+    #[must_use]
+    pub fn values(mut self, values: FieldValues) -> Self {
+        self.values = values;
+        self
+    }
+
+    /// Ends of the colour scale; without it, from 0 (or the smallest value below 0) to the largest value. A stress field with
+    /// a load that acts at a point needs an upper end.
+    #[must_use]
+    pub fn colour_range(mut self, low: f64, high: f64) -> Self {
+        self.colour_range = Some([low, high]);
+        self
+    }
+
+    /// What is seen first; without it, the whole mesh.
+    #[must_use]
+    pub fn window(mut self, window: ViewWindow) -> Self {
+        self.window = Some(window);
+        self
+    }
+
+    pub(super) fn title(&self) -> &str {
+        &self.title
+    }
+
+    pub(super) fn payload(&self) -> Result<Value, PageError> {
+        self.check()?;
+        let (origin, extent) = self.bounds();
+        let step = extent / COORDINATE_STEPS;
+        let short =
+            |v: f64, origin: f64| ((v - origin) / step).round().clamp(0.0, COORDINATE_STEPS) as u16;
+        let coordinates = shorts(
+            self.nodes_mm
+                .iter()
+                .flat_map(|p| [short(p[0], origin[0]), short(p[1], origin[1])]),
+        );
+        let corners = self.quads.iter().flatten().copied();
+        // Corner numbers fit 16 bits for most pictures; the key says which.
+        let (key, corners) = match u16::try_from(self.nodes_mm.len() - 1) {
+            Ok(_) => ("quads16", shorts(corners.map(|node| node as u16))),
+            Err(_) => ("quads32", words(corners)),
+        };
+        let (values, per_node) = match &self.values {
+            FieldValues::PerNode(values) => (values, true),
+            FieldValues::PerElement(values) => (values, false),
+        };
+        let (least, largest) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+                (a.min(*v), b.max(*v))
+            });
+        let [low, high] = self.colour_range.unwrap_or([least.min(0.0), largest]);
+        // A field of one value still gets a scale.
+        let high = if high > low { high } else { low + 1.0 };
+        Ok(json!({
+            "quantity": self.quantity,
+            "unit": self.unit,
+            "origin": origin,
+            "step": step,
+            "coordinates": coordinates,
+            key: corners,
+            "values": floats(values.iter().copied()),
+            "perNode": per_node,
+            "low": low,
+            "high": high,
+            "window": self.window.map(|w| json!({ "x": w.centre_mm[0], "y": w.centre_mm[1], "width": w.width_mm })),
+        }))
+    }
+
+    /// Lower left corner and larger extent of the mesh, mm.
+    fn bounds(&self) -> ([f64; 2], f64) {
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for p in &self.nodes_mm {
+            for k in 0..2 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        (
+            low,
+            (high[0] - low[0])
+                .max(high[1] - low[1])
+                .max(f64::MIN_POSITIVE),
+        )
+    }
+
+    fn check(&self) -> Result<(), PageError> {
+        let block = || self.title.clone();
+        if self.nodes_mm.is_empty() || self.quads.is_empty() {
+            return Err(PageError::Empty {
+                block: block(),
+                what: "the mesh",
+            });
+        }
+        let finite =
+            |what: &str, mut values: Box<dyn Iterator<Item = (usize, f64)> + '_>| match values
+                .find(|(_, v)| !v.is_finite())
+            {
+                Some((index, found)) => Err(PageError::NotFinite {
+                    block: block(),
+                    what: what.to_string(),
+                    index,
+                    found,
+                }),
+                None => Ok(()),
+            };
+        finite(
+            "the node list",
+            Box::new(
+                self.nodes_mm
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(i, p)| p.map(|v| (i, v))),
+            ),
+        )?;
+        for (quad, corners) in self.quads.iter().enumerate() {
+            if let Some(&node) = corners
+                .iter()
+                .find(|&&node| node as usize >= self.nodes_mm.len())
+            {
+                return Err(PageError::NoSuchNode {
+                    block: block(),
+                    quad,
+                    node,
+                    nodes: self.nodes_mm.len(),
+                });
+            }
+        }
+        let (values, expected, what) = match &self.values {
+            FieldValues::PerNode(values) => {
+                (values, self.nodes_mm.len(), "the list of nodal values")
+            }
+            FieldValues::PerElement(values) => {
+                (values, self.quads.len(), "the list of element values")
+            }
+        };
+        if values.len() != expected {
+            let what = what.to_string();
+            return Err(PageError::Count {
+                block: block(),
+                what,
+                found: values.len(),
+                expected,
+            });
+        }
+        finite(what, Box::new(values.iter().copied().enumerate()))?;
+        if let Some([low, high]) = self.colour_range {
+            check_range(&self.title, "the colour scale", low, high)?;
+        }
+        if let Some(window) = self.window {
+            check_range(&self.title, "the window's width", 0.0, window.width_mm)?;
+            finite(
+                "the window's centre",
+                Box::new(window.centre_mm.into_iter().enumerate()),
+            )?;
+        }
+        Ok(())
+    }
+}

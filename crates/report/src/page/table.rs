@@ -1,0 +1,127 @@
+//! Tables and key figures.
+
+use super::PageError;
+use super::markup::escape;
+use std::fmt::Write as _;
+
+/// How the cells of a column stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// For words.
+    Left,
+    /// For numbers.
+    Right,
+}
+
+/// A table; units belong in the heads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    caption: String,
+    columns: Vec<(String, Align)>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table without columns.
+    pub fn new(caption: impl Into<String>) -> Self {
+        Self {
+            caption: caption.into(),
+            columns: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds a column.
+    #[must_use]
+    pub fn column(mut self, head: impl Into<String>, align: Align) -> Self {
+        self.columns.push((head.into(), align));
+        self
+    }
+
+    /// Adds a row with one cell for each column.
+    #[must_use]
+    pub fn row<S: Into<String>>(mut self, cells: impl IntoIterator<Item = S>) -> Self {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
+        self
+    }
+
+    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+        let class = |align| {
+            if align == Align::Right {
+                " class=\"number\""
+            } else {
+                ""
+            }
+        };
+        let _ = write!(
+            html,
+            "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\"><table>\n<caption>{0}</caption>\n<thead><tr>",
+            escape(&self.caption)
+        );
+        for (head, align) in &self.columns {
+            let _ = write!(
+                html,
+                "<th scope=\"col\"{}>{}</th>",
+                class(*align),
+                escape(head)
+            );
+        }
+        html.push_str("</tr></thead>\n<tbody>\n");
+        for (i, row) in self.rows.iter().enumerate() {
+            if row.len() != self.columns.len() {
+                return Err(PageError::Count {
+                    block: self.caption.clone(),
+                    what: format!("row {i}"),
+                    found: row.len(),
+                    expected: self.columns.len(),
+                });
+            }
+            html.push_str("<tr>");
+            for (cell, (_, align)) in row.iter().zip(&self.columns) {
+                let _ = write!(html, "<td{}>{}</td>", class(*align), escape(cell));
+            }
+            html.push_str("</tr>\n");
+        }
+        html.push_str("</tbody></table></div>\n");
+        Ok(())
+    }
+}
+
+/// A few figures that a reader should see first.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct KeyFigures {
+    figures: Vec<[String; 3]>,
+}
+
+impl KeyFigures {
+    /// No figure yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a figure: what it is, its value, its unit.
+    #[must_use]
+    pub fn figure(
+        mut self,
+        label: impl Into<String>,
+        value: impl Into<String>,
+        unit: impl Into<String>,
+    ) -> Self {
+        self.figures.push([label.into(), value.into(), unit.into()]);
+        self
+    }
+
+    pub(super) fn render(&self, html: &mut String) {
+        html.push_str("<dl class=\"figures\">\n");
+        for [label, value, unit] in &self.figures {
+            let _ = writeln!(
+                html,
+                "<div><dt>{}</dt><dd>{} <span>{}</span></dd></div>",
+                escape(label),
+                escape(value),
+                escape(unit)
+            );
+        }
+        html.push_str("</dl>\n");
+    }
+}

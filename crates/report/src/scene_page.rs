@@ -1,0 +1,304 @@
+//! The report page of one or more results.
+
+use crate::page::{
+    Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page, PageError, Section,
+    SpectrumChart, SpectrumSeries, Table, Text,
+};
+use crate::quantity::Quantity;
+use crate::record::ReferenceRecord;
+use crate::scene_comparison::{SceneComparisonError, compare_scene};
+use crate::comparison_table;
+use gearmesh_scene::SceneResult;
+use gearmesh_signal::statistics::{mean, peak_to_peak};
+use gearmesh_signal::rig::process;
+use gearmesh_signal::{AngleSeries, OrderFilter, RigSettings};
+
+/// A gear's cross-section coloured by stress.
+#[derive(Debug, Clone)]
+pub struct GearPicture {
+    /// Title.
+    pub title: String,
+    /// Nodes \[mm\].
+    pub nodes_mm: Vec<[f64; 2]>,
+    /// Quads.
+    pub quads: Vec<[u32; 4]>,
+    /// Stress per quad \[MPa\].
+    pub von_mises_mpa: Vec<f64>,
+}
+
+/// One result with what belongs to it.
+#[derive(Debug)]
+pub struct SceneChapter {
+    /// Result.
+    pub result: SceneResult,
+    /// Reference, if any.
+    pub record: Option<ReferenceRecord>,
+    /// Pictures, if any.
+    pub pictures: Vec<GearPicture>,
+}
+
+/// Why no page could be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenePageError {
+    /// A block is wrong.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// The comparison failed.
+    #[error(transparent)]
+    Comparison(#[from] SceneComparisonError),
+}
+
+fn micro(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|v| v * 1e6).collect()
+}
+
+/// Builds the page.
+///
+/// # Errors
+/// [`ScenePageError`] when a comparison cannot be made.
+pub fn scene_page(chapters: &[SceneChapter]) -> Result<Page, ScenePageError> {
+    let titles: Vec<&str> = chapters.iter().map(|c| c.result.title.as_str()).collect();
+    let mut page = Page::new("gearmesh report").subtitle(titles.join(" - "));
+    for chapter in chapters {
+        let r = &chapter.result;
+        page = page
+            .section(overview(r))
+            .section(transmission_error(chapter))
+            .section(contact(r));
+        if !r.strain.is_empty() {
+            page = page.section(root_strain(chapter));
+        }
+        if let Some(record) = &chapter.record {
+            let table = comparison_table(&compare_scene(r, record)?);
+            page = page.section(
+                Section::new(format!("{}: comparison", r.title))
+                    .push(Text::paragraph(format!(
+                        "Both sides went through the rig pipeline. The reference is {}: {}. {}",
+                        record.kind, record.title, record.source
+                    )))
+                    .push(Text::preformatted(table)),
+            );
+        }
+        if !chapter.pictures.is_empty() {
+            let mut section = Section::new(format!("{}: stress", r.title)).push(Text::paragraph(
+                "Element stresses of the finite element model. Directly under the load they are those of the model's own load \
+                 patches, not of the Hertz contact; the colour scale is cut below them.",
+            ));
+            for picture in &chapter.pictures {
+                section = section.push(stress_picture(picture));
+            }
+            page = page.section(section);
+        }
+        page = page.section(provenance(r));
+    }
+    let made: Vec<String> = chapters.iter().map(|c| format!("{} {}", c.result.version, c.result.created_utc)).collect();
+    Ok(page.footer(format!("gearmesh {}", made.join(", "))))
+}
+
+fn overview(r: &SceneResult) -> Section {
+    let last = r.torque_nm.len() - 1;
+    let te = r.curve(&r.te_m, last);
+    let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| value.unwrap_or(f64::NAN) * 1e6;
+    let mut figures = KeyFigures::new()
+        .figure("torque", format!("{}", r.torque_nm[last]), "N m")
+        .figure("TE mean", format!("{:.3}", figure(mean(te))), "um")
+        .figure("TE peak-to-peak", format!("{:.3}", figure(peak_to_peak(te))), "um")
+        .figure("K_Hbeta", format!("{:.3}", r.k_h_beta[last]), "1");
+    if let Some(s) = r.strain.first() {
+        let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
+        figures = figures.figure(format!("strain range {}", s.name), format!("{range:.0}"), "ustrain");
+    }
+    let mut section = Section::new(r.title.clone()).push(figures);
+    let mut table = Table::new("By torque")
+        .column("torque N m", Align::Right)
+        .column("TE mean um", Align::Right)
+        .column("TE peak-to-peak um", Align::Right)
+        .column("mean secant stiffness N/um", Align::Right)
+        .column("mean tangent stiffness N/um", Align::Right)
+        .column("largest Hertz pressure MPa", Align::Right)
+        .column("K_Hbeta", Align::Right);
+    let block = r.pressure_pa.len() / r.torque_nm.len();
+    for (k, torque) in r.torque_nm.iter().enumerate() {
+        let te = r.curve(&r.te_m, k);
+        let average = |values: &[f64]| mean(r.curve(values, k)).unwrap_or(f64::NAN) * 1e-6;
+        let pressure = r.pressure_pa[k * block..(k + 1) * block].iter().copied().fold(0.0, f64::max);
+        table = table.row([
+            format!("{torque}"),
+            format!("{:.3}", figure(mean(te))),
+            format!("{:.3}", figure(peak_to_peak(te))),
+            format!("{:.2}", average(&r.secant_n_per_m)),
+            format!("{:.2}", average(&r.tangent_n_per_m)),
+            format!("{:.0}", pressure * 1e-6),
+            format!("{:.3}", r.k_h_beta[k]),
+        ]);
+    }
+    section = section.push(table);
+    for warning in &r.warnings {
+        section = section.push(Text::note(format!("Warning: {warning}")));
+    }
+    section
+}
+
+fn angles_deg(r: &SceneResult) -> Vec<f64> {
+    r.angle_rad.iter().map(|a| a.to_degrees()).collect()
+}
+
+fn angle_axis() -> Axis {
+    Axis::new("driver angle", "deg")
+}
+
+/// The reference's values at our angles, in display units; none where it lacks the column.
+fn reference_values(chapter: &SceneChapter, quantity: &Quantity, torque_nm: f64) -> Option<Vec<f64>> {
+    let record = chapter.record.as_ref()?;
+    let series = record.series(record.column(quantity, torque_nm)?).ok()?;
+    Some(chapter.result.angle_rad.iter().map(|&a| series.value(a) * 1e6).collect())
+}
+
+fn transmission_error(chapter: &SceneChapter) -> Section {
+    let r = &chapter.result;
+    let mut chart = LineChart::new("Transmission error by torque", angle_axis(), Axis::new("TE", "um")).x_values(angles_deg(r));
+    let mut spectrum = SpectrumChart::new("Order spectrum of the transmission error, orders 0 and 1 removed", Axis::new("amplitude", "um"))
+        .up_to_order(130.0)
+        .decades(5)
+        .highlight(3.0, "3 (slots)")
+        .highlight(57.0, "57 (mesh)");
+    let mut orders_set = false;
+    for (k, &torque) in r.torque_nm.iter().enumerate() {
+        let te = r.curve(&r.te_m, k);
+        chart = chart.series(LineSeries::new(format!("{torque} N m"), micro(te)));
+        if let Some(values) = reference_values(chapter, &Quantity::TransmissionError, torque) {
+            chart = chart.series(LineSeries::new(format!("{torque} N m reference"), values).style(LineStyle::Dashed).hidden());
+        }
+        if k != 0 && k + 1 != r.torque_nm.len() {
+            continue;
+        }
+        if let Ok(series) = AngleSeries::one_revolution(&r.angle_rad, te)
+            && let Ok(signal) = process(&series, &RigSettings::default(), OrderFilter::RemoveMeanAndEccentricity)
+        {
+            if !orders_set {
+                spectrum = spectrum.orders(signal.spectrum.orders());
+                orders_set = true;
+            }
+            spectrum = spectrum.series(SpectrumSeries::new(format!("{torque} N m"), micro(&signal.spectrum.amplitudes())));
+        }
+    }
+    let mut section = Section::new(format!("{}: transmission error", r.title))
+        .push(Text::paragraph(
+            "TE = r_b2 theta_2 - r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load. \
+             Reference curves are switched on in the legend.",
+        ))
+        .push(chart);
+    if orders_set {
+        section = section.push(spectrum);
+    }
+    section
+}
+
+fn contact(r: &SceneResult) -> Section {
+    // Over the first two pitches: the load of each tooth pair, and the stiffness.
+    let points = r.angles().min(2 * r.angles() / 57.max(1) + 1).max(r.angles().min(80));
+    let x: Vec<f64> = angles_deg(r)[..points].to_vec();
+    let last = r.torque_nm.len() - 1;
+    let mut pairs: Vec<i64> = (0..points)
+        .flat_map(|a| (0..r.pair_count[a] as usize).map(move |slot| r.pair[a * r.slots + slot] as i64))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut sharing = LineChart::new(
+        format!("Load of each tooth pair at {} N m", r.torque_nm[last]),
+        angle_axis(),
+        Axis::new("normal force", "N"),
+    )
+    .x_values(x.clone());
+    for pair in pairs {
+        let values = (0..points)
+            .map(|a| {
+                (0..r.pair_count[a] as usize)
+                    .filter(|slot| r.pair[a * r.slots + slot] as i64 == pair)
+                    .map(|slot| r.forces(last, a, slot).iter().sum::<f64>())
+                    .sum()
+            })
+            .collect();
+        sharing = sharing.series(LineSeries::new(format!("pair {pair}"), values));
+    }
+    let mut stiffness =
+        LineChart::new("Mesh stiffness", angle_axis(), Axis::new("stiffness", "N/um")).x_values(x);
+    for k in [0, last] {
+        let torque = r.torque_nm[k];
+        let part = |values: &[f64]| r.curve(values, k)[..points].iter().map(|v| v * 1e-6).collect();
+        stiffness = stiffness
+            .series(LineSeries::new(format!("secant, {torque} N m"), part(&r.secant_n_per_m)))
+            .series(LineSeries::new(format!("tangent, {torque} N m"), part(&r.tangent_n_per_m)).style(LineStyle::Dashed));
+        if last == 0 {
+            break;
+        }
+    }
+    Section::new(format!("{}: load sharing and mesh stiffness", r.title)).push(sharing).push(stiffness)
+}
+
+fn root_strain(chapter: &SceneChapter) -> Section {
+    let r = &chapter.result;
+    let last = r.torque_nm.len() - 1;
+    let mut section = Section::new(format!("{}: root strain", r.title)).push(Text::paragraph(
+        "Surface strain along the profile at the gauges. Method 1 superposes deformation patterns (normal forces only), method 2 \
+         puts the true loads on the finite element model. The estimated error of the mesh stands in the table.",
+    ));
+    let mut table = Table::new("Gauges")
+        .column("gear", Align::Right)
+        .column("gauge", Align::Left)
+        .column("mesh error %", Align::Right);
+    for s in &r.strain {
+        table = table.row([s.gear.to_string(), s.name.clone(), format!("{:.2}", 100.0 * s.error_estimate_relative)]);
+        let mut chart = LineChart::new(
+            format!("Gear {}, gauge {}, {} N m", s.gear, s.name, r.torque_nm[last]),
+            angle_axis(),
+            Axis::new("strain", "ustrain"),
+        )
+        .x_values(angles_deg(r));
+        let quantity = Quantity::Strain { gauge: s.name.clone() };
+        if let Some(values) = reference_values(chapter, &quantity, r.torque_nm[last]) {
+            chart = chart.series(LineSeries::new("reference", values).style(LineStyle::Dashed));
+        }
+        let curve = r.curve(&s.method_2, last);
+        let peak = (0..curve.len()).max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs())).unwrap_or(0);
+        let centre = r.angle_rad[peak].to_degrees();
+        let (low, high) = (r.angle_rad[0].to_degrees(), r.angle_rad[r.angles() - 1].to_degrees());
+        if high - low > 60.0 {
+            let from = (centre - 20.0).clamp(low, high - 40.0);
+            chart = chart.x_window(from, from + 40.0);
+        }
+        section = section.push(
+            chart
+                .series(LineSeries::new("method 1", micro(r.curve(&s.method_1, last))))
+                .series(LineSeries::new("method 2", micro(curve))),
+        );
+    }
+    section.push(table)
+}
+
+fn stress_picture(picture: &GearPicture) -> FieldPicture {
+    // The load patches of the model would take the whole scale; the roots are what one wants to see.
+    let mut sorted = picture.von_mises_mpa.clone();
+    sorted.sort_by(f64::total_cmp);
+    let high = sorted.get(sorted.len().saturating_sub(1 + sorted.len() / 1000)).copied().unwrap_or(1.0);
+    FieldPicture::new(picture.title.clone(), "von Mises stress", "MPa")
+        .mesh(picture.nodes_mm.clone(), picture.quads.clone())
+        .values(FieldValues::PerElement(picture.von_mises_mpa.clone()))
+        .colour_range(0.0, high.max(1e-6))
+}
+
+fn provenance(r: &SceneResult) -> Section {
+    Section::new(format!("{}: scene and gears", r.title))
+        .push(Text::paragraph(format!(
+            "gearmesh {}, computed {}; contact {:.3} s, strain {:.3} s; largest relative residual {:.1e}, torque balance {:.1e}.",
+            r.version,
+            r.created_utc,
+            r.seconds[0],
+            r.seconds[1],
+            r.residual.iter().copied().fold(0.0, f64::max),
+            r.torque_balance.iter().copied().fold(0.0, f64::max)
+        )))
+        .push(Text::preformatted(r.scene_toml.clone()))
+        .push(Text::preformatted(r.gear_toml[0].clone()))
+        .push(Text::preformatted(r.gear_toml[1].clone()))
+}

@@ -1,0 +1,67 @@
+//! What a scene will compute, before anything is computed.
+
+use crate::scene_file::Scene;
+use gearmesh_contact::{ContactLines, LocalContact};
+use gearmesh_model::ReducedGear;
+
+/// Size and effects of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Lines for people: what is computed, with which model.
+    pub lines: Vec<String>,
+    /// Static positions to solve: angles times torques.
+    pub positions: usize,
+    /// Largest number of unknown slice forces at a position.
+    pub unknowns: usize,
+}
+
+impl Plan {
+    /// Derives the plan of a scene with its loaded models.
+    pub fn new(scene: &Scene, lines: &ContactLines, gear_1: &ReducedGear, gear_2: &ReducedGear) -> Self {
+        let pair = &lines.pair;
+        let positions = scene.positions() * scene.torques_nm.len();
+        let unknowns = lines.most_pairs() * gear_1.grid.slices;
+        let mut text = vec![
+            format!("scene      {}", scene.title),
+            format!("analysis   static, {} torques x {} positions", scene.torques_nm.len(), scene.positions()),
+        ];
+        for (number, gear) in [(1, gear_1), (2, gear_2)] {
+            text.push(format!(
+                "gear {number}     {}: z {}, body `reduced`, {} flank loads, {} repeating sectors, from {} degrees of freedom ({})",
+                gear.name,
+                gear.teeth,
+                gear.grid.len(),
+                gear.sectors,
+                gear.provenance.dofs,
+                gear.provenance.element
+            ));
+        }
+        text.push(format!(
+            "pair       a {:.4} mm, working pressure angle {:.4} deg, contact ratio {:.4}, backlash {:.4} mm, {} flanks",
+            pair.centre_distance_m * 1e3,
+            pair.working_pressure_angle_rad.to_degrees(),
+            pair.contact_ratio(),
+            pair.backlash_m() * 1e3,
+            scene.flank.name()
+        ));
+        text.push(format!(
+            "mesh       `hybrid`, path `line-of-action`, local `{}`, {} slices, at most {unknowns} unknown forces",
+            match scene.contact.local {
+                LocalContact::None => "none",
+                LocalContact::WeberBanaschek => "weber-banaschek",
+            },
+            gear_1.grid.slices
+        ));
+        text.push(match scene.contact.friction {
+            None => "friction   not computed".to_string(),
+            Some(f) => format!("friction   `coulomb`, coefficient {}, reversal within {} um", f.coefficient, f.reversal_m * 1e6),
+        });
+        let gauges = scene.gauges_1.len() + scene.gauges_2.len();
+        text.push(if gauges == 0 {
+            "gauges     not computed".to_string()
+        } else {
+            format!("gauges     {gauges}, methods 1 and 2, {} readings", 2 * gauges * positions)
+        });
+        Self { lines: text, positions, unknowns }
+    }
+}

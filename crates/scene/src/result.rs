@@ -1,0 +1,216 @@
+//! The result of a scene, in memory and as an HDF5 file.
+
+use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, Values};
+use std::path::Path;
+
+/// Name and version of the result file.
+pub const RESULT_FORMAT: FileFormat = FileFormat { name: "gearmesh-result", version: 1 };
+
+/// Strain of one gauge, `[torque][angle]`, dimensionless.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrainSeries {
+    /// Gear 1 or 2.
+    pub gear: usize,
+    /// Name of the gauge.
+    pub name: String,
+    /// Estimated relative error of the mesh at this gauge.
+    pub error_estimate_relative: f64,
+    /// Method 1.
+    pub method_1: Vec<f64>,
+    /// Method 2.
+    pub method_2: Vec<f64>,
+}
+
+/// All curves of a run. With T torques, A angles, L line slots and S slices.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SceneResult {
+    /// Title of the scene.
+    pub title: String,
+    /// The scene file, verbatim.
+    pub scene_toml: String,
+    /// The gear files kept in the models, verbatim.
+    pub gear_toml: [String; 2],
+    /// Model files as the scene names them.
+    pub model_files: [String; 2],
+    /// Program version.
+    pub version: String,
+    /// When, UTC.
+    pub created_utc: String,
+    /// Driver angles \[rad\], A.
+    pub angle_rad: Vec<f64>,
+    /// Torques on gear 2 \[N·m\], T.
+    pub torque_nm: Vec<f64>,
+    /// Transmission error \[m\], `[T][A]`.
+    pub te_m: Vec<f64>,
+    /// Transmission error at first touch \[m\], `[A]`.
+    pub unloaded_m: Vec<f64>,
+    /// Torque on gear 1 \[N·m\], `[T][A]`.
+    pub torque_1_nm: Vec<f64>,
+    /// Secant mesh stiffness \[N/m\], `[T][A]`.
+    pub secant_n_per_m: Vec<f64>,
+    /// Tangent mesh stiffness \[N/m\], `[T][A]`.
+    pub tangent_n_per_m: Vec<f64>,
+    /// Line slots L.
+    pub slots: usize,
+    /// Slices S.
+    pub slices: usize,
+    /// Pair number in each slot, `[A][L]`; only the first `pair_count` are used.
+    pub pair: Vec<f64>,
+    /// Pairs in contact, `[A]`.
+    pub pair_count: Vec<u32>,
+    /// Slice forces \[N\], `[T][A][L][S]`.
+    pub force_n: Vec<f64>,
+    /// Hertz pressure \[Pa\], `[T][A][L][S]`.
+    pub pressure_pa: Vec<f64>,
+    /// Largest over mean line load of the most loaded line, worst position, per torque: K_Hβ.
+    pub k_h_beta: Vec<f64>,
+    /// Newton iterations, sum over all positions, per torque.
+    pub iterations: Vec<u32>,
+    /// Largest relative residual, per torque.
+    pub residual: Vec<f64>,
+    /// Largest relative error of Σ F b = T₂, per torque.
+    pub torque_balance: Vec<f64>,
+    /// Strain.
+    pub strain: Vec<StrainSeries>,
+    /// Warnings about assumptions.
+    pub warnings: Vec<String>,
+    /// Solution and strain time \[s\].
+    pub seconds: [f64; 2],
+}
+
+impl SceneResult {
+    /// Number of angles.
+    pub fn angles(&self) -> usize {
+        self.angle_rad.len()
+    }
+
+    /// One torque's part of a `[T][A]` array.
+    pub fn curve<'a>(&self, values: &'a [f64], torque: usize) -> &'a [f64] {
+        &values[torque * self.angles()..(torque + 1) * self.angles()]
+    }
+
+    /// Slice forces of one line \[N\].
+    pub fn forces(&self, torque: usize, angle: usize, slot: usize) -> &[f64] {
+        let first = ((torque * self.angles() + angle) * self.slots + slot) * self.slices;
+        &self.force_n[first..first + self.slices]
+    }
+
+    /// Writes the result, atomically.
+    ///
+    /// # Errors
+    /// [`FileError`] when the file cannot be written; an older file is then untouched.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let (t, a) = (("torque", self.torque_nm.len()), ("driver angle", self.angles()));
+        let (l, s) = (("contact line", self.slots), ("slice", self.slices));
+        let mut tree = DataTree::default();
+        let mut put = |name: &str, values: &[f64], axes: &[(&str, usize)], unit: &str, text: &str| {
+            tree.put(name, DataArray::new(Values::F64(values.to_vec()), axes, unit, text));
+        };
+        put("angle_rad", &self.angle_rad, &[a], "rad", "driver angle, zero where pair 0 touches at the pitch point");
+        put("torque_Nm", &self.torque_nm, &[t], "N m", "torque on gear 2");
+        put("te_m", &self.te_m, &[t, a], "m", "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load");
+        put("te_unloaded_m", &self.unloaded_m, &[a], "m", "transmission error at first touch");
+        put("torque_1_Nm", &self.torque_1_nm, &[t, a], "N m", "torque on gear 1");
+        put("stiffness_secant_N_per_m", &self.secant_n_per_m, &[t, a], "N/m", "secant mesh stiffness");
+        put("stiffness_tangent_N_per_m", &self.tangent_n_per_m, &[t, a], "N/m", "tangent mesh stiffness");
+        put("pair", &self.pair, &[a, l], "1", "pair number of each contact line");
+        put("force_N", &self.force_n, &[t, a, l, s], "N", "normal force of each slice, positive in compression");
+        put("pressure_Pa", &self.pressure_pa, &[t, a, l, s], "Pa", "peak Hertz pressure of each slice");
+        put("k_h_beta", &self.k_h_beta, &[t], "1", "face load factor of the most loaded line, worst position");
+        put("residual", &self.residual, &[t], "1", "largest relative residual of the contact problem");
+        put("torque_balance", &self.torque_balance, &[t], "1", "largest relative error of the torque balance");
+        put("seconds", &self.seconds, &[("stage", 2)], "s", "wall time of contact and of strain");
+        tree.put("pair_count", DataArray::new(Values::U32(self.pair_count.clone()), &[a], "1", "contact lines in use"));
+        tree.put("iterations", DataArray::new(Values::U32(self.iterations.clone()), &[t], "1", "Newton iterations"));
+        tree.put("gauge_count", DataArray::count(self.strain.len() as u32, "gauges"));
+        for (i, series) in self.strain.iter().enumerate() {
+            let name = |part: &str| format!("gauges/{i}/{part}");
+            tree.put(name("gear"), DataArray::count(series.gear as u32, "gear of the gauge"));
+            tree.put_text(name("name"), series.name.clone());
+            tree.put(name("error"), DataArray::scalar(series.error_estimate_relative, "1", "estimated relative mesh error"));
+            for (part, values) in [("method_1", &series.method_1), ("method_2", &series.method_2)] {
+                let array = DataArray::new(Values::F64(values.clone()), &[t, a], "1", "strain along the profile, positive in tension");
+                tree.put(name(part), array);
+            }
+        }
+        for (name, text) in self.texts() {
+            tree.put_text(name, text);
+        }
+        tree.write(path, &RESULT_FORMAT)
+    }
+
+    fn texts(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("title", self.title.clone()),
+            ("scene_toml", self.scene_toml.clone()),
+            ("gear_1_toml", self.gear_toml[0].clone()),
+            ("gear_2_toml", self.gear_toml[1].clone()),
+            ("model_1", self.model_files[0].clone()),
+            ("model_2", self.model_files[1].clone()),
+            ("version", self.version.clone()),
+            ("created_utc", self.created_utc.clone()),
+            ("warnings", self.warnings.join("\n")),
+        ]
+    }
+
+    /// Reads a result.
+    ///
+    /// # Errors
+    /// [`FileError`] when the file is missing, cut, altered, of another kind, or an array does not fit the others.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let mut tree = DataTree::read(path, &RESULT_FORMAT)?;
+        let [angles] = tree.shape(path, "angle_rad")?;
+        let [torques] = tree.shape(path, "torque_Nm")?;
+        let [_, _, slots, slices] = tree.shape(path, "force_N")?;
+        let curves = [torques, angles];
+        let lines = [torques, angles, slots, slices];
+        let gauges = tree.take_count(path, "gauge_count")?;
+        let mut strain = Vec::new();
+        for i in 0..gauges {
+            let name = |part: &str| format!("gauges/{i}/{part}");
+            strain.push(StrainSeries {
+                gear: tree.take_count(path, &name("gear"))?,
+                name: tree.take_text(path, &name("name"))?,
+                error_estimate_relative: tree.take_scalar(path, &name("error"))?,
+                method_1: tree.take_f64(path, &name("method_1"), &curves)?,
+                method_2: tree.take_f64(path, &name("method_2"), &curves)?,
+            });
+        }
+        let seconds = tree.take_f64(path, "seconds", &[2])?;
+        let mut text = |name: &str| tree.take_text(path, name);
+        let title = text("title")?;
+        let scene_toml = text("scene_toml")?;
+        let gear_toml = [text("gear_1_toml")?, text("gear_2_toml")?];
+        let model_files = [text("model_1")?, text("model_2")?];
+        let (version, created_utc) = (text("version")?, text("created_utc")?);
+        let warnings = text("warnings")?.lines().map(str::to_owned).collect();
+        Ok(Self {
+            title,
+            scene_toml,
+            gear_toml,
+            model_files,
+            version,
+            created_utc,
+            angle_rad: tree.take_f64(path, "angle_rad", &[angles])?,
+            torque_nm: tree.take_f64(path, "torque_Nm", &[torques])?,
+            te_m: tree.take_f64(path, "te_m", &curves)?,
+            unloaded_m: tree.take_f64(path, "te_unloaded_m", &[angles])?,
+            torque_1_nm: tree.take_f64(path, "torque_1_Nm", &curves)?,
+            secant_n_per_m: tree.take_f64(path, "stiffness_secant_N_per_m", &curves)?,
+            tangent_n_per_m: tree.take_f64(path, "stiffness_tangent_N_per_m", &curves)?,
+            slots,
+            slices,
+            pair: tree.take_f64(path, "pair", &[angles, slots])?,
+            pair_count: tree.take_u32(path, "pair_count", &[angles])?,
+            force_n: tree.take_f64(path, "force_N", &lines)?,
+            pressure_pa: tree.take_f64(path, "pressure_Pa", &lines)?,
+            k_h_beta: tree.take_f64(path, "k_h_beta", &[torques])?,
+            iterations: tree.take_u32(path, "iterations", &[torques])?,
+            residual: tree.take_f64(path, "residual", &[torques])?,
+            torque_balance: tree.take_f64(path, "torque_balance", &[torques])?,
+            strain,
+            warnings,
+            seconds: [seconds[0], seconds[1]],
+        })
+    }
+}

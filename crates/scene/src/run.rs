@@ -1,0 +1,335 @@
+//! Loads the models of a scene, solves all positions, reads the gauges.
+
+use crate::plan::Plan;
+use crate::result::{SceneResult, StrainSeries};
+use crate::scene_file::Scene;
+use crate::warnings::{Assumption, Warnings};
+use gearmesh_contact::mesh_stiffness::MeshStiffness;
+use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::{ContactError, ContactLines, StaticContact};
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
+use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
+use gearmesh_recovery::{GaugeReader, LoadedLine};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::time::Instant;
+
+/// Why a scene could not be run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The scene or a gear file inside a model is wrong.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A model cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A model lacks a flank.
+    #[error(transparent)]
+    Model(#[from] ReducedGearError),
+    /// No contact state.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+}
+
+impl RunError {
+    /// True when the input is to blame, not the computation.
+    pub fn is_input(&self) -> bool {
+        !matches!(self, Self::Contact(ContactError::Nlcp { .. } | ContactError::LocalLaw { .. }))
+    }
+}
+
+/// A scene with its models.
+#[derive(Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Reduced models of gear 1 and gear 2.
+    pub models: [ReducedGear; 2],
+    /// Kinematics and microgeometry.
+    pub lines: ContactLines,
+    /// Gauges to read: gear (1 or 2) and index in the model.
+    pub gauges: Vec<(usize, usize)>,
+}
+
+/// The model's word for a side.
+fn flank_of(side: FlankSide) -> Flank {
+    match side {
+        FlankSide::Right => Flank::Right,
+        FlankSide::Left => Flank::Left,
+    }
+}
+
+/// Reads the models of a scene and checks that everything it names exists.
+///
+/// # Errors
+/// [`RunError`] when a model is missing or broken, the gears do not run together, or a gauge does not exist.
+pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
+    let read = |key: &str, path: &Path| -> Result<(ReducedGear, GearDefinition), RunError> {
+        if !path.exists() {
+            let problem = format!("the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`", path.display(), path.display());
+            return Err(scene.document.error(key, problem).into());
+        }
+        let model = read_reduced_gear(path)?;
+        let source = format!("gear file inside {}", path.display());
+        let gear = GearDefinition::from_document(&InputDocument::new(source, model.input_toml.clone()))?;
+        Ok((model, gear))
+    };
+    let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
+    let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let pair = GearPair::new(gear_1.profile, gear_2.profile, scene.centre_distance_m, scene.misalignment)
+        .map_err(|e| scene.document.error("pair", e))?;
+    let lines = ContactLines { pair, microgeometry_1: gear_1.microgeometry, microgeometry_2: gear_2.microgeometry };
+    let models = [model_1, model_2];
+    for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
+        model.flank_index(flank_of(scene.flank)).map_err(|e| scene.document.error(key, e))?;
+    }
+    let mut gauges = Vec::new();
+    for (gear, names) in [(1, &scene.gauges_1), (2, &scene.gauges_2)] {
+        for (i, name) in names.iter().enumerate() {
+            let known = &models[gear - 1].gauges;
+            let index = known.iter().position(|g| g.name == *name).ok_or_else(|| {
+                let names: Vec<&str> = known.iter().map(|g| g.name.as_str()).collect();
+                scene.document.error(
+                    &format!("gauges.gear_{gear}.{i}"),
+                    format!("the model has no gauge `{name}`; it has: {}", if names.is_empty() { "none".into() } else { names.join(", ") }),
+                )
+            })?;
+            gauges.push((gear, index));
+        }
+    }
+    Ok(LoadedScene { scene, models, lines, gauges })
+}
+
+impl LoadedScene {
+    /// What will be computed.
+    pub fn plan(&self) -> Plan {
+        Plan::new(&self.scene, &self.lines, &self.models[0], &self.models[1])
+    }
+
+    /// Driver angles of the scene \[rad\].
+    pub fn angles_rad(&self) -> Vec<f64> {
+        let step = TAU / self.models[0].teeth as f64 / self.scene.points_per_pitch as f64;
+        (0..self.scene.positions()).map(|k| self.scene.start_rad + step * k as f64).collect()
+    }
+
+    /// A contact problem of this scene.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the models do not fit each other.
+    pub fn contact(&self) -> Result<StaticContact, ContactError> {
+        StaticContact::new(
+            self.lines.clone(),
+            &self.models[0],
+            &self.models[1],
+            flank_of(self.scene.flank),
+            self.scene.contact,
+        )
+    }
+}
+
+/// Curves of one torque.
+struct TorqueCurves {
+    te: Vec<f64>,
+    unloaded: Vec<f64>,
+    torque_1: Vec<f64>,
+    secant: Vec<f64>,
+    tangent: Vec<f64>,
+    force: Vec<f64>,
+    pressure: Vec<f64>,
+    k_h_beta: f64,
+    iterations: u32,
+    residual: f64,
+    torque_balance: f64,
+    warnings: Vec<(Assumption, f64)>,
+}
+
+/// Solves all positions of a scene; torques run in parallel, each warm from angle to angle.
+///
+/// `progress` hears of each finished torque: done, total.
+///
+/// # Errors
+/// [`RunError`] when a position has no solution.
+pub fn run(loaded: &LoadedScene, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<SceneResult, RunError> {
+    let scene = &loaded.scene;
+    let angles = loaded.angles_rad();
+    let clock = Instant::now();
+    let slots = loaded.lines.most_pairs();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let curves: Vec<TorqueCurves> = scene
+        .torques_nm
+        .par_iter()
+        .map(|&torque| {
+            let curves = solve_torque(loaded, &angles, slots, torque)?;
+            let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            progress(finished, scene.torques_nm.len());
+            Ok(curves)
+        })
+        .collect::<Result<_, RunError>>()?;
+    let contact_seconds = clock.elapsed().as_secs_f64();
+
+    let (mut pair, mut pair_count) = (Vec::new(), Vec::new());
+    let mut lines = Vec::new();
+    for &angle in &angles {
+        loaded.lines.at(angle, &mut lines);
+        pair_count.push(lines.len() as u32);
+        pair.extend((0..slots).map(|k| lines.get(k).map_or(0.0, |l| l.pair as f64)));
+    }
+    let mut warnings = Warnings::default();
+    for (torque, curve) in scene.torques_nm.iter().zip(&curves) {
+        for (assumption, value) in &curve.warnings {
+            warnings.note(*assumption, *value, *torque);
+        }
+    }
+    let flatten = |part: fn(&TorqueCurves) -> &Vec<f64>| curves.iter().flat_map(|c| part(c).iter().copied()).collect();
+    let mut result = SceneResult {
+        title: scene.title.clone(),
+        scene_toml: scene.document.text.clone(),
+        gear_toml: [loaded.models[0].input_toml.clone(), loaded.models[1].input_toml.clone()],
+        model_files: [scene.gear_1.display().to_string(), scene.gear_2.display().to_string()],
+        version: env!("CARGO_PKG_VERSION").into(),
+        created_utc: utc_now(),
+        torque_nm: scene.torques_nm.clone(),
+        te_m: flatten(|c| &c.te),
+        unloaded_m: curves.first().map(|c| c.unloaded.clone()).unwrap_or_default(),
+        torque_1_nm: flatten(|c| &c.torque_1),
+        secant_n_per_m: flatten(|c| &c.secant),
+        tangent_n_per_m: flatten(|c| &c.tangent),
+        slots,
+        slices: loaded.models[0].grid.slices,
+        pair,
+        pair_count,
+        force_n: flatten(|c| &c.force),
+        pressure_pa: flatten(|c| &c.pressure),
+        k_h_beta: curves.iter().map(|c| c.k_h_beta).collect(),
+        iterations: curves.iter().map(|c| c.iterations).collect(),
+        residual: curves.iter().map(|c| c.residual).collect(),
+        torque_balance: curves.iter().map(|c| c.torque_balance).collect(),
+        strain: Vec::new(),
+        warnings: warnings.sentences(),
+        seconds: [contact_seconds, 0.0],
+        angle_rad: angles,
+    };
+    let clock = Instant::now();
+    result.strain = strain(loaded, &result, &loaded.gauges)?;
+    result.seconds[1] = clock.elapsed().as_secs_f64();
+    Ok(result)
+}
+
+fn solve_torque(
+    loaded: &LoadedScene,
+    angles: &[f64],
+    slots: usize,
+    torque: f64,
+) -> Result<TorqueCurves, RunError> {
+    let mut contact = loaded.contact()?;
+    let slices = contact.slices();
+    let width = contact.slice_width_m();
+    let base_2 = loaded.lines.pair.gear_2.base_radius_m;
+    let base_pitch = loaded.lines.pair.pitch_1_rad() * loaded.lines.pair.gear_1.base_radius_m;
+    let distances = loaded.models.each_ref().map(|m| m.opposite_distance_m.iter().copied().fold(f64::INFINITY, f64::min));
+    let least_distance = distances[0].min(distances[1]);
+    let young = loaded.models[0].young_pa.min(loaded.models[1].young_pa);
+    let n = angles.len();
+    let mut c = TorqueCurves {
+        te: Vec::with_capacity(n),
+        unloaded: Vec::with_capacity(n),
+        torque_1: Vec::with_capacity(n),
+        secant: Vec::with_capacity(n),
+        tangent: Vec::with_capacity(n),
+        force: vec![0.0; n * slots * slices],
+        pressure: vec![0.0; n * slots * slices],
+        k_h_beta: 1.0,
+        iterations: 0,
+        residual: 0.0,
+        torque_balance: 0.0,
+        warnings: Vec::new(),
+    };
+    let mut worst = [0.0f64; 4];
+    for (k, &angle) in angles.iter().enumerate() {
+        let state = contact.solve(angle, Drive::Torque(torque))?;
+        let stiffness = MeshStiffness::of(&state, base_2);
+        c.te.push(state.transmission_error_m);
+        c.unloaded.push(state.unloaded_m);
+        c.torque_1.push(state.torque_1_nm);
+        c.secant.push(stiffness.secant_n_per_m);
+        c.tangent.push(stiffness.tangent_n_per_m);
+        c.iterations += state.info.iterations as u32;
+        c.residual = c.residual.max(state.info.residual);
+        c.torque_balance = c.torque_balance.max((state.torque_2_nm / torque - 1.0).abs());
+        let forces = contact.forces_n();
+        let first = k * slots * slices;
+        c.force[first..first + forces.len()].copy_from_slice(forces);
+        let mut heaviest = 0.0;
+        for (slot, line) in contact.active_lines().iter().enumerate() {
+            let on_line = &forces[slot * slices..(slot + 1) * slices];
+            let sum: f64 = on_line.iter().sum();
+            if sum > heaviest {
+                heaviest = sum;
+                let largest = on_line.iter().copied().fold(0.0, f64::max);
+                c.k_h_beta = c.k_h_beta.max(largest * slices as f64 / sum);
+            }
+            for (slice, force) in on_line.iter().enumerate() {
+                let (half_width, pressure) = contact.hertz(line, force / width);
+                c.pressure[first + slot * slices + slice] = pressure;
+                worst[0] = worst[0].max(half_width / least_distance);
+                worst[1] = worst[1].max(pressure / young);
+            }
+        }
+        worst[2] = worst[2].max((state.unloaded_m - state.transmission_error_m) / base_pitch);
+        worst[3] = worst[3].max(state.info.cap_hits as f64);
+    }
+    let assumptions = [
+        Assumption::NarrowContact,
+        Assumption::ElasticMaterial,
+        Assumption::SmallDeflection,
+        Assumption::LocalTermCapped,
+    ];
+    c.warnings = assumptions.into_iter().zip(worst).collect();
+    Ok(c)
+}
+
+/// Strain of gauges (gear, index in its model) for all positions of a result.
+///
+/// # Errors
+/// [`RunError::Model`] when a model carries no loads on the scene's flank.
+pub fn strain(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    gauges: &[(usize, usize)],
+) -> Result<Vec<StrainSeries>, RunError> {
+    let flank = flank_of(loaded.scene.flank);
+    let mut lines_at = Vec::with_capacity(result.angles());
+    for &angle in &result.angle_rad {
+        let mut lines = Vec::new();
+        loaded.lines.at(angle, &mut lines);
+        lines_at.push(lines);
+    }
+    gauges
+        .par_iter()
+        .map(|&(gear, index)| {
+            let model = &loaded.models[gear - 1];
+            let rows = &model.gauges[index];
+            let reader = GaugeReader::new(model, rows, flank)?;
+            let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
+                .map(|k| {
+                    let (torque, angle) = (k / result.angles(), k % result.angles());
+                    reader.read(lines_at[angle].iter().enumerate().map(|(slot, line)| LoadedLine {
+                        tooth: if gear == 1 { line.tooth_1 } else { line.tooth_2 },
+                        roll_rad: if gear == 1 { line.roll_1_rad } else { line.roll_2_rad },
+                        friction_ratio: loaded.scene.contact.friction.map_or(0.0, |f| f.ratio(line.path_m)),
+                        forces_n: result.forces(torque, angle, slot),
+                    }))
+                })
+                .collect();
+            Ok(StrainSeries {
+                gear,
+                name: rows.name.clone(),
+                error_estimate_relative: rows.error_estimate_relative,
+                method_1: readings.iter().map(|s| s.method_1).collect(),
+                method_2: readings.iter().map(|s| s.method_2).collect(),
+            })
+        })
+        .collect()
+}

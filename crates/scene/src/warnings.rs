@@ -1,0 +1,67 @@
+//! Where the model's assumptions are strained: each warning names the assumption and the figure.
+
+use std::collections::BTreeMap;
+
+/// Assumptions that a load can break.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Assumption {
+    /// Hertz: the contact is narrow compared with the tooth.
+    NarrowContact,
+    /// Linear elasticity of the material under the contact.
+    ElasticMaterial,
+    /// Rigid geometry: the deflection is small compared with the teeth.
+    SmallDeflection,
+    /// The logarithm of the local term was frozen to stay monotone.
+    LocalTermCapped,
+}
+
+impl Assumption {
+    fn text(self, value: f64) -> String {
+        match self {
+            Self::NarrowContact => format!(
+                "narrow contact: the Hertz half width reaches {:.1} % of the distance to the opposite flank (above 10 % the half-plane theory no longer holds)",
+                value * 100.0
+            ),
+            Self::ElasticMaterial => format!(
+                "elastic material: the Hertz pressure reaches {:.2} % of Young's modulus (above 2 % steel yields)",
+                value * 100.0
+            ),
+            Self::SmallDeflection => format!(
+                "small deflection: the teeth give way by {:.2} % of the base pitch (above 1 % contact starts far outside the line of action)",
+                value * 100.0
+            ),
+            Self::LocalTermCapped => format!(
+                "local compliance: on {value:.0} slices the load is beyond the range of the Weber-Banaschek term, whose slope was frozen"
+            ),
+        }
+    }
+
+    fn limit(self) -> f64 {
+        match self {
+            Self::NarrowContact => 0.1,
+            Self::ElasticMaterial => 0.02,
+            Self::SmallDeflection => 0.01,
+            Self::LocalTermCapped => 0.5,
+        }
+    }
+}
+
+/// Collects the worst violation of each assumption, with the torque at which it occurred.
+#[derive(Debug, Clone, Default)]
+pub struct Warnings {
+    worst: BTreeMap<Assumption, (f64, f64)>,
+}
+
+impl Warnings {
+    /// Notes a figure; kept where it is above the assumption's limit and the worst so far.
+    pub fn note(&mut self, assumption: Assumption, value: f64, torque_nm: f64) {
+        if value > assumption.limit() && self.worst.get(&assumption).is_none_or(|(worst, _)| value > *worst) {
+            self.worst.insert(assumption, (value, torque_nm));
+        }
+    }
+
+    /// The warnings as sentences.
+    pub fn sentences(&self) -> Vec<String> {
+        self.worst.iter().map(|(a, (value, torque))| format!("at {torque} N m: {}", a.text(*value))).collect()
+    }
+}

@@ -1,0 +1,228 @@
+"""The gearmesh Python module: mesh exchange through meshio and reduced gears as NumPy arrays."""
+
+from pathlib import Path
+
+import h5py
+import meshio
+import numpy as np
+import pytest
+
+import gearmesh
+
+
+def block(shape=(3, 2, 2), lengths=(0.03, 0.0217, 1.0 / 70.0)):
+    """A skewed brick of hexahedra with irrational coordinates: points, hexes."""
+    nx, ny, nz = shape
+    x, y, z = (np.linspace(0.0, 1.0, n + 1) ** 1.1 * length for n, length in zip(shape, lengths))
+    points = np.array([[a + 0.2 * b, b, c + 0.1 * a] for c in z for b in y for a in x])
+    index = lambda i, j, k: i + (nx + 1) * (j + (ny + 1) * k)
+    hexes = [
+        [index(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        for k in range(nz) for j in range(ny) for i in range(nx)
+    ]
+    return points, np.array(hexes)
+
+
+@pytest.fixture
+def mesh_file(tmp_path):
+    points, hexes = block()
+    path = tmp_path / "block.h5"
+    sets = {"bore": np.flatnonzero(points[:, 2] == points[:, 2].min()), "last": [len(points) - 1]}
+    fields = {"displacement": np.sin(points) * 1e-6, "temperature": points[:, :1] * 1e3}
+    gearmesh.write_mesh(path, points, hexes, point_sets=sets, point_fields=fields)
+    return path
+
+
+def test_write_and_read_mesh(mesh_file):
+    points, hexes = block()
+    mesh = gearmesh.read_mesh(mesh_file)
+    assert np.array_equal(mesh["points"], points)
+    assert np.array_equal(mesh["hexes"], hexes)
+    assert mesh["point_sets"]["last"].tolist() == [len(points) - 1]
+    assert np.array_equal(mesh["point_fields"]["displacement"], np.sin(points) * 1e-6)
+
+
+# Relative to the size of the body. Nastran's 16-column fields hold 11 digits and more; the others write doubles whole.
+@pytest.mark.parametrize(
+    ("extension", "tolerance", "left_out"),
+    [
+        (".vtu", 0.0, set()),
+        (".vtk", 0.0, set()),
+        (".msh", 0.0, set()),
+        (".inp", 0.0, {"displacement", "temperature"}),
+        (".bdf", 1e-10, {"bore", "last", "displacement", "temperature"}),
+        (".nas", 1e-10, {"bore", "last", "displacement", "temperature"}),
+    ],
+)
+def test_roundtrip_through_format(mesh_file, tmp_path, extension, tolerance, left_out):
+    out = tmp_path / f"out{extension}"
+    assert set(gearmesh.export_mesh(mesh_file, out)) == left_out
+    back_file = tmp_path / "back.h5"
+    gearmesh.import_mesh(out, back_file)
+    mesh, back = gearmesh.read_mesh(mesh_file), gearmesh.read_mesh(back_file)
+    assert np.array_equal(back["hexes"], mesh["hexes"])
+    assert np.abs(back["points"] - mesh["points"]).max() <= tolerance * np.abs(mesh["points"]).max()
+    for name in set(mesh["point_sets"]) - left_out:
+        assert np.array_equal(back["point_sets"][name], mesh["point_sets"][name]), name
+    for name in set(mesh["point_fields"]) - left_out:
+        assert np.array_equal(back["point_fields"][name], mesh["point_fields"][name]), name
+    # Another program reads the same.
+    direct = meshio.gmsh.read(out) if extension == ".msh" else meshio.read(out)
+    assert [(block.type, len(block.data)) for block in direct.cells] == [("hexahedron", 12)]
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted(["block.h5", "back.h5", out.name])
+
+
+def test_two_files_of_one_format_arrive_together(mesh_file, tmp_path):
+    assert gearmesh.export_mesh(mesh_file, tmp_path / "out.xdmf") == []
+    assert (tmp_path / "out.h5").exists()
+    gearmesh.import_mesh(tmp_path / "out.xdmf", tmp_path / "back.h5")
+    assert np.array_equal(gearmesh.read_mesh(tmp_path / "back.h5")["points"], block()[0])
+
+
+def test_millimetres(mesh_file, tmp_path):
+    out = tmp_path / "out.vtu"
+    gearmesh.export_mesh(mesh_file, out, length_unit="mm")
+    points = block()[0]
+    assert np.allclose(meshio.read(out).points, points * 1e3, rtol=1e-15)
+    gearmesh.import_mesh(out, tmp_path / "back.h5", length_unit="mm")
+    assert np.allclose(gearmesh.read_mesh(tmp_path / "back.h5")["points"], points, rtol=1e-15, atol=1e-18)
+    with pytest.raises(ValueError, match='"inch".*"m" and "mm"'):
+        gearmesh.export_mesh(mesh_file, out, length_unit="inch")
+
+
+def test_unknown_extension_lists_the_known(mesh_file, tmp_path):
+    with pytest.raises(ValueError, match=r"\.bdf.*\.inp.*\.vtu"):
+        gearmesh.export_mesh(mesh_file, tmp_path / "out.docx")
+    with pytest.raises(ValueError, match=r"\.bdf.*\.inp.*\.vtu"):
+        gearmesh.import_mesh(mesh_file, tmp_path / "out.h5")
+
+
+def test_format_without_hexahedra_is_refused_and_leaves_nothing(mesh_file, tmp_path):
+    for extension in (".stl", ".ply", ".obj"):
+        with pytest.raises(ValueError, match="out" + extension):
+            gearmesh.export_mesh(mesh_file, tmp_path / f"out{extension}")
+    assert [p.name for p in tmp_path.iterdir()] == ["block.h5"]
+
+
+def test_missing_files_and_folders(mesh_file, tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.vtu"):
+        gearmesh.import_mesh(tmp_path / "none.vtu", tmp_path / "out.h5")
+    with pytest.raises(FileNotFoundError, match="none.h5"):
+        gearmesh.export_mesh(tmp_path / "none.h5", tmp_path / "out.vtu")
+    with pytest.raises(OSError, match="none/out.vtu"):
+        gearmesh.export_mesh(mesh_file, tmp_path / "none/out.vtu")
+
+
+def test_damaged_files(mesh_file, tmp_path):
+    whole = mesh_file.read_bytes()
+    mesh_file.write_bytes(whole[:-100])
+    with pytest.raises(ValueError, match="block.h5 is truncated"):
+        gearmesh.read_mesh(mesh_file)
+    (tmp_path / "broken.vtu").write_text("<VTKFile><nothing/>")
+    with pytest.raises(ValueError, match="broken.vtu"):
+        gearmesh.import_mesh(tmp_path / "broken.vtu", tmp_path / "out.h5")
+    assert not (tmp_path / "out.h5").exists()
+
+
+def test_an_edit_by_another_program_is_noticed(mesh_file):
+    with h5py.File(mesh_file, "r+") as file:
+        file["points"][0, 0] += 1e-9
+    with pytest.raises(ValueError, match="altered"):
+        gearmesh.read_mesh(mesh_file)
+
+
+def test_import_checks_the_elements(tmp_path):
+    points, hexes = block()
+    mirrored = points * [1, 1, -1]
+    cases = {
+        "Jacobian": [("hexahedron", hexes)],
+        "only 8-node hexahedra": [("hexahedron", hexes), ("tetra", hexes[:2, [0, 1, 3, 4]])],
+        "no 8-node hexahedra": [("quad", hexes[:, :4])],
+    }
+    for message, cells in cases.items():
+        meshio.Mesh(mirrored if message == "Jacobian" else points, cells).write(tmp_path / "in.vtu")
+        with pytest.raises(ValueError, match=message):
+            gearmesh.import_mesh(tmp_path / "in.vtu", tmp_path / "out.h5")
+    assert not (tmp_path / "out.h5").exists()
+
+
+def test_import_joins_blocks_and_says_what_it_left_out(tmp_path):
+    points, hexes = block()
+    cells = [("hexahedron", hexes[:5]), ("quad", hexes[:3, :4]), ("hexahedron", hexes[5:])]
+    energy = [np.arange(5.0), np.zeros(3), np.arange(5.0, 12.0)]
+    meshio.Mesh(points, cells, cell_data={"energy": energy}).write(tmp_path / "in.vtu")
+    assert gearmesh.import_mesh(tmp_path / "in.vtu", tmp_path / "out.h5") == ["3 quad cells"]
+    mesh = gearmesh.read_mesh(tmp_path / "out.h5")
+    assert np.array_equal(mesh["hexes"], hexes)
+    assert np.array_equal(mesh["cell_fields"]["energy"][:, 0], np.arange(12.0))
+
+
+def test_write_mesh_refuses_nonsense(tmp_path):
+    points, hexes = block()
+    path = tmp_path / "bad.h5"
+    for message, arguments in {
+        "three are needed": (points[:, :2], hexes),
+        "eight are needed": (points, hexes[:, :4]),
+        "indices start at 0": (points, hexes - 1),
+        "refers to node": (points, hexes + 100),
+        "finite": (np.where(points == points.max(), np.nan, points), hexes),
+    }.items():
+        with pytest.raises(ValueError, match=message):
+            gearmesh.write_mesh(path, *arguments)
+    assert not path.exists()
+
+
+@pytest.fixture
+def reduced_file(tmp_path):
+    path = tmp_path / "gear.h5"
+    gearmesh._write_synthetic_reduced(path)
+    return path
+
+
+def test_read_reduced_agrees_with_h5py(reduced_file):
+    gear = gearmesh.read_reduced(reduced_file)
+    with h5py.File(reduced_file) as file:
+        assert file.attrs["format"] == "gearmesh reduced gear"
+        assert file.attrs["software"] == "gearmesh"
+        c_hub = file["compliance/c_hub"]
+        assert np.array_equal(gear["c_hub"], c_hub[...])
+        assert c_hub.attrs["unit"] == "m/N" and c_hub.attrs["unitSI"] == 1.0
+        assert len(c_hub.attrs["axisLabels"]) == c_hub.ndim
+        assert np.array_equal(gear["c_tooth"], file["compliance/c_tooth"][...])
+        assert np.array_equal(gear["roll_angles_rad"], file["grid/roll_angles"][...])
+        assert gear["teeth"] == file["gear/teeth"][()]
+        assert gear["input_toml"] == file["gear/input_toml"].asstr()[()]
+        for index, gauge in enumerate(gear["gauges"]):
+            group = file[f"gauges/{index}"]
+            assert gauge["name"] == group["name"].asstr()[()]
+            assert np.array_equal(gauge["adjoint"], group["adjoint"][...])
+            assert np.array_equal(gauge["own_tooth"], group["own_tooth"][...])
+        # Every number says what it is.
+        arrays = []
+        file.visititems(lambda name, item: arrays.append(item) if isinstance(item, h5py.Dataset) else None)
+        for array in arrays:
+            if array.dtype.kind in "fu":
+                assert {"unit", "unitSI", "description", "frame"} <= set(array.attrs), array.name
+    assert gear["c_hub"].shape == (2, 2, 6, 2, 9, 9)
+    assert gear["flanks"] == ["right", "left"]
+    assert gear["checks"]["residual"] == 3e-13
+    assert gear["provenance"]["stage_seconds"] == [("mesh", 0.5), ("assemble", 0.25)]
+
+
+def test_read_reduced_errors(reduced_file, mesh_file, tmp_path):
+    with pytest.raises(ValueError, match="gearmesh mesh"):
+        gearmesh.read_reduced(mesh_file)
+    with pytest.raises(FileNotFoundError) as raised:
+        gearmesh.read_reduced(tmp_path / "none.h5")
+    assert "none.h5" in str(raised.value)
+    content = bytearray(reduced_file.read_bytes())
+    content[len(content) // 2] ^= 1
+    Path(reduced_file).write_bytes(content)
+    with pytest.raises(ValueError, match="altered or damaged"):
+        gearmesh.read_reduced(reduced_file)
+
+
+def test_devices_are_not_replaced():
+    with pytest.raises(ValueError, match="not a regular file"):
+        gearmesh._write_synthetic_reduced("/dev/null")
+    assert Path("/dev/null").is_char_device()

@@ -1,0 +1,136 @@
+//! The project's own commands: `cargo xtask test` and `cargo xtask demo`.
+//!
+//! Both begin with the same preparation ([`prepare::prepare`]), so that either works on a clean clone: the Python
+//! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.
+//! A machine needs rustup, a C compiler and Python 3.10 to 3.13 with venv; whatever is missing is named together
+//! with the one line that installs it.
+
+mod console;
+mod error;
+mod machine;
+mod prepare;
+mod python_module;
+mod steps;
+mod system_libs;
+mod venv;
+mod workspace;
+
+use std::process::ExitCode;
+
+use error::XtaskError;
+use workspace::Workspace;
+
+const HELP: &str = "\
+The project's own commands. Both make what they need first (.venv, gmsh's shared libraries, the Python module).
+
+Usage: cargo xtask <COMMAND>
+
+  test [--fast]   everything that CI runs: formatting, lints, documentation, Rust tests, Python tests
+                  --fast   leaves out the tests marked #[ignore], which take minutes
+  demo [ARGS]     gear pair A from definition to report, into out/demo; ARGS go to `gearmesh demo`
+  prepare         only makes what the two others need
+  help            this text
+
+Exit code: 0 done, 1 the work failed, 2 the command line is wrong; `demo` ends with the code of `gearmesh demo`.";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let command = match Command::parse(&arguments) {
+        Ok(command) => command,
+        Err(complaint) => {
+            console::say(&format!("error: {complaint}\n\n{HELP}"));
+            return ExitCode::from(2);
+        }
+    };
+    match run(command) {
+        Ok(code) => code,
+        Err(error) => {
+            console::say(&format!("\nerror: {error}"));
+            ExitCode::from(1)
+        }
+    }
+}
+
+/// What the command line asks for.
+#[derive(Debug, PartialEq, Eq)]
+enum Command {
+    Test(steps::Extent),
+    Demo(Vec<String>),
+    Prepare,
+    Help,
+}
+
+impl Command {
+    /// Reads the command line; the error is a sentence for the user.
+    fn parse(arguments: &[String]) -> Result<Self, String> {
+        let Some((name, rest)) = arguments.split_first() else {
+            return Err("no command given".to_owned());
+        };
+        let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+        match (name.as_str(), rest.as_slice()) {
+            ("demo", rest) => Ok(Self::Demo(rest.iter().map(|&arg| arg.to_owned()).collect())),
+            ("test", []) => Ok(Self::Test(steps::Extent::Full)),
+            ("test", ["--fast"]) => Ok(Self::Test(steps::Extent::Fast)),
+            ("prepare", []) => Ok(Self::Prepare),
+            ("help" | "--help" | "-h", _) | ("test" | "prepare", ["--help" | "-h"]) => {
+                Ok(Self::Help)
+            }
+            ("test" | "prepare", rest) => {
+                Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
+            }
+            (other, _) => Err(format!("unknown command `{other}`")),
+        }
+    }
+}
+
+fn run(command: Command) -> Result<ExitCode, XtaskError> {
+    if command == Command::Help {
+        console::say(HELP);
+        return Ok(ExitCode::SUCCESS);
+    }
+    let workspace = Workspace::find()?;
+    let venv = prepare::prepare(&workspace)?;
+    match command {
+        Command::Test(extent) => steps::test(&workspace, &venv, extent),
+        Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
+        Command::Prepare | Command::Help => Ok(ExitCode::SUCCESS),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Result<Command, String> {
+        let arguments: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+        Command::parse(&arguments)
+    }
+
+    #[test]
+    fn test_runs_everything_unless_told_to_be_fast() {
+        assert_eq!(parse("test"), Ok(Command::Test(steps::Extent::Full)));
+        assert_eq!(parse("test --fast"), Ok(Command::Test(steps::Extent::Fast)));
+    }
+
+    #[test]
+    fn demo_passes_its_arguments_on() {
+        assert_eq!(
+            parse("demo --json -o x"),
+            Ok(Command::Demo(vec![
+                "--json".into(),
+                "-o".into(),
+                "x".into()
+            ]))
+        );
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        assert_eq!(parse(""), Err("no command given".into()));
+        assert_eq!(parse("tset"), Err("unknown command `tset`".into()));
+        assert_eq!(
+            parse("test --fats"),
+            Err("unknown argument `--fats` of `test`".into())
+        );
+    }
+}

@@ -1,0 +1,236 @@
+//! The commands themselves: each a list of child processes with xtask's environment.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Instant;
+
+use crate::console::{readable, say};
+use crate::error::XtaskError;
+use crate::machine;
+use crate::venv::Venv;
+use crate::workspace::Workspace;
+
+/// How much `cargo xtask test` runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Everything, the tests marked `#[ignore]` (minutes each) too.
+    Full,
+    /// Without those.
+    Fast,
+}
+
+/// Everything that CI runs, in order, up to the first failure.
+///
+/// # Errors
+/// [`XtaskError::Failed`] names the command that failed.
+pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCode, XtaskError> {
+    let cargo = |arguments: &[&str]| {
+        let mut command = cargo(workspace, venv);
+        command.args(arguments);
+        command
+    };
+    // Program and Python module are both called gearmesh, so their pages would be written to one place at once.
+    let mut library_pages = cargo(&[
+        "doc",
+        "--workspace",
+        "--exclude",
+        "gearmesh-cli",
+        "--no-deps",
+        "--quiet",
+    ]);
+    library_pages.env("RUSTDOCFLAGS", "-D warnings");
+    let mut program_pages = cargo(&["doc", "--package", "gearmesh-cli", "--no-deps", "--quiet"]);
+    program_pages.env("RUSTDOCFLAGS", "-D warnings");
+    let mut rust_tests = cargo(&["test", "--workspace", "--tests"]);
+    if extent == Extent::Full {
+        rust_tests.args(["--", "--include-ignored"]);
+    }
+    let mut python_tests = Command::new(venv.python());
+    python_tests.current_dir(workspace.root()).args([
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "tests/python",
+    ]);
+    set_environment(&mut python_tests, venv);
+
+    let steps = [
+        ("formatting", cargo(&["fmt", "--all", "--check"])),
+        (
+            "lints",
+            cargo(&[
+                "clippy",
+                "--workspace",
+                "--all-targets",
+                "--",
+                "-D",
+                "warnings",
+            ]),
+        ),
+        ("documentation of the libraries", library_pages),
+        ("documentation of the program", program_pages),
+        ("Rust tests", rust_tests),
+        (
+            "documentation tests",
+            cargo(&[
+                "test",
+                "--workspace",
+                "--exclude",
+                "gearmesh-python",
+                "--doc",
+            ]),
+        ),
+        ("Python tests", python_tests),
+    ];
+    let start = Instant::now();
+    for (name, mut command) in steps {
+        say(&format!("\n== {name}"));
+        let step_start = Instant::now();
+        let outcome = run_checked(&mut command);
+        let verdict = if outcome.is_ok() { "passed" } else { "FAILED" };
+        say(&format!(
+            "== {name} {verdict} in {}",
+            readable(step_start.elapsed())
+        ));
+        outcome?;
+    }
+    say(&format!("\nall passed in {}", readable(start.elapsed())));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Gear pair A from definition to report: `gearmesh demo -o out/demo` and the user's further arguments. The exit
+/// code is that of `gearmesh demo`.
+///
+/// # Errors
+/// [`XtaskError::Failed`] where the program does not build, [`XtaskError::Io`] where it does not start.
+pub fn demo(
+    workspace: &Workspace,
+    venv: &Venv,
+    arguments: &[String],
+) -> Result<ExitCode, XtaskError> {
+    run_checked(cargo(workspace, venv).args(["build", "--package", "gearmesh-cli"]))?;
+    let mut command = cargo(workspace, venv);
+    command.args(["run", "--quiet", "--package", "gearmesh-cli", "--", "demo"]);
+    command.args(demo_arguments(arguments));
+    let status = command
+        .status()
+        .map_err(XtaskError::io(|| format!("starting {}", shown(&command))))?;
+    Ok(status
+        .code()
+        .and_then(|code| u8::try_from(code).ok())
+        .map_or(ExitCode::FAILURE, ExitCode::from))
+}
+
+/// The user's arguments after a default output directory, which an output of his own replaces.
+fn demo_arguments(given: &[String]) -> Vec<String> {
+    let names_output =
+        |arg: &String| arg.starts_with("-o") || arg == "--output" || arg.starts_with("--output=");
+    let mut arguments = Vec::new();
+    if !given.iter().any(names_output) {
+        arguments.extend(["-o".to_owned(), "out/demo".to_owned()]);
+    }
+    arguments.extend_from_slice(given);
+    arguments
+}
+
+/// A cargo call in the project's root with the environment that the build needs.
+pub fn cargo(workspace: &Workspace, venv: &Venv) -> Command {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(program);
+    command.current_dir(workspace.root());
+    set_environment(&mut command, venv);
+    command
+}
+
+/// `.venv/bin` first on PATH (cmake for HDF5's C sources is there), and the interpreter that meshing starts.
+fn set_environment(command: &mut Command, venv: &Venv) {
+    command.env("PATH", path_with_first(venv.bin_dir()));
+    command.env("GEARMESH_PYTHON", venv.python());
+    if machine::lacks_make() {
+        command.env("CMAKE_GENERATOR", "Ninja");
+    }
+}
+
+fn path_with_first(dir: PathBuf) -> OsString {
+    let rest = std::env::var_os("PATH").unwrap_or_default();
+    let mut path = OsString::from(dir);
+    if !rest.is_empty() {
+        path.push(":");
+        path.push(rest);
+    }
+    path
+}
+
+/// Runs a command without standard input and turns failure into an error that shows the command.
+///
+/// # Errors
+/// [`XtaskError::Failed`] for a failure, [`XtaskError::Io`] where the program cannot be started.
+pub fn run_checked(command: &mut Command) -> Result<(), XtaskError> {
+    let status = command
+        .stdin(Stdio::null())
+        .status()
+        .map_err(|source| XtaskError::Io {
+            action: format!("starting {}", shown(command)),
+            source,
+        })?;
+    if status.success() {
+        return Ok(());
+    }
+    Err(XtaskError::Failed {
+        command: shown(command),
+        status: status.to_string(),
+    })
+}
+
+/// The command as one could type it in the project's root.
+fn shown(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    words
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn demo_line(line: &str) -> String {
+        demo_arguments(
+            &line
+                .split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>(),
+        )
+        .join(" ")
+    }
+
+    #[test]
+    fn the_demo_writes_to_out_demo_unless_told_otherwise() {
+        assert_eq!(demo_line(""), "-o out/demo");
+        assert_eq!(demo_line("--json"), "-o out/demo --json");
+        assert_eq!(demo_line("-o elsewhere"), "-o elsewhere");
+        assert_eq!(demo_line("--output=elsewhere"), "--output=elsewhere");
+    }
+
+    #[test]
+    fn a_failing_command_is_named_with_its_status() {
+        let error = run_checked(Command::new("sh").args(["-c", "exit 3"])).err();
+        assert!(
+            matches!(&error, Some(XtaskError::Failed { command, status })
+                if command == "sh -c exit 3" && status.contains('3')),
+            "{error:?}"
+        );
+    }
+
+    #[test]
+    fn a_command_that_does_not_exist_is_an_io_error() {
+        assert!(matches!(
+            run_checked(&mut Command::new("no-such-program")),
+            Err(XtaskError::Io { .. })
+        ));
+    }
+}
