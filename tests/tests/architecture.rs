@@ -82,8 +82,9 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 const MOST_LINES: usize = 800;
 
 /// The only files with code that the compiler cannot check; each with its reason.
-const UNCHECKED: [&str; 1] = [
-    "crates/fe/src/ordering.rs", // the C interface of METIS
+const UNCHECKED: [&str; 2] = [
+    "crates/contact/tests/nlcp_allocation.rs", // a counting allocator: the trait's methods are unsafe
+    "crates/fe/src/ordering.rs",               // the C interface of METIS
 ];
 
 #[test]

@@ -1,5 +1,9 @@
 //! Printing: data to standard output, progress, warnings and errors to standard error.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this is the one place that prints")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this is the one place that prints"
+)]
 
 use gearmesh_reduction::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -39,7 +43,10 @@ pub struct StageBar {
 impl StageBar {
     /// A bar for the stages of `title`.
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_string(), bar: Mutex::new(ProgressBar::new_spinner()) }
+        Self {
+            title: title.to_string(),
+            bar: Mutex::new(ProgressBar::new_spinner()),
+        }
     }
 
     fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
@@ -67,7 +74,9 @@ impl Progress for StageBar {
         self.with(|bar| {
             if bar.length().is_none() {
                 bar.set_length(total as u64);
-                if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}, {eta} to go") {
+                if let Ok(style) =
+                    ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}, {eta} to go")
+                {
                     bar.set_style(style);
                 }
             }

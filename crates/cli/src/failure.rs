@@ -23,12 +23,18 @@ pub struct Failure {
 impl Failure {
     /// The input is wrong.
     pub fn input(cause: impl std::fmt::Display) -> Self {
-        Self { fault: Fault::Input, message: cause.to_string() }
+        Self {
+            fault: Fault::Input,
+            message: cause.to_string(),
+        }
     }
 
     /// The work failed.
     pub fn work(cause: impl std::fmt::Display) -> Self {
-        Self { fault: Fault::Work, message: cause.to_string() }
+        Self {
+            fault: Fault::Work,
+            message: cause.to_string(),
+        }
     }
 
     /// 1 or 2.
@@ -48,7 +54,11 @@ impl From<gearmesh_geometry::InputError> for Failure {
 
 impl From<gearmesh_scene::RunError> for Failure {
     fn from(error: gearmesh_scene::RunError) -> Self {
-        if error.is_input() { Self::input(error) } else { Self::work(error) }
+        if error.is_input() {
+            Self::input(error)
+        } else {
+            Self::work(error)
+        }
     }
 }
 
@@ -58,7 +68,9 @@ impl From<gearmesh_reduction::ReductionError> for Failure {
         use gearmesh_reduction::ReductionError;
         match error {
             ReductionError::EmptyGauge { .. }
-            | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => Self::input(error),
+            | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => {
+                Self::input(error)
+            }
             _ => Self::work(error),
         }
     }

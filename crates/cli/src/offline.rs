@@ -19,7 +19,10 @@ pub fn python() -> Result<PythonEnvironment, Failure> {
 }
 
 /// Meshes and reduces a gear, with a progress bar.
-pub fn reduced(gear: &GearDefinition, estimate_error: bool) -> Result<(ReducedGear, GearBody), Failure> {
+pub fn reduced(
+    gear: &GearDefinition,
+    estimate_error: bool,
+) -> Result<(ReducedGear, GearBody), Failure> {
     let bar = StageBar::new(&gear.name);
     let outcome = reduce(gear, &python()?, ReductionOptions { estimate_error }, &bar);
     bar.finish();
@@ -33,7 +36,11 @@ pub fn export_mesh(
     field: Option<&Field>,
     output: &Path,
 ) -> Result<(), Failure> {
-    let scalar = |values: Vec<f64>, unit: &str| MeshField { components: 1, values, unit: unit.into() };
+    let scalar = |values: Vec<f64>, unit: &str| MeshField {
+        components: 1,
+        values,
+        unit: unit.into(),
+    };
     let mut data = MeshData {
         points: mesh.nodes.clone(),
         hexes: mesh.hexes.clone(),
@@ -43,17 +50,27 @@ pub fn export_mesh(
     };
     if let Some(field) = field {
         let displacement = field.displacement_m.iter().flatten().copied().collect();
-        data.point_fields
-            .insert("displacement_m".into(), MeshField { components: 3, values: displacement, unit: "m".into() });
-        data.cell_fields.insert("von_mises_Pa".into(), scalar(field.von_mises_pa.clone(), "Pa"));
+        data.point_fields.insert(
+            "displacement_m".into(),
+            MeshField {
+                components: 3,
+                values: displacement,
+                unit: "m".into(),
+            },
+        );
+        data.cell_fields.insert(
+            "von_mises_Pa".into(),
+            scalar(field.von_mises_pa.clone(), "Pa"),
+        );
     }
     let folder = tempfile::tempdir().map_err(Failure::work)?;
     let exchange = folder.path().join("mesh.h5");
     write_mesh(&exchange, &data).map_err(Failure::work)?;
     // Written beside and renamed, so that a killed run leaves the old file or none.
-    let name = output.file_name().and_then(|n| n.to_str()).ok_or_else(|| {
-        Failure::input(format!("{}: not a file name", output.display()))
-    })?;
+    let name = output
+        .file_name()
+        .and_then(|n| n.to_str())
+        .ok_or_else(|| Failure::input(format!("{}: not a file name", output.display())))?;
     let beside = output.with_file_name(format!(".part-{}-{name}", std::process::id()));
     let written = python()?.run(
         &format!("writing {}", output.display()),
@@ -61,9 +78,10 @@ pub fn export_mesh(
         &[&exchange.display().to_string(), &beside.display().to_string()],
         b"",
     );
-    let outcome = written
-        .map_err(Failure::input)
-        .and_then(|_| std::fs::rename(&beside, output).map_err(|e| Failure::work(format!("{}: {e}", output.display()))));
+    let outcome = written.map_err(Failure::input).and_then(|_| {
+        std::fs::rename(&beside, output)
+            .map_err(|e| Failure::work(format!("{}: {e}", output.display())))
+    });
     if outcome.is_err() {
         let _ = std::fs::remove_file(&beside);
     }
@@ -93,9 +111,21 @@ pub fn field_of(
     let mut lines = Vec::new();
     loaded.lines.at(result.angle_rad[case.angle], &mut lines);
     let loads = lines.iter().enumerate().map(|(slot, line)| LoadedLine {
-        tooth: if case.gear == 1 { line.tooth_1 } else { line.tooth_2 },
-        roll_rad: if case.gear == 1 { line.roll_1_rad } else { line.roll_2_rad },
-        friction_ratio: loaded.scene.contact.friction.map_or(0.0, |f| f.ratio(line.path_m)),
+        tooth: if case.gear == 1 {
+            line.tooth_1
+        } else {
+            line.tooth_2
+        },
+        roll_rad: if case.gear == 1 {
+            line.roll_1_rad
+        } else {
+            line.roll_2_rad
+        },
+        friction_ratio: loaded
+            .scene
+            .contact
+            .friction
+            .map_or(0.0, |f| f.ratio(line.path_m)),
         forces_n: result.forces(case.torque, case.angle, slot),
     });
     let forces: Vec<GridForce> = grid_forces(&model.grid, loads)

@@ -71,7 +71,7 @@ fn mesh(n: usize) -> Mesh {
     }
 }
 
-#[divan::bench(args = [15, 30, 60, 150])]
+#[divan::bench(args = [15, 30, 60, 150], sample_size = 20)]
 fn warm_load(bencher: Bencher, n: usize) {
     let mesh = mesh(n);
     let mut work = Workspace::new(n);
@@ -91,7 +91,7 @@ fn warm_load(bencher: Bencher, n: usize) {
     });
 }
 
-#[divan::bench(args = [15, 30, 60, 150])]
+#[divan::bench(args = [15, 30, 60, 150], sample_size = 20)]
 fn warm_position(bencher: Bencher, n: usize) {
     let mesh = mesh(n);
     let mut work = Workspace::new(n);
@@ -111,7 +111,7 @@ fn warm_position(bencher: Bencher, n: usize) {
     });
 }
 
-#[divan::bench(args = [15, 150])]
+#[divan::bench(args = [15, 150], sample_size = 20)]
 fn cold_load(bencher: Bencher, n: usize) {
     let mesh = mesh(n);
     let mut work = Workspace::new(n);

@@ -61,7 +61,9 @@ pub fn flank_deflection(
     let mut c = vec![0.0; n * n];
     compliance.add_block((load.tooth, place), (at_tooth, place), &mut c, 0, n);
     let force = load.line_load_n_per_m * compliance.slice_width_m();
-    let global_m = (0..n).map(|j| (0..n).map(|i| c[i * n + j] * force).sum()).collect();
+    let global_m = (0..n)
+        .map(|j| (0..n).map(|i| c[i * n + j] * force).sum())
+        .collect();
     let own = match local {
         LocalContact::WeberBanaschek if at_tooth == load.tooth => {
             let body = ContactBody {
@@ -73,5 +75,8 @@ pub fn flank_deflection(
         }
         _ => 0.0,
     };
-    Ok(FlankDeflection { global_m, local_m: vec![own; n] })
+    Ok(FlankDeflection {
+        global_m,
+        local_m: vec![own; n],
+    })
 }

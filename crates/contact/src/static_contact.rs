@@ -316,7 +316,9 @@ impl StaticContact {
             angle_deg: driver_angle_rad.to_degrees(),
             cause,
         };
-        let problem = Problem::new(&self.c[..n * n], &self.local,
+        let problem = Problem::new(
+            &self.c[..n * n],
+            &self.local,
             &self.separation,
             &self.closing[..n],
             &self.lever_2,

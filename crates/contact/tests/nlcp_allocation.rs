@@ -58,7 +58,7 @@ fn solves_do_not_allocate() {
     let mut random = Random::new(31);
     let mut work = Workspace::new(20);
     let params = Params::default();
-    let mut change = vec![0.0; 20];
+    let mut change = [0.0; 20];
     for _ in 0..2000 {
         let case = case(20, &mut random);
         let data = &case.data;

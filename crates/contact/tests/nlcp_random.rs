@@ -182,7 +182,7 @@ fn hundred_thousand_random_problems() {
 }
 
 #[test]
-#[ignore = "a million problems take minutes; run with --ignored"]
+#[ignore = "a million problems take a minute; run with --ignored"]
 fn million_random_problems() {
     check_coverage(&run(2, 1_000_000, 200));
 }

@@ -676,9 +676,9 @@ fn mesh(
     Ok(MeshSettings {
         element: t.element.unwrap_or(ElementKind::Hex8Incompatible),
         flank_m: size("flank_mm", t.flank_mm, 0.3 * module_mm, module_mm)?,
-        fillet_m: size("fillet_mm", t.fillet_mm, 0.12 * module_mm, 0.5 * module_mm)?,
+        fillet_m: size("fillet_mm", t.fillet_mm, 0.08 * module_mm, 0.5 * module_mm)?,
         body_m: size("body_mm", t.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
-        axial_m: size("axial_mm", t.axial_mm, width_mm / 12.0, width_mm)?,
+        axial_m: size("axial_mm", t.axial_mm, width_mm / 10.0, width_mm)?,
         min_scaled_jacobian: quality,
     })
 }

@@ -244,7 +244,8 @@ impl ProfileCurve {
             [q[0], -q[1]]
         };
         let t = &self.tooth;
-        let below_base = (t.root_radius_m * t.root_radius_m - t.base_radius_m * t.base_radius_m).max(0.0);
+        let below_base =
+            (t.root_radius_m * t.root_radius_m - t.base_radius_m * t.base_radius_m).max(0.0);
         let mut best = t.base_radius_m * roll_rad - below_base.sqrt();
         for w in self.samples.windows(2) {
             let (a, b) = (mirrored(&w[0]), mirrored(&w[1]));

@@ -227,12 +227,16 @@ fn the_distance_to_the_opposite_side_is_finite_and_continuous_along_the_flank() 
     let n = 400;
     let mut last: Option<f64> = None;
     for k in 0..=n {
-        let roll = g.form_roll_rad + (g.tip_roll_rad - g.form_roll_rad) * f64::from(k) / f64::from(n);
+        let roll =
+            g.form_roll_rad + (g.tip_roll_rad - g.form_roll_rad) * f64::from(k) / f64::from(n);
         let h = curve.opposite_distance_m(roll);
         assert!(h > 1e-4 && h < 0.01, "{h}");
         // The chordal thickness at the reference circle bounds it in the middle of the flank.
         if let Some(last) = last {
-            assert!((h - last).abs() < 0.3e-3, "a jump from {last} to {h} at {roll}");
+            assert!(
+                (h - last).abs() < 0.3e-3,
+                "a jump from {last} to {h} at {roll}"
+            );
         }
         last = Some(h);
     }

@@ -5,10 +5,12 @@
 //! | turn a mesh file into any format that meshio writes, and back | `export_mesh`, `import_mesh` |
 //! | read and write a mesh file with NumPy arrays | `read_mesh`, `write_mesh` |
 //! | look into a reduced gear with NumPy arrays | `read_reduced` |
+//! | compute stiffness, displacements and strains of the body in a mesh file | `stiffness`, `solve`, `strain` |
 //!
 //! Wrong input raises `ValueError`, a refusing disk `OSError`; both with the message of the Rust side.
 
 mod errors;
+mod finite_elements;
 mod mesh_arrays;
 mod meshio_exchange;
 mod meshio_format;
@@ -17,6 +19,8 @@ mod reduced;
 /// Gear mesh stiffness: reduced gears and meshes as NumPy arrays.
 #[pyo3::pymodule]
 mod gearmesh {
+    #[pymodule_export]
+    use crate::finite_elements::{solve, stiffness, strain};
     #[pymodule_export]
     use crate::mesh_arrays::{read_mesh, write_mesh};
     #[pymodule_export]

@@ -42,7 +42,11 @@ impl GaugeReader {
     ///
     /// # Errors
     /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads there.
-    pub fn new(model: &ReducedGear, gauge: &GaugeRows, flank: Flank) -> Result<Self, ReducedGearError> {
+    pub fn new(
+        model: &ReducedGear,
+        gauge: &GaugeRows,
+        flank: Flank,
+    ) -> Result<Self, ReducedGearError> {
         let f = model.flank_index(flank)?;
         let grid = &model.grid;
         let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
@@ -55,7 +59,11 @@ impl GaugeReader {
                         let load = grid.load(station, 2 * slice + k);
                         let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
                         let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
-                        let local = if tooth == gauge.tooth { gauge.own_tooth[f * loads + load] } else { 0.0 };
+                        let local = if tooth == gauge.tooth {
+                            gauge.own_tooth[f * loads + load]
+                        } else {
+                            0.0
+                        };
                         row[0] += share * (normal - local);
                         row[1] += share * normal;
                         row[2] += share * tangential;
@@ -78,9 +86,15 @@ impl GaugeReader {
         let mut strain = Strain::default();
         for line in lines {
             let place = roll_place(&self.centroids_rad, line.roll_rad);
-            for (station, weight) in [(place.station, 1.0 - place.share), (place.station + 1, place.share)] {
+            for (station, weight) in [
+                (place.station, 1.0 - place.share),
+                (place.station + 1, place.share),
+            ] {
                 let first = (line.tooth * self.stations + station) * self.slices;
-                for (row, force) in self.rows[first..first + self.slices].iter().zip(line.forces_n) {
+                for (row, force) in self.rows[first..first + self.slices]
+                    .iter()
+                    .zip(line.forces_n)
+                {
                     strain.method_1 += weight * force * row[0];
                     strain.method_2 += weight * force * (row[1] + line.friction_ratio * row[2]);
                 }
@@ -101,28 +115,49 @@ mod tests {
         let model = small_reduced_gear();
         let gauge = &model.gauges[0];
         let reader = GaugeReader::new(&model, gauge, Flank::Right).unwrap();
-        let forces: Vec<f64> = (0..model.grid.slices).map(|k| 100.0 + 30.0 * k as f64).collect();
+        let forces: Vec<f64> = (0..model.grid.slices)
+            .map(|k| 100.0 + 30.0 * k as f64)
+            .collect();
         // On a roll station's centroid in the middle: only that station's loads.
         let stations = model.grid.roll_angles_rad.len();
         let station = stations / 2;
         let roll_rad = centroids(&model.grid.roll_angles_rad)[station];
-        let line = LoadedLine { tooth: gauge.tooth, roll_rad, friction_ratio: 0.0, forces_n: &forces };
+        let line = LoadedLine {
+            tooth: gauge.tooth,
+            roll_rad,
+            friction_ratio: 0.0,
+            forces_n: &forces,
+        };
         let strain = reader.read([line]);
         let expected: f64 = forces
             .iter()
             .enumerate()
-            .flat_map(|(slice, f)| AXIAL_SHARES.iter().enumerate().map(move |(k, s)| (2 * slice + k, f * s)))
+            .flat_map(|(slice, f)| {
+                AXIAL_SHARES
+                    .iter()
+                    .enumerate()
+                    .map(move |(k, s)| (2 * slice + k, f * s))
+            })
             .map(|(axial, f)| f * gauge.own_tooth[model.grid.load(station, axial)])
             .sum();
         let scale = strain.method_2.abs().max(expected.abs());
         assert!((strain.method_2 - strain.method_1 - expected).abs() < 1e-14 * scale);
         assert!(expected != 0.0);
 
-        let elsewhere = LoadedLine { tooth: (gauge.tooth + 2) % model.teeth, ..line };
+        let elsewhere = LoadedLine {
+            tooth: (gauge.tooth + 2) % model.teeth,
+            ..line
+        };
         let far = reader.read([elsewhere]);
         assert_eq!(far.method_1, far.method_2);
-        let rubbed = reader.read([LoadedLine { friction_ratio: 0.3, ..line }]);
-        assert_eq!(rubbed.method_1, strain.method_1, "method 1 knows no friction");
+        let rubbed = reader.read([LoadedLine {
+            friction_ratio: 0.3,
+            ..line
+        }]);
+        assert_eq!(
+            rubbed.method_1, strain.method_1,
+            "method 1 knows no friction"
+        );
         assert_ne!(rubbed.method_2, strain.method_2);
     }
 }

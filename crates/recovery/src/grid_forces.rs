@@ -18,12 +18,18 @@ pub struct GridLoadForce {
 }
 
 /// Spreads the forces of contact lines over the flank grid, with the same shares as the compliance: f = Φ F.
-pub fn grid_forces<'a>(grid: &FlankGrid, lines: impl IntoIterator<Item = LoadedLine<'a>>) -> Vec<GridLoadForce> {
+pub fn grid_forces<'a>(
+    grid: &FlankGrid,
+    lines: impl IntoIterator<Item = LoadedLine<'a>>,
+) -> Vec<GridLoadForce> {
     let centroids = centroids(&grid.roll_angles_rad);
     let mut forces = Vec::new();
     for line in lines {
         let place = roll_place(&centroids, line.roll_rad);
-        for (station, weight) in [(place.station, 1.0 - place.share), (place.station + 1, place.share)] {
+        for (station, weight) in [
+            (place.station, 1.0 - place.share),
+            (place.station + 1, place.share),
+        ] {
             for (slice, force) in line.forces_n.iter().enumerate() {
                 for (k, share) in AXIAL_SHARES.iter().enumerate() {
                     let normal_n = weight * share * force;

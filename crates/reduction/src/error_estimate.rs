@@ -1,8 +1,8 @@
 //! Discretisation error of the reduced compliance and of the gauges, from a second, coarser mesh.
 //!
 //! With all element lengths larger by s and an error of order p, the fine value's error is about
-//! |fine − coarse| / (s^p − 1). Compliance of linear elements converges with p = 2; a gauge reads a strain on the
-//! surface, p = 1 is assumed. Graded meshes are not similar to the last element, so that this is an estimate.
+//! |fine − coarse| / (s^p − 1). Compliance converges with p = 2, and so does the strain at element centres between which
+//! a gauge interpolates. Graded meshes are not similar to the last element, so that this is an estimate.
 
 use crate::flank_loads::{SparseVector, dot};
 use crate::gauge_row::gauge_row;
@@ -38,21 +38,24 @@ fn coarsened(gear: &GearDefinition) -> GearDefinition {
     coarse
 }
 
-/// Weights of a load over the whole width at the middle roll station, per load of one flank: the axial hats overlap,
-/// each inner one carries its share of the width.
-fn middle_load(grid: &FlankGrid) -> Vec<(usize, f64)> {
-    let middle = grid.roll_angles_rad.len() / 2;
+/// Weights of a load over the whole width at a roll station, per load of one flank: the axial hats overlap, each inner
+/// one carries its share of the width.
+fn line_load(grid: &FlankGrid, station: usize) -> Vec<(usize, f64)> {
     let n = grid.z_m.len();
     (0..n)
         .map(|j| {
             let share = if j == 0 || j == n - 1 { 0.5 } else { 1.0 } / (n - 1) as f64;
-            (grid.load(middle, j), share)
+            (grid.load(station, j), share)
         })
         .collect()
 }
 
 fn compliance_of(weights: &[(usize, f64)], c: impl Fn(usize, usize) -> f64) -> f64 {
-    weights.iter().flat_map(|&(l, a)| weights.iter().map(move |&(m, b)| (l, m, a * b))).map(|(l, m, w)| w * c(l, m)).sum()
+    weights
+        .iter()
+        .flat_map(|&(l, a)| weights.iter().map(move |&(m, b)| (l, m, a * b)))
+        .map(|(l, m, w)| w * c(l, m))
+        .sum()
 }
 
 /// Estimates the errors of a reduction that has just been made.
@@ -73,11 +76,16 @@ pub fn estimate(
     let count = grid.len();
     let side = gear.reduction.flanks[0];
     let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][0])?;
-    let weights = middle_load(grid);
+    let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
 
     let mut line: SparseVector = Vec::new();
     for &(load, share) in &weights {
-        line.extend(loads[0][0][load].normal.iter().map(|&(dof, value)| (dof, share * value)));
+        line.extend(
+            loads[0][0][load]
+                .normal
+                .iter()
+                .map(|&(dof, value)| (dof, share * value)),
+        );
     }
     line.sort_unstable_by_key(|entry| entry.0);
     line.dedup_by(|b, a| {
@@ -91,7 +99,13 @@ pub fn estimate(
     let w = submodel.products(&normals, body.dofs.dof_count());
     let mut rows = vec![line.clone()];
     for gauge in &gear.gauges {
-        rows.push(gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth)?);
+        rows.push(gauge_row(
+            &coarse,
+            &body.mesh,
+            &body.model,
+            gauge,
+            gauge.tooth,
+        )?);
     }
     let mut hub = 0.0;
     let mut readings: Vec<Vec<f64>> = Vec::new();
@@ -104,21 +118,36 @@ pub fn estimate(
         }
     });
     let coarse_compliance = hub - compliance_of(&weights, |l, m| w[m * count + l]);
-    let fine_compliance = compliance_of(&weights, |l, m| c_hub[l * count + m] - c_tooth[l * count + m]);
+    let fine_compliance = compliance_of(&weights, |l, m| {
+        c_hub[l * count + m] - c_tooth[l * count + m]
+    });
     let flanks = gear.reduction.flanks.len();
+    // What a gauge reads under loads over the whole width, station by station.
+    let by_station = |reading: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..grid.roll_angles_rad.len())
+            .map(|station| {
+                line_load(grid, station)
+                    .into_iter()
+                    .map(|(load, share)| share * reading(load))
+                    .sum()
+            })
+            .collect()
+    };
     let gauge_errors = gauges
         .iter()
         .zip(&readings)
         .map(|(gauge, coarse)| {
             let first = gauge.tooth * flanks * count;
-            let fine = |l: usize| gauge.adjoint[3 * (first + l)];
-            let difference: f64 = (0..count).map(|l| (fine(l) - coarse[l]).powi(2)).sum();
-            let norm: f64 = (0..count).map(|l| fine(l).powi(2)).sum();
-            (difference / norm).sqrt() / (COARSENING - 1.0)
+            let fine = by_station(&|load| gauge.adjoint[3 * (first + load)]);
+            let coarse = by_station(&|load| coarse[load]);
+            let difference: f64 = fine.iter().zip(&coarse).map(|(f, c)| (f - c).powi(2)).sum();
+            let norm: f64 = fine.iter().map(|f| f * f).sum();
+            (difference / norm).sqrt() / (COARSENING * COARSENING - 1.0)
         })
         .collect();
     Ok(ErrorEstimate {
-        compliance: (fine_compliance / coarse_compliance - 1.0).abs() / (COARSENING * COARSENING - 1.0),
+        compliance: (fine_compliance / coarse_compliance - 1.0).abs()
+            / (COARSENING * COARSENING - 1.0),
         gauges: gauge_errors,
     })
 }

@@ -50,7 +50,10 @@ pub fn fields(
             let loads = flank_loads(gear, &body.mesh, &grid, tooth, side);
             for force in case.iter().filter(|f| (f.tooth, f.side) == (tooth, side)) {
                 let load = &loads[force.load];
-                for (part, amount) in [(&load.normal, force.normal_n), (&load.tangential, force.tangential_n)] {
+                for (part, amount) in [
+                    (&load.normal, force.normal_n),
+                    (&load.tangential, force.tangential_n),
+                ] {
                     for &(dof, value) in part {
                         *total.entry(dof).or_default() += amount * value;
                     }
@@ -60,7 +63,9 @@ pub fn fields(
         rows.push(total.into_iter().collect());
     }
     let mut displacements = Vec::with_capacity(cases.len());
-    body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, |_, u| displacements.push(u.to_vec()));
+    body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, |_, u| {
+        displacements.push(u.to_vec())
+    });
     displacements
         .into_iter()
         .map(|u| {
@@ -70,7 +75,10 @@ pub fn fields(
                     Ok(von_mises(&body.model.material().stress(&strain)))
                 })
                 .collect::<Result<Vec<f64>, gearmesh_fe::FeError>>()?;
-            Ok(Field { displacement_m: u.chunks_exact(3).map(|d| [d[0], d[1], d[2]]).collect(), von_mises_pa })
+            Ok(Field {
+                displacement_m: u.chunks_exact(3).map(|d| [d[0], d[1], d[2]]).collect(),
+                von_mises_pa,
+            })
         })
         .collect()
 }

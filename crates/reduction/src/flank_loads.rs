@@ -25,8 +25,11 @@ pub struct GridLoad {
 }
 
 /// Nodes (0, ½, 1) and weights of Gauss's three-point rule on \[0, 1\].
-const GAUSS: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
 
 /// The flank grid of a gear: roll stations evenly from the form circle to the end of the flank, axial stations at
 /// the edges and middles of the slices.
@@ -37,8 +40,12 @@ pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
     let slices = gear.reduction.slices;
     let width = gear.tooth.face_width_m;
     FlankGrid {
-        roll_angles_rad: (0..=n).map(|i| profile.form_roll_rad + span * i as f64 / n as f64).collect(),
-        z_m: (0..=2 * slices).map(|j| width * (j as f64 / (2 * slices) as f64 - 0.5)).collect(),
+        roll_angles_rad: (0..=n)
+            .map(|i| profile.form_roll_rad + span * i as f64 / n as f64)
+            .collect(),
+        z_m: (0..=2 * slices)
+            .map(|j| width * (j as f64 / (2 * slices) as f64 - 0.5))
+            .collect(),
         slices,
     }
 }
@@ -78,7 +85,11 @@ pub fn flank_loads(
     // Arc length and roll angle on the involute: s = s₀ + r_b (ξ² − ξ₀²)/2.
     let (s0, xi0, r_b) = (start, profile.form_roll_rad, profile.base_radius_m);
     let roll_at = |s: f64| (xi0 * xi0 + 2.0 * (s - s0) / r_b).max(0.0).sqrt();
-    let station_arcs: Vec<f64> = grid.roll_angles_rad.iter().map(|&xi| curve.arc_length_at_roll_m(xi)).collect();
+    let station_arcs: Vec<f64> = grid
+        .roll_angles_rad
+        .iter()
+        .map(|&xi| curve.arc_length_at_roll_m(xi))
+        .collect();
     let (sin, cos) = (TAU * tooth as f64 / gear.tooth.teeth as f64).sin_cos();
     let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
 
@@ -86,9 +97,16 @@ pub fn flank_loads(
     let mut sums = vec![0.0; count];
     let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); count];
     for face in mesh.outline_faces(tooth, side, [start, end]) {
-        let arcs = pieces(&station_arcs, face.arc_m[0].max(start), face.arc_m[1].min(end));
+        let arcs = pieces(
+            &station_arcs,
+            face.arc_m[0].max(start),
+            face.arc_m[1].min(end),
+        );
         let heights = pieces(&grid.z_m, face.z_m[0], face.z_m[1]);
-        for (s, z) in arcs.windows(2).flat_map(|s| heights.windows(2).map(move |z| (s, z))) {
+        for (s, z) in arcs
+            .windows(2)
+            .flat_map(|s| heights.windows(2).map(move |z| (s, z)))
+        {
             for (gs, ws) in GAUSS {
                 let arc = s[0] + gs * (s[1] - s[0]);
                 let roll = roll_at(arc);
@@ -116,8 +134,10 @@ pub fn flank_loads(
                                 let dof = 3 * *node as usize;
                                 let value = weight * n;
                                 for axis in 0..2 {
-                                    *parts[load][0].entry(dof + axis).or_default() += value * normal[axis];
-                                    *parts[load][1].entry(dof + axis).or_default() += value * tangent[axis];
+                                    *parts[load][0].entry(dof + axis).or_default() +=
+                                        value * normal[axis];
+                                    *parts[load][1].entry(dof + axis).or_default() +=
+                                        value * tangent[axis];
                                 }
                                 *parts[load][2].entry(dof + 2).or_default() += value;
                             }
@@ -131,9 +151,16 @@ pub fn flank_loads(
         .into_iter()
         .zip(sums)
         .map(|(directions, sum)| {
-            let [normal, tangential, axial] =
-                directions.map(|map| map.into_iter().map(|(dof, value)| (dof, value / sum)).collect());
-            GridLoad { normal, tangential, axial }
+            let [normal, tangential, axial] = directions.map(|map| {
+                map.into_iter()
+                    .map(|(dof, value)| (dof, value / sum))
+                    .collect()
+            });
+            GridLoad {
+                normal,
+                tangential,
+                axial,
+            }
         })
         .collect()
 }

@@ -57,7 +57,12 @@ impl GearBody {
         lap("mesh");
         progress.stage("assembling");
         let material = Material::new(gear.material.young_pa, gear.material.poisson)?;
-        let model = FeModel::new(mesh.nodes.clone(), mesh.hexes.clone(), material, element_of(gear.mesh.element))?;
+        let model = FeModel::new(
+            mesh.nodes.clone(),
+            mesh.hexes.clone(),
+            material,
+            element_of(gear.mesh.element),
+        )?;
         let fixed: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
         let dofs = DofMap::with_fixed_nodes(model.node_count(), &fixed)?;
         let graph = NodeGraph::new(&model, &dofs)?;
@@ -67,7 +72,14 @@ impl GearBody {
         let ordering = DofOrdering::nested_dissection(&graph, &dofs)?;
         let factor = Factor::new(&stiffness, ordering)?;
         lap("factor");
-        Ok(Self { mesh, model, dofs, stiffness, factor, stage_seconds })
+        Ok(Self {
+            mesh,
+            model,
+            dofs,
+            stiffness,
+            factor,
+            stage_seconds,
+        })
     }
 
     /// Solves K u = f for many loads, a block at a time, and hands each full displacement vector (all degrees of

@@ -38,13 +38,17 @@ pub enum ReductionError {
     #[error(transparent)]
     Fe(#[from] gearmesh_fe::FeError),
     /// A gauge covers no element face.
-    #[error("gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm")]
+    #[error(
+        "gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm"
+    )]
     EmptyGauge {
         /// Name of the gauge.
         name: String,
     },
     /// An identity that holds exactly was violated: the numbers cannot be trusted.
-    #[error("the reduction failed its own check: {check} is {found:.2e}, at most {allowed:.0e} is expected; the stiffness matrix is too ill-conditioned (very thin web, very slender elements?)")]
+    #[error(
+        "the reduction failed its own check: {check} is {found:.2e}, at most {allowed:.0e} is expected; the stiffness matrix is too ill-conditioned (very thin web, very slender elements?)"
+    )]
     Check {
         /// Which identity.
         check: &'static str,

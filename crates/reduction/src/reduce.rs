@@ -89,8 +89,12 @@ pub fn reduce(
     let sector_loads: Vec<&SparseVector> = (0..own)
         .flat_map(|tooth| loads[tooth].iter().flatten().map(|load| &load.normal))
         .collect();
-    let responses: Vec<&SparseVector> =
-        loads.iter().flatten().flatten().map(|load| &load.normal).collect();
+    let responses: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|load| &load.normal)
+        .collect();
     let row_length = responses.len();
     let mut c_rows = vec![0.0; sector_loads.len() * row_length];
     // Patterns of tooth 0's first flank that the identity is checked on.
@@ -98,7 +102,9 @@ pub fn reduce(
     let mut patterns: Vec<(usize, Vec<f64>)> = Vec::new();
     body.solve_each(&sector_loads, progress, |column, u| {
         let row = &mut c_rows[column * row_length..(column + 1) * row_length];
-        row.par_iter_mut().zip(&responses).for_each(|(c, response)| *c = dot(response, u));
+        row.par_iter_mut()
+            .zip(&responses)
+            .for_each(|(c, response)| *c = dot(response, u));
         if column < count && column % stride == 0 {
             let w = submodels[0].column(column, u.len());
             patterns.push((column, u.iter().zip(&w).map(|(u, w)| u - w).collect()));
@@ -113,8 +119,12 @@ pub fn reduce(
         ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
         ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
     ] {
-        if !(found <= allowed) {
-            return Err(ReductionError::Check { check, found, allowed });
+        if found.is_nan() || found > allowed {
+            return Err(ReductionError::Check {
+                check,
+                found,
+                allowed,
+            });
         }
     }
     lap("checks");
@@ -123,7 +133,10 @@ pub fn reduce(
     lap("gauges");
     let mut further = Vec::new();
     if options.estimate_error {
-        let ErrorEstimate { compliance, gauges: errors } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
+        let ErrorEstimate {
+            compliance,
+            gauges: errors,
+        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
         further.push(("compliance error estimate".to_string(), compliance));
         for (gauge, error) in gauges.iter_mut().zip(errors) {
             gauge.error_estimate_relative = error;
@@ -131,7 +144,11 @@ pub fn reduce(
         lap("error estimate");
     }
     let curve = ProfileCurve::new(&gear.profile);
-    let opposite: Vec<f64> = grid.roll_angles_rad.iter().map(|&xi| curve.opposite_distance_m(xi)).collect();
+    let opposite: Vec<f64> = grid
+        .roll_angles_rad
+        .iter()
+        .map(|&xi| curve.opposite_distance_m(xi))
+        .collect();
     let reduced = ReducedGear {
         name: gear.name.clone(),
         input_toml: gear.source.clone(),
@@ -157,7 +174,11 @@ pub fn reduce(
             dofs: body.dofs.free_count(),
             stage_seconds,
         },
-        checks: ReductionChecks { symmetry, pattern_identity, further },
+        checks: ReductionChecks {
+            symmetry,
+            pattern_identity,
+            further,
+        },
         grid,
     };
     Ok((reduced, body))
@@ -210,7 +231,10 @@ fn pattern_identity(
     row_length: usize,
     count: usize,
 ) -> f64 {
-    let free: Vec<Vec<f64>> = patterns.iter().map(|(_, psi)| body.dofs.restrict(psi)).collect();
+    let free: Vec<Vec<f64>> = patterns
+        .iter()
+        .map(|(_, psi)| body.dofs.restrict(psi))
+        .collect();
     let forces: Vec<Vec<f64>> = free.par_iter().map(|psi| multiply(body, psi)).collect();
     let (mut difference, mut norm) = (0.0, 0.0);
     for (a, (load_a, _)) in patterns.iter().enumerate() {
@@ -258,7 +282,13 @@ fn gauges(
             .iter()
             .flatten()
             .flatten()
-            .flat_map(|load| [dot(&load.normal, y), dot(&load.tangential, y), dot(&load.axial, y)])
+            .flat_map(|load| {
+                [
+                    dot(&load.normal, y),
+                    dot(&load.tangential, y),
+                    dot(&load.axial, y),
+                ]
+            })
             .collect();
         adjoints.push(adjoint);
     });
@@ -286,7 +316,9 @@ fn gauges(
 
 fn describe(gauge: &gearmesh_geometry::GaugeDefinition) -> String {
     let place = match gauge.position {
-        gearmesh_geometry::RootPosition::TangentAngle(a) => format!("{:.2} deg tangent", a.to_degrees()),
+        gearmesh_geometry::RootPosition::TangentAngle(a) => {
+            format!("{:.2} deg tangent", a.to_degrees())
+        }
         gearmesh_geometry::RootPosition::Radius(r) => format!("radius {:.4} mm", r * 1e3),
     };
     let side = match gauge.side {

@@ -33,10 +33,18 @@ impl ToothSubmodel {
         let mut nodes: Vec<u32> = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let local = |n: u32| nodes.binary_search(&n).map(|i| i as u32).unwrap_or(u32::MAX);
+        let local = |n: u32| {
+            nodes
+                .binary_search(&n)
+                .map(|i| i as u32)
+                .unwrap_or(u32::MAX)
+        };
         let part = FeModel::new(
             nodes.iter().map(|&n| mesh.nodes[n as usize]).collect(),
-            hexes.iter().map(|&h| mesh.hexes[h as usize].map(local)).collect(),
+            hexes
+                .iter()
+                .map(|&h| mesh.hexes[h as usize].map(local))
+                .collect(),
             *model.material(),
             model.element(),
         )?;
@@ -48,7 +56,10 @@ impl ToothSubmodel {
         let dofs = DofMap::with_fixed_nodes(part.node_count(), &supports)?;
         let stiffness = assemble_stiffness(&part, &dofs)?;
         let factor = Factor::of_model(&part, &dofs, &stiffness)?;
-        debug_assert_eq!(NodeGraph::new(&part, &dofs)?.active_nodes().len() + supports.len(), part.node_count());
+        debug_assert_eq!(
+            NodeGraph::new(&part, &dofs)?.active_nodes().len() + supports.len(),
+            part.node_count()
+        );
         let mut w = Mat::<f64>::zeros(dofs.free_count(), loads.len());
         for (column, load) in loads.iter().enumerate() {
             for &(dof, value) in &load.normal {

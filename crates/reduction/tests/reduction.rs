@@ -51,7 +51,10 @@ fn unit_loads_carry_one_newton_on_the_base_circle() {
     let body = GearBody::new(&gear, &python, &Silent).unwrap();
     let grid = flank_grid(&gear);
     for side in [FlankSide::Right, FlankSide::Left] {
-        for (number, load) in flank_loads(&gear, &body.mesh, &grid, 5, side).iter().enumerate() {
+        for (number, load) in flank_loads(&gear, &body.mesh, &grid, 5, side)
+            .iter()
+            .enumerate()
+        {
             let mut force = [0.0; 3];
             let (mut torque, mut moment) = (0.0, 0.0);
             for &(dof, value) in &load.normal {
@@ -67,7 +70,10 @@ fn unit_loads_carry_one_newton_on_the_base_circle() {
             let size = force[0].hypot(force[1]);
             // The normal turns over the hat: with spacing d its mean is shorter by d²/12. Chords add a little.
             let spacing = grid.roll_angles_rad[1] - grid.roll_angles_rad[0];
-            assert!(size <= 1.0 && 1.0 - size < 1.1 * spacing * spacing / 12.0, "{size}");
+            assert!(
+                size <= 1.0 && 1.0 - size < 1.1 * spacing * spacing / 12.0,
+                "{size}"
+            );
             assert!(force[2] == 0.0);
             // Each normal is tangent to the base circle; only the chords' sagitta is left.
             let lever = side.mirror() * torque / gear.profile.base_radius_m;
@@ -93,7 +99,9 @@ fn the_pattern_identity_holds_across_teeth() {
     let grid = flank_grid(&gear);
     let side = FlankSide::Right;
     let n = body.dofs.dof_count();
-    let loads: Vec<_> = (0..3).map(|t| flank_loads(&gear, &body.mesh, &grid, t, side)).collect();
+    let loads: Vec<_> = (0..3)
+        .map(|t| flank_loads(&gear, &body.mesh, &grid, t, side))
+        .collect();
     let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0]).unwrap();
     // W of teeth 1 and 2 by turning W of tooth 0: node by node, because every tooth has the same mesh.
     let turned = |tooth: usize, load: usize| -> Vec<f64> {
@@ -104,7 +112,10 @@ fn the_pattern_identity_holds_across_teeth() {
         let cell = &body.mesh.section.cell_nodes;
         for (from, to) in cell[0].iter().zip(&cell[tooth]) {
             for plane in 0..body.mesh.layers.planes_m.len() {
-                let (a, b) = (body.mesh.node(*from, plane).unwrap() as usize, body.mesh.node(*to, plane).unwrap() as usize);
+                let (a, b) = (
+                    body.mesh.node(*from, plane).unwrap() as usize,
+                    body.mesh.node(*to, plane).unwrap() as usize,
+                );
                 let [x, y, z] = [w[3 * a], w[3 * a + 1], w[3 * a + 2]];
                 if [x, y, z] != [0.0; 3] {
                     full[3 * b] = c * x - s * y;
@@ -123,7 +134,10 @@ fn the_pattern_identity_holds_across_teeth() {
             c_hub[k * columns.len() + m] = dot(row, u);
         }
         let w = turned(k / grid.len(), k % grid.len());
-        psi.push(body.dofs.restrict(&u.iter().zip(&w).map(|(u, w)| u - w).collect::<Vec<_>>()));
+        psi.push(
+            body.dofs
+                .restrict(&u.iter().zip(&w).map(|(u, w)| u - w).collect::<Vec<_>>()),
+        );
     });
     let (mut difference, mut norm) = (0.0, 0.0);
     for (b, column) in psi.iter().enumerate() {
@@ -150,30 +164,63 @@ fn the_pattern_identity_holds_across_teeth() {
 fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
     let gear = gear(COARSE);
     let python = PythonEnvironment::find().unwrap();
-    let model = reduce(&gear, &python, ReductionOptions { estimate_error: false }, &Silent).unwrap().0;
+    let model = reduce(
+        &gear,
+        &python,
+        ReductionOptions {
+            estimate_error: false,
+        },
+        &Silent,
+    )
+    .unwrap()
+    .0;
     model.validate().unwrap();
-    assert!(model.checks.symmetry < 1e-10 && model.checks.pattern_identity < 1e-9, "{:?}", model.checks);
+    assert!(
+        model.checks.symmetry < 1e-10 && model.checks.pattern_identity < 1e-9,
+        "{:?}",
+        model.checks
+    );
     let n = model.grid.len();
-    let largest = model.c_hub_block(0, Flank::Right, 0, Flank::Right).iter().fold(0.0f64, |a, b| a.max(b.abs()));
-    for (t, f) in [(1, Flank::Right), (4, Flank::Right), (9, Flank::Left), (0, Flank::Left)] {
+    let largest = model
+        .c_hub_block(0, Flank::Right, 0, Flank::Right)
+        .iter()
+        .fold(0.0f64, |a, b| a.max(b.abs()));
+    for (t, f) in [
+        (1, Flank::Right),
+        (4, Flank::Right),
+        (9, Flank::Left),
+        (0, Flank::Left),
+    ] {
         let there = model.c_hub_block(0, Flank::Right, t, f);
         let back = model.c_hub_block(t, f, 0, Flank::Right);
         for l in 0..n {
             for m in 0..n {
-                assert!((there[l * n + m] - back[m * n + l]).abs() < 1e-10 * largest, "Maxwell-Betti, tooth {t}");
+                assert!(
+                    (there[l * n + m] - back[m * n + l]).abs() < 1e-10 * largest,
+                    "Maxwell-Betti, tooth {t}"
+                );
             }
         }
     }
     // Mirror at the tooth's centre plane: right becomes left, tooth t becomes −t. The body's mesh is not symmetric,
     // so that the two agree only to its discretisation error.
-    let (a, b) = (model.c_hub_block(0, Flank::Right, 2, Flank::Right), model.c_hub_block(0, Flank::Left, 16, Flank::Left));
+    let (a, b) = (
+        model.c_hub_block(0, Flank::Right, 2, Flank::Right),
+        model.c_hub_block(0, Flank::Left, 16, Flank::Left),
+    );
     assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 2e-3 * largest));
     // A gauge on the tension side reads tension for a load at the tip of its tooth, in both methods.
     let gauge = &model.gauges[0];
-    let tip = model.grid.load(model.grid.roll_angles_rad.len() - 1, model.grid.z_m.len() / 2);
+    let tip = model.grid.load(
+        model.grid.roll_angles_rad.len() - 1,
+        model.grid.z_m.len() / 2,
+    );
     let adjoint = gauge.adjoint[3 * (gauge.tooth * 2 * n + tip)];
     assert!(adjoint > 0.0 && adjoint - gauge.own_tooth[tip] > 0.0);
-    assert!(gauge.own_tooth[tip].abs() < 0.3 * adjoint, "W hardly strains the root");
+    assert!(
+        gauge.own_tooth[tip].abs() < 0.3 * adjoint,
+        "W hardly strains the root"
+    );
 }
 
 /// Superposition against one direct solution: strain by the adjoint row equals strain taken from the field.
@@ -181,17 +228,45 @@ fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
 fn adjoint_rows_read_what_the_field_holds() {
     let gear = gear(COARSE);
     let python = PythonEnvironment::find().unwrap();
-    let (model, body) = reduce(&gear, &python, ReductionOptions { estimate_error: false }, &Silent).unwrap();
+    let (model, body) = reduce(
+        &gear,
+        &python,
+        ReductionOptions {
+            estimate_error: false,
+        },
+        &Silent,
+    )
+    .unwrap();
     let loads = flank_loads(&gear, &body.mesh, &model.grid, 3, FlankSide::Right);
-    let row = gearmesh_reduction::gauge_row::gauge_row(&gear, &body.mesh, &body.model, &gear.gauges[0], 3).unwrap();
+    let row = gearmesh_reduction::gauge_row::gauge_row(
+        &gear,
+        &body.mesh,
+        &body.model,
+        &gear.gauges[0],
+        3,
+    )
+    .unwrap();
     let n = model.grid.len();
     for load in [0, n / 2, n - 1] {
-        for (direction, vector) in [&loads[load].normal, &loads[load].tangential, &loads[load].axial].into_iter().enumerate() {
+        for (direction, vector) in [
+            &loads[load].normal,
+            &loads[load].tangential,
+            &loads[load].axial,
+        ]
+        .into_iter()
+        .enumerate()
+        {
             let mut strain = 0.0;
             body.solve_each(&[vector], &Silent, |_, u| strain = dot(&row, u));
             let adjoint = model.gauges[0].adjoint[3 * (3 * 2 * n + load) + direction];
-            let scale = model.gauges[0].adjoint.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-            assert!((strain - adjoint).abs() < 1e-9 * scale, "{strain} {adjoint}");
+            let scale = model.gauges[0]
+                .adjoint
+                .iter()
+                .fold(0.0f64, |a, b| a.max(b.abs()));
+            assert!(
+                (strain - adjoint).abs() < 1e-9 * scale,
+                "{strain} {adjoint}"
+            );
         }
     }
 }

@@ -1,16 +1,16 @@
 //! The report page of one or more results.
 
+use crate::comparison_table;
 use crate::page::{
-    Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page, PageError, Section,
-    SpectrumChart, SpectrumSeries, Table, Text,
+    Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
+    PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
 };
 use crate::quantity::Quantity;
 use crate::record::ReferenceRecord;
-use crate::scene_comparison::{SceneComparisonError, compare_scene};
-use crate::comparison_table;
+use crate::scene_comparison::{SceneComparisonError, compare_scene, mesh_order};
 use gearmesh_scene::SceneResult;
-use gearmesh_signal::statistics::{mean, peak_to_peak};
 use gearmesh_signal::rig::process;
+use gearmesh_signal::statistics::{mean, peak_to_peak};
 use gearmesh_signal::{AngleSeries, OrderFilter, RigSettings};
 
 /// A gear's cross-section coloured by stress.
@@ -91,37 +91,53 @@ pub fn scene_page(chapters: &[SceneChapter]) -> Result<Page, ScenePageError> {
         }
         page = page.section(provenance(r));
     }
-    let made: Vec<String> = chapters.iter().map(|c| format!("{} {}", c.result.version, c.result.created_utc)).collect();
+    let made: Vec<String> = chapters
+        .iter()
+        .map(|c| format!("{} {}", c.result.version, c.result.created_utc))
+        .collect();
     Ok(page.footer(format!("gearmesh {}", made.join(", "))))
 }
 
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
     let te = r.curve(&r.te_m, last);
-    let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| value.unwrap_or(f64::NAN) * 1e6;
+    let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| {
+        value.unwrap_or(f64::NAN) * 1e6
+    };
     let mut figures = KeyFigures::new()
         .figure("torque", format!("{}", r.torque_nm[last]), "N m")
-        .figure("TE mean", format!("{:.3}", figure(mean(te))), "um")
-        .figure("TE peak-to-peak", format!("{:.3}", figure(peak_to_peak(te))), "um")
+        .figure("TE mean", format!("{:.3}", figure(mean(te))), "µm")
+        .figure(
+            "TE peak-to-peak",
+            format!("{:.3}", figure(peak_to_peak(te))),
+            "um",
+        )
         .figure("K_Hbeta", format!("{:.3}", r.k_h_beta[last]), "1");
     if let Some(s) = r.strain.first() {
         let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
-        figures = figures.figure(format!("strain range {}", s.name), format!("{range:.0}"), "ustrain");
+        figures = figures.figure(
+            format!("strain range {}", s.name),
+            format!("{range:.0}"),
+            "µε",
+        );
     }
     let mut section = Section::new(r.title.clone()).push(figures);
-    let mut table = Table::new("By torque")
+    let mut table = Table::new("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor")
         .column("torque N m", Align::Right)
-        .column("TE mean um", Align::Right)
-        .column("TE peak-to-peak um", Align::Right)
-        .column("mean secant stiffness N/um", Align::Right)
-        .column("mean tangent stiffness N/um", Align::Right)
-        .column("largest Hertz pressure MPa", Align::Right)
+        .column("TE mean µm", Align::Right)
+        .column("TE pk-pk µm", Align::Right)
+        .column("secant N/µm", Align::Right)
+        .column("tangent N/µm", Align::Right)
+        .column("p_H MPa", Align::Right)
         .column("K_Hbeta", Align::Right);
     let block = r.pressure_pa.len() / r.torque_nm.len();
     for (k, torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
         let average = |values: &[f64]| mean(r.curve(values, k)).unwrap_or(f64::NAN) * 1e-6;
-        let pressure = r.pressure_pa[k * block..(k + 1) * block].iter().copied().fold(0.0, f64::max);
+        let pressure = r.pressure_pa[k * block..(k + 1) * block]
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
         table = table.row([
             format!("{torque}"),
             format!("{:.3}", figure(mean(te))),
@@ -139,6 +155,12 @@ fn overview(r: &SceneResult) -> Section {
     section
 }
 
+fn angle_step(r: &SceneResult) -> f64 {
+    r.angle_rad
+        .get(1)
+        .map_or(1.0, |second| second - r.angle_rad[0])
+}
+
 fn angles_deg(r: &SceneResult) -> Vec<f64> {
     r.angle_rad.iter().map(|a| a.to_degrees()).collect()
 }
@@ -148,38 +170,69 @@ fn angle_axis() -> Axis {
 }
 
 /// The reference's values at our angles, in display units; none where it lacks the column.
-fn reference_values(chapter: &SceneChapter, quantity: &Quantity, torque_nm: f64) -> Option<Vec<f64>> {
+fn reference_values(
+    chapter: &SceneChapter,
+    quantity: &Quantity,
+    torque_nm: f64,
+) -> Option<Vec<f64>> {
     let record = chapter.record.as_ref()?;
     let series = record.series(record.column(quantity, torque_nm)?).ok()?;
-    Some(chapter.result.angle_rad.iter().map(|&a| series.value(a) * 1e6).collect())
+    Some(
+        chapter
+            .result
+            .angle_rad
+            .iter()
+            .map(|&a| series.value(a) * 1e6)
+            .collect(),
+    )
 }
 
 fn transmission_error(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
-    let mut chart = LineChart::new("Transmission error by torque", angle_axis(), Axis::new("TE", "um")).x_values(angles_deg(r));
-    let mut spectrum = SpectrumChart::new("Order spectrum of the transmission error, orders 0 and 1 removed", Axis::new("amplitude", "um"))
-        .up_to_order(130.0)
-        .decades(5)
-        .highlight(3.0, "3 (slots)")
-        .highlight(57.0, "57 (mesh)");
+    let mut chart = LineChart::new(
+        "Transmission error by torque",
+        angle_axis(),
+        Axis::new("TE", "µm"),
+    )
+    .x_values(angles_deg(r));
+    let mesh_order = mesh_order(r);
+    let mut spectrum = SpectrumChart::new(
+        "Order spectrum of the transmission error, orders 0 and 1 removed",
+        Axis::new("amplitude", "µm"),
+    )
+    .up_to_order(2.3 * mesh_order)
+    .decades(5)
+    .highlight(3.0, "three per turn")
+    .highlight(mesh_order, "mesh");
     let mut orders_set = false;
     for (k, &torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
         chart = chart.series(LineSeries::new(format!("{torque} N m"), micro(te)));
         if let Some(values) = reference_values(chapter, &Quantity::TransmissionError, torque) {
-            chart = chart.series(LineSeries::new(format!("{torque} N m reference"), values).style(LineStyle::Dashed).hidden());
+            chart = chart.series(
+                LineSeries::new(format!("{torque} N m reference"), values)
+                    .style(LineStyle::Dashed)
+                    .hidden(),
+            );
         }
         if k != 0 && k + 1 != r.torque_nm.len() {
             continue;
         }
         if let Ok(series) = AngleSeries::one_revolution(&r.angle_rad, te)
-            && let Ok(signal) = process(&series, &RigSettings::default(), OrderFilter::RemoveMeanAndEccentricity)
+            && let Ok(signal) = process(
+                &series,
+                &RigSettings::default(),
+                OrderFilter::RemoveMeanAndEccentricity,
+            )
         {
             if !orders_set {
                 spectrum = spectrum.orders(signal.spectrum.orders());
                 orders_set = true;
             }
-            spectrum = spectrum.series(SpectrumSeries::new(format!("{torque} N m"), micro(&signal.spectrum.amplitudes())));
+            spectrum = spectrum.series(SpectrumSeries::new(
+                format!("{torque} N m"),
+                micro(&signal.spectrum.amplitudes()),
+            ));
         }
     }
     let mut section = Section::new(format!("{}: transmission error", r.title))
@@ -195,12 +248,15 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
 }
 
 fn contact(r: &SceneResult) -> Section {
-    // Over the first two pitches: the load of each tooth pair, and the stiffness.
-    let points = r.angles().min(2 * r.angles() / 57.max(1) + 1).max(r.angles().min(80));
+    // Over the first pitches: the load of each tooth pair, and the stiffness.
+    let points = ((3.3 * std::f64::consts::TAU / mesh_order(r) / angle_step(r)) as usize)
+        .clamp(1, r.angles());
     let x: Vec<f64> = angles_deg(r)[..points].to_vec();
     let last = r.torque_nm.len() - 1;
     let mut pairs: Vec<i64> = (0..points)
-        .flat_map(|a| (0..r.pair_count[a] as usize).map(move |slot| r.pair[a * r.slots + slot] as i64))
+        .flat_map(|a| {
+            (0..r.pair_count[a] as usize).map(move |slot| r.pair[a * r.slots + slot] as i64)
+        })
         .collect();
     pairs.sort_unstable();
     pairs.dedup();
@@ -221,19 +277,36 @@ fn contact(r: &SceneResult) -> Section {
             .collect();
         sharing = sharing.series(LineSeries::new(format!("pair {pair}"), values));
     }
-    let mut stiffness =
-        LineChart::new("Mesh stiffness", angle_axis(), Axis::new("stiffness", "N/um")).x_values(x);
+    let mut stiffness = LineChart::new(
+        "Mesh stiffness",
+        angle_axis(),
+        Axis::new("stiffness", "N/µm"),
+    )
+    .x_values(x);
     for k in [0, last] {
         let torque = r.torque_nm[k];
-        let part = |values: &[f64]| r.curve(values, k)[..points].iter().map(|v| v * 1e-6).collect();
+        let part = |values: &[f64]| {
+            r.curve(values, k)[..points]
+                .iter()
+                .map(|v| v * 1e-6)
+                .collect()
+        };
         stiffness = stiffness
-            .series(LineSeries::new(format!("secant, {torque} N m"), part(&r.secant_n_per_m)))
-            .series(LineSeries::new(format!("tangent, {torque} N m"), part(&r.tangent_n_per_m)).style(LineStyle::Dashed));
+            .series(LineSeries::new(
+                format!("secant, {torque} N m"),
+                part(&r.secant_n_per_m),
+            ))
+            .series(
+                LineSeries::new(format!("tangent, {torque} N m"), part(&r.tangent_n_per_m))
+                    .style(LineStyle::Dashed),
+            );
         if last == 0 {
             break;
         }
     }
-    Section::new(format!("{}: load sharing and mesh stiffness", r.title)).push(sharing).push(stiffness)
+    Section::new(format!("{}: load sharing and mesh stiffness", r.title))
+        .push(sharing)
+        .push(stiffness)
 }
 
 fn root_strain(chapter: &SceneChapter) -> Section {
@@ -248,28 +321,45 @@ fn root_strain(chapter: &SceneChapter) -> Section {
         .column("gauge", Align::Left)
         .column("mesh error %", Align::Right);
     for s in &r.strain {
-        table = table.row([s.gear.to_string(), s.name.clone(), format!("{:.2}", 100.0 * s.error_estimate_relative)]);
+        table = table.row([
+            s.gear.to_string(),
+            s.name.clone(),
+            format!("{:.2}", 100.0 * s.error_estimate_relative),
+        ]);
         let mut chart = LineChart::new(
-            format!("Gear {}, gauge {}, {} N m", s.gear, s.name, r.torque_nm[last]),
+            format!(
+                "Gear {}, gauge {}, {} N m",
+                s.gear, s.name, r.torque_nm[last]
+            ),
             angle_axis(),
-            Axis::new("strain", "ustrain"),
+            Axis::new("strain", "µε"),
         )
         .x_values(angles_deg(r));
-        let quantity = Quantity::Strain { gauge: s.name.clone() };
+        let quantity = Quantity::Strain {
+            gauge: s.name.clone(),
+        };
         if let Some(values) = reference_values(chapter, &quantity, r.torque_nm[last]) {
             chart = chart.series(LineSeries::new("reference", values).style(LineStyle::Dashed));
         }
         let curve = r.curve(&s.method_2, last);
-        let peak = (0..curve.len()).max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs())).unwrap_or(0);
+        let peak = (0..curve.len())
+            .max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs()))
+            .unwrap_or(0);
         let centre = r.angle_rad[peak].to_degrees();
-        let (low, high) = (r.angle_rad[0].to_degrees(), r.angle_rad[r.angles() - 1].to_degrees());
+        let (low, high) = (
+            r.angle_rad[0].to_degrees(),
+            r.angle_rad[r.angles() - 1].to_degrees(),
+        );
         if high - low > 60.0 {
             let from = (centre - 20.0).clamp(low, high - 40.0);
             chart = chart.x_window(from, from + 40.0);
         }
         section = section.push(
             chart
-                .series(LineSeries::new("method 1", micro(r.curve(&s.method_1, last))))
+                .series(LineSeries::new(
+                    "method 1",
+                    micro(r.curve(&s.method_1, last)),
+                ))
                 .series(LineSeries::new("method 2", micro(curve))),
         );
     }
@@ -280,7 +370,10 @@ fn stress_picture(picture: &GearPicture) -> FieldPicture {
     // The load patches of the model would take the whole scale; the roots are what one wants to see.
     let mut sorted = picture.von_mises_mpa.clone();
     sorted.sort_by(f64::total_cmp);
-    let high = sorted.get(sorted.len().saturating_sub(1 + sorted.len() / 1000)).copied().unwrap_or(1.0);
+    let high = sorted
+        .get(sorted.len().saturating_sub(1 + sorted.len() / 1000))
+        .copied()
+        .unwrap_or(1.0);
     FieldPicture::new(picture.title.clone(), "von Mises stress", "MPa")
         .mesh(picture.nodes_mm.clone(), picture.quads.clone())
         .values(FieldValues::PerElement(picture.von_mises_mpa.clone()))

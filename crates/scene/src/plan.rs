@@ -17,13 +17,22 @@ pub struct Plan {
 
 impl Plan {
     /// Derives the plan of a scene with its loaded models.
-    pub fn new(scene: &Scene, lines: &ContactLines, gear_1: &ReducedGear, gear_2: &ReducedGear) -> Self {
+    pub fn new(
+        scene: &Scene,
+        lines: &ContactLines,
+        gear_1: &ReducedGear,
+        gear_2: &ReducedGear,
+    ) -> Self {
         let pair = &lines.pair;
         let positions = scene.positions() * scene.torques_nm.len();
         let unknowns = lines.most_pairs() * gear_1.grid.slices;
         let mut text = vec![
             format!("scene      {}", scene.title),
-            format!("analysis   static, {} torques x {} positions", scene.torques_nm.len(), scene.positions()),
+            format!(
+                "analysis   static, {} torques x {} positions",
+                scene.torques_nm.len(),
+                scene.positions()
+            ),
         ];
         for (number, gear) in [(1, gear_1), (2, gear_2)] {
             text.push(format!(
@@ -54,14 +63,25 @@ impl Plan {
         ));
         text.push(match scene.contact.friction {
             None => "friction   not computed".to_string(),
-            Some(f) => format!("friction   `coulomb`, coefficient {}, reversal within {} um", f.coefficient, f.reversal_m * 1e6),
+            Some(f) => format!(
+                "friction   `coulomb`, coefficient {}, reversal within {} um",
+                f.coefficient,
+                f.reversal_m * 1e6
+            ),
         });
         let gauges = scene.gauges_1.len() + scene.gauges_2.len();
         text.push(if gauges == 0 {
             "gauges     not computed".to_string()
         } else {
-            format!("gauges     {gauges}, methods 1 and 2, {} readings", 2 * gauges * positions)
+            format!(
+                "gauges     {gauges}, methods 1 and 2, {} readings",
+                2 * gauges * positions
+            )
         });
-        Self { lines: text, positions, unknowns }
+        Self {
+            lines: text,
+            positions,
+            unknowns,
+        }
     }
 }

@@ -4,7 +4,10 @@ use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, Values};
 use std::path::Path;
 
 /// Name and version of the result file.
-pub const RESULT_FORMAT: FileFormat = FileFormat { name: "gearmesh-result", version: 1 };
+pub const RESULT_FORMAT: FileFormat = FileFormat {
+    name: "gearmesh-result",
+    version: 1,
+};
 
 /// Strain of one gauge, `[torque][angle]`, dimensionless.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,36 +103,164 @@ impl SceneResult {
     /// # Errors
     /// [`FileError`] when the file cannot be written; an older file is then untouched.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
-        let (t, a) = (("torque", self.torque_nm.len()), ("driver angle", self.angles()));
+        let (t, a) = (
+            ("torque", self.torque_nm.len()),
+            ("driver angle", self.angles()),
+        );
         let (l, s) = (("contact line", self.slots), ("slice", self.slices));
         let mut tree = DataTree::default();
-        let mut put = |name: &str, values: &[f64], axes: &[(&str, usize)], unit: &str, text: &str| {
-            tree.put(name, DataArray::new(Values::F64(values.to_vec()), axes, unit, text));
-        };
-        put("angle_rad", &self.angle_rad, &[a], "rad", "driver angle, zero where pair 0 touches at the pitch point");
-        put("torque_Nm", &self.torque_nm, &[t], "N m", "torque on gear 2");
-        put("te_m", &self.te_m, &[t, a], "m", "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load");
-        put("te_unloaded_m", &self.unloaded_m, &[a], "m", "transmission error at first touch");
-        put("torque_1_Nm", &self.torque_1_nm, &[t, a], "N m", "torque on gear 1");
-        put("stiffness_secant_N_per_m", &self.secant_n_per_m, &[t, a], "N/m", "secant mesh stiffness");
-        put("stiffness_tangent_N_per_m", &self.tangent_n_per_m, &[t, a], "N/m", "tangent mesh stiffness");
-        put("pair", &self.pair, &[a, l], "1", "pair number of each contact line");
-        put("force_N", &self.force_n, &[t, a, l, s], "N", "normal force of each slice, positive in compression");
-        put("pressure_Pa", &self.pressure_pa, &[t, a, l, s], "Pa", "peak Hertz pressure of each slice");
-        put("k_h_beta", &self.k_h_beta, &[t], "1", "face load factor of the most loaded line, worst position");
-        put("residual", &self.residual, &[t], "1", "largest relative residual of the contact problem");
-        put("torque_balance", &self.torque_balance, &[t], "1", "largest relative error of the torque balance");
-        put("seconds", &self.seconds, &[("stage", 2)], "s", "wall time of contact and of strain");
-        tree.put("pair_count", DataArray::new(Values::U32(self.pair_count.clone()), &[a], "1", "contact lines in use"));
-        tree.put("iterations", DataArray::new(Values::U32(self.iterations.clone()), &[t], "1", "Newton iterations"));
-        tree.put("gauge_count", DataArray::count(self.strain.len() as u32, "gauges"));
+        let mut put =
+            |name: &str, values: &[f64], axes: &[(&str, usize)], unit: &str, text: &str| {
+                tree.put(
+                    name,
+                    DataArray::new(Values::F64(values.to_vec()), axes, unit, text),
+                );
+            };
+        put(
+            "angle_rad",
+            &self.angle_rad,
+            &[a],
+            "rad",
+            "driver angle, zero where pair 0 touches at the pitch point",
+        );
+        put(
+            "torque_Nm",
+            &self.torque_nm,
+            &[t],
+            "N m",
+            "torque on gear 2",
+        );
+        put(
+            "te_m",
+            &self.te_m,
+            &[t, a],
+            "m",
+            "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load",
+        );
+        put(
+            "te_unloaded_m",
+            &self.unloaded_m,
+            &[a],
+            "m",
+            "transmission error at first touch",
+        );
+        put(
+            "torque_1_Nm",
+            &self.torque_1_nm,
+            &[t, a],
+            "N m",
+            "torque on gear 1",
+        );
+        put(
+            "stiffness_secant_N_per_m",
+            &self.secant_n_per_m,
+            &[t, a],
+            "N/m",
+            "secant mesh stiffness",
+        );
+        put(
+            "stiffness_tangent_N_per_m",
+            &self.tangent_n_per_m,
+            &[t, a],
+            "N/m",
+            "tangent mesh stiffness",
+        );
+        put(
+            "pair",
+            &self.pair,
+            &[a, l],
+            "1",
+            "pair number of each contact line",
+        );
+        put(
+            "force_N",
+            &self.force_n,
+            &[t, a, l, s],
+            "N",
+            "normal force of each slice, positive in compression",
+        );
+        put(
+            "pressure_Pa",
+            &self.pressure_pa,
+            &[t, a, l, s],
+            "Pa",
+            "peak Hertz pressure of each slice",
+        );
+        put(
+            "k_h_beta",
+            &self.k_h_beta,
+            &[t],
+            "1",
+            "face load factor of the most loaded line, worst position",
+        );
+        put(
+            "residual",
+            &self.residual,
+            &[t],
+            "1",
+            "largest relative residual of the contact problem",
+        );
+        put(
+            "torque_balance",
+            &self.torque_balance,
+            &[t],
+            "1",
+            "largest relative error of the torque balance",
+        );
+        put(
+            "seconds",
+            &self.seconds,
+            &[("stage", 2)],
+            "s",
+            "wall time of contact and of strain",
+        );
+        tree.put(
+            "pair_count",
+            DataArray::new(
+                Values::U32(self.pair_count.clone()),
+                &[a],
+                "1",
+                "contact lines in use",
+            ),
+        );
+        tree.put(
+            "iterations",
+            DataArray::new(
+                Values::U32(self.iterations.clone()),
+                &[t],
+                "1",
+                "Newton iterations",
+            ),
+        );
+        tree.put(
+            "gauge_count",
+            DataArray::count(self.strain.len() as u32, "gauges"),
+        );
         for (i, series) in self.strain.iter().enumerate() {
             let name = |part: &str| format!("gauges/{i}/{part}");
-            tree.put(name("gear"), DataArray::count(series.gear as u32, "gear of the gauge"));
+            tree.put(
+                name("gear"),
+                DataArray::count(series.gear as u32, "gear of the gauge"),
+            );
             tree.put_text(name("name"), series.name.clone());
-            tree.put(name("error"), DataArray::scalar(series.error_estimate_relative, "1", "estimated relative mesh error"));
-            for (part, values) in [("method_1", &series.method_1), ("method_2", &series.method_2)] {
-                let array = DataArray::new(Values::F64(values.clone()), &[t, a], "1", "strain along the profile, positive in tension");
+            tree.put(
+                name("error"),
+                DataArray::scalar(
+                    series.error_estimate_relative,
+                    "1",
+                    "estimated relative mesh error",
+                ),
+            );
+            for (part, values) in [
+                ("method_1", &series.method_1),
+                ("method_2", &series.method_2),
+            ] {
+                let array = DataArray::new(
+                    Values::F64(values.clone()),
+                    &[t, a],
+                    "1",
+                    "strain along the profile, positive in tension",
+                );
                 tree.put(name(part), array);
             }
         }

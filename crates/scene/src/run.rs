@@ -36,7 +36,10 @@ pub enum RunError {
 impl RunError {
     /// True when the input is to blame, not the computation.
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Contact(ContactError::Nlcp { .. } | ContactError::LocalLaw { .. }))
+        !matches!(
+            self,
+            Self::Contact(ContactError::Nlcp { .. } | ContactError::LocalLaw { .. })
+        )
     }
 }
 
@@ -68,22 +71,38 @@ fn flank_of(side: FlankSide) -> Flank {
 pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     let read = |key: &str, path: &Path| -> Result<(ReducedGear, GearDefinition), RunError> {
         if !path.exists() {
-            let problem = format!("the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`", path.display(), path.display());
+            let problem = format!(
+                "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
+                path.display(),
+                path.display()
+            );
             return Err(scene.document.error(key, problem).into());
         }
         let model = read_reduced_gear(path)?;
         let source = format!("gear file inside {}", path.display());
-        let gear = GearDefinition::from_document(&InputDocument::new(source, model.input_toml.clone()))?;
+        let gear =
+            GearDefinition::from_document(&InputDocument::new(source, model.input_toml.clone()))?;
         Ok((model, gear))
     };
     let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
     let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
-    let pair = GearPair::new(gear_1.profile, gear_2.profile, scene.centre_distance_m, scene.misalignment)
-        .map_err(|e| scene.document.error("pair", e))?;
-    let lines = ContactLines { pair, microgeometry_1: gear_1.microgeometry, microgeometry_2: gear_2.microgeometry };
+    let pair = GearPair::new(
+        gear_1.profile,
+        gear_2.profile,
+        scene.centre_distance_m,
+        scene.misalignment,
+    )
+    .map_err(|e| scene.document.error("pair", e))?;
+    let lines = ContactLines {
+        pair,
+        microgeometry_1: gear_1.microgeometry,
+        microgeometry_2: gear_2.microgeometry,
+    };
     let models = [model_1, model_2];
     for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
-        model.flank_index(flank_of(scene.flank)).map_err(|e| scene.document.error(key, e))?;
+        model
+            .flank_index(flank_of(scene.flank))
+            .map_err(|e| scene.document.error(key, e))?;
     }
     let mut gauges = Vec::new();
     for (gear, names) in [(1, &scene.gauges_1), (2, &scene.gauges_2)] {
@@ -93,13 +112,25 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
                 let names: Vec<&str> = known.iter().map(|g| g.name.as_str()).collect();
                 scene.document.error(
                     &format!("gauges.gear_{gear}.{i}"),
-                    format!("the model has no gauge `{name}`; it has: {}", if names.is_empty() { "none".into() } else { names.join(", ") }),
+                    format!(
+                        "the model has no gauge `{name}`; it has: {}",
+                        if names.is_empty() {
+                            "none".into()
+                        } else {
+                            names.join(", ")
+                        }
+                    ),
                 )
             })?;
             gauges.push((gear, index));
         }
     }
-    Ok(LoadedScene { scene, models, lines, gauges })
+    Ok(LoadedScene {
+        scene,
+        models,
+        lines,
+        gauges,
+    })
 }
 
 impl LoadedScene {
@@ -111,7 +142,9 @@ impl LoadedScene {
     /// Driver angles of the scene \[rad\].
     pub fn angles_rad(&self) -> Vec<f64> {
         let step = TAU / self.models[0].teeth as f64 / self.scene.points_per_pitch as f64;
-        (0..self.scene.positions()).map(|k| self.scene.start_rad + step * k as f64).collect()
+        (0..self.scene.positions())
+            .map(|k| self.scene.start_rad + step * k as f64)
+            .collect()
     }
 
     /// A contact problem of this scene.
@@ -151,7 +184,10 @@ struct TorqueCurves {
 ///
 /// # Errors
 /// [`RunError`] when a position has no solution.
-pub fn run(loaded: &LoadedScene, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<SceneResult, RunError> {
+pub fn run(
+    loaded: &LoadedScene,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<SceneResult, RunError> {
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
@@ -182,17 +218,31 @@ pub fn run(loaded: &LoadedScene, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
             warnings.note(*assumption, *value, *torque);
         }
     }
-    let flatten = |part: fn(&TorqueCurves) -> &Vec<f64>| curves.iter().flat_map(|c| part(c).iter().copied()).collect();
+    let flatten = |part: fn(&TorqueCurves) -> &Vec<f64>| {
+        curves
+            .iter()
+            .flat_map(|c| part(c).iter().copied())
+            .collect()
+    };
     let mut result = SceneResult {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
-        gear_toml: [loaded.models[0].input_toml.clone(), loaded.models[1].input_toml.clone()],
-        model_files: [scene.gear_1.display().to_string(), scene.gear_2.display().to_string()],
+        gear_toml: [
+            loaded.models[0].input_toml.clone(),
+            loaded.models[1].input_toml.clone(),
+        ],
+        model_files: [
+            scene.gear_1.display().to_string(),
+            scene.gear_2.display().to_string(),
+        ],
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
         torque_nm: scene.torques_nm.clone(),
         te_m: flatten(|c| &c.te),
-        unloaded_m: curves.first().map(|c| c.unloaded.clone()).unwrap_or_default(),
+        unloaded_m: curves
+            .first()
+            .map(|c| c.unloaded.clone())
+            .unwrap_or_default(),
         torque_1_nm: flatten(|c| &c.torque_1),
         secant_n_per_m: flatten(|c| &c.secant),
         tangent_n_per_m: flatten(|c| &c.tangent),
@@ -228,7 +278,12 @@ fn solve_torque(
     let width = contact.slice_width_m();
     let base_2 = loaded.lines.pair.gear_2.base_radius_m;
     let base_pitch = loaded.lines.pair.pitch_1_rad() * loaded.lines.pair.gear_1.base_radius_m;
-    let distances = loaded.models.each_ref().map(|m| m.opposite_distance_m.iter().copied().fold(f64::INFINITY, f64::min));
+    let distances = loaded.models.each_ref().map(|m| {
+        m.opposite_distance_m
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min)
+    });
     let least_distance = distances[0].min(distances[1]);
     let young = loaded.models[0].young_pa.min(loaded.models[1].young_pa);
     let n = angles.len();
@@ -257,7 +312,9 @@ fn solve_torque(
         c.tangent.push(stiffness.tangent_n_per_m);
         c.iterations += state.info.iterations as u32;
         c.residual = c.residual.max(state.info.residual);
-        c.torque_balance = c.torque_balance.max((state.torque_2_nm / torque - 1.0).abs());
+        c.torque_balance = c
+            .torque_balance
+            .max((state.torque_2_nm / torque - 1.0).abs());
         let forces = contact.forces_n();
         let first = k * slots * slices;
         c.force[first..first + forces.len()].copy_from_slice(forces);
@@ -315,11 +372,25 @@ pub fn strain(
             let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
-                    reader.read(lines_at[angle].iter().enumerate().map(|(slot, line)| LoadedLine {
-                        tooth: if gear == 1 { line.tooth_1 } else { line.tooth_2 },
-                        roll_rad: if gear == 1 { line.roll_1_rad } else { line.roll_2_rad },
-                        friction_ratio: loaded.scene.contact.friction.map_or(0.0, |f| f.ratio(line.path_m)),
-                        forces_n: result.forces(torque, angle, slot),
+                    reader.read(lines_at[angle].iter().enumerate().map(|(slot, line)| {
+                        LoadedLine {
+                            tooth: if gear == 1 {
+                                line.tooth_1
+                            } else {
+                                line.tooth_2
+                            },
+                            roll_rad: if gear == 1 {
+                                line.roll_1_rad
+                            } else {
+                                line.roll_2_rad
+                            },
+                            friction_ratio: loaded
+                                .scene
+                                .contact
+                                .friction
+                                .map_or(0.0, |f| f.ratio(line.path_m)),
+                            forces_n: result.forces(torque, angle, slot),
+                        }
                     }))
                 })
                 .collect();

@@ -162,14 +162,28 @@ impl Scene {
             }
         };
         let pair = &table.pair;
-        require("pair.centre_distance_mm", pair.centre_distance_mm, pair.centre_distance_mm > 0.0, "more than 0")?;
-        for (key, value) in
-            [("pair.inclination_mrad", pair.inclination_mrad), ("pair.deviation_mrad", pair.deviation_mrad)]
-        {
-            require(key, value, value.abs() <= 10.0, "-10 to 10: the misalignment is treated as small")?;
+        require(
+            "pair.centre_distance_mm",
+            pair.centre_distance_mm,
+            pair.centre_distance_mm > 0.0,
+            "more than 0",
+        )?;
+        for (key, value) in [
+            ("pair.inclination_mrad", pair.inclination_mrad),
+            ("pair.deviation_mrad", pair.deviation_mrad),
+        ] {
+            require(
+                key,
+                value,
+                value.abs() <= 10.0,
+                "-10 to 10: the misalignment is treated as small",
+            )?;
         }
         if table.run.torques_Nm.is_empty() {
-            return Err(document.error("run.torques_Nm", "is empty; name at least one torque on gear 2"));
+            return Err(document.error(
+                "run.torques_Nm",
+                "is empty; name at least one torque on gear 2",
+            ));
         }
         for (i, &torque) in table.run.torques_Nm.iter().enumerate() {
             require(
@@ -179,10 +193,25 @@ impl Scene {
                 "more than 0: the static solution needs a load that closes the contact",
             )?;
         }
-        require("run.start_deg", table.run.start_deg, table.run.start_deg.abs() <= 360.0, "-360 to 360")?;
-        require("run.pitches", table.run.pitches as f64, (1..=10_000).contains(&table.run.pitches), "1 to 10000")?;
+        require(
+            "run.start_deg",
+            table.run.start_deg,
+            table.run.start_deg.abs() <= 360.0,
+            "-360 to 360",
+        )?;
+        require(
+            "run.pitches",
+            table.run.pitches as f64,
+            (1..=10_000).contains(&table.run.pitches),
+            "1 to 10000",
+        )?;
         let points = table.run.points_per_pitch;
-        require("run.points_per_pitch", points as f64, (4..=100_000).contains(&points), "4 to 100000")?;
+        require(
+            "run.points_per_pitch",
+            points as f64,
+            (4..=100_000).contains(&points),
+            "4 to 100000",
+        )?;
         let friction = match &table.mesh.friction {
             None => None,
             Some(f) => {
@@ -192,8 +221,16 @@ impl Scene {
                     (0.0..=1.0).contains(&f.coefficient),
                     "0 to 1",
                 )?;
-                require("mesh.friction.reversal_um", f.reversal_um, f.reversal_um > 0.0, "more than 0")?;
-                Some(Friction { coefficient: f.coefficient, reversal_m: f.reversal_um * 1e-6 })
+                require(
+                    "mesh.friction.reversal_um",
+                    f.reversal_um,
+                    f.reversal_um > 0.0,
+                    "more than 0",
+                )?;
+                Some(Friction {
+                    coefficient: f.coefficient,
+                    reversal_m: f.reversal_um * 1e-6,
+                })
             }
         };
         Ok(Self {

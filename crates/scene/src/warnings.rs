@@ -55,13 +55,21 @@ pub struct Warnings {
 impl Warnings {
     /// Notes a figure; kept where it is above the assumption's limit and the worst so far.
     pub fn note(&mut self, assumption: Assumption, value: f64, torque_nm: f64) {
-        if value > assumption.limit() && self.worst.get(&assumption).is_none_or(|(worst, _)| value > *worst) {
+        if value > assumption.limit()
+            && self
+                .worst
+                .get(&assumption)
+                .is_none_or(|(worst, _)| value > *worst)
+        {
             self.worst.insert(assumption, (value, torque_nm));
         }
     }
 
     /// The warnings as sentences.
     pub fn sentences(&self) -> Vec<String> {
-        self.worst.iter().map(|(a, (value, torque))| format!("at {torque} N m: {}", a.text(*value))).collect()
+        self.worst
+            .iter()
+            .map(|(a, (value, torque))| format!("at {torque} N m: {}", a.text(*value)))
+            .collect()
     }
 }

@@ -39,7 +39,11 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     if is_scene {
         let folder = path.parent().unwrap_or(std::path::Path::new(""));
         let scene = Scene::from_document(document, folder)?;
-        console::data(format!("{}: scene `{}`, sound", path.display(), scene.title));
+        console::data(format!(
+            "{}: scene `{}`, sound",
+            path.display(),
+            scene.title
+        ));
     } else {
         let gear = GearDefinition::from_document(&document)?;
         let p = &gear.profile;
@@ -54,7 +58,9 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             if p.undercut { "; undercut" } else { "" }
         ));
         if gear.blank.openings.is_some() && gear.sectors() == 1 {
-            console::warning("the openings do not divide the teeth: the body does not repeat, and every tooth is solved");
+            console::warning(
+                "the openings do not divide the teeth: the body does not repeat, and every tooth is solved",
+            );
         }
     }
     Ok(())

@@ -14,9 +14,14 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let comparisons = compare_scene(&result, &record).map_err(Failure::input)?;
     if arguments.json {
         let list = serde_json::to_value(&comparisons).map_err(Failure::work)?;
-        console::json(&json!({"record": record.title, "kind": record.kind.to_string(), "comparisons": list}));
+        console::json(
+            &json!({"record": record.title, "kind": record.kind.to_string(), "comparisons": list}),
+        );
     } else {
-        console::data(format!("{} against `{}` ({})", result.title, record.title, record.kind));
+        console::data(format!(
+            "{} against `{}` ({})",
+            result.title, record.title, record.kind
+        ));
         console::data(comparison_table(&comparisons));
     }
     Ok(())

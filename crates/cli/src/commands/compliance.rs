@@ -15,17 +15,28 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
     let at_tooth = a.at_tooth.unwrap_or(a.tooth);
     for (name, tooth) in [("--tooth", a.tooth), ("--at-tooth", at_tooth)] {
         if tooth >= model.teeth {
-            return Err(Failure::input(format!("{name}: found {tooth}, allowed is 0 to {}", model.teeth - 1)));
+            return Err(Failure::input(format!(
+                "{name}: found {tooth}, allowed is 0 to {}",
+                model.teeth - 1
+            )));
         }
     }
-    for (name, value) in [("--line-load-N-per-mm", a.line_load_N_per_mm), ("--half-width-mm", a.half_width_mm)] {
+    for (name, value) in [
+        ("--line-load-N-per-mm", a.line_load_N_per_mm),
+        ("--half-width-mm", a.half_width_mm),
+    ] {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(Failure::input(format!("{name}: found {value}, allowed is more than 0")));
+            return Err(Failure::input(format!(
+                "{name}: found {value}, allowed is more than 0"
+            )));
         }
     }
     let radius_mm = |xi: f64| 1e3 * involute::radius_m(xi, model.base_radius_m);
     let stations = &model.grid.roll_angles_rad;
-    let (low, high) = (radius_mm(stations[0]), radius_mm(stations[stations.len() - 1]));
+    let (low, high) = (
+        radius_mm(stations[0]),
+        radius_mm(stations[stations.len() - 1]),
+    );
     let flank = match a.flank {
         Side::Right => Flank::Right,
         Side::Left => Flank::Left,
@@ -48,7 +59,10 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
             line_load_n_per_m: a.line_load_N_per_mm * 1e3,
             half_width_m: a.half_width_mm * 1e-3,
         };
-        rows.push((radius, flank_deflection(&model, &load, at_tooth, local).map_err(Failure::input)?));
+        rows.push((
+            radius,
+            flank_deflection(&model, &load, at_tooth, local).map_err(Failure::input)?,
+        ));
     }
     if a.json {
         let list: Vec<_> = rows
@@ -59,19 +73,34 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
                        "global_per_slice_m": d.global_m, "local_per_slice_m": d.local_m})
             })
             .collect();
-        console::json(&json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "rows": list}));
+        console::json(
+            &json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "rows": list}),
+        );
         return Ok(());
     }
     console::data(format!(
         "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}",
         model.name, a.tooth
     ));
-    let slices: Vec<String> = (0..model.grid.slices).map(|k| format!("{:>11}", format!("slice {k} um"))).collect();
-    console::data(format!("{:>9} {:>10} {:>10} {:>10} {}", "radius mm", "mean um", "global um", "local um", slices.join(" ")));
+    let slices: Vec<String> = (0..model.grid.slices)
+        .map(|k| format!("{:>11}", format!("slice {k} um")))
+        .collect();
+    console::data(format!(
+        "{:>9} {:>10} {:>10} {:>10} {}",
+        "radius mm",
+        "mean um",
+        "global um",
+        "local um",
+        slices.join(" ")
+    ));
     for (radius, d) in rows {
         let (global, local) = d.means_m();
-        let each: Vec<String> =
-            d.global_m.iter().zip(&d.local_m).map(|(g, l)| format!("{:>11.5}", (g + l) * 1e6)).collect();
+        let each: Vec<String> = d
+            .global_m
+            .iter()
+            .zip(&d.local_m)
+            .map(|(g, l)| format!("{:>11.5}", (g + l) * 1e6))
+            .collect();
         console::data(format!(
             "{radius:>9.4} {:>10.5} {:>10.5} {:>10.5} {}",
             (global + local) * 1e6,

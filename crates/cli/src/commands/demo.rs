@@ -13,9 +13,9 @@ use gearmesh_report::scene_comparison::compare_scene;
 use gearmesh_report::scene_page::{GearPicture, SceneChapter};
 use gearmesh_report::{Quantity, ReferenceRecord};
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load, run as run_scene};
+use gearmesh_signal::AngleSeries;
 use gearmesh_signal::rig::{OrderFilter, RigSettings, process};
 use gearmesh_signal::statistics::peak_to_peak;
-use gearmesh_signal::AngleSeries;
 use std::path::Path;
 use std::time::Instant;
 
@@ -38,11 +38,16 @@ impl Clock {
 pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
     let (models, records) = (Path::new("fe_models"), Path::new("reference"));
     if !models.is_dir() || !records.is_dir() {
-        return Err(Failure::input("run the demo in the project's folder: it needs fe_models/ and reference/"));
+        return Err(Failure::input(
+            "run the demo in the project's folder: it needs fe_models/ and reference/",
+        ));
     }
     let out = &arguments.output;
     std::fs::create_dir_all(out).map_err(|e| Failure::work(format!("{}: {e}", out.display())))?;
-    let mut clock = Clock { start: Instant::now(), stages: Vec::new() };
+    let mut clock = Clock {
+        start: Instant::now(),
+        stages: Vec::new(),
+    };
     reduce_gear(models, out, "gear1", &mut clock)?;
     let mut chapters = Vec::new();
     for (pair, driven) in [("pair_a", "gear2"), ("pair_b", "gear3")] {
@@ -52,15 +57,25 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
         scene.gear_2 = out.join(format!("{driven}.h5"));
         let loaded = load(scene)?;
         let result = run_scene(&loaded, &|_, _| {})?;
-        result.write(&out.join(format!("{pair}.h5"))).map_err(Failure::work)?;
+        result
+            .write(&out.join(format!("{pair}.h5")))
+            .map_err(Failure::work)?;
         result.warnings.iter().for_each(console::warning);
-        clock.lap(format!("{pair}: {} static positions, {} gauges", result.angles() * result.torque_nm.len(), result.strain.len()));
+        clock.lap(format!(
+            "{pair}: {} static positions, {} gauges",
+            result.angles() * result.torque_nm.len(),
+            result.strain.len()
+        ));
         let picture = picture(&loaded, &result, &definition, &body)?;
         clock.lap(format!("{pair}: stress field for the report"));
         let record = ReferenceRecord::read(&records.join(pair)).map_err(Failure::input)?;
         print_table(&result, &record)?;
         clock.lap(format!("{pair}: comparison"));
-        chapters.push(SceneChapter { result, record: Some(record), pictures: vec![picture] });
+        chapters.push(SceneChapter {
+            result,
+            record: Some(record),
+            pictures: vec![picture],
+        });
     }
     write_page(&chapters, &out.join("report.html"))?;
     clock.lap("report".into());
@@ -69,16 +84,29 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
         console::data(format!("{seconds:>9.2} s  {name}"));
     }
     let total: f64 = clock.stages.iter().map(|(_, s)| s).sum();
-    console::data(format!("{total:>9.2} s  in all\n\nreport: {}", out.join("report.html").display()));
+    console::data(format!(
+        "{total:>9.2} s  in all\n\nreport: {}",
+        out.join("report.html").display()
+    ));
     Ok(())
 }
 
-fn reduce_gear(models: &Path, out: &Path, name: &str, clock: &mut Clock) -> Result<(GearDefinition, GearBody), Failure> {
+fn reduce_gear(
+    models: &Path,
+    out: &Path,
+    name: &str,
+    clock: &mut Clock,
+) -> Result<(GearDefinition, GearBody), Failure> {
     let gear = GearDefinition::read(&models.join(format!("{name}.toml")))?;
     let (model, body) = offline::reduced(&gear, true)?;
     write_reduced_gear(&out.join(format!("{name}.h5")), &model).map_err(Failure::work)?;
-    super::reduce::summary(&model).into_iter().for_each(console::note);
-    clock.lap(format!("{name}: mesh and reduce {} degrees of freedom", model.provenance.dofs));
+    super::reduce::summary(&model)
+        .into_iter()
+        .for_each(console::note);
+    clock.lap(format!(
+        "{name}: mesh and reduce {} degrees of freedom",
+        model.provenance.dofs
+    ));
     Ok((gear, body))
 }
 
@@ -91,7 +119,17 @@ fn picture(
     body: &GearBody,
 ) -> Result<GearPicture, Failure> {
     let torque = result.torque_nm.len() - 1;
-    let field = offline::field_of(loaded, result, definition, body, FieldCase { gear: 2, torque, angle: 0 })?;
+    let field = offline::field_of(
+        loaded,
+        result,
+        definition,
+        body,
+        FieldCase {
+            gear: 2,
+            torque,
+            angle: 0,
+        },
+    )?;
     let section = &body.mesh.section;
     let values = (0..section.quads.len())
         .map(|quad| {
@@ -109,7 +147,11 @@ fn picture(
             result.torque_nm[torque],
             result.angle_rad[0].to_degrees()
         ),
-        nodes_mm: section.nodes.iter().map(|p| [p[0] * 1e3, p[1] * 1e3]).collect(),
+        nodes_mm: section
+            .nodes
+            .iter()
+            .map(|p| [p[0] * 1e3, p[1] * 1e3])
+            .collect(),
         quads: section.quads.iter().map(|q| q.map(|n| n as u32)).collect(),
         von_mises_mpa: values,
     })
@@ -119,29 +161,49 @@ fn picture(
 fn order_amplitude(result: &SceneResult, torque: usize, order: f64) -> Result<f64, Failure> {
     let te = result.curve(&result.te_m, torque);
     let series = AngleSeries::one_revolution(&result.angle_rad, te).map_err(Failure::work)?;
-    let signal =
-        process(&series, &RigSettings::default(), OrderFilter::RemoveMeanAndEccentricity).map_err(Failure::work)?;
+    let signal = process(
+        &series,
+        &RigSettings::default(),
+        OrderFilter::RemoveMeanAndEccentricity,
+    )
+    .map_err(Failure::work)?;
     signal.spectrum.amplitude(order).map_err(Failure::work)
 }
 
 fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Failure> {
     let comparisons = compare_scene(result, record).map_err(Failure::work)?;
-    console::data(format!("\n{} against `{}` ({})", result.title, record.title, record.kind));
+    console::data(format!(
+        "\n{} against `{}` ({})",
+        result.title, record.title, record.kind
+    ));
     console::data(format!(
         "{:>10} {:>10} {:>7} {:>11} {:>7} {:>12} {:>13}   strain range by gauge, method 2: ustrain (deviation %)",
-        "torque N m", "TE mean um", "dev. %", "TE pk-pk um", "dev. %", "3rd order um", "mesh order um"
+        "torque N m",
+        "TE mean um",
+        "dev. %",
+        "TE pk-pk um",
+        "dev. %",
+        "3rd order um",
+        "mesh order um"
     ));
     for (k, &torque) in result.torque_nm.iter().enumerate() {
         let (mean, range) = transmission_error(result, k)?;
-        let of = |quantity: &Quantity| comparisons.iter().find(|c| c.quantity == *quantity && c.torque_nm == torque);
+        let of = |quantity: &Quantity| {
+            comparisons
+                .iter()
+                .find(|c| c.quantity == *quantity && c.torque_nm == torque)
+        };
         let te = of(&Quantity::TransmissionError);
-        let percent = |value: Option<f64>| value.map_or("-".into(), |v| format!("{:+.2}", 100.0 * v));
+        let percent =
+            |value: Option<f64>| value.map_or("-".into(), |v| format!("{:+.2}", 100.0 * v));
         let gauges: Vec<String> = result
             .strain
             .iter()
             .map(|s| {
                 let ours = peak_to_peak(result.curve(&s.method_2, k)).unwrap_or(0.0);
-                let compared = of(&Quantity::Strain { gauge: s.name.clone() });
+                let compared = of(&Quantity::Strain {
+                    gauge: s.name.clone(),
+                });
                 format!(
                     "{} {:.1} ({})",
                     s.name,

@@ -10,7 +10,8 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
-    let mesh = GearMesh::new(&gear, &offline::python()?).map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
+    let mesh = GearMesh::new(&gear, &offline::python()?)
+        .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
     offline::export_mesh(&gear, &mesh, None, &arguments.output)?;
     let quality = mesh.quality;
     if arguments.json {

@@ -10,7 +10,9 @@ use serde_json::json;
 pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
     let plan = load(Scene::read(&arguments.scene)?)?.plan();
     if arguments.json {
-        console::json(&json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns}));
+        console::json(
+            &json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns}),
+        );
     } else {
         plan.lines.iter().for_each(console::data);
     }

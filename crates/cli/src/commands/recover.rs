@@ -16,10 +16,13 @@ use std::path::Path;
 pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
     let mut result = SceneResult::read(&a.result).map_err(Failure::input)?;
     let loaded = scene_of(&result, &a.result)?;
-    let all: Vec<(usize, usize)> =
-        (1..=2).flat_map(|gear| (0..loaded.models[gear - 1].gauges.len()).map(move |k| (gear, k))).collect();
+    let all: Vec<(usize, usize)> = (1..=2)
+        .flat_map(|gear| (0..loaded.models[gear - 1].gauges.len()).map(move |k| (gear, k)))
+        .collect();
     if all.is_empty() && a.field_gear.is_none() {
-        return Err(Failure::input("neither model has a gauge; add [[gauge]] to a gear file and reduce it again"));
+        return Err(Failure::input(
+            "neither model has a gauge; add [[gauge]] to a gear file and reduce it again",
+        ));
     }
     let clock = std::time::Instant::now();
     result.strain = scene_run::strain(&loaded, &result, &all)?;
@@ -34,7 +37,10 @@ pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
 
 /// The scene of a result, with its models; their paths are those of the run.
 pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failure> {
-    let document = InputDocument::new(format!("scene inside {}", path.display()), result.scene_toml.clone());
+    let document = InputDocument::new(
+        format!("scene inside {}", path.display()),
+        result.scene_toml.clone(),
+    );
     let mut scene = Scene::from_document(document, Path::new(""))?;
     scene.gear_1 = result.model_files[0].clone().into();
     scene.gear_2 = result.model_files[1].clone().into();
@@ -55,8 +61,14 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for series in &result.strain {
         for (k, torque) in result.torque_nm.iter().enumerate() {
-            let range = |values: &[f64]| peak_to_peak(result.curve(values, k)).map_err(Failure::work);
-            rows.push((series, *torque, range(&series.method_1)?, range(&series.method_2)?));
+            let range =
+                |values: &[f64]| peak_to_peak(result.curve(values, k)).map_err(Failure::work);
+            rows.push((
+                series,
+                *torque,
+                range(&series.method_1)?,
+                range(&series.method_2)?,
+            ));
         }
     }
     if as_json {
@@ -93,29 +105,61 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-fn field(a: &RecoverArguments, loaded: &LoadedScene, result: &SceneResult, gear: usize) -> Result<(), Failure> {
+fn field(
+    a: &RecoverArguments,
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    gear: usize,
+) -> Result<(), Failure> {
     if !(1..=2).contains(&gear) {
-        return Err(Failure::input(format!("--field-gear: found {gear}, allowed is 1 or 2")));
+        return Err(Failure::input(format!(
+            "--field-gear: found {gear}, allowed is 1 or 2"
+        )));
     }
     let (Some(angle_deg), Some(output)) = (a.field_angle_deg, &a.field_output) else {
-        return Err(Failure::input("--field-gear needs --field-angle-deg and --field-output"));
+        return Err(Failure::input(
+            "--field-gear needs --field-angle-deg and --field-output",
+        ));
     };
     let nearest = |values: &[f64], wanted: f64| {
-        (0..values.len()).min_by(|i, j| (values[*i] - wanted).abs().total_cmp(&(values[*j] - wanted).abs())).unwrap_or(0)
+        (0..values.len())
+            .min_by(|i, j| {
+                (values[*i] - wanted)
+                    .abs()
+                    .total_cmp(&(values[*j] - wanted).abs())
+            })
+            .unwrap_or(0)
     };
     let angle = nearest(&result.angle_rad, angle_deg.to_radians());
     let torque = match a.field_torque_Nm {
         None => nearest(&result.torque_nm, f64::INFINITY.min(1e300)),
-        Some(wanted) => result.torque_nm.iter().position(|t| (t - wanted).abs() < 1e-9 * wanted.abs()).ok_or_else(|| {
-            Failure::input(format!("--field-torque-Nm: found {wanted}, the result has {:?}", result.torque_nm))
-        })?,
+        Some(wanted) => result
+            .torque_nm
+            .iter()
+            .position(|t| (t - wanted).abs() < 1e-9 * wanted.abs())
+            .ok_or_else(|| {
+                Failure::input(format!(
+                    "--field-torque-Nm: found {wanted}, the result has {:?}",
+                    result.torque_nm
+                ))
+            })?,
     };
     let document = InputDocument::new("gear in result", result.gear_toml[gear - 1].clone());
     let definition = GearDefinition::from_document(&document)?;
     let bar = StageBar::new(&definition.name);
     let body = GearBody::new(&definition, &offline::python()?, &bar)?;
     bar.finish();
-    let field = offline::field_of(loaded, result, &definition, &body, FieldCase { gear, torque, angle })?;
+    let field = offline::field_of(
+        loaded,
+        result,
+        &definition,
+        &body,
+        FieldCase {
+            gear,
+            torque,
+            angle,
+        },
+    )?;
     offline::export_mesh(&definition, &body.mesh, Some(&field), output)?;
     console::note(format!(
         "{}: field of gear {gear} at {:.4} deg and {} N m",

@@ -71,7 +71,15 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
             100.0 * g.error_estimate_relative
         ));
     }
-    let times: Vec<String> = p.stage_seconds.iter().map(|(name, s)| format!("{name} {s:.1} s")).collect();
-    lines.push(format!("time on {} threads: {}", p.threads, times.join(", ")));
+    let times: Vec<String> = p
+        .stage_seconds
+        .iter()
+        .map(|(name, s)| format!("{name} {s:.1} s"))
+        .collect();
+    lines.push(format!(
+        "time on {} threads: {}",
+        p.threads,
+        times.join(", ")
+    ));
     lines
 }

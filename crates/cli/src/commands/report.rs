@@ -24,19 +24,32 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
             Some(folder) => Some(ReferenceRecord::read(folder).map_err(Failure::input)?),
             None => None,
         };
-        chapters.push(SceneChapter { result, record, pictures: Vec::new() });
+        chapters.push(SceneChapter {
+            result,
+            record,
+            pictures: Vec::new(),
+        });
     }
     write_page(&chapters, &a.output)
 }
 
 /// Renders the page and writes it, beside and renamed.
 pub fn write_page(chapters: &[SceneChapter], output: &Path) -> Result<(), Failure> {
-    let html = scene_page(chapters).and_then(|page| page.render().map_err(Into::into)).map_err(Failure::work)?;
-    let folder = output.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let html = scene_page(chapters)
+        .and_then(|page| page.render().map_err(Into::into))
+        .map_err(Failure::work)?;
+    let folder = output
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     let failed = |e: &dyn std::fmt::Display| Failure::work(format!("{}: {e}", output.display()));
     let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|e| failed(&e))?;
     std::io::Write::write_all(&mut file, html.as_bytes()).map_err(|e| failed(&e))?;
     file.persist(output).map_err(|e| failed(&e))?;
-    console::note(format!("{}: {:.1} MB", output.display(), html.len() as f64 * 1e-6));
+    console::note(format!(
+        "{}: {:.1} MB",
+        output.display(),
+        html.len() as f64 * 1e-6
+    ));
     Ok(())
 }

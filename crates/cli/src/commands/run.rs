@@ -11,7 +11,9 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let loaded = load(Scene::read(&arguments.scene)?)?;
-    let result = run_scene(&loaded, &|done, total| console::note(format!("torque {done} of {total} solved")))?;
+    let result = run_scene(&loaded, &|done, total| {
+        console::note(format!("torque {done} of {total} solved"))
+    })?;
     result.write(&arguments.output).map_err(Failure::work)?;
     result.warnings.iter().for_each(console::warning);
     if arguments.json {
@@ -25,7 +27,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 /// Mean and peak-to-peak of the transmission error of one torque \[m\].
 pub fn transmission_error(result: &SceneResult, torque: usize) -> Result<(f64, f64), Failure> {
     let te = result.curve(&result.te_m, torque);
-    Ok((mean(te).map_err(Failure::work)?, peak_to_peak(te).map_err(Failure::work)?))
+    Ok((
+        mean(te).map_err(Failure::work)?,
+        peak_to_peak(te).map_err(Failure::work)?,
+    ))
 }
 
 /// The curves' figures for people.
@@ -34,7 +39,15 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         format!("{}: {} positions per torque", result.title, result.angles()),
         format!(
             "{:>10} {:>12} {:>12} {:>14} {:>14} {:>8} {:>12} {:>12} {:>9}",
-            "torque N m", "TE mean um", "TE pk-pk um", "secant N/mm/um", "tangent N/mm/um", "K_Hbeta", "p_H max MPa", "balance", "iter/pos"
+            "torque N m",
+            "TE mean um",
+            "TE pk-pk um",
+            "secant N/mm/um",
+            "tangent N/mm/um",
+            "K_Hbeta",
+            "p_H max MPa",
+            "balance",
+            "iter/pos"
         ),
     ];
     for (k, torque) in result.torque_nm.iter().enumerate() {
@@ -42,7 +55,10 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         let width_mm = 1e3 * face_width_m(result)?;
         let per_width = |values: &[f64]| fourier(result.curve(values, k), 0).0 / width_mm * 1e-6;
         let block = result.pressure_pa.len() / result.torque_nm.len();
-        let pressure = result.pressure_pa[k * block..(k + 1) * block].iter().copied().fold(0.0, f64::max);
+        let pressure = result.pressure_pa[k * block..(k + 1) * block]
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
         lines.push(format!(
             "{torque:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}",
             te_mean * 1e6,
@@ -66,7 +82,10 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
 
 fn face_width_m(result: &SceneResult) -> Result<f64, Failure> {
     use gearmesh_geometry::{GearDefinition, input::InputDocument};
-    let gear = GearDefinition::from_document(&InputDocument::new("gear in result", result.gear_toml[0].clone()))?;
+    let gear = GearDefinition::from_document(&InputDocument::new(
+        "gear in result",
+        result.gear_toml[0].clone(),
+    ))?;
     Ok(gear.tooth.face_width_m)
 }
 
@@ -86,5 +105,7 @@ fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
             }))
         })
         .collect::<Result<Vec<_>, Failure>>()?;
-    Ok(json!({"title": result.title, "rows": rows, "warnings": result.warnings, "seconds": result.seconds}))
+    Ok(
+        json!({"title": result.title, "rows": rows, "warnings": result.warnings, "seconds": result.seconds}),
+    )
 }

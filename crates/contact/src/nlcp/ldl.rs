@@ -76,23 +76,31 @@ impl Ldl {
             self.inverse_pivot[i] = row[i];
         }
         let mut rest = &mut self.upper[..n * n];
-        for k in 0..n {
-            let (row, below) = rest.split_at_mut(n);
-            rest = below;
-            let (pivot, diagonal) = (row[k], self.inverse_pivot[k]);
-            // NaN fails too.
-            let positive = pivot > noise * diagonal;
-            if !positive {
-                return Err(BadPivot {
-                    index: k,
-                    pivot,
-                    diagonal,
-                });
+        // Two pivots at a time: every row below is loaded and stored once for both.
+        for k in (0..n).step_by(2) {
+            let (first, below) = rest.split_at_mut(n);
+            let first = &first[..n];
+            let first_inverse = checked_inverse(k, first[k], self.inverse_pivot[k], noise)?;
+            self.inverse_pivot[k] = first_inverse;
+            if k + 1 == n {
+                break;
             }
-            let inverse = 1.0 / pivot;
-            self.inverse_pivot[k] = inverse;
-            for (i, other) in (k + 1..n).zip(rest.chunks_exact_mut(n)) {
-                subtract(&mut other[i..], row[i] * inverse, &row[i..]);
+            let (second, below) = below.split_at_mut(n);
+            let second = &mut second[..n];
+            subtract(
+                &mut second[k + 1..],
+                first[k + 1] * first_inverse,
+                &first[k + 1..],
+            );
+            let second_inverse =
+                checked_inverse(k + 1, second[k + 1], self.inverse_pivot[k + 1], noise)?;
+            self.inverse_pivot[k + 1] = second_inverse;
+            rest = below;
+            for (i, other) in (k + 2..n).zip(rest.chunks_exact_mut(n)) {
+                let (p, q) = (first[i] * first_inverse, second[i] * second_inverse);
+                for ((value, a), b) in other[i..].iter_mut().zip(&first[i..]).zip(&second[i..]) {
+                    *value -= p * a + q * b;
+                }
             }
         }
         Ok(())
@@ -117,6 +125,20 @@ impl Ldl {
                 .sum();
             values[k] = (values[k] - known) * inverse;
         }
+    }
+}
+
+/// The inverse of a pivot that is positive and above `noise` of its diagonal entry.
+fn checked_inverse(index: usize, pivot: f64, diagonal: f64, noise: f64) -> Result<f64, BadPivot> {
+    // NaN fails too.
+    if pivot > noise * diagonal {
+        Ok(1.0 / pivot)
+    } else {
+        Err(BadPivot {
+            index,
+            pivot,
+            diagonal,
+        })
     }
 }
 

@@ -1,0 +1,168 @@
+//! Stiffness, displacements and strains of the body in a mesh file.
+//!
+//! Degree of freedom 3 n + a is the displacement of node n along axis a.
+
+use std::path::{Path, PathBuf};
+
+use gearmesh_fe::{DofMap, Factor, FeModel, HexElement, Material, assemble_stiffness};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::{fe_error, file_error};
+
+type FloatRows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+
+/// Values, row indices and column pointers of a sparse matrix.
+type CompressedColumns<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i64>>,
+);
+
+/// Stiffness (N/m) of a body over all its degrees of freedom, nothing held: (data, row_indices, column_pointers).
+///
+/// Both triangles are stored, by columns: scipy.sparse.csc_matrix takes the tuple as it is. Young's modulus in Pa;
+/// element is "hex8" or "hex8-incompatible". Degree of freedom 3 n + a is the displacement of node n along axis a.
+#[pyfunction]
+#[pyo3(signature = (mesh_h5, young_pa, poisson, element = "hex8-incompatible"))]
+pub(crate) fn stiffness<'py>(
+    py: Python<'py>,
+    mesh_h5: PathBuf,
+    young_pa: f64,
+    poisson: f64,
+    element: &str,
+) -> PyResult<CompressedColumns<'py>> {
+    let k = py.detach(|| {
+        let model = model(&mesh_h5, young_pa, poisson, element)?;
+        let dofs = DofMap::all_free(model.node_count()).map_err(fe_error)?;
+        assemble_stiffness(&model, &dofs).map_err(fe_error)
+    })?;
+    // SciPy knows signed indices only.
+    let signed = |indices: &[usize]| {
+        let indices = indices.iter().map(|&index| index as i64).collect();
+        PyArray1::<i64>::from_vec(py, indices)
+    };
+    Ok((
+        PyArray1::from_slice(py, k.val()),
+        signed(k.symbolic().row_idx()),
+        signed(k.symbolic().col_ptr()),
+    ))
+}
+
+/// Displacement (n, 3) in metres of a body under nodal forces (n, 3) in newtons, with the listed nodes held.
+///
+/// A force on a held node goes into its support. The other arguments are those of stiffness.
+#[pyfunction]
+pub(crate) fn solve<'py>(
+    py: Python<'py>,
+    mesh_h5: PathBuf,
+    young_pa: f64,
+    poisson: f64,
+    element: &str,
+    fixed_nodes: Vec<i64>,
+    force: FloatRows<'py>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (shape, force) = (shape(&force), values(&force));
+    let displacement = py.detach(|| {
+        let model = model(&mesh_h5, young_pa, poisson, element)?;
+        check_node_rows("force", shape, &force, &model)?;
+        let fixed = node_indices(&fixed_nodes, &model)?;
+        let dofs = DofMap::with_fixed_nodes(model.node_count(), &fixed).map_err(fe_error)?;
+        let k = assemble_stiffness(&model, &dofs).map_err(fe_error)?;
+        let factor = Factor::of_model(&model, &dofs, &k).map_err(fe_error)?;
+        let mut displacement = dofs.restrict(&force);
+        factor.solve_slice_in_place(&mut displacement);
+        Ok::<_, PyErr>(dofs.expand(&displacement))
+    })?;
+    PyArray1::from_vec(py, displacement).reshape(shape)
+}
+
+/// Strain (m, 6) of every element from the displacement (n, 3) in metres of its nodes.
+///
+/// The columns are xx, yy, zz, xy, yz, xz with engineering shear. natural is the point of each element in its own
+/// coordinates, -1 to 1; the default is the centre. The condensed modes of "hex8-incompatible" are part of the
+/// strain; they vanish at the centre. The other arguments are those of stiffness.
+#[pyfunction]
+#[pyo3(signature = (mesh_h5, young_pa, poisson, element, displacement, natural = [0.0; 3]))]
+pub(crate) fn strain<'py>(
+    py: Python<'py>,
+    mesh_h5: PathBuf,
+    young_pa: f64,
+    poisson: f64,
+    element: &str,
+    displacement: FloatRows<'py>,
+    natural: [f64; 3],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    if !natural.iter().all(|x| (-1.0..=1.0).contains(x)) {
+        return Err(PyValueError::new_err(format!(
+            "the natural point is {natural:?}; its coordinates run from -1 to 1"
+        )));
+    }
+    let (shape, displacement) = (shape(&displacement), values(&displacement));
+    let rows = py.detach(|| {
+        let model = model(&mesh_h5, young_pa, poisson, element)?;
+        check_node_rows("displacement", shape, &displacement, &model)?;
+        (0..model.hexes().len())
+            .map(|e| model.strain(e, natural, &displacement).map_err(fe_error))
+            .collect::<PyResult<Vec<_>>>()
+    })?;
+    PyArray1::from_slice(py, rows.as_flattened()).reshape([rows.len(), 6])
+}
+
+/// The model of the body in a mesh file.
+fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult<FeModel> {
+    let element = match element {
+        "hex8" => HexElement::Hex8,
+        "hex8-incompatible" => HexElement::Hex8Incompatible,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "the element is {other:?}; it must be \"hex8\" or \"hex8-incompatible\""
+            )));
+        }
+    };
+    let material = Material::new(young_pa, poisson).map_err(fe_error)?;
+    let mesh = gearmesh_model::read_mesh(mesh_h5).map_err(file_error)?;
+    FeModel::new(mesh.points, mesh.hexes, material, element).map_err(fe_error)
+}
+
+fn shape(array: &FloatRows<'_>) -> [usize; 2] {
+    array.as_array().dim().into()
+}
+
+/// The entries row by row, whatever their order in memory.
+fn values(array: &FloatRows<'_>) -> Vec<f64> {
+    array.as_array().iter().copied().collect()
+}
+
+/// Checks that an array has one row of three finite numbers for each node.
+fn check_node_rows(name: &str, shape: [usize; 2], values: &[f64], model: &FeModel) -> PyResult<()> {
+    let nodes = model.node_count();
+    if shape != [nodes, 3] {
+        let message = format!("{name} has the shape {shape:?}; the mesh needs [{nodes}, 3]");
+        return Err(PyValueError::new_err(message));
+    }
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(place) => Err(PyValueError::new_err(format!(
+            "{name} of node {} is {}; all must be finite",
+            place / 3,
+            values[place]
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn node_indices(nodes: &[i64], model: &FeModel) -> PyResult<Vec<usize>> {
+    let in_range = |&node: &i64| {
+        usize::try_from(node)
+            .ok()
+            .filter(|&index| index < model.node_count())
+            .ok_or_else(|| {
+                PyValueError::new_err(format!(
+                    "node {node} is to be held; the mesh has the nodes 0 to {}",
+                    model.node_count() - 1
+                ))
+            })
+    };
+    nodes.iter().map(in_range).collect()
+}
