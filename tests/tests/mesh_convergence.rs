@@ -98,10 +98,7 @@ fn deflection(gear: &ReducedGear, radius_m: f64, at_tooth: usize) -> f64 {
 /// program's own estimate made from the fine mesh alone is of the size of the true change, not of another.
 #[test]
 fn a_finer_mesh_changes_little() {
-    let coarse = reduced(
-        "flank_mm = 1.0\nfillet_mm = 0.21\nbody_mm = 4.0\naxial_mm = 3.8\n",
-        false,
-    );
+    let coarse = coarse();
     let fine = reduced(
         "flank_mm = 0.67\nfillet_mm = 0.14\nbody_mm = 2.7\naxial_mm = 2.6\n",
         true,
