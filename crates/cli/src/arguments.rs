@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// Gear mesh stiffness from finite elements, once; contact and root strain from then on in microseconds.
 #[derive(Debug, Parser)]
-#[command(name = "gearmesh", version, max_term_width = 110)]
+#[command(name = "gearmesh", version, max_term_width = 100)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]

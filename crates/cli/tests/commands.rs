@@ -57,7 +57,8 @@ fn help_names_all_commands() {
     Usage: gearmesh <COMMAND>
     
     Commands:
-      mesh        Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf, msh, ...)
+      mesh        Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf,
+                  msh, ...)
       reduce      Reduce a gear to its compliance at the flanks (the offline stage)
       compliance  Print the deflection along a flank under a line load
       plan        Say what a scene will compute

@@ -42,7 +42,7 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
     library_pages.env("RUSTDOCFLAGS", "-D warnings");
     let mut program_pages = cargo(&["doc", "--package", "gearmesh-cli", "--no-deps", "--quiet"]);
     program_pages.env("RUSTDOCFLAGS", "-D warnings");
-    let mut rust_tests = cargo(&["test", "--workspace", "--tests"]);
+    let mut rust_tests = cargo(&["test", "--workspace", "--tests", "--no-fail-fast"]);
     if extent == Extent::Full {
         rust_tests.args(["--", "--include-ignored"]);
         // Defects that are known and not mended yet; each has a test that shows it (its `#[ignore]` says what).

@@ -104,8 +104,10 @@ impl Answer {
 /// Starts the program.
 pub fn gearmesh(arguments: &[impl AsRef<OsStr>]) -> Answer {
     let program = env!("CARGO_BIN_EXE_gearmesh");
+    // Help is folded at the width of the terminal, so the tests state one.
     Command::new(program)
         .args(arguments)
+        .env("COLUMNS", "100")
         .output()
         .unwrap()
         .into()
