@@ -1,37 +1,40 @@
 //! Printing: data to standard output, progress, warnings and errors to standard error.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "this is the one place that prints"
-)]
 
 use gearmesh_reduction::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{ErrorKind, Write};
 use std::sync::Mutex;
 
-/// A line of data.
+/// A line of data. A reader that has seen enough (`| head`) ends the printing, not the work; any other loss of data
+/// ends the program with exit code 1.
 pub fn data(text: impl std::fmt::Display) {
-    println!("{text}");
+    match writeln!(std::io::stdout(), "{text}") {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => {
+            error(format!("standard output: {cause}"));
+            std::process::exit(1);
+        }
+        _ => {}
+    }
 }
 
 /// A JSON document.
 pub fn json(value: &serde_json::Value) {
-    println!("{value:#}");
+    data(format!("{value:#}"));
 }
 
-/// A remark on standard error.
+/// A remark on standard error. Nobody can be told that standard error is closed.
 pub fn note(text: impl std::fmt::Display) {
-    eprintln!("{text}");
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// A warning.
 pub fn warning(text: impl std::fmt::Display) {
-    eprintln!("warning: {text}");
+    note(format!("warning: {text}"));
 }
 
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
-    eprintln!("error: {text}");
+    note(format!("error: {text}"));
 }
 
 /// Stages with a bar and the time to go.

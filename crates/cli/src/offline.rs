@@ -4,9 +4,9 @@ use crate::console::StageBar;
 use crate::failure::Failure;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::GearMesh;
-use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
-use gearmesh_recovery::{LoadedLine, grid_forces};
+use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
 use gearmesh_scene::{LoadedScene, SceneResult};
@@ -74,11 +74,15 @@ pub fn export_mesh(
     let beside = output.with_file_name(format!(".part-{}-{name}", std::process::id()));
     let written = python()?.run(
         &format!("writing {}", output.display()),
-        "import sys, gearmesh\ntry:\n    gearmesh.export_mesh(sys.argv[1], sys.argv[2])\nexcept (ValueError, OSError) as error:\n    sys.exit(str(error))\n",
+        "import sys, gearmesh\ntry:\n    gearmesh.export_mesh(sys.argv[1], sys.argv[2])\nexcept (ValueError, OSError) as error:\n    print(error, file=sys.stderr)\n    sys.exit(2 if isinstance(error, ValueError) else 1)\n",
         &[&exchange.display().to_string(), &beside.display().to_string()],
         b"",
     );
-    let outcome = written.map_err(Failure::input).and_then(|_| {
+    let blame = |error: PythonError| match error {
+        PythonError::Failed { code: Some(2), .. } => Failure::input(error),
+        _ => Failure::work(error),
+    };
+    let outcome = written.map_err(blame).and_then(|_| {
         std::fs::rename(&beside, output)
             .map_err(|e| Failure::work(format!("{}: {e}", output.display())))
     });
@@ -110,23 +114,9 @@ pub fn field_of(
     let model = &loaded.models[case.gear - 1];
     let mut lines = Vec::new();
     loaded.lines.at(result.angle_rad[case.angle], &mut lines);
-    let loads = lines.iter().enumerate().map(|(slot, line)| LoadedLine {
-        tooth: if case.gear == 1 {
-            line.tooth_1
-        } else {
-            line.tooth_2
-        },
-        roll_rad: if case.gear == 1 {
-            line.roll_1_rad
-        } else {
-            line.roll_2_rad
-        },
-        friction_ratio: loaded
-            .scene
-            .contact
-            .friction
-            .map_or(0.0, |f| f.ratio(line.path_m)),
-        forces_n: result.forces(case.torque, case.angle, slot),
+    let loads = lines.iter().enumerate().map(|(slot, line)| {
+        let forces = result.forces(case.torque, case.angle, slot);
+        loaded.loaded_line(case.gear, line, forces)
     });
     let forces: Vec<GridForce> = grid_forces(&model.grid, loads)
         .into_iter()

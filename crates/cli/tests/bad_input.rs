@@ -1,35 +1,15 @@
-//! Wrong input and failing work: what the program says, and what it leaves behind.
+//! Wrong input: what the program says.
 //!
-//! Exit code 2 means that the input is wrong, 1 that the work failed. The message goes to standard error, standard
+//! Exit code 2 means that the input is wrong. The message goes to standard error, standard
 //! output stays empty; a message about a TOML file names file, line, key, what was found and what is allowed.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod common;
 
 use common::{
-    Answer, Desk, SOLID, THIN, argument, changed, gearmesh, line_of, names_in, succeeds, workshop,
+    Answer, Desk, SOLID, THIN, argument, changed, gearmesh, line_of, refused, succeeds, workshop,
 };
-use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// The answer is an error with this exit code and all of these parts.
-fn refused(answer: &Answer, code: i32, parts: &[&str]) {
-    assert_eq!(answer.code, Some(code), "{answer:#?}");
-    assert_eq!(answer.stdout, "", "data in spite of an error");
-    assert!(
-        answer
-            .stderr
-            .lines()
-            .any(|line| line.starts_with("error: ")),
-        "{answer:#?}"
-    );
-    for part in parts {
-        assert!(
-            answer.stderr.contains(part),
-            "`{part}` is not in {answer:#?}"
-        );
-    }
-}
+use std::path::Path;
 
 /// `gearmesh check` refuses a gear file in which `from` became `to`, at the line of `at`.
 fn gear_refused(text: &str, (from, to): (&str, &str), at: &str, parts: &[&str]) {
@@ -431,154 +411,4 @@ fn a_torque_that_breaks_the_assumptions_is_warned_about() {
     let file = desk.file("scene.toml", workshop().scene(""));
     let answer = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]);
     assert!(!answer.stderr.contains("warning"), "{answer:#?}");
-}
-
-const OLD: &[u8] = b"the old file";
-
-/// Runs the program with files limited to 4 blocks of 512 or 1024 bytes; `signal` says what happens at the limit.
-fn with_short_files(signal: &str, arguments: &[&str]) -> Answer {
-    let limited = format!("{signal} ulimit -f 4; exec \"$0\" \"$@\"");
-    let program = env!("CARGO_BIN_EXE_gearmesh");
-    Command::new("sh")
-        .args(["-c", &limited, program])
-        .args(arguments)
-        .output()
-        .unwrap()
-        .into()
-}
-
-/// The outputs of a small run, each named with the command that writes it.
-fn writing<'a>(scene: &'a str, result: &'a str, output: &'a str) -> [[&'a str; 4]; 3] {
-    [
-        ["run", scene, "-o", output],
-        ["recover", result, "-o", output],
-        ["report", result, "-o", output],
-    ]
-}
-
-/// With `trap '' XFSZ` the write ends with an error code, as on a full disk.
-#[test]
-fn a_failed_write_leaves_the_old_file_and_nothing_else() {
-    let (desk, outputs) = (Desk::new(), Desk::new());
-    let scene = desk.file("scene.toml", workshop().scene(""));
-    let result = desk.path("result.h5");
-    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
-    let old = outputs.file("old", OLD);
-    for arguments in writing(argument(&scene), argument(&result), argument(&old)) {
-        refused(
-            &with_short_files("trap '' XFSZ;", &arguments),
-            1,
-            &[argument(&old)],
-        );
-        assert_eq!(std::fs::read(&old).unwrap(), OLD);
-        assert_eq!(outputs.names(), ["old"], "left by {arguments:?}");
-    }
-}
-
-/// Without the trap the system kills the program in the midst of the write. It cannot tidy up then, but what it leaves
-/// is hidden and bears another name.
-#[test]
-fn a_killed_write_leaves_the_old_file() {
-    let (desk, outputs) = (Desk::new(), Desk::new());
-    let scene = desk.file("scene.toml", workshop().scene(""));
-    let result = desk.path("result.h5");
-    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
-    let old = outputs.file("old", OLD);
-    for arguments in writing(argument(&scene), argument(&result), argument(&old)) {
-        let answer = with_short_files("", &arguments);
-        assert_eq!(answer.code, None, "no signal: {answer:#?}");
-        assert_eq!(std::fs::read(&old).unwrap(), OLD);
-    }
-    assert!(
-        outputs
-            .names()
-            .iter()
-            .all(|name| name == "old" || name.starts_with('.')),
-        "{:?}",
-        outputs.names()
-    );
-}
-
-/// A file system of 64 kB, unmounted when it goes.
-struct SmallDisk {
-    folder: PathBuf,
-    _parent: tempfile::TempDir,
-}
-
-impl SmallDisk {
-    /// `None` where mounting is not allowed.
-    fn mount() -> Option<Self> {
-        let parent = tempfile::tempdir().unwrap();
-        let folder = parent.path().join("disk");
-        std::fs::create_dir(&folder).unwrap();
-        let mount = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", "size=64k", "tmpfs"])
-            .arg(&folder)
-            .output();
-        mount
-            .is_ok_and(|output| output.status.success())
-            .then_some(Self {
-                folder,
-                _parent: parent,
-            })
-    }
-}
-
-impl Drop for SmallDisk {
-    fn drop(&mut self) {
-        let _ = Command::new("umount").arg(&self.folder).status();
-    }
-}
-
-/// A full disk with an old file, and what a command left on it after it failed.
-fn on_a_full_disk(disk: &SmallDisk, command: impl FnOnce(&str) -> Answer) -> Answer {
-    let old = disk.folder.join("old.vtu");
-    std::fs::write(&old, OLD).unwrap();
-    std::fs::write(disk.folder.join("full"), vec![1; 52 << 10]).unwrap();
-    let answer = command(argument(&old));
-    assert_eq!(std::fs::read(&old).unwrap(), OLD);
-    assert_eq!(
-        names_in(&disk.folder),
-        ["full", "old.vtu"],
-        "something half written is left: {answer:#?}"
-    );
-    refused(&answer, 1, &[argument(&old)]);
-    answer
-}
-
-/// Needs the right to mount; elsewhere `a_failed_write_leaves_the_old_file_and_nothing_else` alone stands for it.
-#[test]
-fn a_full_disk_leaves_the_old_file_and_nothing_else() {
-    let Some(disk) = SmallDisk::mount() else {
-        return;
-    };
-    let desk = Desk::new();
-    let (scene, gear) = (
-        desk.file("scene.toml", workshop().scene("")),
-        desk.file("gear.toml", SOLID),
-    );
-    let result = desk.path("result.h5");
-    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
-    for command in ["run", "recover", "report", "reduce"] {
-        let input = match command {
-            "run" => &scene,
-            "reduce" => &gear,
-            _ => &result,
-        };
-        let answer = on_a_full_disk(&disk, |old| {
-            gearmesh(&[command, argument(input), "-o", old])
-        });
-        assert!(answer.stderr.contains("No space left"), "{answer:#?}");
-    }
-}
-
-#[test]
-#[ignore = "export_mesh blames the input, exit code 2, whatever fails in Python"]
-fn a_mesh_that_does_not_fit_the_disk_is_no_fault_of_the_input() {
-    let Some(disk) = SmallDisk::mount() else {
-        return;
-    };
-    let desk = Desk::new();
-    let gear = desk.file("gear.toml", SOLID);
-    on_a_full_disk(&disk, |old| gearmesh(&["mesh", argument(&gear), "-o", old]));
 }

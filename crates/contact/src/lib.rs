@@ -19,6 +19,6 @@ pub mod nlcp;
 pub mod slice_compliance;
 pub mod static_contact;
 
-pub use contact_lines::{ContactLines, Friction};
+pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use slice_compliance::SliceCompliance;
 pub use static_contact::{ContactError, ContactOptions, ContactState, LocalContact, StaticContact};

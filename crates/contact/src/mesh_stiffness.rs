@@ -49,6 +49,16 @@ pub fn fourier(values: &[f64], orders: usize) -> (f64, Vec<(f64, f64)>) {
     (mean, coefficients)
 }
 
+/// Mean and harmonics of the mesh cycle of a curve that runs over a whole number of pitches: harmonic k is the k-th
+/// multiple of the tooth meshing order, its part common to all pitches.
+pub fn mesh_harmonics(values: &[f64], pitches: usize, orders: usize) -> (f64, Vec<(f64, f64)>) {
+    let (mean, all) = fourier(values, orders * pitches);
+    (
+        mean,
+        all.into_iter().skip(pitches - 1).step_by(pitches).collect(),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,5 +73,8 @@ mod tests {
         assert!((mean - 3.0).abs() < 1e-13);
         assert!((c[1].0 - 2.0).abs() < 1e-13 && (c[1].1 - 0.7).abs() < 1e-13);
         assert!(c[0].0 < 1e-13 && c[2].0 < 1e-13);
+        let (_, mesh) = mesh_harmonics(&values, 2, 3);
+        assert_eq!(mesh.len(), 3);
+        assert!((mesh[0].0 - 2.0).abs() < 1e-13 && mesh[1].0 < 1e-13);
     }
 }

@@ -178,16 +178,6 @@ impl StaticContact {
         })
     }
 
-    /// Kinematics and microgeometry.
-    pub fn contact_lines(&self) -> &ContactLines {
-        &self.lines
-    }
-
-    /// What the computation includes.
-    pub fn options(&self) -> &ContactOptions {
-        &self.options
-    }
-
     /// Slices per contact line.
     pub fn slices(&self) -> usize {
         self.compliance_1.slices()

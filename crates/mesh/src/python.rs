@@ -31,6 +31,8 @@ pub enum PythonError {
     Failed {
         /// What was being done.
         task: String,
+        /// Its exit code; none where a signal ended it.
+        code: Option<i32>,
         /// The last lines of its error output.
         message: String,
     },
@@ -107,6 +109,7 @@ impl PythonEnvironment {
         let lines: Vec<&str> = text.lines().collect();
         Err(PythonError::Failed {
             task: task.to_string(),
+            code: output.status.code(),
             message: lines[lines.len().saturating_sub(8)..].join("\n"),
         })
     }

@@ -1,9 +1,25 @@
 //! Writing beside and renaming: a killed run or a full disk leaves the old file or none.
 
 use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 
 use crate::file_error::FileError;
+
+/// Writes a text file.
+///
+/// # Errors
+/// [`FileError::NotARegularFile`], [`FileError::Io`]; `path` is then as it was.
+pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    write_atomically(path, |_, file| {
+        file.write_all(text.as_bytes())
+            .map_err(|source| FileError::Io {
+                path: path.to_owned(),
+                action: "write",
+                source,
+            })
+    })
+}
 
 /// Lets `fill` write a temporary file in the folder of `path`, forces it to the disk and gives it its name.
 ///

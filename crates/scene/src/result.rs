@@ -33,12 +33,14 @@ pub struct SceneResult {
     pub scene_toml: String,
     /// The gear files kept in the models, verbatim.
     pub gear_toml: [String; 2],
-    /// Model files as the scene names them.
+    /// Model files, as absolute paths, so that the result can be used from any folder.
     pub model_files: [String; 2],
     /// Program version.
     pub version: String,
     /// When, UTC.
     pub created_utc: String,
+    /// Pitches of gear 1 that the angles run through.
+    pub pitches: usize,
     /// Driver angles \[rad\], A.
     pub angle_rad: Vec<f64>,
     /// Torques on gear 2 \[N·m\], T.
@@ -233,6 +235,10 @@ impl SceneResult {
             ),
         );
         tree.put(
+            "pitches",
+            DataArray::count(self.pitches as u32, "pitches of gear 1 run through"),
+        );
+        tree.put(
             "gauge_count",
             DataArray::count(self.strain.len() as u32, "gauges"),
         );
@@ -295,6 +301,7 @@ impl SceneResult {
         let [_, _, slots, slices] = tree.shape(path, "force_N")?;
         let curves = [torques, angles];
         let lines = [torques, angles, slots, slices];
+        let pitches = tree.take_count(path, "pitches")?.max(1);
         let gauges = tree.take_count(path, "gauge_count")?;
         let mut strain = Vec::new();
         for i in 0..gauges {
@@ -322,6 +329,7 @@ impl SceneResult {
             model_files,
             version,
             created_utc,
+            pitches,
             angle_rad: tree.take_f64(path, "angle_rad", &[angles])?,
             torque_nm: tree.take_f64(path, "torque_Nm", &[torques])?,
             te_m: tree.take_f64(path, "te_m", &curves)?,

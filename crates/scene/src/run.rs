@@ -6,7 +6,7 @@ use crate::scene_file::Scene;
 use crate::warnings::{Assumption, Warnings};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
-use gearmesh_contact::{ContactError, ContactLines, StaticContact};
+use gearmesh_contact::{ContactError, ContactLine, ContactLines, StaticContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
@@ -147,6 +147,27 @@ impl LoadedScene {
             .collect()
     }
 
+    /// A contact line with its slice forces as gear 1 or gear 2 bears it.
+    pub fn loaded_line<'a>(
+        &self,
+        gear: usize,
+        line: &ContactLine,
+        forces_n: &'a [f64],
+    ) -> LoadedLine<'a> {
+        let (tooth, roll_rad) = if gear == 1 {
+            (line.tooth_1, line.roll_1_rad)
+        } else {
+            (line.tooth_2, line.roll_2_rad)
+        };
+        let friction = self.scene.contact.friction;
+        LoadedLine {
+            tooth,
+            roll_rad,
+            friction_ratio: friction.map_or(0.0, |f| f.ratio(line.path_m)),
+            forces_n,
+        }
+    }
+
     /// A contact problem of this scene.
     ///
     /// # Errors
@@ -231,12 +252,15 @@ pub fn run(
             loaded.models[0].input_toml.clone(),
             loaded.models[1].input_toml.clone(),
         ],
-        model_files: [
-            scene.gear_1.display().to_string(),
-            scene.gear_2.display().to_string(),
-        ],
+        model_files: [&scene.gear_1, &scene.gear_2].map(|file| {
+            std::path::absolute(file)
+                .unwrap_or_else(|_| file.clone())
+                .display()
+                .to_string()
+        }),
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
+        pitches: scene.pitches,
         torque_nm: scene.torques_nm.clone(),
         te_m: flatten(|c| &c.te),
         unloaded_m: curves
@@ -372,26 +396,10 @@ pub fn strain(
             let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
-                    reader.read(lines_at[angle].iter().enumerate().map(|(slot, line)| {
-                        LoadedLine {
-                            tooth: if gear == 1 {
-                                line.tooth_1
-                            } else {
-                                line.tooth_2
-                            },
-                            roll_rad: if gear == 1 {
-                                line.roll_1_rad
-                            } else {
-                                line.roll_2_rad
-                            },
-                            friction_ratio: loaded
-                                .scene
-                                .contact
-                                .friction
-                                .map_or(0.0, |f| f.ratio(line.path_m)),
-                            forces_n: result.forces(torque, angle, slot),
-                        }
-                    }))
+                    let on_angle = |(slot, line)| {
+                        loaded.loaded_line(gear, line, result.forces(torque, angle, slot))
+                    };
+                    reader.read(lines_at[angle].iter().enumerate().map(on_angle))
                 })
                 .collect();
             Ok(StrainSeries {

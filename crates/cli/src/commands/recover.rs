@@ -24,13 +24,14 @@ pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
             "neither model has a gauge; add [[gauge]] to a gear file and reduce it again",
         ));
     }
+    let request = field_request(a, &result)?;
     let clock = std::time::Instant::now();
     result.strain = scene_run::strain(&loaded, &result, &all)?;
     result.seconds[1] = clock.elapsed().as_secs_f64();
     result.write(&a.output).map_err(Failure::work)?;
     print(&result, a.json)?;
-    if let Some(gear) = a.field_gear {
-        field(a, &loaded, &result, gear)?;
+    if let Some(request) = request {
+        field(&request, &loaded, &result)?;
     }
     Ok(())
 }
@@ -105,12 +106,20 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-fn field(
-    a: &RecoverArguments,
-    loaded: &LoadedScene,
+/// The field that was asked for.
+struct FieldRequest<'a> {
+    case: FieldCase,
+    output: &'a Path,
+}
+
+/// Checks the request for a field, where there is one.
+fn field_request<'a>(
+    a: &'a RecoverArguments,
     result: &SceneResult,
-    gear: usize,
-) -> Result<(), Failure> {
+) -> Result<Option<FieldRequest<'a>>, Failure> {
+    let Some(gear) = a.field_gear else {
+        return Ok(None);
+    };
     if !(1..=2).contains(&gear) {
         return Err(Failure::input(format!(
             "--field-gear: found {gear}, allowed is 1 or 2"
@@ -121,51 +130,53 @@ fn field(
             "--field-gear needs --field-angle-deg and --field-output",
         ));
     };
-    let nearest = |values: &[f64], wanted: f64| {
-        (0..values.len())
-            .min_by(|i, j| {
-                (values[*i] - wanted)
-                    .abs()
-                    .total_cmp(&(values[*j] - wanted).abs())
-            })
-            .unwrap_or(0)
-    };
-    let angle = nearest(&result.angle_rad, angle_deg.to_radians());
+    let wanted = angle_deg.to_radians();
+    let distance = |k: usize| (result.angle_rad[k] - wanted).abs();
+    let angle = (0..result.angles())
+        .min_by(|i, j| distance(*i).total_cmp(&distance(*j)))
+        .unwrap_or(0);
+    let torques = &result.torque_nm;
     let torque = match a.field_torque_Nm {
-        None => nearest(&result.torque_nm, f64::INFINITY.min(1e300)),
-        Some(wanted) => result
-            .torque_nm
+        None => (0..torques.len()).max_by(|i, j| torques[*i].total_cmp(&torques[*j])),
+        Some(wanted) => torques
             .iter()
-            .position(|t| (t - wanted).abs() < 1e-9 * wanted.abs())
-            .ok_or_else(|| {
-                Failure::input(format!(
-                    "--field-torque-Nm: found {wanted}, the result has {:?}",
-                    result.torque_nm
-                ))
-            })?,
+            .position(|t| (t - wanted).abs() < 1e-9 * wanted.abs()),
     };
-    let document = InputDocument::new("gear in result", result.gear_toml[gear - 1].clone());
-    let definition = GearDefinition::from_document(&document)?;
-    let bar = StageBar::new(&definition.name);
-    let body = GearBody::new(&definition, &offline::python()?, &bar)?;
-    bar.finish();
-    let field = offline::field_of(
-        loaded,
-        result,
-        &definition,
-        &body,
-        FieldCase {
+    let torque = torque.ok_or_else(|| {
+        Failure::input(format!(
+            "--field-torque-Nm: found {}, the result has {torques:?}",
+            a.field_torque_Nm.unwrap_or_default()
+        ))
+    })?;
+    Ok(Some(FieldRequest {
+        case: FieldCase {
             gear,
             torque,
             angle,
         },
-    )?;
+        output,
+    }))
+}
+
+fn field(
+    request: &FieldRequest<'_>,
+    loaded: &LoadedScene,
+    result: &SceneResult,
+) -> Result<(), Failure> {
+    let FieldRequest { case, output } = request;
+    let source = result.gear_toml[case.gear - 1].clone();
+    let definition = GearDefinition::from_document(&InputDocument::new("gear in result", source))?;
+    let bar = StageBar::new(&definition.name);
+    let body = GearBody::new(&definition, &offline::python()?, &bar)?;
+    bar.finish();
+    let field = offline::field_of(loaded, result, &definition, &body, *case)?;
     offline::export_mesh(&definition, &body.mesh, Some(&field), output)?;
     console::note(format!(
-        "{}: field of gear {gear} at {:.4} deg and {} N m",
+        "{}: field of gear {} at {:.4} deg and {} N m",
         output.display(),
-        result.angle_rad[angle].to_degrees(),
-        result.torque_nm[torque]
+        case.gear,
+        result.angle_rad[case.angle].to_degrees(),
+        result.torque_nm[case.torque]
     ));
     Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
+use gearmesh_model::write_text;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_scene::SceneResult;
@@ -38,14 +39,7 @@ pub fn write_page(chapters: &[SceneChapter], output: &Path) -> Result<(), Failur
     let html = scene_page(chapters)
         .and_then(|page| page.render().map_err(Into::into))
         .map_err(Failure::work)?;
-    let folder = output
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let failed = |e: &dyn std::fmt::Display| Failure::work(format!("{}: {e}", output.display()));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|e| failed(&e))?;
-    std::io::Write::write_all(&mut file, html.as_bytes()).map_err(|e| failed(&e))?;
-    file.persist(output).map_err(|e| failed(&e))?;
+    write_text(output, &html).map_err(Failure::work)?;
     console::note(format!(
         "{}: {:.1} MB",
         output.display(),

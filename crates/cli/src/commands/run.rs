@@ -3,7 +3,7 @@
 use crate::arguments::RunArguments;
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_contact::mesh_stiffness::fourier;
+use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
 use gearmesh_scene::{Scene, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 use serde_json::json;
@@ -93,8 +93,8 @@ fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
     let rows = (0..result.torque_nm.len())
         .map(|k| {
             let (te_mean, te_range) = transmission_error(result, k)?;
-            let cycle = result.curve(&result.tangent_n_per_m, k);
-            let (mean, harmonics) = fourier(cycle, 5);
+            let curve = result.curve(&result.tangent_n_per_m, k);
+            let (mean, harmonics) = mesh_harmonics(curve, result.pitches, 5);
             Ok(json!({
                 "torque_Nm": result.torque_nm[k], "te_mean_m": te_mean, "te_peak_to_peak_m": te_range,
                 "tangent_stiffness_mean_N_per_m": mean,

@@ -236,3 +236,45 @@ pub fn names_in(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+/// The answer is an error with this exit code and all of these parts.
+pub fn refused(answer: &Answer, code: i32, parts: &[&str]) {
+    assert_eq!(answer.code, Some(code), "{answer:#?}");
+    assert_eq!(answer.stdout, "", "data in spite of an error");
+    assert!(
+        answer
+            .stderr
+            .lines()
+            .any(|line| line.starts_with("error: ")),
+        "{answer:#?}"
+    );
+    for part in parts {
+        assert!(
+            answer.stderr.contains(part),
+            "`{part}` is not in {answer:#?}"
+        );
+    }
+}
+
+/// A number of a JSON document.
+pub fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Runs a scene that has `further` in its table \[mesh\]; the result file and the printed figures.
+pub fn run_scene(desk: &Desk, further: &str) -> (PathBuf, Value) {
+    let scene = desk.file("scene.toml", workshop().scene(further));
+    let result = desk.path("result.h5");
+    let answer = succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
+    (result, answer.json())
+}
+
+/// Largest distance of two curves.
+pub fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .fold(0.0, |worst, (x, y)| (x - y).abs().max(worst))
+}

@@ -1,30 +1,15 @@
-//! Each command on two small gears: what it prints, what it writes, and identities of the figures.
+//! The commands on scenes, with two small gears: what they print, what they write, and identities of the figures.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod common;
 
-use common::{Desk, SOLID, THIN, argument, changed, gearmesh, succeeds, workshop};
+use common::{
+    Desk, THIN, argument, changed, gearmesh, largest_difference, number, refused, run_scene,
+    succeeds, workshop,
+};
 use gearmesh_scene::{SceneResult, StrainSeries};
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(number).collect()
-}
-
-/// Runs a scene that has `further` in its table \[mesh\]; the result file and the printed figures.
-fn run_scene(desk: &Desk, further: &str) -> (PathBuf, Value) {
-    let scene = desk.file("scene.toml", workshop().scene(further));
-    let result = desk.path("result.h5");
-    let answer = succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
-    (result, answer.json())
-}
+use std::path::Path;
+use std::process::{Command, Stdio};
 
 /// Recovers the strain of all gauges: tension, compression.
 fn recovered(desk: &Desk, result: &Path) -> [StrainSeries; 2] {
@@ -39,276 +24,6 @@ fn recovered(desk: &Desk, result: &Path) -> [StrainSeries; 2] {
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |worst, v| v.abs().max(worst))
-}
-
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    a.iter()
-        .zip(b)
-        .fold(0.0, |worst, (x, y)| (x - y).abs().max(worst))
-}
-
-#[test]
-fn help_names_all_commands() {
-    let answer = succeeds(&["--help"]);
-    insta::assert_snapshot!(answer.stdout, @r"
-    Gear mesh stiffness from finite elements, once; contact and root strain from then on in microseconds
-    
-    Usage: gearmesh <COMMAND>
-    
-    Commands:
-      mesh        Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf,
-                  msh, ...)
-      reduce      Reduce a gear to its compliance at the flanks (the offline stage)
-      compliance  Print the deflection along a flank under a line load
-      plan        Say what a scene will compute
-      run         Run a scene
-      recover     Recover the strain of all gauges from a result, and whole fields on request
-      compare     Compare a result with a reference record
-      report      Write a report page
-      check       Check a gear file, scene, model or result
-      demo        Make gear pairs A and B from definition to report
-      help        Print this message or the help of the given subcommand(s)
-    
-    Options:
-      -h, --help     Print help
-      -V, --version  Print version
-    ");
-    for command in [
-        "mesh",
-        "reduce",
-        "compliance",
-        "plan",
-        "run",
-        "recover",
-        "compare",
-        "report",
-        "check",
-        "demo",
-    ] {
-        let help = succeeds(&[command, "--help"]).stdout;
-        assert!(
-            help.contains(&format!("Usage: gearmesh {command} ")),
-            "{help}"
-        );
-    }
-    let wrong = gearmesh(&["reduced"]);
-    assert_eq!((wrong.code, wrong.stdout.as_str()), (Some(2), ""));
-}
-
-/// Root diameter 3 (18 + 0.2 − 2.5), tip diameter 3 (18 + 0.2 + 2), base diameter 54 cos 20°.
-#[test]
-fn check_says_what_a_file_is() {
-    let desk = Desk::new();
-    let gear = desk.file("gear.toml", SOLID);
-    let text = succeeds(&["check", argument(&gear)]).stdout;
-    for part in [
-        "gear `small solid`, sound",
-        "tip 30.3000",
-        "reference 27.0000",
-        "base 25.3717",
-        "root 23.5500",
-    ] {
-        assert!(text.contains(part), "`{part}` is not in {text}");
-    }
-    let model = succeeds(&["check", argument(&workshop().thin)]).stdout;
-    assert!(
-        model.contains("reduced gear, sound") && model.contains("small thin rim"),
-        "{model}"
-    );
-    let (result, _) = run_scene(&desk, "");
-    let text = succeeds(&["check", argument(&result)]).stdout;
-    assert!(
-        text.contains("result of `small pair`, 2 torques x 24 angles, sound"),
-        "{text}"
-    );
-    let text = succeeds(&["check", argument(&desk.path("scene.toml"))]).stdout;
-    assert!(text.contains("scene `small pair`, sound"), "{text}");
-}
-
-#[test]
-fn mesh_writes_what_it_counts() {
-    let desk = Desk::new();
-    let gear = desk.file("gear.toml", THIN);
-    let output = desk.path("gear.vtu");
-    let figures = succeeds(&["mesh", argument(&gear), "-o", argument(&output), "--json"]).json();
-    assert_eq!(desk.names(), ["gear.toml", "gear.vtu"]);
-    let file = String::from_utf8_lossy(&std::fs::read(&output).unwrap()).into_owned();
-    let counts = format!(
-        "NumberOfPoints=\"{}\" NumberOfCells=\"{}\"",
-        figures["nodes"], figures["elements"]
-    );
-    assert!(
-        file.contains("UnstructuredGrid") && file.contains(&counts),
-        "{counts}"
-    );
-    assert_eq!(figures["sectors"], 18);
-    let (smallest, mean) = (
-        number(&figures["scaled_jacobian_smallest"]),
-        number(&figures["scaled_jacobian_mean"]),
-    );
-    assert!(
-        0.2 <= smallest && smallest <= mean && mean <= 1.0,
-        "{figures}"
-    );
-    // The reduction works on the same mesh.
-    assert_eq!(figures["nodes"], workshop().figures[1]["nodes"]);
-}
-
-#[test]
-fn an_unknown_mesh_format_is_refused() {
-    let desk = Desk::new();
-    let gear = desk.file("gear.toml", SOLID);
-    let answer = gearmesh(&[
-        "mesh",
-        argument(&gear),
-        "-o",
-        argument(&desk.path("gear.mesch")),
-    ]);
-    assert_eq!(
-        (answer.code, answer.stdout.as_str()),
-        (Some(2), ""),
-        "{answer:#?}"
-    );
-    assert!(answer.stderr.contains("mesch"), "{answer:#?}");
-    assert_eq!(desk.names(), ["gear.toml"]);
-}
-
-/// The compliance is symmetric (reciprocity) and ΨᵀKΨ = C_hub − C_tooth.
-#[test]
-fn reduce_prints_the_figures_of_its_checks() {
-    for figures in &workshop().figures {
-        assert!(number(&figures["symmetry"]) < 1e-10, "{figures}");
-        assert!(number(&figures["pattern_identity"]) < 1e-9, "{figures}");
-        assert_eq!(figures["sectors"], 18);
-        // 4 roll stations x (2 slices x 2 + 1) axial stations.
-        assert_eq!(figures["flank_loads"], 20);
-        let (dofs, nodes) = (
-            figures["dofs"].as_u64().unwrap(),
-            figures["nodes"].as_u64().unwrap(),
-        );
-        assert!(dofs < 3 * nodes && dofs > 2 * nodes, "{figures}");
-        let error = number(&figures["further"]["compliance error estimate"]);
-        assert!(error > 0.0 && error < 0.1, "{figures}");
-    }
-    let names: Vec<_> = workshop().figures[1]["gauges"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|g| g["name"].clone())
-        .collect();
-    assert_eq!(names, ["tension", "compression"]);
-}
-
-fn compliance(further: &[&str]) -> Vec<String> {
-    let load = [
-        "--tooth",
-        "2",
-        "--line-load-N-per-mm",
-        "100",
-        "--half-width-mm",
-        "0.1",
-    ];
-    let words = [
-        &["compliance", argument(&workshop().thin)],
-        load.as_slice(),
-        further,
-    ]
-    .concat();
-    words.into_iter().map(String::from).collect()
-}
-
-#[test]
-fn compliance_adds_the_global_and_the_local_part() {
-    let figures = succeeds(&compliance(&["--radius-mm", "26,27,28", "--json"])).json();
-    let rows = figures["rows"].as_array().unwrap();
-    assert_eq!(
-        rows.iter()
-            .map(|row| number(&row["radius_mm"]))
-            .collect::<Vec<_>>(),
-        [26.0, 27.0, 28.0]
-    );
-    for row in rows {
-        let (global, local, total) = (
-            number(&row["global_m"]),
-            number(&row["local_m"]),
-            number(&row["total_m"]),
-        );
-        assert!(
-            (global + local - total).abs() < 1e-15 * total && global > 0.0 && local > 0.0,
-            "{row}"
-        );
-        for (mean, slices) in [
-            (global, &row["global_per_slice_m"]),
-            (local, &row["local_per_slice_m"]),
-        ] {
-            let slices = numbers(slices);
-            assert_eq!(slices.len(), 2);
-            assert!(
-                (slices.iter().sum::<f64>() / 2.0 - mean).abs() < 1e-12 * mean,
-                "{row}"
-            );
-            // The blank is symmetric about mid-face.
-            assert!((slices[0] - slices[1]).abs() < 1e-6 * mean, "{row}");
-        }
-    }
-    // A tooth bends more the further out it is loaded.
-    let totals: Vec<f64> = rows.iter().map(|row| number(&row["total_m"])).collect();
-    assert!(totals.is_sorted(), "{totals:?}");
-    // The same figures in the table, in micrometres with five decimals.
-    let table = succeeds(&compliance(&["--radius-mm", "26,27,28"])).stdout;
-    let lines: Vec<&str> = table.lines().skip(2).collect();
-    assert_eq!(lines.len(), 3, "{table}");
-    for (line, row) in lines.iter().zip(rows) {
-        let columns: Vec<f64> = line
-            .split_whitespace()
-            .map(|word| word.parse().unwrap())
-            .collect();
-        let expected =
-            [&row["total_m"], &row["global_m"], &row["local_m"]].map(|value| number(value) * 1e6);
-        assert!(
-            largest_difference(&columns[1..4], &expected) < 0.6e-5,
-            "{line} against {row}"
-        );
-    }
-}
-
-/// Teeth are alike, so reading tooth 2 + n is reading tooth n; reciprocity makes ahead and behind the same.
-#[test]
-fn compliance_at_another_tooth_is_smaller_and_has_no_local_part() {
-    let total_at = |tooth: &str| {
-        let figures = succeeds(&compliance(&[
-            "--radius-mm",
-            "27",
-            "--at-tooth",
-            tooth,
-            "--json",
-        ]))
-        .json();
-        (
-            number(&figures["rows"][0]["total_m"]),
-            number(&figures["rows"][0]["local_m"]),
-        )
-    };
-    let (loaded, local) = total_at("2");
-    assert!(local > 0.0);
-    let (ahead, local_ahead) = total_at("3");
-    let (behind, _) = total_at("1");
-    let (opposite, _) = total_at("11");
-    assert_eq!(local_ahead, 0.0);
-    assert!(
-        opposite < ahead && ahead < loaded && opposite > 0.0,
-        "{opposite} {ahead} {loaded}"
-    );
-    assert!((ahead - behind).abs() < 1e-9 * ahead, "{ahead} {behind}");
-    // The displacement is linear in the load but for the local logarithm, which `none` leaves out.
-    let linear = |load: &str| {
-        let mut words = compliance(&["--radius-mm", "27", "--local", "none", "--json"]);
-        let at = words.iter().position(|word| word == "100").unwrap();
-        words[at] = load.into();
-        number(&succeeds(&words).json()["rows"][0]["total_m"])
-    };
-    assert!((linear("300") / linear("100") - 3.0).abs() < 1e-12);
 }
 
 #[test]
@@ -363,7 +78,6 @@ fn run_balances_the_torque() {
 
 /// The harmonics are those of the mesh cycle, however many pitches are run.
 #[test]
-#[ignore = "`run --json` transforms the whole run: harmonic k is k per run, not k per pitch"]
 fn run_prints_the_harmonics_of_the_mesh_cycle() {
     let (_, figures) = run_scene(&Desk::new(), "");
     for row in figures["rows"].as_array().unwrap() {
@@ -524,6 +238,74 @@ fn recover_makes_the_field_of_a_position() {
         desk.names(),
         ["field.vtu", "result.h5", "scene.toml", "strain.h5"]
     );
+}
+
+/// Models are found from any folder, not only from that of the run.
+#[test]
+fn a_result_is_recovered_from_another_folder() {
+    let (desk, elsewhere) = (Desk::new(), Desk::new());
+    std::fs::copy(&workshop().thin, desk.path("thin.h5")).unwrap();
+    let scene = changed(&workshop().scene(""), argument(&workshop().thin), "thin.h5");
+    desk.file("scene.toml", scene);
+    let program = env!("CARGO_BIN_EXE_gearmesh");
+    let in_folder = |folder: &Desk, arguments: &[&str]| {
+        let output = Command::new(program)
+            .args(arguments)
+            .current_dir(folder.path(""))
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+    };
+    in_folder(&desk, &["run", "scene.toml", "-o", "result.h5"]);
+    let result = desk.path("result.h5");
+    in_folder(
+        &elsewhere,
+        &["recover", argument(&result), "-o", "strain.h5"],
+    );
+    assert_eq!(elsewhere.names(), ["strain.h5"]);
+}
+
+/// `gearmesh plan ... | head -0`: who reads may stop reading.
+#[test]
+fn a_reader_that_stops_reading_is_no_error() {
+    let desk = Desk::new();
+    let scene = desk.file("scene.toml", workshop().scene(""));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
+        .args(["plan", argument(&scene)])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[test]
+fn a_wrong_request_for_a_field_is_refused_before_anything_is_written() {
+    let desk = Desk::new();
+    let (result, _) = run_scene(&desk, "");
+    let (strain, field) = (desk.path("strain.h5"), desk.path("field.vtu"));
+    let words = ["recover", argument(&result), "-o", argument(&strain)];
+    for (gear, torque, parts) in [
+        ("3", "60", ["--field-gear", "found 3", "1 or 2"]),
+        ("2", "61", ["--field-torque-Nm", "found 61", "[20.0, 60.0]"]),
+    ] {
+        let position = [
+            "--field-gear",
+            gear,
+            "--field-angle-deg",
+            "20",
+            "--field-torque-Nm",
+            torque,
+            "--field-output",
+            argument(&field),
+        ];
+        let answer = gearmesh(&[words.as_slice(), &position].concat());
+        refused(&answer, 2, &parts);
+        assert_eq!(desk.names(), ["result.h5", "scene.toml"]);
+    }
 }
 
 #[test]

@@ -1,0 +1,157 @@
+//! Work that fails or is killed while it writes: exit code 1, and what it leaves behind.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+mod common;
+
+use common::{Answer, Desk, SOLID, argument, gearmesh, names_in, refused, succeeds, workshop};
+use std::path::PathBuf;
+use std::process::Command;
+
+const OLD: &[u8] = b"the old file";
+
+/// Runs the program with files limited to 4 blocks of 512 or 1024 bytes; `signal` says what happens at the limit.
+fn with_short_files(signal: &str, arguments: &[&str]) -> Answer {
+    let limited = format!("{signal} ulimit -f 4; exec \"$0\" \"$@\"");
+    let program = env!("CARGO_BIN_EXE_gearmesh");
+    Command::new("sh")
+        .args(["-c", &limited, program])
+        .args(arguments)
+        .output()
+        .unwrap()
+        .into()
+}
+
+/// The outputs of a small run, each named with the command that writes it.
+fn writing<'a>(scene: &'a str, result: &'a str, output: &'a str) -> [[&'a str; 4]; 3] {
+    [
+        ["run", scene, "-o", output],
+        ["recover", result, "-o", output],
+        ["report", result, "-o", output],
+    ]
+}
+
+/// With `trap '' XFSZ` the write ends with an error code, as on a full disk.
+#[test]
+fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+    let (desk, outputs) = (Desk::new(), Desk::new());
+    let scene = desk.file("scene.toml", workshop().scene(""));
+    let result = desk.path("result.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    let old = outputs.file("old", OLD);
+    for arguments in writing(argument(&scene), argument(&result), argument(&old)) {
+        refused(
+            &with_short_files("trap '' XFSZ;", &arguments),
+            1,
+            &[argument(&old)],
+        );
+        assert_eq!(std::fs::read(&old).unwrap(), OLD);
+        assert_eq!(outputs.names(), ["old"], "left by {arguments:?}");
+    }
+}
+
+/// Without the trap the system kills the program in the midst of the write. It cannot tidy up then, but what it leaves
+/// is hidden and bears another name.
+#[test]
+fn a_killed_write_leaves_the_old_file() {
+    let (desk, outputs) = (Desk::new(), Desk::new());
+    let scene = desk.file("scene.toml", workshop().scene(""));
+    let result = desk.path("result.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    let old = outputs.file("old", OLD);
+    for arguments in writing(argument(&scene), argument(&result), argument(&old)) {
+        let answer = with_short_files("", &arguments);
+        assert_eq!(answer.code, None, "no signal: {answer:#?}");
+        assert_eq!(std::fs::read(&old).unwrap(), OLD);
+    }
+    assert!(
+        outputs
+            .names()
+            .iter()
+            .all(|name| name == "old" || name.starts_with('.')),
+        "{:?}",
+        outputs.names()
+    );
+}
+
+/// A file system of 64 kB, unmounted when it goes.
+struct SmallDisk {
+    folder: PathBuf,
+    _parent: tempfile::TempDir,
+}
+
+impl SmallDisk {
+    /// `None` where mounting is not allowed.
+    fn mount() -> Option<Self> {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = parent.path().join("disk");
+        std::fs::create_dir(&folder).unwrap();
+        let mount = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", "size=64k", "tmpfs"])
+            .arg(&folder)
+            .output();
+        mount
+            .is_ok_and(|output| output.status.success())
+            .then_some(Self {
+                folder,
+                _parent: parent,
+            })
+    }
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(&self.folder).status();
+    }
+}
+
+/// A full disk with an old file, and what a command left on it after it failed.
+fn on_a_full_disk(disk: &SmallDisk, command: impl FnOnce(&str) -> Answer) -> Answer {
+    let old = disk.folder.join("old.vtu");
+    std::fs::write(&old, OLD).unwrap();
+    std::fs::write(disk.folder.join("full"), vec![1; 52 << 10]).unwrap();
+    let answer = command(argument(&old));
+    assert_eq!(std::fs::read(&old).unwrap(), OLD);
+    assert_eq!(
+        names_in(&disk.folder),
+        ["full", "old.vtu"],
+        "something half written is left: {answer:#?}"
+    );
+    refused(&answer, 1, &[argument(&old)]);
+    answer
+}
+
+/// Needs the right to mount; elsewhere `a_failed_write_leaves_the_old_file_and_nothing_else` alone stands for it.
+#[test]
+fn a_full_disk_leaves_the_old_file_and_nothing_else() {
+    let Some(disk) = SmallDisk::mount() else {
+        return;
+    };
+    let desk = Desk::new();
+    let (scene, gear) = (
+        desk.file("scene.toml", workshop().scene("")),
+        desk.file("gear.toml", SOLID),
+    );
+    let result = desk.path("result.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    for command in ["run", "recover", "report", "reduce"] {
+        let input = match command {
+            "run" => &scene,
+            "reduce" => &gear,
+            _ => &result,
+        };
+        let answer = on_a_full_disk(&disk, |old| {
+            gearmesh(&[command, argument(input), "-o", old])
+        });
+        assert!(answer.stderr.contains("No space left"), "{answer:#?}");
+    }
+}
+
+#[test]
+fn a_mesh_that_does_not_fit_the_disk_is_no_fault_of_the_input() {
+    let Some(disk) = SmallDisk::mount() else {
+        return;
+    };
+    let desk = Desk::new();
+    let gear = desk.file("gear.toml", SOLID);
+    on_a_full_disk(&disk, |old| gearmesh(&["mesh", argument(&gear), "-o", old]));
+}
