@@ -47,7 +47,6 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         rust_tests.args(["--", "--include-ignored"]);
         // Defects that are known and not mended yet; each has a test that shows it (its `#[ignore]` says what).
         for known_defect in [
-            "a_value_of_the_wrong_type_is_named_by_its_key",
             "a_mesh_that_does_not_fit_the_disk_is_no_fault_of_the_input",
             "run_prints_the_harmonics_of_the_mesh_cycle",
         ] {
