@@ -146,6 +146,8 @@ struct ReductionTable {
     roll_stations: Option<usize>,
     slices: Option<usize>,
     flanks: Option<Vec<FlankSide>>,
+    #[serde(default)]
+    symmetry: Symmetry,
 }
 
 #[derive(Deserialize)]
@@ -710,6 +712,7 @@ fn reduction(document: &InputDocument, t: ReductionTable) -> Result<ReductionSet
         ));
     }
     Ok(ReductionSettings {
+        symmetry: t.symmetry,
         roll_stations,
         slices,
         flanks,
