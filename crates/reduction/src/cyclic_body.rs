@@ -103,18 +103,15 @@ impl CyclicBody {
         })
     }
 
-    /// Number of factorisations: tooth, sector and harmonics.
-    pub fn factorisations(&self) -> usize {
-        2 + self.interface.harmonics()
-    }
-
-    /// Sizes of the three levels in degrees of freedom: tooth cell, its shared part, sector, one cut.
-    pub fn sizes(&self) -> [usize; 4] {
-        [
-            self.tooth.condensation().size(),
-            3 * self.tooth.boundary_count(),
-            self.sector.condensation().size(),
-            self.interface.cut_size(),
+    /// Number and sizes of the factorisations: tooth, sector and harmonics.
+    pub fn effort(&self) -> Vec<(&'static str, usize)> {
+        vec![
+            ("factorisations", 2 + self.interface.harmonics()),
+            ("DOF of a tooth", self.tooth.condensation().size()),
+            ("DOF at its foot", 3 * self.tooth.boundary_count()),
+            ("DOF of a sector", self.sector.condensation().size()),
+            ("DOF of a cut", self.interface.cut_size()),
+            ("harmonics", self.interface.harmonics()),
         ]
     }
 

@@ -10,6 +10,7 @@ use gearmesh_fe::{DofMap, FeModel, HexElement, Material};
 use gearmesh_geometry::{ElementKind, GearDefinition, Symmetry};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// A gear held at its bore, ready to be loaded. How it is solved shows in nothing but time and memory.
@@ -23,6 +24,7 @@ pub struct GearBody {
     /// Wall time by stage.
     pub stage_seconds: Vec<(String, f64)>,
     solver: Solver,
+    right_hand_sides: AtomicUsize,
 }
 
 enum Solver {
@@ -83,15 +85,28 @@ impl GearBody {
             dofs,
             stage_seconds,
             solver,
+            right_hand_sides: AtomicUsize::new(0),
         })
     }
 
-    /// Number of factorisations that were made.
-    pub fn factorisations(&self) -> usize {
-        match &self.solver {
-            Solver::Whole(_) => 1,
-            Solver::Cyclic(body) => body.factorisations(),
-        }
+    /// What has been done so far, as counts by name: factorisations, right-hand sides, sizes of what was factorised.
+    pub fn effort(&self) -> Vec<(String, f64)> {
+        let mut counts = match &self.solver {
+            Solver::Whole(_) => vec![
+                ("factorisations", 1),
+                ("DOF of the whole gear", self.dofs.free_count()),
+            ],
+            Solver::Cyclic(body) => body.effort(),
+        };
+        let solved = self.right_hand_sides.load(Ordering::Relaxed);
+        counts.insert(1, ("right-hand sides", solved));
+        let named = counts.into_iter();
+        named.map(|(n, c)| (n.to_string(), c as f64)).collect()
+    }
+
+    fn count(&self, right_hand_sides: usize) {
+        self.right_hand_sides
+            .fetch_add(right_hand_sides, Ordering::Relaxed);
     }
 
     /// aᵀ K⁻¹ b \[m/N\] for vectors given on tooth 0 and placed, turned, on every tooth; the loaded teeth are those of
@@ -102,6 +117,7 @@ impl GearBody {
         vectors: &[&SparseVector],
         progress: &dyn Progress,
     ) -> Vec<f64> {
+        self.count(own * vectors.len());
         match &self.solver {
             Solver::Whole(whole) => {
                 let loads: Vec<SparseVector> = (0..own)
@@ -124,6 +140,7 @@ impl GearBody {
         vectors: &[&SparseVector],
         progress: &dyn Progress,
     ) -> Vec<Vec<f64>> {
+        self.count(rows.len());
         match &self.solver {
             Solver::Whole(whole) => whole.readings(&self.mesh, &self.dofs, rows, vectors, progress),
             Solver::Cyclic(body) => body.readings(rows, vectors),
@@ -138,6 +155,7 @@ impl GearBody {
         progress: &dyn Progress,
         each: impl FnMut(usize, &[f64]),
     ) {
+        self.count(loads.len());
         match &self.solver {
             Solver::Whole(whole) => whole.solve_each(&self.dofs, loads, progress, each),
             Solver::Cyclic(body) => body.solve_each(&self.mesh, loads, progress, each),

@@ -144,6 +144,7 @@ pub fn reduce(
             elements: body.mesh.hexes.len(),
             dofs: body.dofs.free_count(),
             stage_seconds,
+            effort: body.effort(),
         },
         checks: ReductionChecks {
             symmetry,
