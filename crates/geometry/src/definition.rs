@@ -201,9 +201,22 @@ pub struct MeshSettings {
     pub min_scaled_jacobian: f64,
 }
 
+/// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Symmetry {
+    /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.
+    #[default]
+    Auto,
+    /// The whole gear is factorised: for comparison.
+    Off,
+}
+
 /// What the reduction computes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReductionSettings {
+    /// Whether the repetition of the gear is used.
+    pub symmetry: Symmetry,
     /// Stations of the flank grid along the profile.
     pub roll_stations: usize,
     /// Slices over the face width.

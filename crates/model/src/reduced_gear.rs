@@ -94,6 +94,9 @@ pub struct Provenance {
     pub dofs: usize,
     /// Wall-clock time of each stage in seconds, in the order they ran.
     pub stage_seconds: Vec<(String, f64)>,
+    /// What was done, as counts by name, for example `factorisations` and `right-hand sides`. Empty in files of programs
+    /// that did not count.
+    pub effort: Vec<(String, f64)>,
 }
 
 /// Errors of identities that hold exactly in exact arithmetic, relative, as measured during the reduction.

@@ -78,6 +78,7 @@ impl ReducedGear {
             .provenance
             .stage_seconds
             .iter()
+            .chain(&self.provenance.effort)
             .chain(&self.checks.further);
         for (name, value) in times {
             in_range(name, *value, f64::is_finite, "finite")?;

@@ -279,6 +279,13 @@ fn put_provenance(tree: &mut DataTree, provenance: &Provenance) {
         "wall-clock time of a stage",
         &provenance.stage_seconds,
     );
+    put_named_numbers(
+        tree,
+        "provenance/effort",
+        "1",
+        "a count of what was done",
+        &provenance.effort,
+    );
 }
 
 fn take_provenance(tree: &mut DataTree, path: &Path) -> Result<Provenance, FileError> {
@@ -293,6 +300,7 @@ fn take_provenance(tree: &mut DataTree, path: &Path) -> Result<Provenance, FileE
         elements: tree.take_count(path, &at("elements"))?,
         dofs: tree.take_count(path, &at("dofs"))?,
         stage_seconds: take_named_numbers(tree, path, "provenance/stage")?,
+        effort: take_named_numbers(tree, path, "provenance/effort")?,
     })
 }
 

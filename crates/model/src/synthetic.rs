@@ -86,6 +86,7 @@ pub fn small_reduced_gear() -> ReducedGear {
             elements: 2,
             dofs: 24,
             stage_seconds: vec![("mesh".to_owned(), 0.5), ("assemble".to_owned(), 0.25)],
+            effort: vec![("factorisations".to_owned(), 1.0)],
         },
         checks: ReductionChecks {
             symmetry: 1e-16,

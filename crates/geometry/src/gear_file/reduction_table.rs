@@ -1,7 +1,7 @@
 //! `[reduction]`: what the offline stage computes.
 
 use super::TableKeys;
-use crate::definition::{FlankSide, ReductionSettings};
+use crate::definition::{FlankSide, ReductionSettings, Symmetry};
 use crate::input::{InputDocument, InputError};
 use serde::Deserialize;
 
@@ -12,6 +12,8 @@ pub(super) struct ReductionTable {
     roll_stations: Option<usize>,
     slices: Option<usize>,
     flanks: Option<Vec<FlankSide>>,
+    #[serde(default)]
+    symmetry: Symmetry,
 }
 
 impl ReductionTable {
@@ -42,6 +44,7 @@ impl ReductionTable {
             ));
         }
         Ok(ReductionSettings {
+            symmetry: self.symmetry,
             roll_stations,
             slices,
             flanks,
