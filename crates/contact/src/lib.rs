@@ -3,6 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
+//! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
@@ -14,11 +15,13 @@
 
 pub mod contact_lines;
 pub mod flank_deflection;
+pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod slice_compliance;
 pub mod static_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};
+pub use local_contact::LocalContact;
 pub use slice_compliance::SliceCompliance;
-pub use static_contact::{ContactError, ContactOptions, ContactState, LocalContact, StaticContact};
+pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};

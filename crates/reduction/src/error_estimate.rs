@@ -7,7 +7,7 @@
 use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
-use crate::tooth_submodel::ToothSubmodel;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
 use crate::{ReductionError, Silent};
 use gearmesh_geometry::GearDefinition;
@@ -75,7 +75,8 @@ pub fn estimate(
     let count = grid.len();
     let side = gear.reduction.flanks[0];
     let loads = flank_loads(&coarse, &body.mesh, grid, 0, side);
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads)?;
+    let submodel =
+        ToothSubmodel::new(&body.model, &body.mesh, side, &loads, Deformation::of(gear))?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
 
     let line = summed(

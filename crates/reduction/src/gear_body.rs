@@ -2,6 +2,7 @@
 
 use crate::cyclic_body::CyclicBody;
 use crate::flank_loads::SparseVector;
+use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
@@ -41,7 +42,7 @@ pub fn element_of(kind: ElementKind) -> HexElement {
 }
 
 impl GearBody {
-    /// Meshes and factorises a gear with its bore fixed.
+    /// Meshes and factorises a gear with its bore fixed, in plane strain where its definition says so.
     ///
     /// # Errors
     /// [`ReductionError`] when it cannot be meshed or is not held.
@@ -63,10 +64,12 @@ impl GearBody {
             element_of(gear.mesh.element),
         )?;
         let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
-        let dofs = DofMap::with_fixed_nodes(model.node_count(), &bore)?;
+        let deformation = Deformation::of(gear);
+        let dofs = deformation.dofs(model.node_count(), &bore)?;
         stage_seconds.push(("model".to_string(), clock.elapsed().as_secs_f64()));
-        let solver = match gear.reduction.symmetry {
-            Symmetry::Auto => {
+        // A plane problem is small: its whole factor takes less than the ring's frames.
+        let solver = match (gear.reduction.symmetry, deformation) {
+            (Symmetry::Auto, Deformation::Spatial) => {
                 let mut fixed = vec![false; model.node_count()];
                 for n in bore {
                     fixed[n] = true;
@@ -74,7 +77,7 @@ impl GearBody {
                 let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stage_seconds)?;
                 Solver::Cyclic(Box::new(body))
             }
-            Symmetry::Off => {
+            (Symmetry::Off, _) | (_, Deformation::PlaneStrain) => {
                 let whole = WholeGear::new(&model, &dofs, progress, &mut stage_seconds)?;
                 Solver::Whole(Box::new(whole))
             }

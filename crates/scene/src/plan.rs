@@ -1,7 +1,7 @@
 //! What a scene will compute, before anything is computed.
 
 use crate::scene_file::Scene;
-use gearmesh_contact::{ContactLines, LocalContact};
+use gearmesh_contact::ContactLines;
 use gearmesh_model::ReducedGear;
 
 /// Size and effects of a scene.
@@ -55,10 +55,7 @@ impl Plan {
         ));
         text.push(format!(
             "mesh       `hybrid`, path `line-of-action`, local `{}`, {} slices, at most {unknowns} unknown forces",
-            match scene.contact.local {
-                LocalContact::None => "none",
-                LocalContact::WeberBanaschek => "weber-banaschek",
-            },
+            scene.contact.local.name(),
             gear_1.grid.slices
         ));
         text.push(match scene.contact.friction {

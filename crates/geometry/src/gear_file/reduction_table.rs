@@ -18,10 +18,19 @@ pub(super) struct ReductionTable {
 
 impl ReductionTable {
     /// The reduction settings.
-    pub(super) fn check(self, document: &InputDocument) -> Result<ReductionSettings, InputError> {
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        plane_strain: bool,
+    ) -> Result<ReductionSettings, InputError> {
         let keys = TableKeys::new(document, "reduction");
         let roll_stations = self.roll_stations.unwrap_or(9);
-        let slices = self.slices.unwrap_or(5);
+        let (default, most, allowed) = if plane_strain {
+            (1, 1, "1 in plane strain")
+        } else {
+            (5, 100, "1 to 100")
+        };
+        let slices = self.slices.unwrap_or(default);
         keys.require(
             "roll_stations",
             roll_stations as f64,
@@ -31,8 +40,8 @@ impl ReductionTable {
         keys.require(
             "slices",
             slices as f64,
-            (1..=100).contains(&slices),
-            "1 to 100",
+            (1..=most).contains(&slices),
+            allowed,
         )?;
         let flanks = self
             .flanks
