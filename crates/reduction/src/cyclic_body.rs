@@ -20,8 +20,6 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Loads of a sector that are solved together.
-const BLOCK: usize = 128;
 /// Full fields that are made together.
 const FIELDS: usize = 8;
 
@@ -44,12 +42,23 @@ enum Place {
 
 /// What loads do to the sectors, before anything inside the teeth is asked for.
 struct Response {
-    /// Displacements of each sector's nodes, sector displacements × cases.
-    sectors: Vec<Mat<f64>>,
+    /// Displacements of the sectors' nodes: the cases of sector 0, then those of sector 1, ...
+    sectors: Mat<f64>,
+    /// Number of cases.
+    cases: usize,
     /// (tooth, case) of the columns of `inside`.
     loaded: BTreeMap<usize, Vec<(usize, usize)>>,
     /// The loads inside the teeth.
     inside: CondensedLoads,
+}
+
+impl Response {
+    /// Displacements of one sector's nodes × cases.
+    fn sector(&self, sector: usize) -> MatRef<'_, f64> {
+        self.sectors
+            .as_ref()
+            .subcols(sector * self.cases, self.cases)
+    }
 }
 
 impl CyclicBody {
@@ -123,44 +132,51 @@ impl CyclicBody {
         let teeth = own * self.sector.sectors;
         let on_tooth = self.tooth.condense(&self.frames, vectors);
         let inside_tooth = on_tooth.gram(&on_tooth);
-        let mut inside_sector = Mat::<f64>::zeros(own * n, own * n);
+        // The loads of a tooth are solved together: they reach the same, small part of the sector's factor.
         let mut at_cuts = Mat::<f64>::zeros(2 * self.interface.cut_size(), own * n);
-        let columns: Vec<usize> = (0..own * n).collect();
-        for block in columns.chunks(BLOCK) {
-            let mut loads = Mat::zeros(self.sector.condensation().size(), block.len());
-            for (place, &column) in block.iter().enumerate() {
-                let a = column / n;
-                for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
-                    for axis in 0..3 {
-                        loads[(3 * node + axis, place)] = on_tooth.kept[(3 * b + axis, column % n)];
+        let loaded: Vec<CondensedLoads> = (0..own)
+            .map(|a| {
+                let mut loads = Mat::zeros(self.sector.condensation().size(), n);
+                for column in 0..n {
+                    for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
+                        for axis in 0..3 {
+                            loads[(3 * node + axis, column)] =
+                                on_tooth.kept[(3 * b + axis, column)];
+                        }
                     }
                 }
-            }
-            let condensed = self.sector.condensation().condense(loads.as_ref());
-            let held = Mat::<f64>::zeros(condensed.kept.nrows(), block.len());
-            let u = self
-                .sector
-                .condensation()
-                .expand(held.as_ref(), Some(condensed.interior.as_ref()));
-            at_cuts
-                .as_mut()
-                .subcols_mut(block[0], block.len())
-                .copy_from(&condensed.kept);
-            for a in 0..own {
-                let response = on_tooth.kept.transpose() * self.foot(a, u.as_ref());
+                let condensed = self.sector.condensation().condense(loads.as_ref());
+                at_cuts
+                    .as_mut()
+                    .subcols_mut(a * n, n)
+                    .copy_from(&condensed.kept);
+                progress.advance(a + 1, own);
+                condensed
+            })
+            .collect();
+        let pairs: Vec<(usize, usize)> = (0..own)
+            .flat_map(|a| (0..=a).map(move |b| (a, b)))
+            .collect();
+        let works: Vec<Mat<f64>> = pairs
+            .par_iter()
+            .map(|&(a, b)| loaded[a].gram(&loaded[b]))
+            .collect();
+        let mut inside_sector = Mat::<f64>::zeros(own * n, own * n);
+        for (&(a, b), work) in pairs.iter().zip(&works) {
+            let mut block = inside_sector.as_mut().submatrix_mut(a * n, b * n, n, n);
+            block.copy_from(work);
+            if a == b {
+                block += &inside_tooth;
+            } else {
                 inside_sector
                     .as_mut()
-                    .submatrix_mut(a * n, block[0], n, block.len())
-                    .copy_from(&response);
+                    .submatrix_mut(b * n, a * n, n, n)
+                    .copy_from(work.transpose());
             }
-            progress.advance(block[0] + block.len(), columns.len());
-        }
-        for a in 0..own {
-            let mut diagonal = inside_sector.as_mut().submatrix_mut(a * n, a * n, n, n);
-            diagonal += &inside_tooth;
         }
         let mut products = self.interface.products(at_cuts.as_ref());
         products[0] += &inside_sector;
+        drop(inside_sector);
 
         let mut rows = vec![0.0; own * n * teeth * n];
         rows.par_chunks_mut(teeth * n)
@@ -188,8 +204,7 @@ impl CyclicBody {
         let mut readings = vec![Vec::with_capacity(teeth * vectors.len()); rows.len()];
         for t in 0..teeth {
             let (sector, a) = self.sector.of_tooth(t);
-            let mut found =
-                on_tooth.kept.transpose() * self.foot(a, response.sectors[sector].as_ref());
+            let mut found = on_tooth.kept.transpose() * self.foot(a, response.sector(sector));
             for &(case, column) in response.loaded.get(&t).into_iter().flatten() {
                 for i in 0..vectors.len() {
                     found[(i, case)] += inside[(i, column)];
@@ -288,27 +303,23 @@ impl CyclicBody {
                 .copy_from(in_sectors.kept.col(column));
         }
         let cuts = self.interface.displacements(&at_cuts);
-        let columns: Vec<(usize, usize)> = sector_parts.keys().copied().collect();
-        let sectors = cuts
-            .into_par_iter()
-            .enumerate()
-            .map(|(sector, kept)| {
-                let rows = in_sectors.interior.nrows();
-                let mut interior = Mat::zeros(rows, cases.len());
-                for (column, &(s, case)) in columns.iter().enumerate() {
-                    if s == sector {
-                        interior
-                            .col_mut(case)
-                            .copy_from(in_sectors.interior.col(column));
-                    }
-                }
-                self.sector
-                    .condensation()
-                    .expand(kept.as_ref(), Some(interior.as_ref()))
-            })
-            .collect();
+        // All sectors at once: the factor is read from memory once for many columns.
+        let n = cases.len();
+        let mut kept = Mat::zeros(2 * self.interface.cut_size(), n * self.sector.sectors);
+        for (sector, u) in cuts.iter().enumerate() {
+            kept.as_mut().subcols_mut(sector * n, n).copy_from(u);
+        }
+        let mut interior = Mat::zeros(self.sector.condensation().interior_size(), kept.ncols());
+        for (column, &(sector, case)) in sector_parts.keys().enumerate() {
+            in_sectors.put_interior(column, interior.col_mut(sector * n + case));
+        }
+        let sectors = self
+            .sector
+            .condensation()
+            .expand(kept.as_ref(), Some(interior.as_ref()));
         Response {
             sectors,
+            cases: n,
             loaded,
             inside,
         }
@@ -317,42 +328,42 @@ impl CyclicBody {
     fn fields(&self, mesh: &GearMesh, cases: &[&SparseVector]) -> Vec<Vec<f64>> {
         let response = self.respond(cases);
         let mut fields = vec![vec![0.0; 3 * mesh.nodes.len()]; cases.len()];
-        let mut put = |node: u32, i: usize, u: &Mat<f64>| {
+        let mut put = |node: u32, i: usize, u: MatRef<'_, f64>| {
             for (case, field) in fields.iter_mut().enumerate() {
                 let part = [u[(3 * i, case)], u[(3 * i + 1, case)], u[(3 * i + 2, case)]];
                 field[3 * node as usize..][..3]
                     .copy_from_slice(&self.frames.to_cartesian(node as usize, part));
             }
         };
-        for (sector, u) in response.sectors.iter().enumerate() {
+        for sector in 0..self.sector.sectors {
             for i in 0..self.sector.node_count() {
                 if let Some(node) = self.sector.node(mesh, &self.tooth, sector, i) {
-                    put(node, i, u);
+                    put(node, i, response.sector(sector));
                 }
             }
         }
-        let teeth = self.sector.own * self.sector.sectors;
-        let inside: Vec<Mat<f64>> = (0..teeth)
-            .into_par_iter()
-            .map(|t| {
-                let (sector, a) = self.sector.of_tooth(t);
-                let foot = self.foot(a, response.sectors[sector].as_ref());
-                let rows = response.inside.interior.nrows();
-                let mut interior = Mat::zeros(rows, cases.len());
-                for &(case, column) in response.loaded.get(&t).into_iter().flatten() {
-                    interior
-                        .col_mut(case)
-                        .copy_from(response.inside.interior.col(column));
-                }
-                self.tooth
-                    .condensation()
-                    .expand(foot.as_ref(), Some(interior.as_ref()))
-            })
-            .collect();
-        for (t, u) in inside.iter().enumerate() {
+        let (n, teeth) = (cases.len(), self.sector.own * self.sector.sectors);
+        let mut feet = Mat::zeros(3 * self.tooth.boundary_count(), n * teeth);
+        let mut interior = Mat::zeros(self.tooth.condensation().interior_size(), n * teeth);
+        for t in 0..teeth {
+            let (sector, a) = self.sector.of_tooth(t);
+            feet.as_mut()
+                .subcols_mut(t * n, n)
+                .copy_from(self.foot(a, response.sector(sector)));
+            for &(case, column) in response.loaded.get(&t).into_iter().flatten() {
+                response
+                    .inside
+                    .put_interior(column, interior.col_mut(t * n + case));
+            }
+        }
+        let inside = self
+            .tooth
+            .condensation()
+            .expand(feet.as_ref(), Some(interior.as_ref()));
+        for t in 0..teeth {
             for i in 0..self.tooth.node_count() {
                 if let Some(node) = self.tooth.node(mesh, t, i) {
-                    put(node, i, u);
+                    put(node, i, inside.as_ref().subcols(t * n, n));
                 }
             }
         }
