@@ -16,6 +16,14 @@ pub enum ElementError {
         /// Determinant found (m³).
         determinant_m3: f64,
     },
+    /// Coordinates of another number of nodes than the element has.
+    #[error("the coordinates of {found} nodes were given; the element has {expected}")]
+    NodeCount {
+        /// Number given.
+        found: usize,
+        /// Number of nodes of the element.
+        expected: usize,
+    },
     /// The 9x9 stiffness of the incompatible modes has no Cholesky factor: only coordinates that overflow reach this.
     #[error(
         "the stiffness of the incompatible modes is not positive definite; the coordinates must be finite and of ordinary size (m)"
@@ -43,6 +51,16 @@ pub enum FeError {
     NoElements {
         /// Number of nodes given.
         nodes: usize,
+    },
+    /// The rows of the connectivity do not have as many nodes as the element.
+    #[error("the connectivity has {found} nodes an element; {element} has {expected}")]
+    NodesPerElement {
+        /// Name of the element.
+        element: &'static str,
+        /// Nodes an element found.
+        found: usize,
+        /// Nodes the element has.
+        expected: usize,
     },
     /// More nodes than 32-bit indices allow.
     #[error(

@@ -23,7 +23,7 @@ type CompressedColumns<'py> = (
 /// Stiffness (N/m) of a body over all its degrees of freedom, nothing held: (data, row_indices, column_pointers).
 ///
 /// Both triangles are stored, by columns: scipy.sparse.csc_matrix takes the tuple as it is. Young's modulus in Pa;
-/// element is "hex8" or "hex8-incompatible". Degree of freedom 3 n + a is the displacement of node n along axis a.
+/// element is "hex8", "hex8-incompatible" or, for a mesh of twenty nodes an element, "hex20". Degree of freedom 3 n + a is the displacement of node n along axis a.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, young_pa, poisson, element = "hex8-incompatible"))]
 pub(crate) fn stiffness<'py>(
@@ -103,7 +103,7 @@ pub(crate) fn strain<'py>(
     let rows = py.detach(|| {
         let model = model(&mesh_h5, young_pa, poisson, element)?;
         check_node_rows("displacement", shape, &displacement, &model)?;
-        (0..model.hexes().len())
+        (0..model.element_count())
             .map(|e| model.strain(e, natural, &displacement).map_err(fe_error))
             .collect::<PyResult<Vec<_>>>()
     })?;
@@ -112,18 +112,21 @@ pub(crate) fn strain<'py>(
 
 /// The model of the body in a mesh file.
 fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult<FeModel> {
-    let element = match element {
-        "hex8" => HexElement::Hex8,
-        "hex8-incompatible" => HexElement::Hex8Incompatible,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "the element is {other:?}; it must be \"hex8\" or \"hex8-incompatible\""
-            )));
-        }
-    };
+    let names = HexElement::ALL.map(|e| format!("{:?}", e.name()));
+    let element = HexElement::from_name(element).ok_or_else(|| {
+        let message = format!(
+            "the element is {element:?}; it must be one of {}",
+            names.join(", ")
+        );
+        PyValueError::new_err(message)
+    })?;
     let material = Material::new(young_pa, poisson).map_err(fe_error)?;
     let mesh = gearmesh_model::read_mesh(mesh_h5).map_err(file_error)?;
-    FeModel::new(mesh.points, mesh.hexes, material, element).map_err(fe_error)
+    match mesh.hexes_of_20() {
+        Some(hexes) => FeModel::new(mesh.points, hexes, material, element),
+        None => FeModel::new(mesh.points, mesh.hexes, material, element),
+    }
+    .map_err(fe_error)
 }
 
 fn shape(array: &FloatRows<'_>) -> [usize; 2] {
