@@ -1,4 +1,4 @@
-"""Stiffness, displacements and strains against scikit-fem and against elements written out here in NumPy.
+"""Stiffness, mass, displacements, strains and natural modes against scikit-fem and against elements written out here in NumPy.
 
 The other side shares no code with the Rust one: scikit-fem assembles the plain brick and the twenty-node brick, the
 NumPy functions below the brick with incompatible modes. All sides use the same Gauss rule, 2x2x2 points with eight nodes
@@ -15,7 +15,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 import gearmesh
 
-YOUNG_PA, POISSON = 210e9, 0.3
+YOUNG_PA, POISSON, DENSITY = 210e9, 0.3, 7800.0
 TOLERANCE = 1e-10
 
 # Natural coordinates of the corners in VTK order.
@@ -65,6 +65,24 @@ class Body:
         size = self.points.size
         return scipy.sparse.csc_matrix(gearmesh.stiffness(self.path, YOUNG_PA, POISSON, element), shape=(size, size))
 
+    def mass(self, element):
+        """M of the Rust side as a SciPy matrix."""
+        size = self.points.size
+        return scipy.sparse.csc_matrix(gearmesh.mass(self.path, DENSITY, element), shape=(size, size))
+
+    def natural_modes(self, element, count):
+        """Frequencies (Hz), shapes and residuals of the Rust side."""
+        return gearmesh.natural_modes(self.path, YOUNG_PA, POISSON, DENSITY, element, self.held, count)
+
+    def modes_by_scipy(self, k, m, count):
+        """Frequencies (Hz) and shapes by ARPACK for another stiffness and mass."""
+        free = self.free()
+        k, m = (matrix.tocsc()[free][:, free] for matrix in (k, m))
+        squares, columns = scipy.sparse.linalg.eigsh(k, count, m, sigma=0.0, v0=np.ones(len(free)))
+        shapes = np.zeros((count, self.points.size))
+        shapes[:, free] = columns.T
+        return np.sqrt(squares) / (2.0 * np.pi), shapes
+
     def solve(self, element):
         """Displacement of the Rust side."""
         return gearmesh.solve(self.path, YOUNG_PA, POISSON, element, self.held, self.force)
@@ -73,9 +91,13 @@ class Body:
         """Strain of the Rust side in every element."""
         return gearmesh.strain(self.path, YOUNG_PA, POISSON, element, displacement, natural)
 
+    def free(self):
+        """Degrees of freedom that are not held."""
+        return np.setdiff1d(np.arange(self.points.size), (3 * self.held[:, None] + np.arange(3)).ravel())
+
     def displacement_by_scipy(self, k):
         """Displacement under the forces for another stiffness, by SciPy's LU factorisation."""
-        free = np.setdiff1d(np.arange(self.points.size), (3 * self.held[:, None] + np.arange(3)).ravel())
+        free = self.free()
         displacement = np.zeros(self.points.size)
         displacement[free] = scipy.sparse.linalg.spsolve(k.tocsc()[free][:, free], self.force.ravel()[free])
         return displacement.reshape(-1, 3)
@@ -104,6 +126,12 @@ class ScikitFem:
     def stiffness(self):
         k = linear_elasticity(*lame_parameters(YOUNG_PA, POISSON)).assemble(self.basis)
         return k.tocsr()[self.theirs][:, self.theirs]
+
+    def mass(self):
+        # An order of 5 is three points a direction, as ours has for the mass of both elements.
+        basis = skfem.Basis(self.mesh, self.basis.elem, intorder=5)
+        product = skfem.BilinearForm(lambda u, v, w: DENSITY * sum(u[a] * v[a] for a in range(3)))
+        return product.assemble(basis).tocsr()[self.theirs][:, self.theirs]
 
     def centre_strain(self, displacement):
         centre = skfem.Basis(self.mesh, self.basis.elem, quadrature=(np.full((3, 1), 0.5), np.ones(1)))
@@ -348,6 +376,29 @@ def test_an_element_takes_its_own_number_of_nodes(body, quadratic_body):
         quadratic_body.stiffness("hex8")
 
 
+@pytest.mark.parametrize("element", ["hex8", "hex20"])
+def test_mass_and_natural_modes_are_those_of_scikit_fem(body, quadratic_body, element):
+    body, fem_of = (body, ScikitFem) if element == "hex8" else (quadratic_body, ScikitFem20)
+    fem, count = fem_of(body), 12
+    m = fem.mass()
+    assert entrywise(body.mass(element), m) < TOLERANCE
+    expected, expected_shapes = body.modes_by_scipy(fem.stiffness(), m, count)
+    frequencies, shapes, residuals = body.natural_modes(element, count)
+    assert np.abs(frequencies / expected - 1.0).max() < 1e-8
+    # The search stops at 1e-10 in the mass norm; the residual weighs what is left with the square of its frequency.
+    assert residuals.max() < 1e-8
+    assert not shapes[:, body.held].any()
+    # Modal mass 1, and the same shapes but for the sign.
+    overlap = shapes.reshape(count, -1) @ (m @ expected_shapes.T)
+    assert np.abs(np.abs(overlap) - np.eye(count)).max() < 1e-6
+
+
+def test_incompatible_modes_carry_no_mass(body):
+    assert entrywise(body.mass("hex8-incompatible"), body.mass("hex8")) == 0.0
+    # Softer with the same mass: every frequency is lower.
+    assert (body.natural_modes("hex8-incompatible", 6)[0] < body.natural_modes("hex8", 6)[0]).all()
+
+
 def test_the_default_element_has_incompatible_modes(body):
     data = gearmesh.stiffness(body.path, YOUNG_PA, POISSON)[0]
     assert np.array_equal(data, gearmesh.stiffness(body.path, YOUNG_PA, POISSON, "hex8-incompatible")[0])
@@ -385,5 +436,9 @@ def test_wrong_input_is_refused(body, tmp_path):
         force = body.force.copy()
         force[7, 2] = np.nan
         solve(body.held, force)
+    with pytest.raises(ValueError, match="density is 0"):
+        gearmesh.mass(body.path, 0.0)
+    with pytest.raises(ValueError, match="0 natural modes were asked for; the model has 300 unknowns"):
+        body.natural_modes("hex8", 0)
     with pytest.raises(ValueError, match="from -1 to 1"):
         body.strain("hex8", body.force, (0.0, 1.1, 0.0))

@@ -1,4 +1,4 @@
-//! Assembly of the sparse stiffness over the free degrees of freedom.
+//! Assembly of sparse stiffness and mass over the free degrees of freedom.
 //!
 //! Two passes over the node graph: the first counts and writes the pattern, the second gathers each column from
 //! the elements around its node, elements ascending. A column is written by one thread and always in the same
@@ -14,9 +14,13 @@ use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
+use crate::reference_points::add_reference_points;
 
-/// Full symmetric stiffness (N/m), compressed columns, rows ascending, over the free degrees of freedom.
-pub type StiffnessMatrix = SparseColMat<usize, f64>;
+/// A full symmetric matrix, compressed columns, rows ascending, over the free degrees of freedom.
+pub type SparseMatrix = SparseColMat<usize, f64>;
+
+/// Stiffness (N/m) over the free degrees of freedom.
+pub type StiffnessMatrix = SparseMatrix;
 
 /// Stiffness K (free x free, N/m) of a model under constraints.
 ///
@@ -35,9 +39,19 @@ pub fn assemble_stiffness_with_graph(
     dofs: &DofMap,
     graph: &NodeGraph,
 ) -> Result<StiffnessMatrix, FeError> {
+    assemble(model, dofs, graph, |e| model.element_stiffness(e))
+}
+
+/// Sum of the matrices of all elements, Tᵀ (Σ M_e) T for the constraints u = T q.
+pub(crate) fn assemble(
+    model: &FeModel,
+    dofs: &DofMap,
+    graph: &NodeGraph,
+    element_matrix: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
+) -> Result<SparseMatrix, FeError> {
     let (column_offsets, rows) = pattern(dofs, graph);
     let mut values = vec![0.0; rows.len()];
-    let elements = ElementMatrices::compute(model, dofs)?;
+    let elements = ElementMatrices::compute(model, dofs, &element_matrix)?;
 
     // One mutable slice of values per node: its one to three columns.
     let mut slices = Vec::with_capacity(graph.active_nodes().len());
@@ -56,9 +70,13 @@ pub fn assemble_stiffness_with_graph(
         .with_min_len(256)
         .for_each(|(i, values)| fill_node_columns(values, i, model, dofs, graph, &elements));
 
-    let size = dofs.free_count();
+    let size = dofs.nodal_free_count();
     let symbolic = SymbolicSparseColMat::new_checked(size, size, column_offsets, None, rows);
-    Ok(SparseColMat::new(symbolic, values))
+    let nodal = SparseColMat::new(symbolic, values);
+    if dofs.free_count() == size {
+        return Ok(nodal);
+    }
+    add_reference_points(&nodal, model, dofs, element_matrix)
 }
 
 /// Column offsets and row indices of K.
@@ -75,7 +93,7 @@ fn pattern(dofs: &DofMap, graph: &NodeGraph) -> (Vec<usize>, Vec<usize>) {
         .map(|i| free_rows(i).count())
         .collect();
 
-    let mut column_offsets = Vec::with_capacity(dofs.free_count() + 1);
+    let mut column_offsets = Vec::with_capacity(dofs.nodal_free_count() + 1);
     column_offsets.push(0);
     let mut total = 0;
     for (i, &node) in active.iter().enumerate() {
@@ -105,7 +123,11 @@ struct ElementMatrices {
 }
 
 impl ElementMatrices {
-    fn compute(model: &FeModel, dofs: &DofMap) -> Result<Self, FeError> {
+    fn compute(
+        model: &FeModel,
+        dofs: &DofMap,
+        element_matrix: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
+    ) -> Result<Self, FeError> {
         let mut place = vec![u32::MAX; model.element_count()];
         let mut needed = Vec::new();
         for (e, place) in place.iter_mut().enumerate() {
@@ -117,7 +139,7 @@ impl ElementMatrices {
         }
         let matrices = needed
             .par_iter()
-            .map(|&e| model.element_stiffness(e))
+            .map(|&e| element_matrix(e))
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self { place, matrices })
     }

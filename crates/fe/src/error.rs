@@ -46,6 +46,42 @@ pub enum FeError {
         /// Value found.
         poisson: f64,
     },
+    /// Density outside its range.
+    #[error("the density is {density_kg_per_m3:e} kg/m^3; it must be positive and finite")]
+    DensityOutOfRange {
+        /// Value found (kg/m³).
+        density_kg_per_m3: f64,
+    },
+    /// A node is to be rigid that is fixed or rigid already.
+    #[error(
+        "node {node} is to move rigidly with a reference point, but it is fixed, or listed in a group before"
+    )]
+    RigidNodeTwice {
+        /// Node index.
+        node: usize,
+    },
+    /// The search for natural modes did not converge.
+    #[error(
+        "{converged} of {wanted} natural modes converged within {restarts} restarts; ask for fewer, or allow more"
+    )]
+    ModesNotConverged {
+        /// Modes found to the tolerance.
+        converged: usize,
+        /// Modes asked for.
+        wanted: usize,
+        /// Restarts made.
+        restarts: usize,
+    },
+    /// More modes than unknowns, or none.
+    #[error(
+        "{found} natural modes were asked for; the model has {unknowns} unknowns: ask for 1 to {unknowns}"
+    )]
+    ModeCount {
+        /// Number asked for.
+        found: usize,
+        /// Unknowns of the model.
+        unknowns: usize,
+    },
     /// The model has no elements.
     #[error("the model has {nodes} nodes and no elements; give at least one hexahedron")]
     NoElements {

@@ -8,12 +8,14 @@
 //! ```text
 //! nodes, hexes, Material, HexElement -> FeModel            checked once: indices, Jacobians
 //! (QuadraticMesh puts nodes on the edges of eight-node hexahedra)
-//! fixed degrees of freedom           -> DofMap             full <-> free numbering
+//! fixed DOFs, RigidGroups            -> DofMap             constraints u = T q, full <-> free numbering
 //! FeModel + DofMap                   -> NodeGraph          which nodes share an element
 //!                                    -> assemble_stiffness sparse K over the free DOFs
+//!                                    -> assemble_mass      consistent M, same pattern
 //! NodeGraph                          -> DofOrdering        METIS nested dissection
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
+//! K + M + Factor                     -> natural_modes      lowest frequencies and shapes
 //! ```
 //!
 //! ```
@@ -54,10 +56,18 @@
 //! not depend on the number of threads it runs on.
 //! When the same pattern comes back with other values (another element or material) keep the [`SymbolicFactor`].
 //!
+//! # Which support
+//!
+//! | support | how | K |
+//! | --- | --- | --- |
+//! | nodes or single displacements held | [`DofMap::with_fixed_nodes`], [`DofMap::with_fixed_dofs`] | smaller by what is held |
+//! | nodes rigid on a reference point, some of its six degrees of freedom held | [`DofMap::with_rigid_groups`] | a border of up to six full columns a group |
+//! | nothing held | [`DofMap::all_free`] | singular: products only, or [`natural_modes`] with a shift |
+//!
 //! # Limits
 //!
 //! Small displacements, linear isotropic material, one material per model, hexahedra only, zero-displacement
-//! constraints only. Elements with a Jacobian that is not positive at the Gauss points, the nodes or the centre
+//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the Gauss points, the nodes or the centre
 //! are refused, so collapsed hexahedra (wedges) are not accepted. Nearly incompressible material locks in
 //! [`HexElement::Hex8`] and has not been studied with the incompatible modes.
 
@@ -72,15 +82,22 @@ mod hex20;
 mod hex8;
 mod hex8_incompatible;
 mod isoparametric;
+mod lanczos_basis;
+mod mass;
 mod material;
 mod model;
+mod modes;
 mod ordering;
 mod quadratic_mesh;
 mod quadrature;
+mod reference_points;
+mod rigid_group;
 mod stiffness_block;
 mod structured;
 
-pub use assembly::{StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph};
+pub use assembly::{
+    SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
+};
 pub use constraints::DofMap;
 pub use element::{HexElement, StrainOperator};
 pub use element_matrix::ElementMatrix;
@@ -89,9 +106,12 @@ pub use factor::{Factor, FactorInfo, SymbolicFactor};
 pub use graph::NodeGraph;
 pub use hex8::CORNERS;
 pub use hex20::EDGE_CORNERS;
+pub use mass::assemble_mass;
 pub use material::{LameParameters, Material, von_mises};
 pub use model::FeModel;
+pub use modes::{ModeSettings, NaturalModes, natural_modes, shifted_stiffness};
 pub use ordering::DofOrdering;
 pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};
 pub use quadrature::WeightedPoint;
+pub use rigid_group::RigidGroup;
 pub use structured::StructuredMesh;
