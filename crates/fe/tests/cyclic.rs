@@ -239,27 +239,15 @@ fn a_ring_of_elements_by_sectors_and_as_a_whole() {
     // One sector on its own: the elements of the first four columns.
     let angle_of = |p: [f64; 3]| (-p[1].atan2(p[0])).rem_euclid(std::f64::consts::TAU);
     let width = std::f64::consts::TAU / sectors as f64;
-    let hexes: Vec<[u32; 8]> = whole
-        .hexes()
-        .iter()
-        .copied()
-        .filter(|hex| {
-            let c = hex.map(|n| whole.nodes()[n as usize]);
+    let columns: Vec<u32> = (0..whole.element_count())
+        .filter(|&e| {
+            let c = whole.element_coordinates(e).unwrap();
             let mean = [0, 1].map(|a| c.iter().map(|p| p[a]).sum::<f64>());
             angle_of([mean[0], mean[1], 0.0]) < width
         })
+        .map(|e| e as u32)
         .collect();
-    let mut nodes: Vec<u32> = hexes.iter().flatten().copied().collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    let local = |n: u32| nodes.binary_search(&n).unwrap() as u32;
-    let sector = FeModel::new(
-        nodes.iter().map(|&n| whole.nodes()[n as usize]).collect(),
-        hexes.iter().map(|hex| hex.map(local)).collect(),
-        *whole.material(),
-        whole.element(),
-    )
-    .unwrap();
+    let (nodes, sector) = whole.part(&columns).unwrap();
     let free: Vec<u32> = nodes
         .iter()
         .copied()
