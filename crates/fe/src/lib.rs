@@ -13,7 +13,10 @@
 //! NodeGraph                          -> DofOrdering        METIS nested dissection
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
+//! K + kept nodes                     -> StaticCondensation a part replaced by its stiffness at some nodes
+//! stiffness of a sector at its cuts  -> CyclicInterface    a ring of equal sectors, by harmonics
 //! ```
+//! The last two work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
 //!
 //! ```
 //! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, HexElement, Material, StructuredMesh};
@@ -66,6 +69,7 @@ mod element;
 mod error;
 mod factor;
 mod graph;
+mod half_solve;
 mod hex8;
 mod hex8_incompatible;
 mod material;
