@@ -16,7 +16,10 @@
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
 //! K + M + Factor                     -> natural_modes      lowest frequencies and shapes
+//! K + kept nodes                     -> StaticCondensation a part replaced by its stiffness at some nodes
+//! stiffness of a sector at its cuts  -> CyclicInterface    a ring of equal sectors, by harmonics
 //! ```
+//! The last two work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
 //!
 //! ```
 //! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, HexElement, Material, StructuredMesh};
@@ -80,6 +83,7 @@ mod element_matrix;
 mod error;
 mod factor;
 mod graph;
+mod half_solve;
 mod hex20;
 mod hex8;
 mod hex8_incompatible;
