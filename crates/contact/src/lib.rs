@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
+//! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
@@ -19,6 +20,7 @@ pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod slice_compliance;
+pub mod slice_spread;
 pub mod static_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};

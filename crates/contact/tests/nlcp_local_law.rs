@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use gearmesh_contact::nlcp::{ContactBody, HALF_WIDTH_LIMIT, LineContact, LocalLaw, LocalLawError};
+use gearmesh_contact::nlcp::{
+    ContactBody, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw, LocalLawError,
+};
 
 fn contact() -> LineContact {
     LineContact {
@@ -144,4 +146,33 @@ fn no_law_and_bad_laws() {
         LocalLaw::logarithmic(0.0, -1.0, 1.0, 2.0),
         Err(LocalLawError::Coefficient { what: "beta", .. })
     ));
+}
+
+/// Effective depths of a calibration are those of the hats, smaller than the half widths that Weber and Banaschek's cap
+/// allows: the law goes on as far as its slope is positive.
+#[test]
+fn calibrated_law_follows_the_logarithm_until_its_slope_is_used_up() {
+    let mut shallow = contact();
+    for body in &mut shallow.bodies {
+        body.depth_m = 3e-4;
+    }
+    let law = LocalLaw::calibrated(&shallow, 1e-3).unwrap();
+    let weber = LocalLaw::weber_banaschek(&shallow, 1e-3).unwrap();
+    assert!(law.is_monotone());
+    assert!(
+        law.cap_n() > 2.0 * weber.cap_n(),
+        "{} {}",
+        law.cap_n(),
+        weber.cap_n()
+    );
+    for share in [1e-6, 1e-3, 0.1, 0.5, 0.999] {
+        let force = share * law.cap_n();
+        let expected = textbook(&shallow, force);
+        assert!((law.deflection(force) / expected - 1.0).abs() < 1e-12);
+        assert!(law.slope(force) > 0.0);
+    }
+    assert!((law.slope(law.cap_n()) / (LEAST_SLOPE * law.beta()) - 1.0).abs() < 1e-9);
+    // Within 1 % of where the slope is zero.
+    let zero = (law.alpha() / law.beta() - 1.0).exp();
+    assert!(law.cap_n() < zero && law.cap_n() > 0.99 * zero);
 }

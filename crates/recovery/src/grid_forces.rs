@@ -1,7 +1,7 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
 use crate::gauge_reader::LoadedLine;
-use gearmesh_contact::slice_compliance::{AXIAL_SHARES, centroids, roll_place};
+use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.
@@ -31,12 +31,12 @@ pub fn grid_forces<'a>(
             (place.station + 1, place.share),
         ] {
             for (slice, force) in line.forces_n.iter().enumerate() {
-                for (k, share) in AXIAL_SHARES.iter().enumerate() {
+                for (axial, share) in axial_shares(slice, grid.slices) {
                     let normal_n = weight * share * force;
                     if normal_n != 0.0 {
                         forces.push(GridLoadForce {
                             tooth: line.tooth,
-                            load: grid.load(station, 2 * slice + k),
+                            load: grid.load(station, axial),
                             normal_n,
                             tangential_n: normal_n * line.friction_ratio,
                         });
