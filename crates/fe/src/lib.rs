@@ -94,6 +94,7 @@ mod reference_points;
 mod rigid_group;
 mod stiffness_block;
 mod structured;
+mod symmetric_product;
 
 pub use assembly::{
     SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
