@@ -1,9 +1,10 @@
 //! The M-orthonormal basis of the mode search and its projected problem; see [`crate::modes`] for the relation it keeps.
 
-use faer::{Col, Mat, Side};
+use faer::prelude::ReborrowMut;
+use faer::{Mat, Scale, Side};
 
-use crate::assembly::SparseMatrix;
 use crate::factor::Factor;
+use crate::symmetric_product::SymmetricRows;
 
 /// A remainder below this part of the vector is rounding: the basis holds the whole of it already.
 const SMALLEST_REMAINDER: f64 = 1e-12;
@@ -16,6 +17,13 @@ pub(crate) struct LanczosBasis {
     pub len: usize,
     /// Columns that A was applied to.
     pub processed: usize,
+}
+
+/// Parts of new columns W = V C + Q R.
+struct Split {
+    q: Mat<f64>,
+    c: Mat<f64>,
+    r: Mat<f64>,
 }
 
 /// Ritz pairs, largest θ first.
@@ -38,43 +46,76 @@ impl LanczosBasis {
         }
     }
 
-    /// Appends what is new in `w`. With `image_of`, w is A times that column, and its coefficients enter H.
-    pub fn push(&mut self, mut w: Col<f64>, m: &SparseMatrix, image_of: Option<usize>) {
-        let norm = |w: &Col<f64>| (w.transpose() * (m * w)).max(0.0).sqrt();
-        let before = norm(&w);
+    /// Appends what is new in the columns of `w`. With `image_of`, they are A times the columns from there on, and
+    /// their coefficients enter H.
+    pub fn append(&mut self, w: Mat<f64>, m: &SymmetricRows, image_of: Option<usize>) {
+        let product = m.product(w.as_ref());
+        let norms: Vec<f64> = (0..w.ncols())
+            .map(|j| (w.col(j).transpose() * product.col(j)).max(0.0).sqrt())
+            .collect();
+        // Twice is enough: the second pass removes what rounding of the first left. With W = V C₁ + Q₁ R₁ and
+        // Q₁ = V C₂ + Q₂ R₂ the coefficients of W are C₁ + C₂ R₁ and R₂ R₁.
+        let first = self.orthonormalise(w, m, &norms);
+        let units = vec![1.0; first.q.ncols()];
+        let second = self.orthonormalise(first.q, m, &units);
+        if let Some(column) = image_of {
+            let in_basis = first.c + second.c * &first.r;
+            let in_new = second.r * &first.r;
+            let columns = in_basis.ncols();
+            let mut h = self.h.subcols_mut(column, columns);
+            h.rb_mut().subrows_mut(0, self.len).copy_from(&in_basis);
+            h.subrows_mut(self.len, in_new.nrows()).copy_from(&in_new);
+        }
+        let added = second.q.ncols();
+        self.v.subcols_mut(self.len, added).copy_from(&second.q);
+        self.len += added;
+    }
+
+    /// W = V C + Q R with Q M-orthonormal and M-orthogonal to V; columns without remainder, measured against `norms`,
+    /// give none in Q.
+    fn orthonormalise(&self, mut w: Mat<f64>, m: &SymmetricRows, norms: &[f64]) -> Split {
         let basis = self.v.subcols(0, self.len);
-        // Twice is enough: the second pass removes what rounding of the first left.
-        for _ in 0..2 {
-            let coefficients = basis.transpose() * (m * &w);
-            w -= basis * &coefficients;
-            if let Some(column) = image_of {
-                for i in 0..self.len {
-                    self.h[(i, column)] += coefficients[i];
+        let c = basis.transpose() * m.product(w.as_ref());
+        w -= basis * &c;
+        let mut product = m.product(w.as_ref());
+        let columns = w.ncols();
+        let mut r = Mat::zeros(columns, columns);
+        let mut kept: Vec<usize> = Vec::with_capacity(columns);
+        for j in 0..columns {
+            for (row, &i) in kept.iter().enumerate() {
+                let coefficient = product.col(i).transpose() * w.col(j);
+                r[(row, j)] = coefficient;
+                for block in [&mut w, &mut product] {
+                    let part = block.col(i) * Scale(coefficient);
+                    let mut column = block.col_mut(j);
+                    column -= part;
                 }
             }
+            let remainder = (w.col(j).transpose() * product.col(j)).max(0.0).sqrt();
+            if remainder.is_nan() || remainder <= SMALLEST_REMAINDER * norms[j] {
+                continue;
+            }
+            r[(kept.len(), j)] = remainder;
+            for block in [&mut w, &mut product] {
+                let mut column = block.col_mut(j);
+                column *= Scale(1.0 / remainder);
+            }
+            kept.push(j);
         }
-        let remainder = norm(&w);
-        if remainder.is_nan() || remainder <= SMALLEST_REMAINDER * before {
-            return;
+        Split {
+            q: Mat::from_fn(w.nrows(), kept.len(), |i, j| w[(i, kept[j])]),
+            c,
+            r: r.subrows(0, kept.len()).to_owned(),
         }
-        if let Some(column) = image_of {
-            self.h[(self.len, column)] = remainder;
-        }
-        for i in 0..w.nrows() {
-            self.v[(i, self.len)] = w[i] / remainder;
-        }
-        self.len += 1;
     }
 
     /// Applies A = (K + s M)⁻¹ M to the next columns, at most `block`; returns how many.
-    pub fn grow(&mut self, block: usize, m: &SparseMatrix, factor: &Factor) -> usize {
+    pub fn grow(&mut self, block: usize, m: &SymmetricRows, factor: &Factor) -> usize {
         let first = self.processed;
         let count = block.min(self.len - first);
-        let mut images = m * self.v.subcols(first, count);
+        let mut images = m.product(self.v.subcols(first, count));
         factor.solve_in_place(images.as_mut());
-        for c in 0..count {
-            self.push(images.col(c).to_owned(), m, Some(first + c));
-        }
+        self.append(images, m, Some(first));
         self.processed += count;
         count
     }

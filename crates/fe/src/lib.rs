@@ -101,6 +101,7 @@ mod rigid_group;
 mod static_condensation;
 mod stiffness_block;
 mod structured;
+mod symmetric_product;
 
 pub use assembly::{
     SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,

@@ -18,12 +18,13 @@
 //! generalized eigenproblems*, SIAM J. Matrix Anal. Appl. 15 (1994) 228-272; K. Wu, H. Simon, *Thick-restart Lanczos
 //! method*, SIAM J. Matrix Anal. Appl. 22 (2000) 602-616.
 
-use faer::{Col, Mat};
+use faer::Mat;
 
 use crate::assembly::SparseMatrix;
 use crate::error::FeError;
 use crate::factor::Factor;
 use crate::lanczos_basis::LanczosBasis;
+use crate::symmetric_product::SymmetricRows;
 
 /// How natural modes are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,13 +76,7 @@ pub struct NaturalModes {
 }
 
 impl NaturalModes {
-    fn new(
-        k: &SparseMatrix,
-        m: &SparseMatrix,
-        shift: f64,
-        mut shapes: Mat<f64>,
-        theta: &[f64],
-    ) -> Self {
+    fn new(matrices: [&SymmetricRows; 2], shift: f64, mut shapes: Mat<f64>, theta: &[f64]) -> Self {
         let mut omega_squared = Vec::with_capacity(shapes.ncols());
         let mut relative_residuals = Vec::with_capacity(shapes.ncols());
         for (mode, theta) in theta.iter().take(shapes.ncols()).enumerate() {
@@ -95,7 +90,7 @@ impl NaturalModes {
             }
             let shape = shapes.col(mode);
             let value = 1.0 / theta - shift;
-            let (elastic, inertial) = (k * shape, m * shape);
+            let [elastic, inertial] = matrices.map(|matrix| matrix.product(shape.as_mat()));
             let residual = elastic - faer::Scale(value) * &inertial;
             relative_residuals.push(residual.norm_l2() * theta / inertial.norm_l2());
             omega_squared.push(value);
@@ -176,19 +171,18 @@ pub fn natural_modes(
             });
         }
     }
+    let [elastic, inertial] = [k, m].map(SymmetricRows::new);
     let block = settings.block.max(1);
     let kept = wanted + block;
     let capacity = 3 * kept;
     let mut basis = LanczosBasis::new(n, capacity + block);
-    for start in 0..block {
-        // Numbers without pattern, the same in every run.
-        let angle = |i: usize| 12.9898 * i as f64 + 78.233 * (start + 1) as f64;
-        let vector = Col::from_fn(n, |i| (angle(i).sin() * 43_758.545_3).fract());
-        basis.push(vector, m, None);
-    }
+    // Numbers without pattern, the same in every run.
+    let angle = |i: usize, j: usize| 12.9898 * i as f64 + 78.233 * (j + 1) as f64;
+    let start = Mat::from_fn(n, block, |i, j| (angle(i, j).sin() * 43_758.545_3).fract());
+    basis.append(start, &inertial, None);
     let (mut solves, mut restarts) = (0, 0);
     loop {
-        solves += basis.grow(block, m, factor);
+        solves += basis.grow(block, &inertial, factor);
         let ritz = basis.ritz().ok_or(FeError::ModesNotConverged {
             converged: 0,
             wanted,
@@ -198,8 +192,12 @@ pub fn natural_modes(
         let converged = converged.filter(|r| **r <= settings.tolerance).count();
         if converged == wanted {
             let shapes = basis.vectors(&ritz, wanted);
-            let mut modes =
-                NaturalModes::new(k, m, settings.shift_rad2_per_s2, shapes, &ritz.theta);
+            let mut modes = NaturalModes::new(
+                [&elastic, &inertial],
+                settings.shift_rad2_per_s2,
+                shapes,
+                &ritz.theta,
+            );
             modes.krylov_residuals = ritz.residuals[..wanted].to_vec();
             (modes.solves, modes.restarts) = (solves, restarts);
             return Ok(modes);
