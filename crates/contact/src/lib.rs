@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
+//! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
@@ -18,7 +19,9 @@ pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod slice_compliance;
 pub mod static_contact;
+pub mod tip_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use slice_compliance::SliceCompliance;
 pub use static_contact::{ContactError, ContactOptions, ContactState, LocalContact, StaticContact};
+pub use tip_contact::{PathExtension, TipContact, TipGear};
