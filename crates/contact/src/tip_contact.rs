@@ -113,19 +113,28 @@ pub struct PathExtension {
 }
 
 impl PathExtension {
-    /// Derives how far the path is extended: up to [`LARGEST_GAP_OVER_BASE_PITCH`], at most half a pitch at each end.
+    /// Derives how far the path is extended: up to [`LARGEST_GAP_OVER_BASE_PITCH`], at most half a pitch at each end and
+    /// never beyond the end of the mating flank.
     pub fn new(pair: &GearPair, edge_radius_m: f64) -> Self {
         let base_pitch = pair.pitch_1_rad() * pair.gear_1.base_radius_m;
         let largest_gap = LARGEST_GAP_OVER_BASE_PITCH * base_pitch;
+        let flank_ends = [
+            pair.gear_1.flank_end_roll_rad,
+            pair.gear_2.flank_end_roll_rad,
+        ];
         let reach = |tip_gear: TipGear| {
             let (mut near, mut far) = (0.0, 0.5 * pair.pitch_1_rad());
-            let gap = |beyond: f64| tip_contact_beyond(pair, tip_gear, beyond).gap_m;
-            if gap(far) <= largest_gap {
+            let inside = |beyond: f64| {
+                let contact = tip_contact_beyond(pair, tip_gear, beyond);
+                contact.gap_m <= largest_gap
+                    && contact.foot_roll_rad <= flank_ends[tip_gear.indices().1]
+            };
+            if inside(far) {
                 return far;
             }
             for _ in 0..60 {
                 let middle = 0.5 * (near + far);
-                if gap(middle) <= largest_gap {
+                if inside(middle) {
                     near = middle;
                 } else {
                     far = middle;

@@ -57,7 +57,7 @@ impl Plan {
             "mesh       `hybrid`, path {}, local `{}`, {} slices, at most {unknowns} unknown forces",
             match scene.edge_radius_m {
                 None => "`line-of-action`".to_string(),
-                Some(radius) => format!("`extended` with a tip edge radius of {} um", radius * 1e6),
+                Some(radius) => format!("`extended` with a tip edge radius of {} um", (radius * 1e9).round() / 1e3),
             },
             match scene.contact.local {
                 LocalContact::None => "none",
