@@ -7,8 +7,8 @@
 
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::nlcp::{
-    ContactBody, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
-    Problem, Workspace, solve_load, solve_position,
+    ContactBody, EdgeContact, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError,
+    NlcpError, Params, Problem, Workspace, solve_load, solve_position,
 };
 use crate::slice_compliance::{CompliancePart, SliceCompliance};
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
@@ -205,15 +205,23 @@ impl StaticContact {
         self.work.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\].
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\]; at a tip edge those
+    /// of the Hertz contact that gives way as the edge does.
     pub fn hertz(&self, line: &ContactLine, line_load_n_per_m: f64) -> (f64, f64) {
         let contact = self.line_contact(line);
-        let a = contact.half_width_m(line_load_n_per_m * contact.width_m);
+        let force = line_load_n_per_m * contact.width_m;
+        let edge = self.edge(line, &contact);
+        let a = contact.half_width_m(force) * edge.map_or(1.0, |e| e.half_width_share(force));
         if a > 0.0 {
             (a, 2.0 * line_load_n_per_m / (std::f64::consts::PI * a))
         } else {
             (0.0, 0.0)
         }
+    }
+
+    fn edge(&self, line: &ContactLine, contact: &LineContact) -> Option<EdgeContact> {
+        let (tilt_rad, radius_m) = self.lines.edge(line)?;
+        EdgeContact::new(contact, tilt_rad, radius_m)
     }
 
     fn line_contact(&self, line: &ContactLine) -> LineContact {
@@ -293,17 +301,16 @@ impl StaticContact {
         self.lever_1.clear();
         self.lever_2.clear();
         for line in &self.active {
+            let contact = self.line_contact(line);
             let law = match self.options.local {
                 LocalContact::None => LocalLaw::none(),
-                LocalContact::WeberBanaschek => {
-                    LocalLaw::weber_banaschek(&self.line_contact(line), floor).map_err(|cause| {
-                        ContactError::LocalLaw {
-                            angle_deg: driver_angle_rad.to_degrees(),
-                            cause,
-                        }
-                    })?
-                }
-            };
+                LocalContact::WeberBanaschek => LocalLaw::weber_banaschek(&contact, floor)
+                    .map_err(|cause| ContactError::LocalLaw {
+                        angle_deg: driver_angle_rad.to_degrees(),
+                        cause,
+                    })?,
+            }
+            .with_edge(self.edge(line, &contact));
             let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
             let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
             let closing = self.lines.closing(line);
