@@ -199,6 +199,8 @@ pub struct MeshSettings {
     pub axial_m: f64,
     /// Smallest scaled Jacobian that is accepted.
     pub min_scaled_jacobian: f64,
+    /// The cross-section only: one layer that does not move along the axis.
+    pub plane_strain: bool,
 }
 
 /// What the reduction computes.

@@ -138,6 +138,8 @@ struct MeshTable {
     body_mm: Option<f64>,
     axial_mm: Option<f64>,
     min_scaled_jacobian: Option<f64>,
+    #[serde(default)]
+    plane_strain: bool,
 }
 
 #[derive(Deserialize, Default)]
@@ -217,7 +219,13 @@ impl GearDefinition {
         let microgeometry =
             microgeometry(document, &file.microgeometry, &profile, tooth.face_width_m)?;
         let mesh = mesh(document, &file.mesh, &tooth)?;
-        let reduction = reduction(document, file.reduction)?;
+        if mesh.plane_strain && blank.web.is_some() {
+            return Err(document.error(
+                "mesh.plane_strain",
+                "plane strain knows the cross-section only, a web thinner than the face has no place in it; set blank.kind = \"solid\" or plane_strain = false",
+            ));
+        }
+        let reduction = reduction(document, file.reduction, mesh.plane_strain)?;
         let gauges = gauges(document, file.gauge, &tooth, &profile)?;
         Ok(Self {
             name: file.name,
@@ -665,6 +673,12 @@ fn mesh(
         )?;
         Ok::<f64, InputError>(v * MM)
     };
+    if t.plane_strain && t.axial_mm.is_some() {
+        return Err(document.error(
+            "mesh.axial_mm",
+            "plane strain has one layer and does not use it; remove it or set plane_strain = false",
+        ));
+    }
     let quality = t.min_scaled_jacobian.unwrap_or(0.2);
     require(
         document,
@@ -680,12 +694,22 @@ fn mesh(
         body_m: size("body_mm", t.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
         axial_m: size("axial_mm", t.axial_mm, width_mm / 10.0, width_mm)?,
         min_scaled_jacobian: quality,
+        plane_strain: t.plane_strain,
     })
 }
 
-fn reduction(document: &InputDocument, t: ReductionTable) -> Result<ReductionSettings, InputError> {
+fn reduction(
+    document: &InputDocument,
+    t: ReductionTable,
+    plane_strain: bool,
+) -> Result<ReductionSettings, InputError> {
     let roll_stations = t.roll_stations.unwrap_or(9);
-    let slices = t.slices.unwrap_or(5);
+    let (default, most, allowed) = if plane_strain {
+        (1, 1, "1 in plane strain")
+    } else {
+        (5, 100, "1 to 100")
+    };
+    let slices = t.slices.unwrap_or(default);
     require(
         document,
         "reduction.roll_stations",
@@ -697,8 +721,8 @@ fn reduction(document: &InputDocument, t: ReductionTable) -> Result<ReductionSet
         document,
         "reduction.slices",
         slices as f64,
-        (1..=100).contains(&slices),
-        "1 to 100",
+        (1..=most).contains(&slices),
+        allowed,
     )?;
     let flanks = t
         .flanks

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
 
 /// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
@@ -141,6 +142,8 @@ pub struct ReducedGear {
     /// `[flank f][roll station]`: distance along the normal to the opposite side of the tooth in metres, the h of the
     /// Weber-Banaschek local term.
     pub opposite_distance_m: Vec<f64>,
+    /// Calibration of the near field; none in files older than version 2.
+    pub near_field: Option<NearField>,
     /// Strain gauges.
     pub gauges: Vec<GaugeRows>,
     /// Where it comes from.
@@ -242,6 +245,18 @@ impl ReducedGear {
         &self.opposite_distance_m[flank * stations..(flank + 1) * stations]
     }
 
+    /// The calibration of the near field.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::NotCalibrated`] for a model without one.
+    pub fn calibration(&self) -> Result<&NearField, ReducedGearError> {
+        self.near_field
+            .as_ref()
+            .ok_or_else(|| ReducedGearError::NotCalibrated {
+                gear: self.name.clone(),
+            })
+    }
+
     fn carrying(&self, flank: Flank) -> usize {
         let index = self.flanks.iter().position(|&reduced| reduced == flank);
         assert!(
@@ -325,6 +340,15 @@ mod tests {
             gear.c_g_block(4, Flank::Left, 3, Flank::Left),
             Cow::Borrowed(_)
         ));
+    }
+
+    #[test]
+    fn a_model_without_calibration_says_so() {
+        let mut gear = small_reduced_gear();
+        assert!(gear.calibration().is_ok());
+        gear.near_field = None;
+        let message = gear.calibration().unwrap_err().to_string();
+        assert!(message.contains("reduce it again"), "{message}");
     }
 
     #[test]

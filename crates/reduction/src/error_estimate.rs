@@ -8,7 +8,7 @@ use crate::flank_loads::{SparseVector, dot};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::reduce::all_loads;
-use crate::tooth_submodel::ToothSubmodel;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::{ReductionError, Silent};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::python::PythonEnvironment;
@@ -75,7 +75,13 @@ pub fn estimate(
     let loads = all_loads(&coarse, &body, grid);
     let count = grid.len();
     let side = gear.reduction.flanks[0];
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][0])?;
+    let submodel = ToothSubmodel::new(
+        &body.model,
+        &body.mesh,
+        side,
+        &loads[0][0],
+        Deformation::of(gear),
+    )?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
 
     let mut line: SparseVector = Vec::new();

@@ -1,5 +1,6 @@
 //! The finite element model of a whole gear: mesh, stiffness, factor.
 
+use crate::tooth_submodel::Deformation;
 use crate::{Progress, ReductionError};
 use faer::Mat;
 use gearmesh_fe::{DofMap, Factor, FeModel, HexElement, Material, NodeGraph, StiffnessMatrix};
@@ -37,7 +38,7 @@ pub fn element_of(kind: ElementKind) -> HexElement {
 }
 
 impl GearBody {
-    /// Meshes, assembles and factors a gear with its bore fixed.
+    /// Meshes, assembles and factors a gear with its bore fixed, in plane strain where its definition says so.
     ///
     /// # Errors
     /// [`ReductionError`] when it cannot be meshed or is not held.
@@ -64,7 +65,7 @@ impl GearBody {
             element_of(gear.mesh.element),
         )?;
         let fixed: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
-        let dofs = DofMap::with_fixed_nodes(model.node_count(), &fixed)?;
+        let dofs = Deformation::of(gear).dofs(model.node_count(), &fixed)?;
         let graph = NodeGraph::new(&model, &dofs)?;
         let stiffness = assemble_stiffness_with_graph(&model, &dofs, &graph)?;
         lap("assembly");

@@ -5,6 +5,8 @@
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
 //! | mesh, stiffness and factor of the whole gear | `gear_body.rs` |
 //! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
+//! | calibration of the near field in plane strain | `near_field.rs` |
+//! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
@@ -14,11 +16,13 @@
 //! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
 //! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
 
+pub mod contact_problem;
 pub mod error_estimate;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
 pub mod gear_body;
+pub mod near_field;
 pub mod reduce;
 pub mod tooth_submodel;
 

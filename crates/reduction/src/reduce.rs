@@ -4,7 +4,8 @@ use crate::error_estimate::{ErrorEstimate, estimate};
 use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
-use crate::tooth_submodel::ToothSubmodel;
+use crate::near_field::calibrate;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::{Progress, ReductionError, flank_of};
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
@@ -70,11 +71,14 @@ pub fn reduce(
     let (teeth, sectors, count) = (gear.tooth.teeth, gear.sectors(), grid.len());
     let own = teeth / sectors;
 
+    let deformation = Deformation::of(gear);
     progress.stage("tooth submodel");
     let submodels: Vec<ToothSubmodel> = flanks
         .iter()
         .enumerate()
-        .map(|(f, &side)| ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][f]))
+        .map(|(f, &side)| {
+            ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][f], deformation)
+        })
         .collect::<Result<_, _>>()?;
     let mut c_tooth = Vec::with_capacity(flanks.len() * count * count);
     for (f, submodel) in submodels.iter().enumerate() {
@@ -84,6 +88,10 @@ pub fn reduce(
         c_tooth.extend((0..count * count).map(|k| products[(k % count) * count + k / count]));
     }
     lap("tooth submodel");
+
+    progress.stage("calibrating the near field");
+    let near_field = calibrate(gear, &body.mesh, &body.model, &grid)?;
+    lap("near field");
 
     progress.stage("solving flank loads");
     let sector_loads: Vec<&SparseVector> = (0..own)
@@ -162,6 +170,7 @@ pub fn reduce(
         opposite_distance_m: opposite.repeat(flanks.len()),
         c_hub,
         c_tooth,
+        near_field: Some(near_field),
         gauges,
         provenance: Provenance {
             program: "gearmesh".into(),

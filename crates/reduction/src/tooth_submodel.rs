@@ -7,8 +7,43 @@ use crate::ReductionError;
 use crate::flank_loads::{GridLoad, SparseVector, dot};
 use faer::Mat;
 use gearmesh_fe::{DofMap, Factor, FeModel, NodeGraph, assemble_stiffness};
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_mesh::GearMesh;
+
+/// How the submodel may deform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deformation {
+    /// In all directions.
+    Spatial,
+    /// Plane strain: nowhere along the axis.
+    PlaneStrain,
+}
+
+impl Deformation {
+    /// What a gear's definition asks for.
+    pub fn of(gear: &GearDefinition) -> Self {
+        if gear.mesh.plane_strain {
+            Self::PlaneStrain
+        } else {
+            Self::Spatial
+        }
+    }
+
+    /// The free degrees of freedom of a model of which the listed nodes are held.
+    ///
+    /// # Errors
+    /// [`gearmesh_fe::FeError`] when nothing is left free.
+    pub fn dofs(self, node_count: usize, held: &[usize]) -> Result<DofMap, gearmesh_fe::FeError> {
+        match self {
+            Self::Spatial => DofMap::with_fixed_nodes(node_count, held),
+            Self::PlaneStrain => {
+                let mut fixed: Vec<usize> = (0..node_count).map(|n| 3 * n + 2).collect();
+                fixed.extend(held.iter().flat_map(|&n| [3 * n, 3 * n + 1]));
+                DofMap::with_fixed_dofs(node_count, &fixed)
+            }
+        }
+    }
+}
 
 /// W on tooth 0 for the loads of one flank.
 pub struct ToothSubmodel {
@@ -28,6 +63,7 @@ impl ToothSubmodel {
         mesh: &GearMesh,
         side: FlankSide,
         loads: &[GridLoad],
+        deformation: Deformation,
     ) -> Result<Self, ReductionError> {
         let hexes = mesh.tooth_hexes(0);
         let mut nodes: Vec<u32> = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).collect();
@@ -53,7 +89,7 @@ impl ToothSubmodel {
             .into_iter()
             .filter_map(|n| nodes.binary_search(&n).ok())
             .collect();
-        let dofs = DofMap::with_fixed_nodes(part.node_count(), &supports)?;
+        let dofs = deformation.dofs(part.node_count(), &supports)?;
         let stiffness = assemble_stiffness(&part, &dofs)?;
         let factor = Factor::of_model(&part, &dofs, &stiffness)?;
         debug_assert_eq!(

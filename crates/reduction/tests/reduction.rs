@@ -6,7 +6,7 @@ use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::Flank;
 use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
-use gearmesh_reduction::tooth_submodel::ToothSubmodel;
+use gearmesh_reduction::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
 
 const SMALL: &str = r#"
@@ -102,7 +102,14 @@ fn the_pattern_identity_holds_across_teeth() {
     let loads: Vec<_> = (0..3)
         .map(|t| flank_loads(&gear, &body.mesh, &grid, t, side))
         .collect();
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0]).unwrap();
+    let submodel = ToothSubmodel::new(
+        &body.model,
+        &body.mesh,
+        side,
+        &loads[0],
+        Deformation::Spatial,
+    )
+    .unwrap();
     // W of teeth 1 and 2 by turning W of tooth 0: node by node, because every tooth has the same mesh.
     let turned = |tooth: usize, load: usize| -> Vec<f64> {
         let w = submodel.column(load, n);
