@@ -128,7 +128,7 @@ fn sliced(gear: &GearDefinition, mesh: &GearMesh, loaded: usize) -> Vec<f64> {
     let roll = involute::roll_angle_rad(RADIUS_M, gear.profile.base_radius_m);
     let place = compliance.place(roll);
     let mut c = vec![0.0; n * n];
-    compliance.add_block((0, place), (0, place), &mut c, 0, n);
+    compliance.add_block((0, place), (0, place), 1.0, &mut c, 0, n);
     let k = 2.0 * (1.0 - POISSON * POISSON) / (std::f64::consts::PI * YOUNG);
     let own = k
         * ((2.0 * compliance.local_depth_m(roll) / HALF_WIDTH_M).ln()

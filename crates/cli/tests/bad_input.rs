@@ -411,3 +411,23 @@ fn a_torque_that_breaks_the_assumptions_is_warned_about() {
     let answer = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]);
     assert!(!answer.stderr.contains("warning"), "{answer:#?}");
 }
+
+#[test]
+fn an_edge_radius_that_is_not_used_or_not_possible_is_refused() {
+    scene_refused(
+        (
+            "model = \"hybrid\"",
+            "model = \"hybrid\"\nedge_radius_um = 50",
+        ),
+        "edge_radius_um",
+        &["mesh.edge_radius_um", "mesh.path = \"extended\""],
+    );
+    scene_refused(
+        (
+            "model = \"hybrid\"",
+            "model = \"hybrid\"\npath = \"extended\"\nedge_radius_um = 0",
+        ),
+        "edge_radius_um",
+        &["found 0", "1 to 1000"],
+    );
+}

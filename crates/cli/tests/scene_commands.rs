@@ -89,6 +89,54 @@ fn run_prints_the_harmonics_of_the_mesh_cycle() {
     }
 }
 
+/// With tip edges in contact the pair never gives way more than without them, gives way less at the change of pairs, and
+/// everything that reads a result copes with the further lines.
+#[test]
+fn an_extended_path_runs_through_recovery_and_report() {
+    let desk = Desk::new();
+    let (on_path, _) = run_scene(&desk, "");
+    let on_path = SceneResult::read(&on_path).unwrap();
+    let desk = Desk::new();
+    let (file, figures) = run_scene(&desk, "path = \"extended\"\nedge_radius_um = 50");
+    for row in figures["rows"].as_array().unwrap() {
+        assert!(number(&row["torque_balance"]) < 1e-10, "{row}");
+    }
+    let extended = SceneResult::read(&file).unwrap();
+    let lines = |r: &SceneResult| r.pair_count.iter().sum::<u32>();
+    assert!(lines(&extended) > lines(&on_path));
+    assert!(
+        extended
+            .pair_count
+            .iter()
+            .all(|n| *n as usize <= extended.slots)
+    );
+    let largest_te = largest(&on_path.te_m);
+    let mut gains = Vec::new();
+    for (with, without) in extended.te_m.iter().zip(&on_path.te_m) {
+        assert!(with - without > -1e-9 * largest_te, "{with} {without}");
+        gains.push(with - without);
+    }
+    assert!(largest(&gains) > 0.02 * largest_te, "{gains:?}");
+
+    let [tension, _] = recovered(&desk, &file);
+    let strain = &extended.strain[0];
+    assert!(largest_difference(&tension.method_2, &strain.method_2) == 0.0);
+    let difference = largest_difference(&strain.method_2, &on_path.strain[0].method_2);
+    let size = largest(&strain.method_2);
+    assert!(
+        difference > 0.0 && difference < 0.5 * size,
+        "{difference} {size}"
+    );
+    let page = desk.path("report.html");
+    succeeds(&["report", argument(&file), "-o", argument(&page)]);
+    let scene = desk.path("scene.toml");
+    let plan = succeeds(&["plan", argument(&scene)]).stdout;
+    assert!(
+        plan.contains("path `extended` with a tip edge radius of 50 um"),
+        "{plan}"
+    );
+}
+
 /// Both bodies repeat with their teeth, so nothing changes from one pitch to the next.
 #[test]
 fn the_transmission_error_repeats_with_the_pitch() {

@@ -85,6 +85,7 @@ fn static_position(bencher: divan::Bencher, torque_nm: f64) {
         pair,
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
+        extension: None,
     };
     let options = ContactOptions {
         local: LocalContact::WeberBanaschek,

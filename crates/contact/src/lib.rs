@@ -6,6 +6,7 @@
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
+//! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
@@ -22,8 +23,10 @@ pub mod nlcp;
 pub mod slice_compliance;
 pub mod slice_spread;
 pub mod static_contact;
+pub mod tip_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use local_contact::LocalContact;
 pub use slice_compliance::SliceCompliance;
 pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};
+pub use tip_contact::{PathExtension, TipContact, TipGear};

@@ -210,11 +210,12 @@ impl SliceCompliance {
     }
 
     /// Adds Φᵀ C Φ between the slices of two contact lines to `c`, a block of a matrix with `stride` columns that
-    /// begins at `first`. On one and the same line the calibrated correction's part between neighbours is included.
+    /// begins at `first`, times `factor`. On one and the same line the calibrated correction's part between neighbours is included.
     pub fn add_block(
         &self,
         (tooth_a, place_a): (usize, RollPlace),
         (tooth_b, place_b): (usize, RollPlace),
+        factor: f64,
         c: &mut [f64],
         first: usize,
         stride: usize,
@@ -233,7 +234,7 @@ impl SliceCompliance {
                 (place_b.station, 1.0 - place_b.share),
                 (place_b.station + 1, place_b.share),
             ] {
-                let weight = wa * wb;
+                let weight = factor * wa * wb;
                 for i in 0..n {
                     let row = &table[(sa * n + i) * size + sb * n..][..n];
                     for (entry, value) in c[first + i * stride..][..n].iter_mut().zip(row) {

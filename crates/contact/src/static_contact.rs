@@ -2,12 +2,14 @@
 //!
 //! g = C F + local(F) + e − x ≥ 0, F ≥ 0, gᵀF = 0, with x = −TE the rigid approach along the line of action, and where
 //! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn it).
+//! Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without friction)
+//! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
 
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::local_contact::LocalContact;
 use crate::nlcp::{
-    ContactBody, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
-    Problem, Workspace, solve_load, solve_position,
+    ContactBody, EdgeContact, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError,
+    NlcpError, Params, Problem, Workspace, solve_load, solve_position,
 };
 use crate::slice_compliance::SliceCompliance;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
@@ -159,7 +161,7 @@ impl StaticContact {
             c: vec![0.0; capacity * capacity],
             local: Vec::with_capacity(capacity),
             separation: Vec::with_capacity(capacity),
-            closing: vec![1.0; capacity],
+            closing: Vec::with_capacity(capacity),
             lever_2: Vec::with_capacity(capacity),
             lever_1: Vec::with_capacity(capacity),
             work: Workspace::new(capacity),
@@ -191,15 +193,23 @@ impl StaticContact {
         self.work.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\].
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\]; at a tip edge those
+    /// of the Hertz contact that gives way as the edge does.
     pub fn hertz(&self, line: &ContactLine, line_load_n_per_m: f64) -> (f64, f64) {
         let contact = self.line_contact(line);
-        let a = contact.half_width_m(line_load_n_per_m * contact.width_m);
+        let force = line_load_n_per_m * contact.width_m;
+        let edge = self.edge(line, &contact);
+        let a = contact.half_width_m(force) * edge.map_or(1.0, |e| e.half_width_share(force));
         if a > 0.0 {
             (a, 2.0 * line_load_n_per_m / (std::f64::consts::PI * a))
         } else {
             (0.0, 0.0)
         }
+    }
+
+    fn edge(&self, line: &ContactLine, contact: &LineContact) -> Option<EdgeContact> {
+        let (tilt_rad, radius_m) = self.lines.edge(line)?;
+        EdgeContact::new(contact, tilt_rad, radius_m)
     }
 
     fn line_contact(&self, line: &ContactLine) -> LineContact {
@@ -239,25 +249,34 @@ impl StaticContact {
         for (i, a) in self.active.iter().enumerate() {
             for (j, b) in self.active.iter().enumerate() {
                 let first = i * slices * n + j * slices;
-                for (compliance, of) in [
+                for (gear, compliance, of) in [
                     (
+                        0,
                         &self.compliance_1,
                         [(a.tooth_1, a.roll_1_rad), (b.tooth_1, b.roll_1_rad)],
                     ),
                     (
+                        1,
                         &self.compliance_2,
                         [(a.tooth_2, a.roll_2_rad), (b.tooth_2, b.roll_2_rad)],
                     ),
                 ] {
                     let [(tooth_a, roll_a), (tooth_b, roll_b)] = of;
                     let places = (compliance.place(roll_a), compliance.place(roll_b));
-                    compliance.add_block((tooth_a, places.0), (tooth_b, places.1), c, first, n);
+                    let along_normals = a.tilt_rad(gear).cos() * b.tilt_rad(gear).cos();
+                    compliance.add_block(
+                        (tooth_a, places.0),
+                        (tooth_b, places.1),
+                        along_normals,
+                        c,
+                        first,
+                        n,
+                    );
                 }
             }
         }
         symmetrise(c, n);
 
-        let base_1 = self.lines.pair.gear_1.base_radius_m;
         let base_2 = self.lines.pair.gear_2.base_radius_m;
         let scale_force = match drive {
             Drive::Torque(torque) => torque.abs() / (base_2 * n as f64),
@@ -266,23 +285,27 @@ impl StaticContact {
         let floor = FLOOR_FRACTION * scale_force.max(1.0);
         self.local.clear();
         self.separation.clear();
+        self.closing.clear();
         self.lever_1.clear();
         self.lever_2.clear();
         for line in &self.active {
+            let contact = self.line_contact(line);
             let law = (self.options.local)
-                .law(&self.line_contact(line), floor)
+                .law(&contact, floor)
                 .map_err(|cause| ContactError::LocalLaw {
                     angle_deg: driver_angle_rad.to_degrees(),
                     cause,
-                })?;
+                })?
+                .with_edge(self.edge(line, &contact));
             let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
+            let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
+            let closing = self.lines.closing(line);
             for &z in self.compliance_1.slice_centres_m() {
                 self.local.push(law);
                 self.separation.push(self.lines.separation_m(line, z));
-                self.lever_1
-                    .push(base_1 + friction * base_1 * line.roll_1_rad);
-                self.lever_2
-                    .push(base_2 + friction * base_2 * line.roll_2_rad);
+                self.closing.push(closing);
+                self.lever_1.push(lever_1);
+                self.lever_2.push(lever_2);
             }
         }
         let nlcp = |cause| ContactError::Nlcp {
@@ -293,7 +316,7 @@ impl StaticContact {
             &self.c[..n * n],
             &self.local,
             &self.separation,
-            &self.closing[..n],
+            &self.closing,
             &self.lever_2,
         )
         .map_err(nlcp)?;

@@ -3,11 +3,13 @@
 #![allow(unsafe_code)] // a global allocator is an unsafe trait; this one only counts and hands on
 
 mod nlcp_common;
+mod pair_common;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use gearmesh_contact::nlcp::{Params, Problem, Workspace, solve_load, solve_position};
+use gearmesh_contact::static_contact::Drive;
 use nlcp_common::random::{Random, case};
 
 struct Counting;
@@ -87,4 +89,21 @@ fn solves_do_not_allocate() {
         solve_load(&problem, case.load, &hasty, &mut work).unwrap();
         assert_eq!(allocations() - before, 0);
     }
+}
+
+#[test]
+fn positions_with_tip_edges_do_not_allocate() {
+    let gears = [
+        pair_common::tooth(40, 0.0, 0.0),
+        pair_common::tooth(50, 0.0, 0.0),
+    ];
+    let lines = pair_common::extended(pair_common::pair(&gears[0], &gears[1]), 100e-6);
+    let mut contact = pair_common::contact(&lines, pair_common::FRICTIONLESS, 3);
+    let before = allocations();
+    for k in 0..300 {
+        contact
+            .solve(1e-3 * f64::from(k), Drive::Torque(300.0))
+            .unwrap();
+    }
+    assert_eq!(allocations() - before, 0);
 }

@@ -10,16 +10,17 @@ pub struct LoadedLine<'a> {
     pub tooth: usize,
     /// Roll angle on this gear \[rad\].
     pub roll_rad: f64,
-    /// Tangential over normal force, positive towards this gear's tip.
-    pub friction_ratio: f64,
-    /// Normal force of each slice \[N\].
+    /// Components along this flank's inward normal and towards the tip, over the forces: (1, 0) on a flank without
+    /// friction, see [`gearmesh_contact::ContactLine::force_components`].
+    pub components: [f64; 2],
+    /// Normal force of the contact, each slice \[N\].
     pub forces_n: &'a [f64],
 }
 
 /// Strain by both methods, dimensionless, positive in tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Strain {
-    /// Patterns and participation factors; normal forces only.
+    /// Patterns and participation factors; force components along the flanks' normals only.
     pub method_1: f64,
     /// True loads on the finite element model; friction included.
     pub method_2: f64,
@@ -95,8 +96,9 @@ impl GaugeReader {
                     .iter()
                     .zip(line.forces_n)
                 {
-                    strain.method_1 += weight * force * row[0];
-                    strain.method_2 += weight * force * (row[1] + line.friction_ratio * row[2]);
+                    let [normal, tangential] = line.components;
+                    strain.method_1 += weight * force * normal * row[0];
+                    strain.method_2 += weight * force * (normal * row[1] + tangential * row[2]);
                 }
             }
         }
@@ -125,7 +127,7 @@ mod tests {
         let line = LoadedLine {
             tooth: gauge.tooth,
             roll_rad,
-            friction_ratio: 0.0,
+            components: [1.0, 0.0],
             forces_n: &forces,
         };
         let strain = reader.read([line]);
@@ -148,7 +150,7 @@ mod tests {
         let far = reader.read([elsewhere]);
         assert_eq!(far.method_1, far.method_2);
         let rubbed = reader.read([LoadedLine {
-            friction_ratio: 0.3,
+            components: [1.0, 0.3],
             ..line
         }]);
         assert_eq!(

@@ -32,13 +32,13 @@ pub fn grid_forces<'a>(
         ] {
             for (slice, force) in line.forces_n.iter().enumerate() {
                 for (axial, share) in axial_shares(slice, grid.slices) {
-                    let normal_n = weight * share * force;
-                    if normal_n != 0.0 {
+                    let on_load = weight * share * force;
+                    if on_load != 0.0 {
                         forces.push(GridLoadForce {
                             tooth: line.tooth,
                             load: grid.load(station, axial),
-                            normal_n,
-                            tangential_n: normal_n * line.friction_ratio,
+                            normal_n: on_load * line.components[0],
+                            tangential_n: on_load * line.components[1],
                         });
                     }
                 }

@@ -54,7 +54,11 @@ impl Plan {
             scene.flank.name()
         ));
         text.push(format!(
-            "mesh       `hybrid`, path `line-of-action`, local `{}`, {} slices, at most {unknowns} unknown forces",
+            "mesh       `hybrid`, path {}, local `{}`, {} slices, at most {unknowns} unknown forces",
+            match scene.edge_radius_m {
+                None => "`line-of-action`".to_string(),
+                Some(radius) => format!("`extended` with a tip edge radius of {} um", (radius * 1e9).round() / 1e3),
+            },
             scene.contact.local.name(),
             gear_1.grid.slices
         ));

@@ -61,7 +61,7 @@ pub struct SceneResult {
     pub slices: usize,
     /// Pair number in each slot, `[A][L]`; only the first `pair_count` are used.
     pub pair: Vec<f64>,
-    /// Pairs in contact, `[A]`.
+    /// Contact lines looked at, `[A]`; tip edges beyond the path that stay apart count too, with no force.
     pub pair_count: Vec<u32>,
     /// Slice forces \[N\], `[T][A][L][S]`.
     pub force_n: Vec<f64>,
@@ -222,7 +222,7 @@ impl SceneResult {
                 Values::U32(self.pair_count.clone()),
                 &[a],
                 "1",
-                "contact lines in use",
+                "contact lines looked at; a tip edge that stays apart has no force",
             ),
         );
         tree.put(

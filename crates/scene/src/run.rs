@@ -6,7 +6,7 @@ use crate::scene_file::Scene;
 use crate::warnings::{Assumption, Warnings};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
-use gearmesh_contact::{ContactError, ContactLine, ContactLines, StaticContact};
+use gearmesh_contact::{ContactError, ContactLine, ContactLines, PathExtension, StaticContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
@@ -93,8 +93,12 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         scene.misalignment,
     )
     .map_err(|e| scene.document.error("pair", e))?;
+    let extension = scene
+        .edge_radius_m
+        .map(|radius| PathExtension::new(&pair, radius));
     let lines = ContactLines {
         pair,
+        extension,
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
     };
@@ -160,10 +164,11 @@ impl LoadedScene {
             (line.tooth_2, line.roll_2_rad)
         };
         let friction = self.scene.contact.friction;
+        let ratio = friction.map_or(0.0, |f| f.ratio(line.path_m));
         LoadedLine {
             tooth,
             roll_rad,
-            friction_ratio: friction.map_or(0.0, |f| f.ratio(line.path_m)),
+            components: line.force_components(gear - 1, ratio),
             forces_n,
         }
     }

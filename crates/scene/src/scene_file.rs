@@ -53,6 +53,7 @@ enum LocalTable {
 #[serde(rename_all = "kebab-case")]
 enum PathTable {
     LineOfAction,
+    Extended,
 }
 
 #[derive(Deserialize)]
@@ -61,8 +62,8 @@ struct MeshTable {
     #[allow(dead_code)]
     model: MeshModel,
     local: Option<LocalTable>,
-    #[allow(dead_code)]
     path: Option<PathTable>,
+    edge_radius_um: Option<f64>,
     friction: Option<FrictionTable>,
 }
 
@@ -85,6 +86,9 @@ struct FrictionTable {
 fn default_reversal() -> f64 {
     20.0
 }
+
+/// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
+const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -123,6 +127,8 @@ pub struct Scene {
     pub misalignment: Misalignment,
     /// Local contact and friction.
     pub contact: ContactOptions,
+    /// Radius of the tip edges \[m\] where the path is `extended`; none where it is `line-of-action`.
+    pub edge_radius_m: Option<f64>,
     /// Torques on gear 2 \[N·m\].
     pub torques_nm: Vec<f64>,
     /// First driver angle \[rad\].
@@ -234,6 +240,25 @@ impl Scene {
                 })
             }
         };
+        let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
+            (Some(PathTable::Extended), radius) => {
+                let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
+                require(
+                    "mesh.edge_radius_um",
+                    radius,
+                    (1.0..=1000.0).contains(&radius),
+                    "1 to 1000",
+                )?;
+                Some(radius * 1e-6)
+            }
+            (Some(PathTable::LineOfAction) | None, Some(_)) => {
+                return Err(document.error(
+                    "mesh.edge_radius_um",
+                    "is not used on the line of action; set mesh.path = \"extended\" or leave it out",
+                ));
+            }
+            (Some(PathTable::LineOfAction) | None, None) => None,
+        };
         Ok(Self {
             title: table.title,
             gear_1: folder.join(&pair.gear_1),
@@ -253,6 +278,7 @@ impl Scene {
                 },
                 friction,
             },
+            edge_radius_m,
             torques_nm: table.run.torques_Nm,
             start_rad: table.run.start_deg.to_radians(),
             pitches: table.run.pitches,
