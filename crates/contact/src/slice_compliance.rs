@@ -25,8 +25,8 @@ pub struct SliceCompliance {
     blocks: Vec<f64>,
     /// Of the flank in contact; only where the local contact is calibrated.
     near_field: Option<NearField>,
-    /// What neighbouring slices of one contact line share of the calibrated correction, by roll station \[m/N\]; empty
-    /// where there is none.
+    /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations and
+    /// half-way between; empty where there is none.
     spread: Vec<f64>,
     base_radius_m: f64,
     young_pa: f64,
@@ -120,11 +120,18 @@ impl SliceCompliance {
         let centroids_rad = centroids(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         let spread = near_field.as_ref().map_or(Vec::new(), |field| {
-            (0..stations)
-                .map(|i| {
-                    let missing = field.contact_at(centroids_rad[i], gear.base_radius_m)
-                        - field.mesh_m2_per_n[i * stations + i];
-                    let sizes = (gear.opposite_distances_m(flank)[i], slice_width_m);
+            let opposite_m = gear.opposite_distances_m(flank);
+            // Hats are stiffer at a station than between two, where the load is shared.
+            (0..2 * stations - 1)
+                .map(|half| {
+                    let station = (half / 2).min(stations - 2);
+                    let share = 0.5 * half as f64 - station as f64;
+                    let place = RollPlace { station, share };
+                    let roll =
+                        (1.0 - share) * centroids_rad[station] + share * centroids_rad[station + 1];
+                    let missing = field.contact_at(roll, gear.base_radius_m)
+                        - mesh_at(field, stations, place);
+                    let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
                     neighbour_term(k, missing, field.half_width_m, sizes)
                 })
                 .collect()
@@ -184,19 +191,8 @@ impl SliceCompliance {
         let Some(field) = &self.near_field else {
             return self.opposite_distance_m(place);
         };
-        let n = self.stations;
-        let shares = [
-            (place.station, 1.0 - place.share),
-            (place.station + 1, place.share),
-        ];
-        let mut mesh = 0.0;
-        for (a, wa) in shares {
-            for (b, wb) in shares {
-                mesh += wa * wb * field.mesh_m2_per_n[a * n + b];
-            }
-        }
         effective_depth_m(
-            field.contact_at(roll_rad, self.base_radius_m) - mesh,
+            field.contact_at(roll_rad, self.base_radius_m) - mesh_at(field, self.stations, place),
             field.half_width_m,
             self.material(),
         )
@@ -244,9 +240,10 @@ impl SliceCompliance {
             }
         }
         if tooth_a == tooth_b && !self.spread.is_empty() {
-            let share = place_a.share.clamp(0.0, 1.0);
-            let term = (1.0 - share) * self.spread[place_a.station]
-                + share * self.spread[place_a.station + 1];
+            let at = 2.0 * (place_a.station as f64 + place_a.share.clamp(0.0, 1.0));
+            let low = (at as usize).min(self.spread.len() - 2);
+            let share = at - low as f64;
+            let term = (1.0 - share) * self.spread[low] + share * self.spread[low + 1];
             for i in 1..n {
                 for (row, column, sign) in [
                     (i, i, -1.0),
@@ -259,6 +256,21 @@ impl SliceCompliance {
             }
         }
     }
+}
+
+/// w_h = Φᵀ W Φ at a roll place \[m²/N\].
+fn mesh_at(field: &NearField, stations: usize, place: RollPlace) -> f64 {
+    let shares = [
+        (place.station, 1.0 - place.share),
+        (place.station + 1, place.share),
+    ];
+    let mut sum = 0.0;
+    for (a, wa) in shares {
+        for (b, wb) in shares {
+            sum += wa * wb * field.mesh_m2_per_n[a * stations + b];
+        }
+    }
+    sum
 }
 
 /// The calibration with W of one flank only.
