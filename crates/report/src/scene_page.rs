@@ -110,7 +110,7 @@ fn overview(r: &SceneResult) -> Section {
         .figure(
             "TE peak-to-peak",
             format!("{:.3}", figure(peak_to_peak(te))),
-            "um",
+            "µm",
         )
         .figure("K_Hbeta", format!("{:.3}", r.k_h_beta[last]), "1");
     if let Some(s) = r.strain.first() {
