@@ -1,14 +1,17 @@
-//! Validation on gear 2 of seed 004: what a finer mesh changes in the numbers that people read, and the trends of the
-//! seed's tables 3 and 4.
+//! Validation on gear 2 of seed 004: what a finer mesh changes in the numbers that people read, and the trend of the
+//! seed's table 3.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+mod line_load;
 
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{Flank, GaugeRows, ReducedGear};
+use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
+use line_load::line_load_strain;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -36,47 +39,16 @@ fn coarse() -> &'static ReducedGear {
     })
 }
 
-/// Strain per newton of a line load over the whole width at a roll station of the gauge's tooth: normal, tangential
-/// towards the tip, and what the tooth-only submodel contributes to the normal one.
-fn line_load_strain(gear: &ReducedGear, gauge: &GaugeRows, station: usize) -> [f64; 3] {
-    let axial = gear.grid.z_m.len();
-    let mut sum = [0.0; 3];
-    for j in 0..axial {
-        let share = if j == 0 || j + 1 == axial { 0.5 } else { 1.0 } / (axial - 1) as f64;
-        let load = gear.grid.load(station, j);
-        let row = 3 * (gauge.tooth * gear.grid.len() + load);
-        sum[0] += share * gauge.adjoint[row];
-        sum[1] += share * gauge.adjoint[row + 1];
-        sum[2] += share * gauge.own_tooth[load];
-    }
-    sum
-}
-
-/// Seed 004, tables 3 and 4, as trends: the methods differ by less than 7 % at the root; friction on a load above the
-/// pitch circle, towards the root as on a driven tooth in approach, lowers the strain of the loaded side. The size is
-/// not asserted: 37 % was found here against 24 to 28 % in the seed (von Mises stress of elements of gear 1); whether
-/// place and quantity explain it has not been studied yet.
+/// Seed 004, table 3, as a trend: the methods differ by less than 7 % at the root.
 #[test]
-fn the_seeds_tables_hold_as_trends() {
+fn the_methods_differ_little_at_the_root() {
     let gear = coarse();
     let gauge = gear.gauges.iter().find(|g| g.side == Flank::Right).unwrap();
     let highest = gear.grid.roll_angles_rad.len() - 1;
-    let pitch_roll = 21.8107f64.to_radians().tan();
     for station in [highest - 1, highest] {
-        assert!(gear.grid.roll_angles_rad[station] > pitch_roll);
-        let [normal, tangential, own] = line_load_strain(gear, gauge, station);
-        let lowered = 0.3 * tangential / normal;
-        println!(
-            "station {station}: methods {:.2} %, friction lowers by {:.1} %",
-            100.0 * own / normal,
-            100.0 * lowered
-        );
-        assert!(
-            (own / normal).abs() < 0.07,
-            "methods differ by {}",
-            own / normal
-        );
-        assert!(lowered > 0.0, "friction raises the strain: {lowered}");
+        let [normal, _, own] = line_load_strain(gear, gauge, station);
+        println!("station {station}: {:.2} %", 100.0 * own / normal);
+        assert!((own / normal).abs() < 0.07, "{}", own / normal);
     }
 }
 

@@ -5,6 +5,7 @@ mod arguments;
 mod commands;
 mod console;
 mod failure;
+mod interrupt;
 mod offline;
 
 use arguments::{Arguments, Command};
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let outcome = match &arguments.command {
+    let outcome = interrupt::install().and_then(|()| match &arguments.command {
         Command::Mesh(a) => commands::mesh::run(a),
         Command::Reduce(a) => commands::reduce::run(a),
         Command::Compliance(a) => commands::compliance::run(a),
@@ -24,7 +25,7 @@ fn main() -> ExitCode {
         Command::Report(a) => commands::report::run(a),
         Command::Check(a) => commands::check::run(a),
         Command::Demo(a) => commands::demo::run(a),
-    };
+    });
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

@@ -2,6 +2,7 @@
 
 use crate::console::StageBar;
 use crate::failure::Failure;
+use crate::interrupt::Scratch;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
@@ -63,7 +64,8 @@ pub fn export_mesh(
             scalar(field.von_mises_pa.clone(), "Pa"),
         );
     }
-    let folder = tempfile::tempdir().map_err(Failure::work)?;
+    let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
+    let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");
     write_mesh(&exchange, &data).map_err(Failure::work)?;
     // Written beside and renamed, so that a killed run leaves the old file or none.
@@ -71,7 +73,9 @@ pub fn export_mesh(
         .file_name()
         .and_then(|n| n.to_str())
         .ok_or_else(|| Failure::input(format!("{}: not a file name", output.display())))?;
-    let beside = output.with_file_name(format!(".part-{}-{name}", std::process::id()));
+    let part = format!(".part-{}-{name}", std::process::id());
+    let part = Scratch::new(output.with_file_name(part));
+    let beside = part.path();
     let written = python()?.run(
         &format!("writing {}", output.display()),
         "import sys, gearmesh\ntry:\n    gearmesh.export_mesh(sys.argv[1], sys.argv[2])\nexcept (ValueError, OSError) as error:\n    print(error, file=sys.stderr)\n    sys.exit(2 if isinstance(error, ValueError) else 1)\n",
@@ -82,14 +86,8 @@ pub fn export_mesh(
         PythonError::Failed { code: Some(2), .. } => Failure::input(error),
         _ => Failure::work(error),
     };
-    let outcome = written.map_err(blame).and_then(|_| {
-        std::fs::rename(&beside, output)
-            .map_err(|e| Failure::work(format!("{}: {e}", output.display())))
-    });
-    if outcome.is_err() {
-        let _ = std::fs::remove_file(&beside);
-    }
-    outcome
+    written.map_err(blame)?;
+    std::fs::rename(beside, output).map_err(|e| Failure::work(format!("{}: {e}", output.display())))
 }
 
 /// Which computed position a field is made for.

@@ -204,7 +204,6 @@ fn an_unknown_mesh_model_is_answered_with_the_known_ones() {
 }
 
 #[test]
-#[ignore = "InputDocument::parse names file and line of a wrong type or variant, but not the key"]
 fn a_value_of_the_wrong_type_is_named_by_its_key() {
     gear_refused(
         SOLID,

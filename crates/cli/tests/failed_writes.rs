@@ -3,9 +3,12 @@
 
 mod common;
 
-use common::{Answer, Desk, SOLID, argument, gearmesh, names_in, refused, succeeds, workshop};
+use common::{
+    Answer, Desk, SOLID, argument, changed, gearmesh, names_in, refused, succeeds, workshop,
+};
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 const OLD: &[u8] = b"the old file";
 
@@ -154,4 +157,36 @@ fn a_mesh_that_does_not_fit_the_disk_is_no_fault_of_the_input() {
     let desk = Desk::new();
     let gear = desk.file("gear.toml", SOLID);
     on_a_full_disk(&disk, |old| gearmesh(&["mesh", argument(&gear), "-o", old]));
+}
+
+/// Ctrl-C in the midst of a reduction: no output, no scratch files, the shell's exit code.
+#[test]
+fn an_interrupted_reduction_leaves_nothing() {
+    let (desk, outputs, scratch) = (Desk::new(), Desk::new(), Desk::new());
+    // Fine enough to take longer than the time it is given.
+    let fine = "fillet_mm = 0.12\nbody_mm = 2.0\naxial_mm = 0.8";
+    let gear = changed(
+        SOLID,
+        "fillet_mm = 0.6\nbody_mm = 4.0\naxial_mm = 3.0",
+        fine,
+    );
+    let gear = desk.file("gear.toml", gear);
+    let child = Command::new(env!("CARGO_BIN_EXE_gearmesh"))
+        .args(["reduce", argument(&gear), "-o"])
+        .arg(outputs.path("gear.h5"))
+        .env("TMPDIR", scratch.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(killed.success());
+    let answer = Answer::from(child.wait_with_output().unwrap());
+    refused(&answer, 130, &["interrupted"]);
+    assert!(outputs.names().is_empty(), "{:?}", outputs.names());
+    assert!(scratch.names().is_empty(), "{:?}", scratch.names());
 }

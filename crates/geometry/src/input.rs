@@ -1,6 +1,9 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod wording;
+
 use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -12,7 +15,8 @@ pub struct InputError {
     pub file: String,
     /// Line of the offending key, counted from one, where it is known.
     pub line: Option<usize>,
-    /// Dotted path of the key, for example `blank.web_thickness_mm`; empty for the file as a whole.
+    /// Dotted path of the key, for example `blank.web_thickness_mm`, array items by number: `gauge.0.tooth`. Empty for
+    /// the file as a whole. Of a key that is not known it is the path of the table; `problem` names the key.
     pub key: String,
     /// What was found and what is allowed.
     pub problem: String,
@@ -58,21 +62,34 @@ impl InputDocument {
     /// Parses the document into a structure whose keys are all checked by serde.
     ///
     /// # Errors
-    /// [`InputError`] with the line of a syntax error, an unknown key, a missing key or a wrong type. An unknown
-    /// key that differs from a known one by its unit only is answered with the right key.
+    /// [`InputError`] with the line of a syntax error, or with line and key of an unknown key, a missing key, a wrong
+    /// type or an unknown name. An unknown key that differs from a known one by its unit only is answered with the
+    /// right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        toml::from_str(&self.text).map_err(|error| {
-            let message = error.message().trim().to_string();
-            InputError {
-                file: self.file.clone(),
-                line: error.span().map(|span| self.line_of(span.start)),
-                key: String::new(),
-                problem: match unit_hint(&message) {
-                    Some(hint) => format!("{message}; {hint}"),
-                    None => message,
-                },
-            }
+        let deserializer =
+            toml::Deserializer::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
+        serde_path_to_error::deserialize(deserializer).map_err(|e| {
+            let path = e.path().iter().filter_map(|segment| match segment {
+                Segment::Map { key } => Some(key.clone()),
+                Segment::Seq { index } => Some(index.to_string()),
+                Segment::Enum { .. } | Segment::Unknown => None,
+            });
+            self.complaint(path.collect(), e.inner())
         })
+    }
+
+    /// A complaint about what serde found at `path`.
+    fn complaint(&self, path: Vec<String>, error: &toml::de::Error) -> InputError {
+        let (key, problem) = wording::in_plain_words(path, error.message().trim());
+        InputError {
+            file: self.file.clone(),
+            line: error
+                .span()
+                .map(|span| self.line_of(span.start))
+                .or_else(|| self.locate(&key)),
+            key,
+            problem,
+        }
     }
 
     /// A complaint about the value of `key` (dotted path; array items by number: `gauge.0.tooth`).
@@ -122,19 +139,6 @@ impl InputDocument {
     }
 }
 
-/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem.
-fn unit_hint(message: &str) -> Option<String> {
-    let rest = message.strip_prefix("unknown field `")?;
-    let (found, expected) = rest.split_once('`')?;
-    let stem = found.rsplit_once('_').map_or(found, |(stem, _)| stem);
-    expected
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .find(|name| name.rsplit_once('_').map_or(*name, |(s, _)| s) == stem || *name == stem)
-        .map(|name| format!("did you mean `{name}`? The unit is part of the key"))
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -142,17 +146,143 @@ mod tests {
 
     #[derive(Debug, serde::Deserialize)]
     #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
     struct Probe {
-        #[allow(dead_code)]
+        blank: Blank,
+        #[serde(default)]
+        gauge: Vec<Gauge>,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Blank {
+        kind: Kind,
         web_thickness_mm: f64,
+        labels: Option<Vec<String>>,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    enum Kind {
+        Solid,
+        ThinRim,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Gauge {
+        tooth: usize,
+        deep: bool,
+    }
+
+    fn complaint(text: &str) -> InputError {
+        InputDocument::new("g.toml", text)
+            .parse::<Probe>()
+            .unwrap_err()
+    }
+
+    /// Every way in which serde can refuse a value, with the whole line that a person reads.
+    #[test]
+    fn a_wrong_value_is_named_by_file_line_and_key() {
+        let blank = "[blank]\nkind = 'solid'\nweb_thickness_mm = 5\n";
+        for (text, expected) in [
+            (
+                "[blank]\nkind = 'solid'\nweb_thickness_mm = '5'\n".into(),
+                "g.toml:3: blank.web_thickness_mm: found the text \"5\", allowed is a number",
+            ),
+            (
+                format!("{blank}labels = 'a'\n"),
+                "g.toml:4: blank.labels: found the text \"a\", allowed is a list",
+            ),
+            (
+                format!("{blank}labels = [\n  'a',\n  2.5,\n]\n"),
+                "g.toml:6: blank.labels.1: found 2.5, allowed is text in quotes",
+            ),
+            (
+                format!("{blank}[[gauge]]\ntooth = -1\n"),
+                "g.toml:5: gauge.0.tooth: found -1, allowed is a whole number of 0 or more",
+            ),
+            (
+                format!("{blank}[[gauge]]\ntooth = [1]\n"),
+                "g.toml:5: gauge.0.tooth: found a list, allowed is a whole number of 0 or more",
+            ),
+            (
+                format!("{blank}[[gauge]]\ntooth = 1\ndeep = {{}}\n"),
+                "g.toml:6: gauge.0.deep: found a table, allowed is true or false",
+            ),
+            (
+                format!("{blank}[gauge]\ntooth = 1\n"),
+                "g.toml:4: gauge: found a table, allowed is a list",
+            ),
+            (
+                "blank = true\n".into(),
+                "g.toml:1: blank: found true, allowed is a table",
+            ),
+            (
+                "[blank]\nkind = 'slid'\n".into(),
+                "g.toml:2: blank.kind: unknown variant `slid`, expected `solid` or `thin-rim`",
+            ),
+            (
+                "[blank]\nkind = 3\n".into(),
+                "g.toml:2: blank.kind: allowed is a name in quotes",
+            ),
+        ] {
+            assert_eq!(complaint(&text).to_string(), expected);
+        }
+    }
+
+    #[test]
+    fn a_missing_key_is_named_at_the_line_of_its_table() {
+        let error = complaint("# head\n\n[blank]\n# nothing\nkind = 'solid'\n");
+        assert_eq!(
+            (error.line, &*error.key),
+            (Some(3), "blank.web_thickness_mm")
+        );
+        assert_eq!(
+            error.to_string(),
+            "g.toml:3: blank.web_thickness_mm: missing; it has no default"
+        );
+        let blank = "[blank]\nkind = 'solid'\nweb_thickness_mm = 5\n";
+        let error = complaint(&format!(
+            "{blank}[[gauge]]\ntooth = 1\ndeep = true\n[[gauge]]\ndeep = true\n"
+        ));
+        assert_eq!((error.line, &*error.key), (Some(7), "gauge.1.tooth"));
+        // `[blank]` is there by way of its sub-table only.
+        let error = complaint("# head\n[blank.labels]\n");
+        assert_eq!((error.line, &*error.key), (Some(2), "blank.labels"));
+        assert_eq!(complaint("").key, "blank");
+    }
+
+    #[test]
+    fn an_unknown_key_is_answered_with_the_known_ones() {
+        let text = complaint("[blank]\nkind = 'solid'\ncolour = 1\n").to_string();
+        assert_eq!(
+            text,
+            "g.toml:3: blank: unknown field `colour`, expected one of `kind`, `web_thickness_mm`, `labels`"
+        );
+        let text = complaint("# head\ncolour = 1\n").to_string();
+        assert_eq!(
+            text,
+            "g.toml:2: unknown field `colour`, expected `blank` or `gauge`"
+        );
     }
 
     #[test]
     fn a_wrong_unit_is_answered_with_the_right_key() {
-        let document = InputDocument::new("g.toml", "# head\nweb_thickness_m = 0.005\n");
-        let text = document.parse::<Probe>().unwrap_err().to_string();
-        assert!(text.starts_with("g.toml:2: "), "{text}");
+        let text = complaint("# head\nblank.web_thickness_m = 0.005\n").to_string();
+        assert!(
+            text.starts_with("g.toml:2: blank: unknown field `web_thickness_m`"),
+            "{text}"
+        );
         assert!(text.contains("`web_thickness_mm`? The unit"), "{text}");
+    }
+
+    #[test]
+    fn a_syntax_error_is_named_by_its_line() {
+        let error = complaint("[blank]\nkind = solid\n");
+        assert_eq!((error.line, &*error.key), (Some(2), ""));
     }
 
     #[test]

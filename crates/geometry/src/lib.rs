@@ -4,7 +4,7 @@
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
-//! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `definition.rs` |
+//! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs` |
 //! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |

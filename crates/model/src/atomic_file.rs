@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Write;
 use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::file_error::FileError;
 
@@ -19,6 +20,15 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
                 source,
             })
     })
+}
+
+/// Held while a file is being written and renamed.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// Waits until no file is being written, and keeps others from being begun while the guard lives: who wants to end
+/// the program from another thread calls this first.
+pub fn wait_for_writes() -> MutexGuard<'static, ()> {
+    WRITING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Lets `fill` write a temporary file in the folder of `path`, forces it to the disk and gives it its name.
@@ -39,6 +49,7 @@ pub(crate) fn write_atomically(
             source,
         }
     };
+    let _held = wait_for_writes();
     // A rename would replace a device such as /dev/null by a file.
     if path.metadata().is_ok_and(|found| !found.is_file()) {
         return Err(FileError::NotARegularFile {

@@ -32,7 +32,7 @@ mod seal;
 pub mod synthetic;
 mod timestamp;
 
-pub use atomic_file::write_text;
+pub use atomic_file::{wait_for_writes, write_text};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use file_error::FileError;
 pub use mesh_data::{Field, MeshData, MeshDataError};

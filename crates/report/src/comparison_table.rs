@@ -129,7 +129,11 @@ fn harmonics(text: &mut String, first: &SeriesComparison, group: &[&SeriesCompar
                 format!("{}", h.order),
                 format!("{:.4}", h.ours * unit.per_si),
                 format!("{:.4}", h.reference * unit.per_si),
-                percent(&both),
+                if weak(c, h) {
+                    "-".into()
+                } else {
+                    percent(&both)
+                },
                 phase(c, h),
             ]);
         }
@@ -137,10 +141,15 @@ fn harmonics(text: &mut String, first: &SeriesComparison, group: &[&SeriesCompar
     write_aligned(text, &rows);
 }
 
+/// One of the amplitudes is rounding.
+fn weak(c: &SeriesComparison, h: &HarmonicComparison) -> bool {
+    let floor = WEAKEST_HARMONIC * c.peak_to_peak.reference.abs();
+    h.ours < floor || h.reference < floor
+}
+
 /// Phase difference in degrees, or a dash where one of the amplitudes is too weak to have a phase.
 fn phase(c: &SeriesComparison, h: &HarmonicComparison) -> String {
-    let floor = WEAKEST_HARMONIC * c.peak_to_peak.reference.abs();
-    if h.ours < floor || h.reference < floor {
+    if weak(c, h) {
         "-".into()
     } else {
         format!("{:.1}", h.phase_difference_rad.to_degrees())

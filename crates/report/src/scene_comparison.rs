@@ -54,9 +54,10 @@ pub fn compare_scene(
         ));
     }
     let settings = RigSettings::default();
-    // Three slots and twice that, the mesh and twice that.
     let mesh = mesh_order(result);
-    let orders = [3.0, 6.0, mesh, 2.0 * mesh];
+    let mut te_orders = vec![mesh, 2.0 * mesh];
+    te_orders.extend(blank_orders(result).iter().flat_map(|n| [*n, 2.0 * n]));
+    te_orders.sort_by(f64::total_cmp);
     let mut comparisons = Vec::new();
     for (quantity, values) in quantities {
         for (k, &torque) in result.torque_nm.iter().enumerate() {
@@ -64,8 +65,13 @@ pub fn compare_scene(
                 continue;
             };
             let ours = AngleSeries::one_revolution(&result.angle_rad, result.curve(values, k))?;
+            // A gauge's spectrum is that of a short pulse and tells nothing order by order.
+            let orders = match quantity {
+                Quantity::TransmissionError => te_orders.as_slice(),
+                Quantity::Strain { .. } => &[],
+            };
             comparisons.push(compare_with_column(
-                &ours, record, column, &settings, &orders,
+                &ours, record, column, &settings, orders,
             )?);
         }
     }
@@ -76,4 +82,22 @@ pub fn compare_scene(
         });
     }
     Ok(comparisons)
+}
+
+/// Orders, per revolution of gear 1, at which slots or holes of the blanks repeat.
+pub fn blank_orders(result: &SceneResult) -> Vec<f64> {
+    let gears = result.gear_toml.each_ref().map(|text| {
+        GearDefinition::from_document(&InputDocument::new("gear in result", text.clone())).ok()
+    });
+    let [Some(gear_1), Some(gear_2)] = gears else {
+        return Vec::new();
+    };
+    let ratio = gear_1.tooth.teeth as f64 / gear_2.tooth.teeth as f64;
+    let mut orders: Vec<f64> = [(gear_1, 1.0), (gear_2, ratio)]
+        .into_iter()
+        .filter_map(|(gear, turns)| Some(gear.blank.openings?.count() as f64 * turns))
+        .collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
 }

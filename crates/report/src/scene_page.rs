@@ -7,7 +7,7 @@ use crate::page::{
 };
 use crate::quantity::Quantity;
 use crate::record::ReferenceRecord;
-use crate::scene_comparison::{SceneComparisonError, compare_scene, mesh_order};
+use crate::scene_comparison::{SceneComparisonError, blank_orders, compare_scene, mesh_order};
 use gearmesh_scene::SceneResult;
 use gearmesh_signal::rig::process;
 use gearmesh_signal::statistics::{mean, peak_to_peak};
@@ -202,8 +202,10 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
     )
     .up_to_order(2.3 * mesh_order)
     .decades(5)
-    .highlight(3.0, "three per turn")
     .highlight(mesh_order, "mesh");
+    for order in blank_orders(r) {
+        spectrum = spectrum.highlight(order, "slots or holes");
+    }
     let mut orders_set = false;
     for (k, &torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
@@ -309,6 +311,54 @@ fn contact(r: &SceneResult) -> Section {
         .push(stiffness)
 }
 
+/// How a curve with one peak is shown: a whole revolution begins half a revolution before the peak, so that the peak
+/// is never cut in two; angles before the run's first one count as negative.
+struct PeakView {
+    first: usize,
+    peak: usize,
+}
+
+impl PeakView {
+    fn of(r: &SceneResult, curve: &[f64]) -> Self {
+        let n = curve.len();
+        let peak = (0..n)
+            .max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs()))
+            .unwrap_or(0);
+        let whole = (n as f64 * angle_step(r) / std::f64::consts::TAU - 1.0).abs() < 1e-9;
+        let first = if whole { (peak + n / 2) % n } else { 0 };
+        Self { first, peak }
+    }
+
+    fn turned(&self, values: &[f64]) -> Vec<f64> {
+        [&values[self.first..], &values[..self.first]].concat()
+    }
+
+    fn angle_deg(&self, r: &SceneResult, index: usize) -> f64 {
+        let before = self.first > 0 && index >= self.first && self.peak < self.first;
+        let after = self.first > 0 && index < self.first && self.peak >= self.first;
+        r.angle_rad[index].to_degrees() + 360.0 * (f64::from(after) - f64::from(before))
+    }
+
+    fn angles_deg(&self, r: &SceneResult) -> Vec<f64> {
+        let n = r.angles();
+        (0..n)
+            .map(|k| self.angle_deg(r, (self.first + k) % n))
+            .collect()
+    }
+
+    fn peak_deg(&self, r: &SceneResult) -> f64 {
+        self.angle_deg(r, self.peak)
+    }
+
+    fn range_deg(&self, r: &SceneResult) -> (f64, f64) {
+        let n = r.angles();
+        (
+            self.angle_deg(r, self.first),
+            self.angle_deg(r, (self.first + n - 1) % n),
+        )
+    }
+}
+
 fn root_strain(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let last = r.torque_nm.len() - 1;
@@ -326,6 +376,8 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             s.name.clone(),
             format!("{:.2}", 100.0 * s.error_estimate_relative),
         ]);
+        let curve = r.curve(&s.method_2, last);
+        let view = PeakView::of(r, curve);
         let mut chart = LineChart::new(
             format!(
                 "Gear {}, gauge {}, {} N m",
@@ -334,23 +386,17 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             angle_axis(),
             Axis::new("strain", "µε"),
         )
-        .x_values(angles_deg(r));
+        .x_values(view.angles_deg(r));
         let quantity = Quantity::Strain {
             gauge: s.name.clone(),
         };
         if let Some(values) = reference_values(chapter, &quantity, r.torque_nm[last]) {
+            let values = view.turned(&values);
             chart = chart.series(LineSeries::new("reference", values).style(LineStyle::Dashed));
         }
-        let curve = r.curve(&s.method_2, last);
-        let peak = (0..curve.len())
-            .max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs()))
-            .unwrap_or(0);
-        let centre = r.angle_rad[peak].to_degrees();
-        let (low, high) = (
-            r.angle_rad[0].to_degrees(),
-            r.angle_rad[r.angles() - 1].to_degrees(),
-        );
+        let (low, high) = view.range_deg(r);
         if high - low > 60.0 {
+            let centre = view.peak_deg(r);
             let from = (centre - 20.0).clamp(low, high - 40.0);
             chart = chart.x_window(from, from + 40.0);
         }
@@ -358,9 +404,9 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             chart
                 .series(LineSeries::new(
                     "method 1",
-                    micro(r.curve(&s.method_1, last)),
+                    micro(&view.turned(r.curve(&s.method_1, last))),
                 ))
-                .series(LineSeries::new("method 2", micro(curve))),
+                .series(LineSeries::new("method 2", micro(&view.turned(curve)))),
         );
     }
     section.push(table)

@@ -347,14 +347,13 @@ fn solve_torque(
         let forces = contact.forces_n();
         let first = k * slots * slices;
         c.force[first..first + forces.len()].copy_from_slice(forces);
-        let mut heaviest = 0.0;
+        let mut heaviest = (0.0, 1.0);
         for (slot, line) in contact.active_lines().iter().enumerate() {
             let on_line = &forces[slot * slices..(slot + 1) * slices];
             let sum: f64 = on_line.iter().sum();
-            if sum > heaviest {
-                heaviest = sum;
+            if sum > heaviest.0 {
                 let largest = on_line.iter().copied().fold(0.0, f64::max);
-                c.k_h_beta = c.k_h_beta.max(largest * slices as f64 / sum);
+                heaviest = (sum, largest * slices as f64 / sum);
             }
             for (slice, force) in on_line.iter().enumerate() {
                 let (half_width, pressure) = contact.hertz(line, force / width);
@@ -363,6 +362,7 @@ fn solve_torque(
                 worst[1] = worst[1].max(pressure / young);
             }
         }
+        c.k_h_beta = c.k_h_beta.max(heaviest.1);
         worst[2] = worst[2].max((state.unloaded_m - state.transmission_error_m) / base_pitch);
         worst[3] = worst[3].max(state.info.cap_hits as f64);
     }

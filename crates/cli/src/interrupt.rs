@@ -1,0 +1,60 @@
+//! Ctrl-C: output files stay whole, scratch files go, exit code 130.
+
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_model::wait_for_writes;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// What an interrupted program leaves behind in a shell's eyes: 128 + SIGINT.
+const EXIT_CODE: i32 = 130;
+
+static SCRATCH: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// From now on Ctrl-C ends the program tidily.
+///
+/// # Errors
+/// A [`Failure`] where the system takes no handler.
+pub fn install() -> Result<(), Failure> {
+    ctrlc::set_handler(|| {
+        // A file that is being written is finished and renamed first; the next one cannot begin.
+        let _held = wait_for_writes();
+        let scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
+        scratch.iter().for_each(|path| remove(path));
+        console::error("interrupted; what had been written before is whole, the rest is not there");
+        std::process::exit(EXIT_CODE);
+    })
+    .map_err(Failure::work)
+}
+
+/// A file or folder that goes with this value, and on Ctrl-C.
+#[derive(Debug)]
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    /// Takes charge of a path, which need not exist yet.
+    pub fn new(path: PathBuf) -> Self {
+        let mut scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
+        scratch.push(path.clone());
+        Self(path)
+    }
+
+    /// The path.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let mut scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);
+        scratch.retain(|path| *path != self.0);
+        remove(&self.0);
+    }
+}
+
+/// Removes what is there; what is not there needs no removing.
+fn remove(path: &Path) {
+    let _ = std::fs::remove_file(path);
+    let _ = std::fs::remove_dir_all(path);
+}

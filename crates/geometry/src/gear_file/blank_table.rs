@@ -1,0 +1,154 @@
+//! `[blank]`: the body below the teeth.
+
+use super::openings_table::{HolesTable, SlotsTable, check_openings};
+use super::{MM, TableKeys};
+use crate::definition::{Blank, ToothDefinition, Web};
+use crate::input::{InputDocument, InputError};
+use crate::tooth::ToothGeometry;
+use serde::Deserialize;
+
+/// The keys of `[blank]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BlankTable {
+    kind: BlankKind,
+    bore_diameter_mm: f64,
+    hub_diameter_mm: Option<f64>,
+    rim_inner_diameter_mm: Option<f64>,
+    web_thickness_mm: Option<f64>,
+    web_offset_mm: Option<f64>,
+    slots: Option<SlotsTable>,
+    holes: Option<HolesTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum BlankKind {
+    Solid,
+    ThinRim,
+}
+
+/// What the teeth leave for the body.
+struct Room {
+    root_diameter_mm: f64,
+    /// Below the root a ring of half a module must stay: the teeth's root stress lives in it.
+    ring_diameter_mm: f64,
+    width_mm: f64,
+}
+
+impl BlankTable {
+    /// The body, in SI units.
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        tooth: &ToothDefinition,
+        profile: &ToothGeometry,
+    ) -> Result<Blank, InputError> {
+        let keys = TableKeys::new(document, "blank");
+        let root_diameter_mm = 2.0 * profile.root_radius_m / MM;
+        let room = Room {
+            root_diameter_mm,
+            ring_diameter_mm: root_diameter_mm - tooth.module_m / MM,
+            width_mm: tooth.face_width_m / MM,
+        };
+        self.check_bore(&keys, &room)?;
+        let web = match self.kind {
+            BlankKind::Solid => {
+                self.refuse_web_keys(&keys)?;
+                None
+            }
+            BlankKind::ThinRim => Some(self.check_web(&keys, &room)?),
+        };
+        let (inner_mm, outer_mm) = web.map_or(
+            (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
+            |w| (w.hub_radius_m / MM, w.rim_inner_radius_m / MM),
+        );
+        Ok(Blank {
+            bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
+            web,
+            openings: check_openings(
+                self.slots,
+                self.holes,
+                document,
+                (inner_mm, outer_mm),
+                tooth.module_m,
+            )?,
+        })
+    }
+
+    fn check_bore(&self, keys: &TableKeys, room: &Room) -> Result<(), InputError> {
+        let (bore, ring) = (self.bore_diameter_mm, room.ring_diameter_mm);
+        keys.require(
+            "bore_diameter_mm",
+            bore,
+            bore > 0.0 && bore < ring,
+            &format!(
+                "more than 0 and less than {ring:.3}: the root diameter {:.3} less one module, so that half a module of body stays below the teeth",
+                room.root_diameter_mm
+            ),
+        )
+    }
+
+    fn refuse_web_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+        for (key, value) in [
+            ("hub_diameter_mm", self.hub_diameter_mm),
+            ("rim_inner_diameter_mm", self.rim_inner_diameter_mm),
+            ("web_thickness_mm", self.web_thickness_mm),
+            ("web_offset_mm", self.web_offset_mm),
+        ] {
+            if value.is_some() {
+                return Err(keys.error(
+                    key,
+                    "a solid blank does not use it; remove it or set kind = \"thin-rim\"",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_web(&self, keys: &TableKeys, room: &Room) -> Result<Web, InputError> {
+        let given = |key: &str, value: Option<f64>| {
+            value.ok_or_else(|| keys.error(key, "missing; a thin-rim blank needs it"))
+        };
+        let hub = given("hub_diameter_mm", self.hub_diameter_mm)?;
+        let rim = given("rim_inner_diameter_mm", self.rim_inner_diameter_mm)?;
+        let thickness = given("web_thickness_mm", self.web_thickness_mm)?;
+        let offset = self.web_offset_mm.unwrap_or(0.0);
+        let (bore, ring, width) = (self.bore_diameter_mm, room.ring_diameter_mm, room.width_mm);
+        keys.require(
+            "hub_diameter_mm",
+            hub,
+            hub > bore,
+            &format!("more than the bore, {bore}"),
+        )?;
+        keys.require(
+            "rim_inner_diameter_mm",
+            rim,
+            rim > hub && rim < ring,
+            &format!(
+                "more than the hub, {hub}, and less than {ring:.3}: the root diameter {:.3} less one module, so that the rim is at least half a module thick",
+                room.root_diameter_mm
+            ),
+        )?;
+        keys.require(
+            "web_thickness_mm",
+            thickness,
+            thickness > 0.0 && thickness <= width,
+            &format!("more than 0 and at most the face width, {width}"),
+        )?;
+        let play = 0.5 * (width - thickness);
+        keys.require(
+            "web_offset_mm",
+            offset,
+            // Rounding of a web that ends flush with the face is forgiven.
+            offset.abs() <= play + 1e-9,
+            &format!("-{play} to {play}: the web must stay inside the face width"),
+        )?;
+        Ok(Web {
+            hub_radius_m: 0.5 * hub * MM,
+            rim_inner_radius_m: 0.5 * rim * MM,
+            thickness_m: thickness * MM,
+            offset_m: offset * MM,
+        })
+    }
+}

@@ -1,0 +1,62 @@
+//! `[mesh]`: element sizes, by default in proportion to the module.
+
+use super::{MM, TableKeys};
+use crate::definition::{ElementKind, MeshSettings, ToothDefinition};
+use crate::input::{InputDocument, InputError};
+use serde::Deserialize;
+
+/// The keys of `[mesh]`.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MeshTable {
+    element: Option<ElementKind>,
+    flank_mm: Option<f64>,
+    fillet_mm: Option<f64>,
+    body_mm: Option<f64>,
+    axial_mm: Option<f64>,
+    min_scaled_jacobian: Option<f64>,
+}
+
+impl MeshTable {
+    /// The mesh settings, in SI units.
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        tooth: &ToothDefinition,
+    ) -> Result<MeshSettings, InputError> {
+        let keys = TableKeys::new(document, "mesh");
+        let module_mm = tooth.module_m / MM;
+        let width_mm = tooth.face_width_m / MM;
+        let least_mm = 0.01 * module_mm;
+        let size_m = |key: &str, value: Option<f64>, default_mm: f64, largest_mm: f64| {
+            let size_mm = value.unwrap_or(default_mm);
+            keys.require(
+                key,
+                size_mm,
+                size_mm >= least_mm && size_mm <= largest_mm,
+                &format!("{least_mm:.4} to {largest_mm:.4}"),
+            )?;
+            Ok::<f64, InputError>(size_mm * MM)
+        };
+        let quality = self.min_scaled_jacobian.unwrap_or(0.2);
+        keys.require(
+            "min_scaled_jacobian",
+            quality,
+            quality > 0.0 && quality <= 0.9,
+            "more than 0, at most 0.9",
+        )?;
+        Ok(MeshSettings {
+            element: self.element.unwrap_or(ElementKind::Hex8Incompatible),
+            flank_m: size_m("flank_mm", self.flank_mm, 0.3 * module_mm, module_mm)?,
+            fillet_m: size_m(
+                "fillet_mm",
+                self.fillet_mm,
+                0.08 * module_mm,
+                0.5 * module_mm,
+            )?,
+            body_m: size_m("body_mm", self.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
+            axial_m: size_m("axial_mm", self.axial_mm, width_mm / 10.0, width_mm)?,
+            min_scaled_jacobian: quality,
+        })
+    }
+}

@@ -1,0 +1,50 @@
+//! `[reduction]`: what the offline stage computes.
+
+use super::TableKeys;
+use crate::definition::{FlankSide, ReductionSettings};
+use crate::input::{InputDocument, InputError};
+use serde::Deserialize;
+
+/// The keys of `[reduction]`.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ReductionTable {
+    roll_stations: Option<usize>,
+    slices: Option<usize>,
+    flanks: Option<Vec<FlankSide>>,
+}
+
+impl ReductionTable {
+    /// The reduction settings.
+    pub(super) fn check(self, document: &InputDocument) -> Result<ReductionSettings, InputError> {
+        let keys = TableKeys::new(document, "reduction");
+        let roll_stations = self.roll_stations.unwrap_or(9);
+        let slices = self.slices.unwrap_or(5);
+        keys.require(
+            "roll_stations",
+            roll_stations as f64,
+            (3..=65).contains(&roll_stations),
+            "3 to 65",
+        )?;
+        keys.require(
+            "slices",
+            slices as f64,
+            (1..=100).contains(&slices),
+            "1 to 100",
+        )?;
+        let flanks = self
+            .flanks
+            .unwrap_or_else(|| vec![FlankSide::Right, FlankSide::Left]);
+        if flanks.is_empty() || (flanks.len() == 2 && flanks[0] == flanks[1]) || flanks.len() > 2 {
+            return Err(keys.error(
+                "flanks",
+                "name each loaded flank once: [\"right\"], [\"left\"] or [\"right\", \"left\"]",
+            ));
+        }
+        Ok(ReductionSettings {
+            roll_stations,
+            slices,
+            flanks,
+        })
+    }
+}

@@ -1,0 +1,121 @@
+//! `[tooth]`: the teeth and the rack that cuts them.
+
+use super::{MM, TableKeys};
+use crate::definition::ToothDefinition;
+use crate::input::{InputDocument, InputError};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// The keys of `[tooth]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ToothTable {
+    teeth: usize,
+    module_mm: f64,
+    #[serde(default = "default_pressure_angle")]
+    pressure_angle_deg: f64,
+    #[serde(default)]
+    profile_shift: f64,
+    addendum: Option<f64>,
+    #[serde(default = "default_dedendum")]
+    dedendum: f64,
+    #[serde(default = "default_rack_tip_radius")]
+    rack_tip_radius: f64,
+    tip_diameter_mm: Option<f64>,
+    #[serde(default)]
+    thickness_allowance_mm: f64,
+    #[serde(default)]
+    tip_chamfer_mm: f64,
+    face_width_mm: f64,
+}
+
+fn default_pressure_angle() -> f64 {
+    20.0
+}
+fn default_dedendum() -> f64 {
+    1.25
+}
+fn default_rack_tip_radius() -> f64 {
+    0.38
+}
+
+impl ToothTable {
+    /// The teeth, in SI units. Whether they can exist together is [`crate::ToothGeometry`]'s to say.
+    pub(super) fn check(self, document: &InputDocument) -> Result<ToothDefinition, InputError> {
+        let keys = TableKeys::new(document, "tooth");
+        keys.require(
+            "teeth",
+            self.teeth as f64,
+            (5..=1000).contains(&self.teeth),
+            "5 to 1000",
+        )?;
+        keys.require(
+            "module_mm",
+            self.module_mm,
+            self.module_mm > 0.0,
+            "more than 0",
+        )?;
+        keys.require(
+            "pressure_angle_deg",
+            self.pressure_angle_deg,
+            (10.0..=35.0).contains(&self.pressure_angle_deg),
+            "10 to 35",
+        )?;
+        keys.require(
+            "profile_shift",
+            self.profile_shift,
+            self.profile_shift.abs() <= 2.0,
+            "-2 to 2",
+        )?;
+        keys.require(
+            "dedendum",
+            self.dedendum,
+            self.dedendum > 0.0,
+            "more than 0 (multiples of the module)",
+        )?;
+        keys.require(
+            "rack_tip_radius",
+            self.rack_tip_radius,
+            self.rack_tip_radius >= 0.0,
+            "0 or more (multiples of the module)",
+        )?;
+        keys.require(
+            "face_width_mm",
+            self.face_width_mm,
+            self.face_width_mm > 0.0,
+            "more than 0",
+        )?;
+        keys.require(
+            "tip_chamfer_mm",
+            self.tip_chamfer_mm,
+            self.tip_chamfer_mm >= 0.0,
+            "0 or more",
+        )?;
+        let thickness = 0.5 * PI * self.module_mm;
+        keys.require(
+            "thickness_allowance_mm",
+            self.thickness_allowance_mm,
+            (0.0..thickness).contains(&self.thickness_allowance_mm),
+            &format!("0 up to half a pitch, {thickness:.3}"),
+        )?;
+        if self.addendum.is_some() && self.tip_diameter_mm.is_some() {
+            return Err(keys.error(
+                "addendum",
+                "addendum and tip_diameter_mm both set the tip circle; give one of them",
+            ));
+        }
+        Ok(ToothDefinition {
+            teeth: self.teeth,
+            module_m: self.module_mm * MM,
+            pressure_angle_rad: self.pressure_angle_deg.to_radians(),
+            profile_shift: self.profile_shift,
+            addendum: self.addendum.unwrap_or(1.0),
+            dedendum: self.dedendum,
+            rack_tip_radius: self.rack_tip_radius,
+            tip_diameter_m: self.tip_diameter_mm.map(|v| v * MM),
+            thickness_allowance_m: self.thickness_allowance_mm * MM,
+            tip_chamfer_m: self.tip_chamfer_mm * MM,
+            face_width_m: self.face_width_mm * MM,
+        })
+    }
+}

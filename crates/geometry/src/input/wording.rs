@@ -1,0 +1,81 @@
+//! serde's complaints in the words of a person who writes gear files, not Rust.
+
+/// The key that a complaint is about, as a dotted path, and what is wrong with it; `path` and `message` are serde's.
+///
+/// A message that is not known here stays as it is.
+pub(super) fn in_plain_words(mut path: Vec<String>, message: &str) -> (String, String) {
+    let problem = if let Some(field) = message
+        .strip_prefix("missing field `")
+        .and_then(|rest| rest.strip_suffix('`'))
+    {
+        // serde blames the table; a person looks for the key.
+        path.push(field.to_string());
+        "missing; it has no default".to_string()
+    } else if message.starts_with("unknown field `") {
+        // The message names the key already.
+        path.pop();
+        match unit_hint(message) {
+            Some(hint) => format!("{message}; {hint}"),
+            None => message.to_string(),
+        }
+    } else if message == "wanted string or table" {
+        // For an enumeration; its names are known to serde only after it has seen a string.
+        "allowed is a name in quotes".to_string()
+    } else {
+        wrong_type(message).unwrap_or_else(|| message.to_string())
+    };
+    (path.join("."), problem)
+}
+
+/// For serde's "invalid type: string "18", expected usize": found and allowed.
+fn wrong_type(message: &str) -> Option<String> {
+    let (found, allowed) = message
+        .strip_prefix("invalid type: ")
+        .or_else(|| message.strip_prefix("invalid value: "))?
+        // From the right, because a found text may hold anything.
+        .rsplit_once(", expected ")?;
+    Some(format!(
+        "found {}, allowed is {}",
+        found_value(found),
+        allowed_type(allowed)
+    ))
+}
+
+fn found_value(found: &str) -> String {
+    match found {
+        "sequence" => "a list".to_string(),
+        "map" => "a table".to_string(),
+        _ => match found.strip_prefix("string ") {
+            Some(text) => format!("the text {text}"),
+            // integer `18`, floating point `1.5`, boolean `true`: the value says what it is.
+            None => found.split('`').nth(1).unwrap_or(found).to_string(),
+        },
+    }
+}
+
+fn allowed_type(allowed: &str) -> &str {
+    match allowed {
+        "usize" | "u8" | "u16" | "u32" | "u64" => "a whole number of 0 or more",
+        "isize" | "i8" | "i16" | "i32" | "i64" => "a whole number",
+        "f32" | "f64" => "a number",
+        "a boolean" => "true or false",
+        "a string" | "path string" => "text in quotes",
+        "a sequence" => "a list",
+        "a map" => "a table",
+        _ if allowed.starts_with("struct ") => "a table",
+        _ => allowed,
+    }
+}
+
+/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem.
+fn unit_hint(message: &str) -> Option<String> {
+    let rest = message.strip_prefix("unknown field `")?;
+    let (found, expected) = rest.split_once('`')?;
+    let stem = found.rsplit_once('_').map_or(found, |(stem, _)| stem);
+    expected
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .find(|name| name.rsplit_once('_').map_or(*name, |(s, _)| s) == stem || *name == stem)
+        .map(|name| format!("did you mean `{name}`? The unit is part of the key"))
+}
