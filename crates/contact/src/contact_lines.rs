@@ -147,7 +147,7 @@ impl ContactLines {
         let removed_2 = self.microgeometry_2.removed_m(line.roll_2_rad, z_m);
         let tilted_axes = self.pair.misalignment;
         let (gap, misalignment) = match line.tip {
-            None => (0.0, self.pair.misalignment_gap_m(z_m)),
+            None => (0.0, self.pair.misalignment_gap_m(z_m, line.path_m)),
             Some(tip) => {
                 let (sin, cos) = tip.force_angle_rad.sin_cos();
                 let slope = tilted_axes.inclination_rad * sin + tilted_axes.deviation_rad * cos;

@@ -21,6 +21,7 @@ pub fn tooth(teeth: usize, profile_shift: f64, tip_chamfer_m: f64) -> ToothDefin
         thickness_allowance_m: 0.1e-3,
         tip_chamfer_m,
         face_width_m: 20e-3,
+        helix_angle_rad: 0.0,
     }
 }
 
