@@ -80,8 +80,10 @@ pub enum Side {
 pub enum Local {
     /// The mesh's own near field.
     None,
-    /// Weber and Banaschek's logarithm.
+    /// Weber and Banaschek's logarithm on the patterns.
     WeberBanaschek,
+    /// The mesh's near field corrected by the model's plane-strain calibration.
+    Calibrated,
 }
 
 /// `gearmesh compliance`.
@@ -109,7 +111,7 @@ pub struct ComplianceArguments {
     #[arg(long)]
     pub at_tooth: Option<usize>,
     /// Local contact term
-    #[arg(long, value_enum, default_value = "weber-banaschek")]
+    #[arg(long, value_enum, default_value = "calibrated")]
     pub local: Local,
     /// Print figures as JSON
     #[arg(long)]

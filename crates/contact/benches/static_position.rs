@@ -59,6 +59,7 @@ fn model(gear: &GearDefinition) -> ReducedGear {
         young_pa: gear.material.young_pa,
         poisson: gear.material.poisson,
         opposite_distance_m: vec![4e-3; 9],
+        near_field: None,
         grid,
         flanks: vec![Flank::Right],
         c_hub,

@@ -1,8 +1,8 @@
 //! Deflection of one gear's flank under a line load of given width: what `gearmesh compliance` prints.
 
+use crate::local_contact::LocalContact;
 use crate::nlcp::ContactBody;
-use crate::slice_compliance::{CompliancePart, SliceCompliance};
-use crate::static_contact::LocalContact;
+use crate::slice_compliance::SliceCompliance;
 use gearmesh_geometry::involute;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 
@@ -41,22 +41,21 @@ impl FlankDeflection {
 /// Deflection on tooth `at_tooth`, same radius and side, under a line load.
 ///
 /// global = Φᵀ C Φ F with F equal on all slices; local = k q \[ln(2h/a) − ν/(2(1−ν))\], k = 2(1−ν²)/(πE), on the
-/// loaded tooth only, where `local` asks for it.
+/// loaded tooth only, where `local` asks for it; h as `local` has it (see [`crate::local_contact`]). The calibrated
+/// local part is a correction of the global one and may be negative.
 ///
 /// # Errors
-/// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on that side.
+/// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on that side,
+/// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
 pub fn flank_deflection(
     gear: &ReducedGear,
     load: &FlankLoad,
     at_tooth: usize,
     local: LocalContact,
 ) -> Result<FlankDeflection, ReducedGearError> {
-    let part = match local {
-        LocalContact::None => CompliancePart::Hub,
-        LocalContact::WeberBanaschek => CompliancePart::Patterns,
-    };
-    let compliance = SliceCompliance::new(gear, load.flank, part)?;
-    let place = compliance.place(involute::roll_angle_rad(load.radius_m, gear.base_radius_m));
+    let compliance = SliceCompliance::new(gear, load.flank, local)?;
+    let roll = involute::roll_angle_rad(load.radius_m, gear.base_radius_m);
+    let place = compliance.place(roll);
     let n = compliance.slices();
     let mut c = vec![0.0; n * n];
     compliance.add_block((load.tooth, place), (at_tooth, place), 1.0, &mut c, 0, n);
@@ -65,11 +64,11 @@ pub fn flank_deflection(
         .map(|j| (0..n).map(|i| c[i * n + j] * force).sum())
         .collect();
     let own = match local {
-        LocalContact::WeberBanaschek if at_tooth == load.tooth => {
+        LocalContact::WeberBanaschek | LocalContact::Calibrated if at_tooth == load.tooth => {
             let body = ContactBody {
                 youngs_modulus_pa: gear.young_pa,
                 poisson_ratio: gear.poisson,
-                depth_m: compliance.opposite_distance_m(place),
+                depth_m: compliance.local_depth_m(roll),
             };
             body.weber_banaschek_m(load.line_load_n_per_m, load.half_width_m)
         }

@@ -3,6 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
+//! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
@@ -15,6 +16,7 @@
 
 pub mod contact_lines;
 pub mod flank_deflection;
+pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod slice_compliance;
@@ -22,6 +24,7 @@ pub mod static_contact;
 pub mod tip_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};
+pub use local_contact::LocalContact;
 pub use slice_compliance::SliceCompliance;
-pub use static_contact::{ContactError, ContactOptions, ContactState, LocalContact, StaticContact};
+pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};
 pub use tip_contact::{PathExtension, TipContact, TipGear};

@@ -65,7 +65,8 @@ mod workspace;
 
 pub use error::NlcpError;
 pub use local_law::{
-    ContactBody, FLOOR_FRACTION, HALF_WIDTH_LIMIT, LineContact, LocalLaw, LocalLawError,
+    ContactBody, FLOOR_FRACTION, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw,
+    LocalLawError,
 };
 pub use problem::Problem;
 pub use solver::{Info, Params, solve_load, solve_position};

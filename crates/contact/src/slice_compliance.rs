@@ -6,7 +6,8 @@
 //! lies a third of a spacing inside, and the shares are taken with respect to centroids. C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
-use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
+use crate::local_contact::{LocalContact, effective_depth_m};
+use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
 
 /// Slice compliance of one gear for loads on one hand of flank.
 #[derive(Debug, Clone)]
@@ -20,6 +21,9 @@ pub struct SliceCompliance {
     opposite_distance_m: Vec<f64>,
     /// `[tooth in sector][response tooth][(station, slice) of load][(station, slice) of response]`.
     blocks: Vec<f64>,
+    /// Of the flank in contact; only where the local contact is calibrated.
+    near_field: Option<NearField>,
+    base_radius_m: f64,
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
@@ -51,13 +55,18 @@ impl SliceCompliance {
     /// Condenses a reduced gear to its slices.
     ///
     /// # Errors
-    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`.
+    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
+    /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
     pub fn new(
         gear: &ReducedGear,
         flank: Flank,
-        part: CompliancePart,
+        local: LocalContact,
     ) -> Result<Self, ReducedGearError> {
-        gear.flank_index(flank)?;
+        let flank_index = gear.flank_index(flank)?;
+        let near_field = match local {
+            LocalContact::Calibrated => Some(near_field_of(gear, flank_index)?),
+            LocalContact::None | LocalContact::WeberBanaschek => None,
+        };
         let grid = &gear.grid;
         let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
         let size = stations * slices;
@@ -65,7 +74,7 @@ impl SliceCompliance {
         let mut blocks = Vec::with_capacity(own * gear.teeth * size * size);
         for tooth in 0..own {
             for other in 0..gear.teeth {
-                let block = match part {
+                let block = match local.part() {
                     CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
                     CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank).into(),
                 };
@@ -92,6 +101,8 @@ impl SliceCompliance {
             centroids_rad: centroids(&grid.roll_angles_rad),
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
+            near_field,
+            base_radius_m: gear.base_radius_m,
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m: gear.face_width_m / slices as f64,
@@ -127,6 +138,31 @@ impl SliceCompliance {
     /// Where a roll angle lies between the stations.
     pub fn place(&self, roll_rad: f64) -> RollPlace {
         roll_place(&self.centroids_rad, roll_rad)
+    }
+
+    /// Depth h \[m\] of the local logarithm at a roll angle: effective where the model is calibrated, else the distance
+    /// to the opposite side.
+    pub fn local_depth_m(&self, roll_rad: f64) -> f64 {
+        let place = self.place(roll_rad);
+        let Some(field) = &self.near_field else {
+            return self.opposite_distance_m(place);
+        };
+        let n = self.stations;
+        let shares = [
+            (place.station, 1.0 - place.share),
+            (place.station + 1, place.share),
+        ];
+        let mut mesh = 0.0;
+        for (a, wa) in shares {
+            for (b, wb) in shares {
+                mesh += wa * wb * field.mesh_m2_per_n[a * n + b];
+            }
+        }
+        effective_depth_m(
+            field.contact_at(roll_rad, self.base_radius_m) - mesh,
+            field.half_width_m,
+            self.material(),
+        )
     }
 
     /// Distance along the normal to the opposite side of the tooth at a roll place \[m\].
@@ -171,6 +207,15 @@ impl SliceCompliance {
             }
         }
     }
+}
+
+/// The calibration with W of one flank only.
+fn near_field_of(gear: &ReducedGear, flank_index: usize) -> Result<NearField, ReducedGearError> {
+    let mut field = gear.calibration()?.clone();
+    let stations = gear.grid.roll_angles_rad.len();
+    let size = stations * stations;
+    field.mesh_m2_per_n = field.mesh_m2_per_n[flank_index * size..][..size].to_vec();
+    Ok(field)
 }
 
 /// Centroids of the hats in roll angle.

@@ -6,21 +6,13 @@
 //! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
 
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
+use crate::local_contact::LocalContact;
 use crate::nlcp::{
     ContactBody, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
     Problem, Workspace, solve_load, solve_position,
 };
-use crate::slice_compliance::{CompliancePart, SliceCompliance};
+use crate::slice_compliance::SliceCompliance;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
-
-/// Local contact compliance added to the model's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LocalContact {
-    /// None: C_hub as the mesh gives it, near field of the hats included. Cheapest, and mesh dependent.
-    None,
-    /// C_g and the Weber-Banaschek term, as in seed 004.
-    WeberBanaschek,
-}
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,12 +139,8 @@ impl StaticContact {
                 });
             }
         }
-        let part = match options.local {
-            LocalContact::None => CompliancePart::Hub,
-            LocalContact::WeberBanaschek => CompliancePart::Patterns,
-        };
-        let compliance_1 = SliceCompliance::new(gear_1, flank, part)?;
-        let compliance_2 = SliceCompliance::new(gear_2, flank, part)?;
+        let compliance_1 = SliceCompliance::new(gear_1, flank, options.local)?;
+        let compliance_2 = SliceCompliance::new(gear_2, flank, options.local)?;
         let (w1, w2) = (compliance_1.slice_width_m(), compliance_2.slice_width_m());
         if compliance_1.slices() != compliance_2.slices() || (w1 - w2).abs() > 1e-9 * w1 {
             return Err(ContactError::Slices {
@@ -222,7 +210,7 @@ impl StaticContact {
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
-                depth_m: compliance.opposite_distance_m(compliance.place(roll)),
+                depth_m: compliance.local_depth_m(roll),
             }
         };
         LineContact {
@@ -293,17 +281,12 @@ impl StaticContact {
         self.lever_1.clear();
         self.lever_2.clear();
         for line in &self.active {
-            let law = match self.options.local {
-                LocalContact::None => LocalLaw::none(),
-                LocalContact::WeberBanaschek => {
-                    LocalLaw::weber_banaschek(&self.line_contact(line), floor).map_err(|cause| {
-                        ContactError::LocalLaw {
-                            angle_deg: driver_angle_rad.to_degrees(),
-                            cause,
-                        }
-                    })?
-                }
-            };
+            let law = (self.options.local)
+                .law(&self.line_contact(line), floor)
+                .map_err(|cause| ContactError::LocalLaw {
+                    angle_deg: driver_angle_rad.to_degrees(),
+                    cause,
+                })?;
             let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
             let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
             let closing = self.lines.closing(line);

@@ -60,6 +60,8 @@
 
 mod assembly;
 mod constraints;
+mod cyclic;
+mod cylindrical;
 mod element;
 mod error;
 mod factor;
@@ -69,11 +71,14 @@ mod hex8_incompatible;
 mod material;
 mod model;
 mod ordering;
+mod static_condensation;
 mod stiffness_block;
 mod structured;
 
 pub use assembly::{StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph};
 pub use constraints::DofMap;
+pub use cyclic::CyclicInterface;
+pub use cylindrical::CylindricalFrames;
 pub use element::{ElementStiffness, HexCoordinates, HexElement, StrainOperator, element_volume};
 pub use error::{ElementError, FeError};
 pub use factor::{Factor, FactorInfo, SymbolicFactor};
@@ -84,4 +89,5 @@ pub use hex8::{
 pub use material::{LameParameters, Material, von_mises};
 pub use model::FeModel;
 pub use ordering::DofOrdering;
+pub use static_condensation::{CondensedLoads, StaticCondensation};
 pub use structured::StructuredMesh;

@@ -10,6 +10,7 @@ use std::sync::{Mutex, PoisonError};
 
 use metis_sys as metis;
 
+use crate::assembly::StiffnessMatrix;
 use crate::constraints::DofMap;
 use crate::error::FeError;
 use crate::graph::NodeGraph;
@@ -38,17 +39,56 @@ impl DofOrdering {
     /// [`FeError::TooLarge`] when nodes and edges pass 2³¹; [`FeError::Metis`].
     pub fn nested_dissection(graph: &NodeGraph, dofs: &DofMap) -> Result<Self, FeError> {
         let nodes = graph.active_nodes();
-        let order = if nodes.len() < SMALLEST_DISSECTED {
-            (0..nodes.len() as i32).collect()
-        } else {
-            dissect(graph)?
-        };
-        let forward = order
+        let forward = dissect(Adjacency::of_graph(graph)?)?
             .into_iter()
             .flat_map(|place| {
                 dofs.free_of_node(nodes[place as usize] as usize)
                     .map(|(_, free)| free)
             })
+            .collect();
+        Self::from_forward(forward)
+    }
+
+    /// Nested dissection of the interior, then the kept nodes in the order given. Nodes are triples of rows of `k`,
+    /// of which the lower triangle is read; `kept` lists nodes.
+    ///
+    /// # Errors
+    /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is kept twice or does not exist.
+    pub fn interior_first(k: &StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
+        let count = k.ncols() / 3;
+        let mut place = vec![0i32; count];
+        for &node in kept {
+            match place.get_mut(node) {
+                Some(slot) if *slot == 0 => *slot = -1,
+                _ => {
+                    return Err(FeError::NotAPermutation {
+                        index: node,
+                        size: count,
+                    });
+                }
+            }
+        }
+        let interior: Vec<usize> = (0..count).filter(|n| place[*n] == 0).collect();
+        for (i, &node) in interior.iter().enumerate() {
+            place[node] = i as i32;
+        }
+        let mut lists: Vec<Vec<i32>> = vec![Vec::new(); interior.len()];
+        for (i, &node) in interior.iter().enumerate() {
+            for row in k.as_ref().row_idx_of_col(3 * node) {
+                let other = place[row / 3];
+                if row / 3 > node && row % 3 == 0 && other >= 0 {
+                    lists[i].push(other);
+                    lists[other as usize].push(i as i32);
+                }
+            }
+        }
+        let order = dissect(Adjacency::new(interior.len(), |i, list| {
+            list.extend_from_slice(&lists[i]);
+        })?)?;
+        let nodes = order.into_iter().map(|i| interior[i as usize]);
+        let forward = nodes
+            .chain(kept.iter().copied())
+            .flat_map(|node| 3 * node..3 * node + 3)
             .collect();
         Self::from_forward(forward)
     }
@@ -88,34 +128,56 @@ impl DofOrdering {
     }
 }
 
-/// Order of the active nodes: `result[new] = place among the active nodes`.
-fn dissect(graph: &NodeGraph) -> Result<Vec<i32>, FeError> {
-    let nodes = graph.active_nodes();
-    let allowed = i32::MAX as usize;
-    let edges: usize = (0..nodes.len())
-        .map(|i| graph.neighbours(i).len() - 1)
-        .sum();
-    if edges > allowed {
-        return Err(FeError::TooLarge {
-            found: edges,
-            allowed,
-        });
-    }
-    let mut offsets: Vec<i32> = Vec::with_capacity(nodes.len() + 1);
-    let mut neighbours: Vec<i32> = Vec::with_capacity(edges);
-    offsets.push(0);
-    for (i, node) in nodes.iter().enumerate() {
-        for other in graph.neighbours(i).iter().filter(|n| *n != node) {
-            // Every neighbour listed is active, so the search succeeds.
-            if let Ok(place) = nodes.binary_search(other) {
-                neighbours.push(place as i32);
+/// Neighbours of each node as METIS wants them: compressed lists without the node itself.
+struct Adjacency {
+    offsets: Vec<i32>,
+    neighbours: Vec<i32>,
+}
+
+impl Adjacency {
+    /// # Errors
+    /// [`FeError::TooLarge`] when nodes and edges pass 2³¹.
+    fn new(nodes: usize, lists: impl Fn(usize, &mut Vec<i32>)) -> Result<Self, FeError> {
+        let mut graph = Self {
+            offsets: vec![0],
+            neighbours: Vec::new(),
+        };
+        let allowed = i32::MAX as usize;
+        for node in 0..nodes {
+            lists(node, &mut graph.neighbours);
+            let found = graph.neighbours.len();
+            if found > allowed {
+                return Err(FeError::TooLarge { found, allowed });
             }
+            graph.offsets.push(found as i32);
         }
-        offsets.push(neighbours.len() as i32);
+        Ok(graph)
     }
-    let mut count = nodes.len() as i32;
-    let mut order = vec![0i32; nodes.len()];
-    let mut inverse = vec![0i32; nodes.len()];
+
+    /// Of the active nodes, numbered by their place among them.
+    fn of_graph(graph: &NodeGraph) -> Result<Self, FeError> {
+        let nodes = graph.active_nodes();
+        Self::new(nodes.len(), |i, list| {
+            // Every neighbour listed is active, so the search succeeds.
+            let others = graph.neighbours(i).iter().filter(|n| **n != nodes[i]);
+            list.extend(others.filter_map(|n| Some(nodes.binary_search(n).ok()? as i32)));
+        })
+    }
+}
+
+/// Order of the nodes: `result[new] = old`.
+fn dissect(graph: Adjacency) -> Result<Vec<i32>, FeError> {
+    let Adjacency {
+        mut offsets,
+        mut neighbours,
+    } = graph;
+    let nodes = offsets.len() - 1;
+    if nodes < SMALLEST_DISSECTED {
+        return Ok((0..nodes as i32).collect());
+    }
+    let mut count = nodes as i32;
+    let mut order = vec![0i32; nodes];
+    let mut inverse = vec![0i32; nodes];
     let mut options = [0i32; metis::METIS_NOPTIONS as usize];
     let guard = METIS_AT_A_TIME
         .lock()
@@ -153,7 +215,7 @@ fn dissect(graph: &NodeGraph) -> Result<Vec<i32>, FeError> {
             _ => "internal error",
         };
         Err(FeError::Metis {
-            nodes: nodes.len(),
+            nodes,
             status,
             meaning,
         })

@@ -202,11 +202,26 @@ pub struct MeshSettings {
     pub axial_m: f64,
     /// Smallest scaled Jacobian that is accepted.
     pub min_scaled_jacobian: f64,
+    /// The cross-section only: one layer that does not move along the axis.
+    pub plane_strain: bool,
+}
+
+/// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Symmetry {
+    /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.
+    #[default]
+    Auto,
+    /// The whole gear is factorised: for comparison.
+    Off,
 }
 
 /// What the reduction computes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReductionSettings {
+    /// Whether the repetition of the gear is used.
+    pub symmetry: Symmetry,
     /// Stations of the flank grid along the profile.
     pub roll_stations: usize,
     /// Slices over the face width.

@@ -64,8 +64,8 @@ impl GearDefinition {
         let microgeometry = file
             .microgeometry
             .check(document, &profile, tooth.face_width_m)?;
-        let mesh = file.mesh.check(document, &tooth)?;
-        let reduction = file.reduction.check(document)?;
+        let mesh = file.mesh.check(document, &tooth, &blank)?;
+        let reduction = file.reduction.check(document, mesh.plane_strain)?;
         let gauges = gauge_table::check_all(file.gauge, document, &tooth, &profile)?;
         Ok(Self {
             name: file.name,

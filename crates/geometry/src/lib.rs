@@ -26,7 +26,7 @@ pub mod tooth;
 
 pub use definition::{
     Blank, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes, Material, MeshSettings,
-    Openings, ReductionSettings, RootPosition, Slots, ToothDefinition,
+    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

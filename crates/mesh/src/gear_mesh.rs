@@ -46,8 +46,26 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
-        let section = Section::new(gear, python)?;
-        let layers = Layers::new(gear);
+        Self::extruded(
+            Section::new(gear, python)?,
+            Layers::new(gear),
+            gear.mesh.min_scaled_jacobian,
+        )
+    }
+
+    /// The same cross-section in one layer, web and rim alike: for problems of plane strain.
+    ///
+    /// # Errors
+    /// None in fact: the quads were accepted before. [`MeshError::Quality`] for a section of no worth at all.
+    pub fn single_layer(&self, width_m: f64) -> Result<Self, MeshError> {
+        Self::extruded(self.section.clone(), Layers::single(width_m), 0.0)
+    }
+
+    fn extruded(
+        section: Section,
+        layers: Layers,
+        min_scaled_jacobian: f64,
+    ) -> Result<Self, MeshError> {
         let (n_planes, n_layers) = (layers.planes_m.len(), layers.count());
         let in_layer =
             |quad: usize, layer: usize| !section.web_only[quad] || layers.web.contains(&layer);
@@ -82,11 +100,11 @@ impl GearMesh {
             }
         }
         let quality = quality::report(&nodes, &hexes);
-        if quality.smallest < gear.mesh.min_scaled_jacobian {
+        if quality.smallest < min_scaled_jacobian {
             let [x, y, z] = quality.worst_m.map(|v| v * 1e3);
             return Err(MeshError::Quality {
                 found: quality.smallest,
-                demanded: gear.mesh.min_scaled_jacobian,
+                demanded: min_scaled_jacobian,
                 x_mm: x,
                 y_mm: y,
                 z_mm: z,

@@ -17,9 +17,20 @@ impl Layers {
         self.planes_m.len() - 1
     }
 
+    /// A single layer of the given width about mid-face, which the web fills too.
+    pub fn single(width_m: f64) -> Self {
+        Self {
+            planes_m: vec![-0.5 * width_m, 0.5 * width_m],
+            web: 0..1,
+        }
+    }
+
     /// Layers of a gear. The web has at least two, an even number over the whole width of a symmetric gear, so that
-    /// mid-face is a node plane.
+    /// mid-face is a node plane. One layer in plane strain.
     pub fn new(gear: &GearDefinition) -> Self {
+        if gear.mesh.plane_strain {
+            return Self::single(gear.tooth.face_width_m);
+        }
         let half = 0.5 * gear.tooth.face_width_m;
         let axial = gear.mesh.axial_m;
         let mut breaks = vec![-half, half];

@@ -11,11 +11,13 @@
 //! | layers along the axis | [`layers`] | `layers.rs` |
 //! | nodes, hexahedra and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
+//! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
 //!
 //! Every node of the tooth outline lies on the exact profile, and its place along the outline is kept: loads and
 //! gauges find their faces by arc length and z, never by projection on a facet.
 
 pub mod body;
+pub mod contact_section;
 pub mod gear_mesh;
 pub mod layers;
 pub mod plane_mesher;

@@ -7,6 +7,7 @@ use crate::python::PythonEnvironment;
 use crate::tooth_cell::{ToothCell, ToothCellProblem};
 use gearmesh_geometry::GearDefinition;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Quads of the full cross-section.
 #[derive(Debug, Clone)]
@@ -25,6 +26,15 @@ pub struct Section {
     pub cell_nodes: Vec<Vec<usize>>,
     /// Section quad of the first cell quad, by tooth; the others follow.
     pub cell_first_quad: Vec<usize>,
+    /// First tooth of sector 0; sector s begins teeth/sectors teeth further on for each sector.
+    pub first_tooth: usize,
+    /// Section node of each node of the body sector (hub, web, rim), by sector.
+    pub body_nodes: Vec<Vec<usize>>,
+    /// Body sector nodes on its edge at the smaller angle, outwards to inwards, without those on the ring; empty when there
+    /// is one sector.
+    pub body_right_side: Vec<usize>,
+    /// Section quads of each body sector.
+    pub body_quads: Vec<Range<usize>>,
 }
 
 fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
@@ -104,7 +114,9 @@ impl Section {
             quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
             web_only.extend(std::iter::repeat_n(false, cell.quads.len()));
         }
+        let mut body_quads = Vec::with_capacity(sectors);
         for map in &body_nodes {
+            body_quads.push(quads.len()..quads.len() + body_mesh.quads.len());
             quads.extend(body_mesh.quads.iter().map(|q| q.map(|n| map[n])));
             web_only.extend(
                 body_mesh
@@ -127,6 +139,10 @@ impl Section {
             cell,
             cell_nodes,
             cell_first_quad,
+            first_tooth: body.first_tooth,
+            body_nodes,
+            body_right_side: body.right_side,
+            body_quads,
         })
     }
 }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
 
 /// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
@@ -94,6 +95,9 @@ pub struct Provenance {
     pub dofs: usize,
     /// Wall-clock time of each stage in seconds, in the order they ran.
     pub stage_seconds: Vec<(String, f64)>,
+    /// What was done, as counts by name, for example `factorisations` and `right-hand sides`. Empty in files of programs
+    /// that did not count.
+    pub effort: Vec<(String, f64)>,
 }
 
 /// Errors of identities that hold exactly in exact arithmetic, relative, as measured during the reduction.
@@ -141,6 +145,8 @@ pub struct ReducedGear {
     /// `[flank f][roll station]`: distance along the normal to the opposite side of the tooth in metres, the h of the
     /// Weber-Banaschek local term.
     pub opposite_distance_m: Vec<f64>,
+    /// Calibration of the near field; none in files older than version 2.
+    pub near_field: Option<NearField>,
     /// Strain gauges.
     pub gauges: Vec<GaugeRows>,
     /// Where it comes from.
@@ -242,6 +248,18 @@ impl ReducedGear {
         &self.opposite_distance_m[flank * stations..(flank + 1) * stations]
     }
 
+    /// The calibration of the near field.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::NotCalibrated`] for a model without one.
+    pub fn calibration(&self) -> Result<&NearField, ReducedGearError> {
+        self.near_field
+            .as_ref()
+            .ok_or_else(|| ReducedGearError::NotCalibrated {
+                gear: self.name.clone(),
+            })
+    }
+
     fn carrying(&self, flank: Flank) -> usize {
         let index = self.flanks.iter().position(|&reduced| reduced == flank);
         assert!(
@@ -325,6 +343,15 @@ mod tests {
             gear.c_g_block(4, Flank::Left, 3, Flank::Left),
             Cow::Borrowed(_)
         ));
+    }
+
+    #[test]
+    fn a_model_without_calibration_says_so() {
+        let mut gear = small_reduced_gear();
+        assert!(gear.calibration().is_ok());
+        gear.near_field = None;
+        let message = gear.calibration().unwrap_err().to_string();
+        assert!(message.contains("reduce it again"), "{message}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::near_field::NearField;
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
 
@@ -41,6 +42,9 @@ impl ReducedGear {
             |h| h > 0.0,
             "above 0 m",
         )?;
+        if let Some(near_field) = &self.near_field {
+            check_near_field(near_field, flanks * stations * stations)?;
+        }
         for (index, gauge) in self.gauges.iter().enumerate() {
             let name = &gauge.name;
             if gauge.tooth >= teeth {
@@ -78,6 +82,7 @@ impl ReducedGear {
             .provenance
             .stage_seconds
             .iter()
+            .chain(&self.provenance.effort)
             .chain(&self.checks.further);
         for (name, value) in times {
             in_range(name, *value, f64::is_finite, "finite")?;
@@ -154,6 +159,41 @@ impl ReducedGear {
     }
 }
 
+fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), ReducedGearError> {
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    in_range(
+        "near_field.half_width_m",
+        near_field.half_width_m,
+        positive,
+        "above 0 m",
+    )?;
+    in_range(
+        "near_field.element_m",
+        near_field.element_m,
+        positive,
+        "above 0 m",
+    )?;
+    in_range(
+        "near_field.residual",
+        near_field.residual,
+        |e| e >= 0.0 && e.is_finite(),
+        "finite and not negative",
+    )?;
+    check_stations("near_field.roll_angles_rad", &near_field.roll_angles_rad)?;
+    check_array(
+        "near_field.contact_m2_per_n",
+        &near_field.contact_m2_per_n,
+        near_field.roll_angles_rad.len(),
+        "near-field places",
+    )?;
+    check_array(
+        "near_field.mesh_m2_per_n",
+        &near_field.mesh_m2_per_n,
+        expected,
+        "flanks * roll stations * roll stations",
+    )
+}
+
 fn out_of_range(item: &str, found: impl fmt::Display, allowed: &'static str) -> ReducedGearError {
     ReducedGearError::OutOfRange {
         item: item.to_owned(),
@@ -223,12 +263,16 @@ mod tests {
     use crate::reduced_gear::Flank;
     use crate::synthetic::small_reduced_gear;
 
+    fn near_field(gear: &mut ReducedGear) -> &mut NearField {
+        gear.near_field.as_mut().unwrap()
+    }
+
     #[test]
     fn every_wrong_figure_is_found() {
         let gear = small_reduced_gear();
         gear.validate().unwrap();
         type Change = fn(&mut ReducedGear);
-        let spoil: [(&str, Change); 16] = [
+        let spoil: [(&str, Change); 20] = [
             ("teeth", |g| g.teeth = 0),
             ("sectors", |g| g.sectors = 4),
             ("flanks", |g| g.flanks = vec![Flank::Left, Flank::Left]),
@@ -242,6 +286,18 @@ mod tests {
             ("c_hub", |g| g.c_hub[7] = f64::NAN),
             ("c_tooth", |g| g.c_tooth[0] = f64::INFINITY),
             ("opposite_distance_m", |g| g.opposite_distance_m[0] = 0.0),
+            ("near_field.half_width_m", |g| {
+                near_field(g).half_width_m = 0.0
+            }),
+            ("near_field.roll_angles_rad", |g| {
+                near_field(g).roll_angles_rad[1] = 0.0
+            }),
+            ("near_field.contact_m2_per_n", |g| {
+                near_field(g).contact_m2_per_n[2] = f64::NAN
+            }),
+            ("near_field.mesh_m2_per_n", |g| {
+                near_field(g).mesh_m2_per_n.truncate(9)
+            }),
             ("tooth of gauge", |g| g.gauges[0].tooth = 6),
             ("gauge name", |g| {
                 g.gauges[1].name = g.gauges[0].name.clone()

@@ -52,4 +52,13 @@ pub enum ReducedGearError {
         /// The flank that carries no loads.
         missing: Flank,
     },
+    /// The model carries no calibration of the near field.
+    #[error(
+        "gear \"{gear}\" carries no calibration of the near field, which local = \"calibrated\" needs: its file was \
+        written by an older version; reduce it again, or set local = \"weber-banaschek\""
+    )]
+    NotCalibrated {
+        /// The gear.
+        gear: String,
+    },
 }

@@ -4,12 +4,14 @@ use std::path::Path;
 
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::file_error::FileError;
+use crate::near_field::NearField;
 use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    version: 1,
+    // 2: near field
+    version: 2,
 };
 
 const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
@@ -28,6 +30,9 @@ pub fn write_reduced_gear(path: &Path, gear: &ReducedGear) -> Result<(), FileErr
     let mut tree = DataTree::default();
     put_gear(&mut tree, gear);
     put_compliance(&mut tree, gear);
+    if let Some(near_field) = &gear.near_field {
+        put_near_field(&mut tree, gear, near_field);
+    }
     for (index, gauge) in gear.gauges.iter().enumerate() {
         put_gauge(&mut tree, gear, index, gauge);
     }
@@ -93,6 +98,7 @@ pub fn read_reduced_gear(path: &Path) -> Result<ReducedGear, FileError> {
             "compliance/opposite_distance",
             &[hands, stations],
         )?,
+        near_field: take_near_field(&mut tree, path, hands, stations)?,
         gauges,
         provenance: take_provenance(&mut tree, path)?,
         checks: take_checks(&mut tree, path)?,
@@ -192,6 +198,83 @@ fn put_compliance(tree: &mut DataTree, gear: &ReducedGear) {
     tree.put("compliance/opposite_distance", array.in_frame(NORMAL));
 }
 
+fn put_near_field(tree: &mut DataTree, gear: &ReducedGear, near_field: &NearField) {
+    let at = |item: &str| format!("near_field/{item}");
+    let mut scalar = |item: &str, value: f64, unit: &str, description: &str| {
+        tree.put(at(item), DataArray::scalar(value, unit, description));
+    };
+    scalar(
+        "half_width",
+        near_field.half_width_m,
+        "m",
+        "half width of the calibrating Hertz pressure",
+    );
+    scalar(
+        "element",
+        near_field.element_m,
+        "m",
+        "element length at the load of the finer mesh behind the contact compliance",
+    );
+    scalar(
+        "residual",
+        near_field.residual,
+        "1",
+        "largest relative step from that mesh to the extrapolated contact compliance",
+    );
+    let places = [("place", near_field.roll_angles_rad.len())];
+    let array = DataArray::new(
+        Values::F64(near_field.roll_angles_rad.clone()),
+        &places,
+        "rad",
+        "roll angles tan(alpha) of the places",
+    );
+    tree.put(at("roll_angles"), array);
+    let description = "deflection of the contact centre per line load, tooth-only submodel, plane strain, fine mesh";
+    let array = DataArray::new(
+        Values::F64(near_field.contact_m2_per_n.clone()),
+        &places,
+        "m^2/N",
+        description,
+    );
+    tree.put(at("contact"), array.in_frame(NORMAL));
+    let stations = gear.grid.roll_angles_rad.len();
+    let axes = [
+        ("flank", gear.flanks.len()),
+        ("load: roll station", stations),
+        ("response: roll station", stations),
+    ];
+    let description = "the same per line load of a hat, the gear's own mesh and hats";
+    let array = DataArray::new(
+        Values::F64(near_field.mesh_m2_per_n.clone()),
+        &axes,
+        "m^2/N",
+        description,
+    );
+    tree.put(at("mesh"), array.in_frame(NORMAL));
+}
+
+/// Files of version 1 have no such group.
+fn take_near_field(
+    tree: &mut DataTree,
+    path: &Path,
+    hands: usize,
+    stations: usize,
+) -> Result<Option<NearField>, FileError> {
+    let at = |item: &str| format!("near_field/{item}");
+    if tree.children("near_field").is_empty() {
+        return Ok(None);
+    }
+    let [places] = tree.shape(path, &at("roll_angles"))?;
+    Ok(Some(NearField {
+        half_width_m: tree.take_scalar(path, &at("half_width"))?,
+        roll_angles_rad: tree.take_f64(path, &at("roll_angles"), &[places])?,
+        contact_m2_per_n: tree.take_f64(path, &at("contact"), &[places])?,
+        mesh_m2_per_n: tree.take_f64(path, &at("mesh"), &[hands, stations, stations])?,
+        element_m: tree.take_scalar(path, &at("element"))?,
+        residual: tree.take_scalar(path, &at("residual"))?,
+    }))
+}
+
 fn put_gauge(tree: &mut DataTree, gear: &ReducedGear, index: usize, gauge: &GaugeRows) {
     let at = |item: &str| format!("gauges/{index}/{item}");
     tree.put_text(at("name"), &gauge.name);
@@ -279,6 +362,13 @@ fn put_provenance(tree: &mut DataTree, provenance: &Provenance) {
         "wall-clock time of a stage",
         &provenance.stage_seconds,
     );
+    put_named_numbers(
+        tree,
+        "provenance/effort",
+        "1",
+        "a count of what was done",
+        &provenance.effort,
+    );
 }
 
 fn take_provenance(tree: &mut DataTree, path: &Path) -> Result<Provenance, FileError> {
@@ -293,6 +383,7 @@ fn take_provenance(tree: &mut DataTree, path: &Path) -> Result<Provenance, FileE
         elements: tree.take_count(path, &at("elements"))?,
         dofs: tree.take_count(path, &at("dofs"))?,
         stage_seconds: take_named_numbers(tree, path, "provenance/stage")?,
+        effort: take_named_numbers(tree, path, "provenance/effort")?,
     })
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::mesh_data::{Field, MeshData};
+use crate::near_field::NearField;
 use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
@@ -72,6 +73,19 @@ pub fn small_reduced_gear() -> ReducedGear {
         c_hub,
         c_tooth,
         opposite_distance_m: vec![0.004, 0.003, 0.002, 0.0041, 0.0031, 0.0021],
+        near_field: Some(NearField {
+            half_width_m: 1e-4,
+            roll_angles_rad: vec![0.2, 0.3, 0.4, 0.5],
+            contact_m2_per_n: vec![1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11],
+            mesh_m2_per_n: (0..18)
+                .map(|i| {
+                    let (a, b) = (f64::from(i / 3 % 3), f64::from(i % 3));
+                    9e-12 * (-(a - b).abs()).exp()
+                })
+                .collect(),
+            element_m: 1.25e-5,
+            residual: 2e-3,
+        }),
         gauges: vec![
             gauge("root", 0, Flank::Right),
             gauge("opposite", 3, Flank::Left),
@@ -86,6 +100,7 @@ pub fn small_reduced_gear() -> ReducedGear {
             elements: 2,
             dofs: 24,
             stage_seconds: vec![("mesh".to_owned(), 0.5), ("assemble".to_owned(), 0.25)],
+            effort: vec![("factorisations".to_owned(), 1.0)],
         },
         checks: ReductionChecks {
             symmetry: 1e-16,

@@ -21,6 +21,16 @@ fn synthetic_gear_comes_back_equal() {
 }
 
 #[test]
+fn a_gear_without_calibration_comes_back_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gear.h5");
+    let mut gear = small_reduced_gear();
+    gear.near_field = None;
+    write_reduced_gear(&path, &gear).unwrap();
+    assert_eq!(read_reduced_gear(&path).unwrap(), gear);
+}
+
+#[test]
 fn a_second_file_replaces_the_first() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("gear.h5");
@@ -152,6 +162,7 @@ prop_compose! {
             grid: FlankGrid { roll_angles_rad: even(stations, 0.1), z_m: even(axial, 0.003), slices: 1 },
             flanks: if both { vec![Flank::Left, Flank::Right] } else { vec![Flank::Right] },
             opposite_distance_m: distances,
+            near_field: None,
             ..gear
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearmesh_model::{GaugeRows, ReducedGear};
+use gearmesh_model::{GaugeRows, NearField, ReducedGear};
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -13,7 +13,8 @@ use crate::errors::file_error;
 ///
 /// c_hub has the axes load tooth in sector, load flank, response tooth, response flank, load, response (m/N); c_tooth
 /// flank, load, response. A load is roll station * len(z_m) + axial station. gauges is a list of dicts with adjoint
-/// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N.
+/// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N. near_field, the calibration of the local term, is
+/// a dict with contact_m2_per_n (place) and mesh_m2_per_n (flank, load station, response station), or None in old files.
 #[pyfunction]
 pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let gear = py
@@ -61,6 +62,12 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         "opposite_distance_m",
         shaped(py, gear.opposite_distance_m, vec![hands, stations])?,
     )?;
+    result.set_item(
+        "near_field",
+        gear.near_field
+            .map(|field| near_field_dict(py, field, hands, stations))
+            .transpose()?,
+    )?;
     let provenance = PyDict::new(py);
     provenance.set_item("program", gear.provenance.program)?;
     provenance.set_item("version", gear.provenance.version)?;
@@ -79,6 +86,31 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         checks.set_item(name, value)?;
     }
     result.set_item("checks", checks)?;
+    Ok(result)
+}
+
+fn near_field_dict(
+    py: Python<'_>,
+    field: NearField,
+    hands: usize,
+    stations: usize,
+) -> PyResult<Bound<'_, PyDict>> {
+    let result = PyDict::new(py);
+    result.set_item("half_width_m", field.half_width_m)?;
+    result.set_item("element_m", field.element_m)?;
+    result.set_item("residual", field.residual)?;
+    result.set_item(
+        "roll_angles_rad",
+        PyArray1::from_vec(py, field.roll_angles_rad),
+    )?;
+    result.set_item(
+        "contact_m2_per_n",
+        PyArray1::from_vec(py, field.contact_m2_per_n),
+    )?;
+    result.set_item(
+        "mesh_m2_per_n",
+        shaped(py, field.mesh_m2_per_n, vec![hands, stations, stations])?,
+    )?;
     Ok(result)
 }
 

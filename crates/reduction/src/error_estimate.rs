@@ -4,11 +4,11 @@
 //! |fine − coarse| / (s^p − 1). Compliance converges with p = 2, and so does the strain at element centres between which
 //! a gauge interpolates. Graded meshes are not similar to the last element, so that this is an estimate.
 
-use crate::flank_loads::{SparseVector, dot};
+use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
-use crate::reduce::all_loads;
-use crate::tooth_submodel::ToothSubmodel;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::tooth_vectors::summed;
 use crate::{ReductionError, Silent};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::python::PythonEnvironment;
@@ -72,32 +72,25 @@ pub fn estimate(
 ) -> Result<ErrorEstimate, ReductionError> {
     let coarse = coarsened(gear);
     let body = GearBody::new(&coarse, python, &Silent)?;
-    let loads = all_loads(&coarse, &body, grid);
     let count = grid.len();
     let side = gear.reduction.flanks[0];
-    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][0])?;
+    let loads = flank_loads(&coarse, &body.mesh, grid, 0, side);
+    let submodel =
+        ToothSubmodel::new(&body.model, &body.mesh, side, &loads, Deformation::of(gear))?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
 
-    let mut line: SparseVector = Vec::new();
-    for &(load, share) in &weights {
-        line.extend(
-            loads[0][0][load]
-                .normal
-                .iter()
-                .map(|&(dof, value)| (dof, share * value)),
-        );
-    }
-    line.sort_unstable_by_key(|entry| entry.0);
-    line.dedup_by(|b, a| {
-        let same = a.0 == b.0;
-        if same {
-            a.1 += b.1;
-        }
-        same
-    });
-    let normals: Vec<&SparseVector> = loads[0][0].iter().map(|l| &l.normal).collect();
-    let w = submodel.products(&normals, body.dofs.dof_count());
-    let mut rows = vec![line.clone()];
+    let line = summed(
+        weights
+            .iter()
+            .flat_map(|&(load, share)| {
+                let normal = &loads[load].normal;
+                normal.iter().map(move |&(dof, value)| (dof, share * value))
+            })
+            .collect(),
+    );
+    let normals: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
+    let w = submodel.products(&normals);
+    let mut rows = vec![line];
     for gauge in &gear.gauges {
         rows.push(gauge_row(
             &coarse,
@@ -107,16 +100,20 @@ pub fn estimate(
             gauge.tooth,
         )?);
     }
-    let mut hub = 0.0;
-    let mut readings: Vec<Vec<f64>> = Vec::new();
-    body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, |column, u| {
-        if column == 0 {
-            hub = dot(&line, u);
-        } else {
-            let tooth = gear.gauges[column - 1].tooth;
-            readings.push(loads[tooth][0].iter().map(|l| dot(&l.normal, u)).collect());
-        }
-    });
+    let rows: Vec<&SparseVector> = rows.iter().collect();
+    let all = body.readings(&rows, &normals, &Silent);
+    // Normal loads of a row's own tooth; the line load stands on tooth 0.
+    let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
+    let hub: f64 = weights
+        .iter()
+        .map(|&(load, share)| share * own(0, 0)[load])
+        .sum();
+    let readings: Vec<&[f64]> = gear
+        .gauges
+        .iter()
+        .enumerate()
+        .map(|(k, gauge)| own(k + 1, gauge.tooth))
+        .collect();
     let coarse_compliance = hub - compliance_of(&weights, |l, m| w[m * count + l]);
     let fine_compliance = compliance_of(&weights, |l, m| {
         c_hub[l * count + m] - c_tooth[l * count + m]

@@ -1,18 +1,20 @@
-//! The finite element model of a whole gear: mesh, stiffness, factor.
+//! The finite element model of a gear and the way it is solved.
 
+use crate::cyclic_body::CyclicBody;
+use crate::flank_loads::SparseVector;
+use crate::tooth_submodel::Deformation;
+use crate::tooth_vectors::on_tooth;
+use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
 use faer::Mat;
-use gearmesh_fe::{DofMap, Factor, FeModel, HexElement, Material, NodeGraph, StiffnessMatrix};
-use gearmesh_fe::{DofOrdering, assemble_stiffness_with_graph};
-use gearmesh_geometry::{ElementKind, GearDefinition};
+use gearmesh_fe::{DofMap, FeModel, HexElement, Material};
+use gearmesh_geometry::{ElementKind, GearDefinition, Symmetry};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Columns that are solved together.
-pub const BLOCK: usize = 64;
-
-/// A gear held at its bore, ready to be loaded.
+/// A gear held at its bore, ready to be loaded. How it is solved shows in nothing but time and memory.
 pub struct GearBody {
     /// Mesh.
     pub mesh: GearMesh,
@@ -20,12 +22,15 @@ pub struct GearBody {
     pub model: FeModel,
     /// Free degrees of freedom.
     pub dofs: DofMap,
-    /// Stiffness over the free degrees of freedom.
-    pub stiffness: StiffnessMatrix,
-    /// Its factor.
-    pub factor: Factor,
     /// Wall time by stage.
     pub stage_seconds: Vec<(String, f64)>,
+    solver: Solver,
+    right_hand_sides: AtomicUsize,
+}
+
+enum Solver {
+    Whole(Box<WholeGear>),
+    Cyclic(Box<CyclicBody>),
 }
 
 /// The element of the finite element crate that a definition names.
@@ -37,7 +42,7 @@ pub fn element_of(kind: ElementKind) -> HexElement {
 }
 
 impl GearBody {
-    /// Meshes, assembles and factors a gear with its bore fixed.
+    /// Meshes and factorises a gear with its bore fixed, in plane strain where its definition says so.
     ///
     /// # Errors
     /// [`ReductionError`] when it cannot be meshed or is not held.
@@ -46,16 +51,11 @@ impl GearBody {
         python: &PythonEnvironment,
         progress: &dyn Progress,
     ) -> Result<Self, ReductionError> {
-        let mut stage_seconds = Vec::new();
-        let mut clock = Instant::now();
-        let mut lap = |name: &str| {
-            stage_seconds.push((name.to_string(), clock.elapsed().as_secs_f64()));
-            clock = Instant::now();
-        };
+        let clock = Instant::now();
         progress.stage("meshing");
         let mesh = GearMesh::new(gear, python)?;
-        lap("mesh");
-        progress.stage("assembling");
+        let mut stage_seconds = vec![("mesh".to_string(), clock.elapsed().as_secs_f64())];
+        let clock = Instant::now();
         let material = Material::new(gear.material.young_pa, gear.material.poisson)?;
         let model = FeModel::new(
             mesh.nodes.clone(),
@@ -63,51 +63,113 @@ impl GearBody {
             material,
             element_of(gear.mesh.element),
         )?;
-        let fixed: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
-        let dofs = DofMap::with_fixed_nodes(model.node_count(), &fixed)?;
-        let graph = NodeGraph::new(&model, &dofs)?;
-        let stiffness = assemble_stiffness_with_graph(&model, &dofs, &graph)?;
-        lap("assembly");
-        progress.stage("factoring");
-        let ordering = DofOrdering::nested_dissection(&graph, &dofs)?;
-        let factor = Factor::new(&stiffness, ordering)?;
-        lap("factor");
+        let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
+        let deformation = Deformation::of(gear);
+        let dofs = deformation.dofs(model.node_count(), &bore)?;
+        stage_seconds.push(("model".to_string(), clock.elapsed().as_secs_f64()));
+        // A plane problem is small: its whole factor takes less than the ring's frames.
+        let solver = match (gear.reduction.symmetry, deformation) {
+            (Symmetry::Auto, Deformation::Spatial) => {
+                let mut fixed = vec![false; model.node_count()];
+                for n in bore {
+                    fixed[n] = true;
+                }
+                let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stage_seconds)?;
+                Solver::Cyclic(Box::new(body))
+            }
+            (Symmetry::Off, _) | (_, Deformation::PlaneStrain) => {
+                let whole = WholeGear::new(&model, &dofs, progress, &mut stage_seconds)?;
+                Solver::Whole(Box::new(whole))
+            }
+        };
         Ok(Self {
             mesh,
             model,
             dofs,
-            stiffness,
-            factor,
             stage_seconds,
+            solver,
+            right_hand_sides: AtomicUsize::new(0),
         })
     }
 
-    /// Solves K u = f for many loads, a block at a time, and hands each full displacement vector (all degrees of
+    /// What has been done so far, as counts by name: factorisations, right-hand sides, sizes of what was factorised.
+    pub fn effort(&self) -> Vec<(String, f64)> {
+        let mut counts = match &self.solver {
+            Solver::Whole(_) => vec![
+                ("factorisations", 1),
+                ("DOF of the whole gear", self.dofs.free_count()),
+            ],
+            Solver::Cyclic(body) => body.effort(),
+        };
+        let solved = self.right_hand_sides.load(Ordering::Relaxed);
+        counts.insert(1, ("right-hand sides", solved));
+        let named = counts.into_iter();
+        named.map(|(n, c)| (n.to_string(), c as f64)).collect()
+    }
+
+    fn count(&self, right_hand_sides: usize) {
+        self.right_hand_sides
+            .fetch_add(right_hand_sides, Ordering::Relaxed);
+    }
+
+    /// aᵀ K⁻¹ b \[m/N\] for vectors given on tooth 0 and placed, turned, on every tooth; the loaded teeth are those of
+    /// the first `own`: `[loaded tooth][load][tooth][response]`.
+    pub fn compliance(
+        &self,
+        own: usize,
+        vectors: &[&SparseVector],
+        progress: &dyn Progress,
+    ) -> Vec<f64> {
+        self.count(own * vectors.len());
+        match &self.solver {
+            Solver::Whole(whole) => {
+                let loads: Vec<SparseVector> = (0..own)
+                    .flat_map(|t| vectors.iter().map(move |v| on_tooth(&self.mesh, v, t)))
+                    .collect();
+                let loads: Vec<&SparseVector> = loads.iter().collect();
+                whole
+                    .readings(&self.mesh, &self.dofs, &loads, vectors, progress)
+                    .concat()
+            }
+            Solver::Cyclic(body) => body.compliance(vectors, progress),
+        }
+    }
+
+    /// aᵀ K⁻¹ g for rows g on the whole mesh and vectors a given on tooth 0 and placed, turned, on every tooth:
+    /// `[row][tooth][vector]`.
+    pub fn readings(
+        &self,
+        rows: &[&SparseVector],
+        vectors: &[&SparseVector],
+        progress: &dyn Progress,
+    ) -> Vec<Vec<f64>> {
+        self.count(rows.len());
+        match &self.solver {
+            Solver::Whole(whole) => whole.readings(&self.mesh, &self.dofs, rows, vectors, progress),
+            Solver::Cyclic(body) => body.readings(rows, vectors),
+        }
+    }
+
+    /// Solves K u = f for many loads on the whole mesh and hands each full displacement vector (all degrees of
     /// freedom, metres per newton) to `each`.
     pub fn solve_each(
         &self,
-        loads: &[&crate::flank_loads::SparseVector],
+        loads: &[&SparseVector],
         progress: &dyn Progress,
-        mut each: impl FnMut(usize, &[f64]),
+        each: impl FnMut(usize, &[f64]),
     ) {
-        let mut full = vec![0.0; self.dofs.dof_count()];
-        for (block, chunk) in loads.chunks(BLOCK).enumerate() {
-            let mut rhs = Mat::<f64>::zeros(self.dofs.free_count(), chunk.len());
-            for (column, load) in chunk.iter().enumerate() {
-                for &(dof, value) in *load {
-                    if let Some(free) = self.dofs.free_of(dof) {
-                        rhs[(free, column)] = value;
-                    }
-                }
-            }
-            self.factor.solve_in_place(rhs.as_mut());
-            for column in 0..chunk.len() {
-                for free in 0..self.dofs.free_count() {
-                    full[self.dofs.full_of(free)] = rhs[(free, column)];
-                }
-                each(block * BLOCK + column, &full);
-            }
-            progress.advance((block * BLOCK + chunk.len()).min(loads.len()), loads.len());
+        self.count(loads.len());
+        match &self.solver {
+            Solver::Whole(whole) => whole.solve_each(&self.dofs, loads, progress, each),
+            Solver::Cyclic(body) => body.solve_each(&self.mesh, loads, progress, each),
+        }
+    }
+
+    /// XᵀKX \[J\] for displacement fields X over all degrees of freedom, zero where the body is held.
+    pub fn energy_products(&self, fields: &[Vec<f64>]) -> Mat<f64> {
+        match &self.solver {
+            Solver::Whole(whole) => whole.energy_products(&self.dofs, fields),
+            Solver::Cyclic(body) => body.energy_products(&self.mesh, fields),
         }
     }
 }

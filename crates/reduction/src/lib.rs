@@ -3,8 +3,13 @@
 //! | step | file |
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
-//! | mesh, stiffness and factor of the whole gear | `gear_body.rs` |
+//! | mesh, model and the way it is solved | `gear_body.rs` |
+//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs` |
+//! | by one factorisation of everything | `whole_gear.rs` |
+//! | loads of tooth 0 turned to other teeth | `tooth_vectors.rs` |
 //! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
+//! | calibration of the near field in plane strain | `near_field.rs` |
+//! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
@@ -14,13 +19,21 @@
 //! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
 //! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
 
+pub mod contact_problem;
+pub mod cyclic_body;
 pub mod error_estimate;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
 pub mod gear_body;
+pub mod near_field;
+mod part;
 pub mod reduce;
+pub mod sector_substructure;
 pub mod tooth_submodel;
+pub mod tooth_substructure;
+pub mod tooth_vectors;
+pub mod whole_gear;
 
 pub use gear_body::GearBody;
 pub use reduce::{ReductionOptions, reduce};

@@ -1,15 +1,15 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
 use crate::error_estimate::{ErrorEstimate, estimate};
-use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
+use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
-use crate::tooth_submodel::ToothSubmodel;
-use crate::{Progress, ReductionError, flank_of};
+use crate::near_field::calibrate;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::{Progress, ReductionError, Silent, flank_of};
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks, utc_now};
-use rayon::prelude::*;
+use gearmesh_model::{GaugeRows, Provenance, ReducedGear, ReductionChecks, utc_now};
 use std::time::Instant;
 
 /// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
@@ -25,28 +25,10 @@ pub struct ReductionOptions {
     pub estimate_error: bool,
 }
 
-/// Loads of every tooth: `[tooth][flank of the definition][load]`.
-pub(crate) fn all_loads(
-    gear: &GearDefinition,
-    body: &GearBody,
-    grid: &FlankGrid,
-) -> Vec<Vec<Vec<GridLoad>>> {
-    (0..gear.tooth.teeth)
-        .into_par_iter()
-        .map(|tooth| {
-            gear.reduction
-                .flanks
-                .iter()
-                .map(|&side| flank_loads(gear, &body.mesh, grid, tooth, side))
-                .collect()
-        })
-        .collect()
-}
-
 /// Reduces a gear to its compliance at the flanks. The finite element model is handed back for pictures.
 ///
-/// C_hub = NᵀK⁻¹N is solved for the teeth of one repeating sector only, against all teeth; C_tooth = NᵀW once, because
-/// all teeth have the same mesh.
+/// C_hub = NᵀK⁻¹N is found for the teeth of one repeating sector only, against all teeth; loads are integrated and C_tooth =
+/// NᵀW is solved once, because all teeth have the same mesh.
 ///
 /// # Errors
 /// [`ReductionError`] when the gear cannot be meshed or held, a gauge covers nothing, or an identity is violated by
@@ -65,55 +47,50 @@ pub fn reduce(
         clock = Instant::now();
     };
     let grid = flank_grid(gear);
-    let loads = all_loads(gear, &body, &grid);
     let flanks = &gear.reduction.flanks;
+    let loads: Vec<Vec<GridLoad>> = flanks
+        .iter()
+        .map(|&side| flank_loads(gear, &body.mesh, &grid, 0, side))
+        .collect();
     let (teeth, sectors, count) = (gear.tooth.teeth, gear.sectors(), grid.len());
     let own = teeth / sectors;
+    lap("loads");
 
+    let deformation = Deformation::of(gear);
     progress.stage("tooth submodel");
     let submodels: Vec<ToothSubmodel> = flanks
         .iter()
-        .enumerate()
-        .map(|(f, &side)| ToothSubmodel::new(&body.model, &body.mesh, side, &loads[0][f]))
+        .zip(&loads)
+        .map(|(&side, loads)| ToothSubmodel::new(&body.model, &body.mesh, side, loads, deformation))
         .collect::<Result<_, _>>()?;
     let mut c_tooth = Vec::with_capacity(flanks.len() * count * count);
-    for (f, submodel) in submodels.iter().enumerate() {
-        let rows: Vec<&SparseVector> = loads[0][f].iter().map(|l| &l.normal).collect();
-        let products = submodel.products(&rows, body.dofs.dof_count());
+    for (submodel, loads) in submodels.iter().zip(&loads) {
+        let rows: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
+        let products = submodel.products(&rows);
         // products is [response][load]; the file holds [load][response].
         c_tooth.extend((0..count * count).map(|k| products[(k % count) * count + k / count]));
     }
     lap("tooth submodel");
 
+    progress.stage("calibrating the near field");
+    let near_field = calibrate(gear, &body.mesh, &body.model, &grid)?;
+    lap("near field");
+
     progress.stage("solving flank loads");
-    let sector_loads: Vec<&SparseVector> = (0..own)
-        .flat_map(|tooth| loads[tooth].iter().flatten().map(|load| &load.normal))
-        .collect();
-    let responses: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flatten()
-        .map(|load| &load.normal)
-        .collect();
-    let row_length = responses.len();
-    let mut c_rows = vec![0.0; sector_loads.len() * row_length];
-    // Patterns of tooth 0's first flank that the identity is checked on.
-    let stride = count.div_ceil(IDENTITY_SAMPLES);
-    let mut patterns: Vec<(usize, Vec<f64>)> = Vec::new();
-    body.solve_each(&sector_loads, progress, |column, u| {
-        let row = &mut c_rows[column * row_length..(column + 1) * row_length];
-        row.par_iter_mut()
-            .zip(&responses)
-            .for_each(|(c, response)| *c = dot(response, u));
-        if column < count && column % stride == 0 {
-            let w = submodels[0].column(column, u.len());
-            patterns.push((column, u.iter().zip(&w).map(|(u, w)| u - w).collect()));
-        }
-    });
+    let normals: Vec<&SparseVector> = loads.iter().flatten().map(|load| &load.normal).collect();
+    let c_rows = body.compliance(own, &normals, progress);
     lap("solve");
 
+    progress.stage("checking");
     let symmetry = asymmetry(&c_rows, own, flanks.len(), teeth, count);
-    let pattern_identity = pattern_identity(&body, &patterns, &c_rows, &c_tooth, row_length, count);
+    let pattern_identity = pattern_identity(
+        &body,
+        &submodels[0],
+        &normals[..count],
+        &c_rows,
+        teeth * normals.len(),
+        &c_tooth,
+    );
     let c_hub = by_blocks(&c_rows, own, flanks.len(), teeth, count);
     for (check, found, allowed) in [
         ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
@@ -162,6 +139,7 @@ pub fn reduce(
         opposite_distance_m: opposite.repeat(flanks.len()),
         c_hub,
         c_tooth,
+        near_field: Some(near_field),
         gauges,
         provenance: Provenance {
             program: "gearmesh".into(),
@@ -173,6 +151,7 @@ pub fn reduce(
             elements: body.mesh.hexes.len(),
             dofs: body.dofs.free_count(),
             stage_seconds,
+            effort: body.effort(),
         },
         checks: ReductionChecks {
             symmetry,
@@ -222,48 +201,42 @@ fn asymmetry(rows: &[f64], own: usize, flanks: usize, teeth: usize, count: usize
     worst / largest
 }
 
-/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over the sampled patterns, with K applied to them.
+/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over some patterns of tooth 0's first flank, with K applied to them.
 fn pattern_identity(
     body: &GearBody,
-    patterns: &[(usize, Vec<f64>)],
+    submodel: &ToothSubmodel,
+    normals: &[&SparseVector],
     c_rows: &[f64],
-    c_tooth: &[f64],
     row_length: usize,
-    count: usize,
+    c_tooth: &[f64],
 ) -> f64 {
-    let free: Vec<Vec<f64>> = patterns
-        .iter()
-        .map(|(_, psi)| body.dofs.restrict(psi))
+    let count = normals.len();
+    let sampled: Vec<usize> = (0..count)
+        .step_by(count.div_ceil(IDENTITY_SAMPLES))
         .collect();
-    let forces: Vec<Vec<f64>> = free.par_iter().map(|psi| multiply(body, psi)).collect();
+    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
+    let mut patterns: Vec<Vec<f64>> = Vec::with_capacity(loads.len());
+    body.solve_each(&loads, &Silent, |k, u| {
+        let w = submodel.column(sampled[k], u.len());
+        patterns.push(u.iter().zip(&w).map(|(u, w)| u - w).collect());
+    });
+    let energy = body.energy_products(&patterns);
     let (mut difference, mut norm) = (0.0, 0.0);
-    for (a, (load_a, _)) in patterns.iter().enumerate() {
-        for (b, (load_b, _)) in patterns.iter().enumerate() {
-            let reduced: f64 = free[a].iter().zip(&forces[b]).map(|(x, y)| x * y).sum();
+    for (a, load_a) in sampled.iter().enumerate() {
+        for (b, load_b) in sampled.iter().enumerate() {
             let c_g = c_rows[load_a * row_length + load_b] - c_tooth[load_a * count + load_b];
-            difference += (reduced - c_g).powi(2);
+            difference += (energy[(a, b)] - c_g).powi(2);
             norm += c_g * c_g;
         }
     }
     (difference / norm).sqrt()
 }
 
-fn multiply(body: &GearBody, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.0; x.len()];
-    let k = body.stiffness.as_ref();
-    for (column, &value) in x.iter().enumerate() {
-        for (row, entry) in k.row_idx_of_col(column).zip(k.val_of_col(column)) {
-            y[row] += entry * value;
-        }
-    }
-    y
-}
-
-/// One adjoint solve per gauge: y = K⁻¹g, read at all grid loads in three directions; and gᵀW on its own tooth.
+/// One adjoint solution per gauge: y = K⁻¹g, read at all grid loads in three directions; and gᵀW on its own tooth.
 fn gauges(
     gear: &GearDefinition,
     body: &GearBody,
-    loads: &[Vec<Vec<GridLoad>>],
+    loads: &[Vec<GridLoad>],
     submodels: &[ToothSubmodel],
     progress: &dyn Progress,
 ) -> Result<Vec<GaugeRows>, ReductionError> {
@@ -276,22 +249,12 @@ fn gauges(
         .iter()
         .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
         .collect::<Result<_, _>>()?;
-    let mut adjoints = Vec::with_capacity(rows.len());
-    body.solve_each(&rows.iter().collect::<Vec<_>>(), progress, |_, y| {
-        let adjoint: Vec<f64> = loads
-            .iter()
-            .flatten()
-            .flatten()
-            .flat_map(|load| {
-                [
-                    dot(&load.normal, y),
-                    dot(&load.tangential, y),
-                    dot(&load.axial, y),
-                ]
-            })
-            .collect();
-        adjoints.push(adjoint);
-    });
+    let directions: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
+        .collect();
+    let adjoints = body.readings(&rows.iter().collect::<Vec<_>>(), &directions, progress);
     gear.gauges
         .iter()
         .zip(adjoints)
@@ -307,7 +270,7 @@ fn gauges(
                 adjoint,
                 own_tooth: submodels
                     .iter()
-                    .flat_map(|s| s.products(&[&at_zero], body.dofs.dof_count()))
+                    .flat_map(|s| s.products(&[&at_zero]))
                     .collect(),
             })
         })

@@ -4,15 +4,51 @@
 //! mesh, so that the patterns Ψ = U − W are free of it.
 
 use crate::ReductionError;
-use crate::flank_loads::{GridLoad, SparseVector, dot};
+use crate::flank_loads::{GridLoad, SparseVector};
+use crate::part::Part;
 use faer::Mat;
-use gearmesh_fe::{DofMap, Factor, FeModel, NodeGraph, assemble_stiffness};
-use gearmesh_geometry::FlankSide;
+use gearmesh_fe::{DofMap, Factor, FeModel, assemble_stiffness};
+use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_mesh::GearMesh;
+
+/// How a body may deform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deformation {
+    /// In all directions.
+    Spatial,
+    /// Plane strain: nowhere along the axis.
+    PlaneStrain,
+}
+
+impl Deformation {
+    /// What a gear's definition asks for.
+    pub fn of(gear: &GearDefinition) -> Self {
+        if gear.mesh.plane_strain {
+            Self::PlaneStrain
+        } else {
+            Self::Spatial
+        }
+    }
+
+    /// The free degrees of freedom of a model of which the listed nodes are held.
+    ///
+    /// # Errors
+    /// [`gearmesh_fe::FeError`] when nothing is left free.
+    pub fn dofs(self, node_count: usize, held: &[usize]) -> Result<DofMap, gearmesh_fe::FeError> {
+        match self {
+            Self::Spatial => DofMap::with_fixed_nodes(node_count, held),
+            Self::PlaneStrain => {
+                let mut fixed: Vec<usize> = (0..node_count).map(|n| 3 * n + 2).collect();
+                fixed.extend(held.iter().flat_map(|&n| [3 * n, 3 * n + 1]));
+                DofMap::with_fixed_dofs(node_count, &fixed)
+            }
+        }
+    }
+}
 
 /// W on tooth 0 for the loads of one flank.
 pub struct ToothSubmodel {
-    /// Whole-gear degree of freedom of each submodel degree of freedom.
+    /// Whole-gear degree of freedom of each submodel degree of freedom, ascending.
     full_dofs: Vec<usize>,
     /// Solution, submodel degrees of freedom × loads \[m/N\].
     w: Mat<f64>,
@@ -28,44 +64,23 @@ impl ToothSubmodel {
         mesh: &GearMesh,
         side: FlankSide,
         loads: &[GridLoad],
+        deformation: Deformation,
     ) -> Result<Self, ReductionError> {
         let hexes = mesh.tooth_hexes(0);
-        let mut nodes: Vec<u32> = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let local = |n: u32| {
-            nodes
-                .binary_search(&n)
-                .map(|i| i as u32)
-                .unwrap_or(u32::MAX)
-        };
-        let part = FeModel::new(
-            nodes.iter().map(|&n| mesh.nodes[n as usize]).collect(),
-            hexes
-                .iter()
-                .map(|&h| mesh.hexes[h as usize].map(local))
-                .collect(),
-            *model.material(),
-            model.element(),
-        )?;
+        let Part { nodes, model: part } = Part::new(model, &hexes)?;
         let supports: Vec<usize> = mesh
             .tooth_supports(0, side)
             .into_iter()
             .filter_map(|n| nodes.binary_search(&n).ok())
             .collect();
-        let dofs = DofMap::with_fixed_nodes(part.node_count(), &supports)?;
+        let dofs = deformation.dofs(part.node_count(), &supports)?;
         let stiffness = assemble_stiffness(&part, &dofs)?;
         let factor = Factor::of_model(&part, &dofs, &stiffness)?;
-        debug_assert_eq!(
-            NodeGraph::new(&part, &dofs)?.active_nodes().len() + supports.len(),
-            part.node_count()
-        );
         let mut w = Mat::<f64>::zeros(dofs.free_count(), loads.len());
         for (column, load) in loads.iter().enumerate() {
             for &(dof, value) in &load.normal {
-                let node = local((dof / 3) as u32);
-                if node != u32::MAX
-                    && let Some(free) = dofs.free_of(3 * node as usize + dof % 3)
+                if let Ok(node) = nodes.binary_search(&((dof / 3) as u32))
+                    && let Some(free) = dofs.free_of(3 * node + dof % 3)
                 {
                     w[(free, column)] = value;
                 }
@@ -91,13 +106,16 @@ impl ToothSubmodel {
     }
 
     /// rowᵀ W for each load, for rows over the whole gear's degrees of freedom: `[row][load]`.
-    pub fn products(&self, rows: &[&SparseVector], dof_count: usize) -> Vec<f64> {
+    pub fn products(&self, rows: &[&SparseVector]) -> Vec<f64> {
         let loads = self.w.ncols();
         let mut result = vec![0.0; rows.len() * loads];
-        for load in 0..loads {
-            let column = self.column(load, dof_count);
-            for (k, row) in rows.iter().enumerate() {
-                result[k * loads + load] = dot(row, &column);
+        for (row, sums) in rows.iter().zip(result.chunks_mut(loads)) {
+            for &(dof, value) in *row {
+                if let Ok(k) = self.full_dofs.binary_search(&dof) {
+                    for (load, sum) in sums.iter_mut().enumerate() {
+                        *sum += value * self.w[(k, load)];
+                    }
+                }
             }
         }
         result

@@ -1,7 +1,7 @@
 //! What a scene will compute, before anything is computed.
 
 use crate::scene_file::Scene;
-use gearmesh_contact::{ContactLines, LocalContact};
+use gearmesh_contact::ContactLines;
 use gearmesh_model::ReducedGear;
 
 /// Size and effects of a scene.
@@ -59,10 +59,7 @@ impl Plan {
                 None => "`line-of-action`".to_string(),
                 Some(radius) => format!("`extended` with a tip edge radius of {} um", (radius * 1e9).round() / 1e3),
             },
-            match scene.contact.local {
-                LocalContact::None => "none",
-                LocalContact::WeberBanaschek => "weber-banaschek",
-            },
+            scene.contact.local.name(),
             gear_1.grid.slices
         ));
         text.push(match scene.contact.friction {

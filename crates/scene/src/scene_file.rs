@@ -46,6 +46,7 @@ enum MeshModel {
 enum LocalTable {
     None,
     WeberBanaschek,
+    Calibrated,
 }
 
 #[derive(Deserialize)]
@@ -271,7 +272,9 @@ impl Scene {
             contact: ContactOptions {
                 local: match table.mesh.local {
                     Some(LocalTable::None) => LocalContact::None,
-                    Some(LocalTable::WeberBanaschek) | None => LocalContact::WeberBanaschek,
+                    Some(LocalTable::WeberBanaschek) => LocalContact::WeberBanaschek,
+                    Some(LocalTable::Calibrated) => LocalContact::Calibrated,
+                    None => LocalContact::default(),
                 },
                 friction,
             },

@@ -31,7 +31,7 @@ impl Assumption {
                 value * 100.0
             ),
             Self::LocalTermCapped => format!(
-                "local compliance: on {value:.0} slices the load is beyond the range of the Weber-Banaschek term, whose slope was frozen"
+                "local compliance: on {value:.0} slices the load is beyond the range of the local term's logarithm, whose slope was frozen (the Hertz width comes near that of the hats: take fewer reduction.roll_stations)"
             ),
         }
     }

@@ -44,6 +44,7 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
     let local = match a.local {
         Local::None => LocalContact::None,
         Local::WeberBanaschek => LocalContact::WeberBanaschek,
+        Local::Calibrated => LocalContact::Calibrated,
     };
     let mut rows = Vec::new();
     for &radius in &a.radius_mm {

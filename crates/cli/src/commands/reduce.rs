@@ -40,6 +40,7 @@ pub fn figures(model: &ReducedGear) -> serde_json::Value {
         "further": model.checks.further.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         "gauges": gauges,
         "stage_seconds": model.provenance.stage_seconds.iter().map(|(n, s)| json!({"stage": n, "seconds": s})).collect::<Vec<_>>(),
+        "effort": model.provenance.effort.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
     })
 }
 
@@ -81,5 +82,13 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
         p.threads,
         times.join(", ")
     ));
+    if !p.effort.is_empty() {
+        let counts: Vec<String> = p
+            .effort
+            .iter()
+            .map(|(name, count)| format!("{count} {name}"))
+            .collect();
+        lines.push(format!("effort: {}", counts.join(", ")));
+    }
     lines
 }

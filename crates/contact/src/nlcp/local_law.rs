@@ -25,7 +25,8 @@
 //!   but a step of `β` in the slope, hence in the tangent that an integrator sees), and it stays increasing and
 //!   concave. The slope at zero is `α + β − β ln F_f`.
 //! - **cap**, `F > F_c`: a straight line with the slope at the cap, continuous with its slope. The cap is the load at
-//!   which the half width reaches [`HALF_WIDTH_LIMIT`] times the smaller depth.
+//!   which the half width reaches [`HALF_WIDTH_LIMIT`] times the smaller depth; for a calibrated law, whose depth is
+//!   not that of the body, the load at which the slope has all but fallen to zero.
 //!
 //! # Sources
 //! C. Weber, K. Banaschek, Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern (1953); seed 004
@@ -48,6 +49,10 @@ pub const FLOOR_FRACTION: f64 = 1e-6;
 /// `a/h = 0.5` each bracket is at least `ln 4 − 1 = 0.386` for every Poisson ratio up to 0.5, so the slope is positive
 /// at the cap and therefore everywhere.
 pub const HALF_WIDTH_LIMIT: f64 = 0.5;
+
+/// Slope at the cap of a calibrated law in units of `β`, the slope's fall per e-fold of the force: positive, and small
+/// enough that the cap stays within 1 % of the force at which the slope would reach zero.
+pub const LEAST_SLOPE: f64 = 0.01;
 
 /// Material and depth of one of the two bodies of a line contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +97,30 @@ impl LineContact {
     /// Hertz half width `a` \[m\] at the slice force `force_n` \[N\]: `a² = (4 q ρ/π) Σ (1 − ν²)/E`.
     pub fn half_width_m(&self, force_n: f64) -> f64 {
         self.half_width_factor() * force_n.max(0.0).sqrt()
+    }
+
+    /// α and β \[m/N\] of the module documentation.
+    fn logarithm(&self) -> Result<(f64, f64), LocalLawError> {
+        require_positive("slice width_m", self.width_m)?;
+        require_positive("relative_radius_m", self.relative_radius_m)?;
+        for body in &self.bodies {
+            require_positive("youngs_modulus_pa", body.youngs_modulus_pa)?;
+            require_positive("depth_m", body.depth_m)?;
+            if !(0.0..=0.5).contains(&body.poisson_ratio) {
+                return Err(LocalLawError::PoissonRatio {
+                    found: body.poisson_ratio,
+                });
+            }
+        }
+        let factor = self.half_width_factor();
+        let (mut alpha, mut beta) = (0.0, 0.0);
+        for body in &self.bodies {
+            let per_force = 2.0 * body.plane_strain_compliance() / (PI * self.width_m);
+            let nu = body.poisson_ratio;
+            alpha += per_force * ((2.0 * body.depth_m / factor).ln() - nu / (2.0 * (1.0 - nu)));
+            beta += 0.5 * per_force;
+        }
+        Ok((alpha, beta))
     }
 
     /// `c` of `a = c √F` \[m/√N\].
@@ -187,28 +216,23 @@ impl LocalLaw {
         contact: &LineContact,
         floor_force_n: f64,
     ) -> Result<Self, LocalLawError> {
-        require_positive("slice width_m", contact.width_m)?;
-        require_positive("relative_radius_m", contact.relative_radius_m)?;
-        for body in &contact.bodies {
-            require_positive("youngs_modulus_pa", body.youngs_modulus_pa)?;
-            require_positive("depth_m", body.depth_m)?;
-            if !(0.0..=0.5).contains(&body.poisson_ratio) {
-                return Err(LocalLawError::PoissonRatio {
-                    found: body.poisson_ratio,
-                });
-            }
-        }
-        let factor = contact.half_width_factor();
-        let mut alpha = 0.0;
-        let mut beta = 0.0;
-        for body in &contact.bodies {
-            let per_force = 2.0 * body.plane_strain_compliance() / (PI * contact.width_m);
-            let nu = body.poisson_ratio;
-            alpha += per_force * ((2.0 * body.depth_m / factor).ln() - nu / (2.0 * (1.0 - nu)));
-            beta += 0.5 * per_force;
-        }
+        let (alpha, beta) = contact.logarithm()?;
         let depth = contact.bodies[0].depth_m.min(contact.bodies[1].depth_m);
-        let cap = (HALF_WIDTH_LIMIT * depth / factor).powi(2);
+        let cap = (HALF_WIDTH_LIMIT * depth / contact.half_width_factor()).powi(2);
+        Self::logarithmic(alpha, beta, floor_force_n, cap)
+    }
+
+    /// The same logarithm with the effective depths of a calibration, which make it a correction of the compliance
+    /// matrix; capped where its own slope has fallen to [`LEAST_SLOPE`]` β`, so that it is positive everywhere.
+    ///
+    /// The correction could go on beyond that, because the matrix holds the near field that it takes away; but how much
+    /// of it depends on the neighbouring slices, and a slope that is positive by itself keeps the problem convex.
+    ///
+    /// # Errors
+    /// As [`LocalLaw::weber_banaschek`].
+    pub fn calibrated(contact: &LineContact, floor_force_n: f64) -> Result<Self, LocalLawError> {
+        let (alpha, beta) = contact.logarithm()?;
+        let cap = (alpha / beta - 1.0 - LEAST_SLOPE).exp();
         Self::logarithmic(alpha, beta, floor_force_n, cap)
     }
 

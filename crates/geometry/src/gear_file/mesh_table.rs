@@ -1,7 +1,7 @@
 //! `[mesh]`: element sizes, by default in proportion to the module.
 
 use super::{MM, TableKeys};
-use crate::definition::{ElementKind, MeshSettings, ToothDefinition};
+use crate::definition::{Blank, ElementKind, MeshSettings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
 use serde::Deserialize;
 
@@ -15,6 +15,8 @@ pub(super) struct MeshTable {
     body_mm: Option<f64>,
     axial_mm: Option<f64>,
     min_scaled_jacobian: Option<f64>,
+    #[serde(default)]
+    plane_strain: bool,
 }
 
 impl MeshTable {
@@ -23,6 +25,7 @@ impl MeshTable {
         self,
         document: &InputDocument,
         tooth: &ToothDefinition,
+        blank: &Blank,
     ) -> Result<MeshSettings, InputError> {
         let keys = TableKeys::new(document, "mesh");
         let module_mm = tooth.module_m / MM;
@@ -38,6 +41,18 @@ impl MeshTable {
             )?;
             Ok::<f64, InputError>(size_mm * MM)
         };
+        if self.plane_strain && self.axial_mm.is_some() {
+            return Err(keys.error(
+                "axial_mm",
+                "plane strain has one layer and does not use it; remove it or set plane_strain = false",
+            ));
+        }
+        if self.plane_strain && blank.web.is_some() {
+            return Err(keys.error(
+                "plane_strain",
+                "plane strain knows the cross-section only, a web thinner than the face has no place in it; set blank.kind = \"solid\" or plane_strain = false",
+            ));
+        }
         let quality = self.min_scaled_jacobian.unwrap_or(0.2);
         keys.require(
             "min_scaled_jacobian",
@@ -57,6 +72,7 @@ impl MeshTable {
             body_m: size_m("body_mm", self.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
             axial_m: size_m("axial_mm", self.axial_mm, width_mm / 10.0, width_mm)?,
             min_scaled_jacobian: quality,
+            plane_strain: self.plane_strain,
         })
     }
 }

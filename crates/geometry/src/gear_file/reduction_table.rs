@@ -1,7 +1,7 @@
 //! `[reduction]`: what the offline stage computes.
 
 use super::TableKeys;
-use crate::definition::{FlankSide, ReductionSettings};
+use crate::definition::{FlankSide, ReductionSettings, Symmetry};
 use crate::input::{InputDocument, InputError};
 use serde::Deserialize;
 
@@ -12,14 +12,25 @@ pub(super) struct ReductionTable {
     roll_stations: Option<usize>,
     slices: Option<usize>,
     flanks: Option<Vec<FlankSide>>,
+    #[serde(default)]
+    symmetry: Symmetry,
 }
 
 impl ReductionTable {
     /// The reduction settings.
-    pub(super) fn check(self, document: &InputDocument) -> Result<ReductionSettings, InputError> {
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        plane_strain: bool,
+    ) -> Result<ReductionSettings, InputError> {
         let keys = TableKeys::new(document, "reduction");
         let roll_stations = self.roll_stations.unwrap_or(9);
-        let slices = self.slices.unwrap_or(5);
+        let (default, most, allowed) = if plane_strain {
+            (1, 1, "1 in plane strain")
+        } else {
+            (5, 100, "1 to 100")
+        };
+        let slices = self.slices.unwrap_or(default);
         keys.require(
             "roll_stations",
             roll_stations as f64,
@@ -29,8 +40,8 @@ impl ReductionTable {
         keys.require(
             "slices",
             slices as f64,
-            (1..=100).contains(&slices),
-            "1 to 100",
+            (1..=most).contains(&slices),
+            allowed,
         )?;
         let flanks = self
             .flanks
@@ -42,6 +53,7 @@ impl ReductionTable {
             ));
         }
         Ok(ReductionSettings {
+            symmetry: self.symmetry,
             roll_stations,
             slices,
             flanks,

@@ -1,0 +1,102 @@
+//! The local contact compliance that completes a model's: which part of the model goes with it, and the depth that its
+//! logarithm reaches.
+//!
+//! Both completions have one form per slice and body, q the line load and a its half width:
+//!
+//! ```text
+//! δ = k q [ ln(2h/a) − ν/(2(1 − ν)) ],     k = 2(1 − ν²)/(πE)
+//! ```
+//!
+//! Weber and Banaschek: h is the distance to the opposite side of the tooth. Calibrated: δ = q [c₀ − w_h − k ln(a/a₀)], so
+//! that h is the effective depth
+//!
+//! ```text
+//! h = (a₀/2) exp[ (c₀ − w_h)/k + ν/(2(1 − ν)) ]
+//! ```
+//!
+//! It is about half the width of the hats, because below that the model's own near field takes over.
+
+use crate::nlcp::{LineContact, LocalLaw, LocalLawError};
+use crate::slice_compliance::CompliancePart;
+use std::f64::consts::PI;
+
+/// Local contact compliance added to the model's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LocalContact {
+    /// None: C_hub as the mesh gives it, near field of the hats included. Cheapest, and mesh dependent.
+    None,
+    /// C_g and the Weber-Banaschek term, as in seed 004.
+    WeberBanaschek,
+    /// C_hub, each slice's own term corrected by the model's plane-strain calibration. The default.
+    #[default]
+    Calibrated,
+}
+
+impl LocalContact {
+    /// The word for it in scene files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::WeberBanaschek => "weber-banaschek",
+            Self::Calibrated => "calibrated",
+        }
+    }
+
+    /// The part of the model's compliance that it completes.
+    pub fn part(self) -> CompliancePart {
+        match self {
+            Self::WeberBanaschek => CompliancePart::Patterns,
+            Self::None | Self::Calibrated => CompliancePart::Hub,
+        }
+    }
+
+    /// The law of one slice on a contact line.
+    ///
+    /// # Errors
+    /// [`LocalLawError`] for a length that is not positive or a floor above the cap.
+    pub fn law(self, contact: &LineContact, floor_force_n: f64) -> Result<LocalLaw, LocalLawError> {
+        match self {
+            Self::None => Ok(LocalLaw::none()),
+            Self::WeberBanaschek => LocalLaw::weber_banaschek(contact, floor_force_n),
+            Self::Calibrated => LocalLaw::calibrated(contact, floor_force_n),
+        }
+    }
+}
+
+/// Effective depth h \[m\] of the calibrated term, from c₀ − w_h \[m²/N\] at a₀ \[m\] and the material.
+pub fn effective_depth_m(
+    missing_m2_per_n: f64,
+    half_width_m: f64,
+    (young_pa, poisson): (f64, f64),
+) -> f64 {
+    let k = 2.0 * (1.0 - poisson * poisson) / (PI * young_pa);
+    0.5 * half_width_m * (missing_m2_per_n / k + poisson / (2.0 * (1.0 - poisson))).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nlcp::ContactBody;
+
+    /// The logarithm with the effective depth is the calibrated correction, word for word.
+    #[test]
+    fn the_effective_depth_says_the_same_as_the_correction() {
+        let (young, nu, a0) = (206e9, 0.3, 9e-5);
+        let k = 2.0 * (1.0 - nu * nu) / (PI * young);
+        for missing in [-1e-12, 2e-12, 9e-12] {
+            let body = ContactBody {
+                youngs_modulus_pa: young,
+                poisson_ratio: nu,
+                depth_m: effective_depth_m(missing, a0, (young, nu)),
+            };
+            for a in [3e-5, 9e-5, 2e-4] {
+                let expected = 1e5 * (missing - k * f64::ln(a / a0));
+                let found = body.weber_banaschek_m(1e5, a);
+                assert!(
+                    (found - expected).abs() < 1e-12 * 1e5 * k,
+                    "{found} {expected}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! N equal sectors in a ring, each condensed to its two cuts: displacements at the cuts for loads anywhere.
+//!
+//! In components that turn with the sectors ([`crate::CylindricalFrames`]) every sector has the same stiffness S over
+//! its first cut R and its second cut L, and the L of one is the R of the next. With u(j) the displacement of the cut
+//! before sector j and p(j) the loads of sector j carried to its cuts, equilibrium of cut j is
+//!
+//! ```text
+//!     (S_RR + S_LL) u(j) + S_RL u(j+1) + S_LR u(j-1) = p_R(j) + p_L(j-1)
+//! ```
+//!
+//! a circulant system. The discrete Fourier transform u^(k) = Σ_j u(j) e^{-ikjα}, α = 2π/N, takes it apart into one
+//! small Hermitian system per harmonic (nodal diameter) k,
+//!
+//! ```text
+//!     S(k) u^(k) = p_R^(k) + e^{-ikα} p_L^(k),      S(k) = S_RR + S_LL + e^{ikα} S_RL + e^{-ikα} S_LR,
+//! ```
+//!
+//! and S(N-k) is the conjugate of S(k), so that 0 ≤ k ≤ N/2 suffices. The loads of one sector alone have the same
+//! transform p = p_R + e^{-ikα} p_L for all k up to that factor, and with S(k) = Λ Λᴴ the work q·u of the loads q of a
+//! sector j further on is (1/N) Σ_k e^{ikjα} (Λ⁻¹q)ᴴ (Λ⁻¹p).
+//!
+//! Source: D. L. Thomas, *Dynamics of rotationally periodic structures*, Int. J. Numer. Meth. Eng. 14 (1979) 81-102.
+
+use crate::error::FeError;
+use faer::linalg::solvers::Llt;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, MatRef, Par, Side, c64};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// The factorised harmonics of a ring of sectors.
+#[derive(Debug)]
+pub struct CyclicInterface {
+    sectors: usize,
+    /// Displacements of one cut.
+    cut: usize,
+    /// Λ of the harmonics 0 to N/2; empty when there is no cut.
+    factors: Vec<Mat<c64>>,
+}
+
+impl CyclicInterface {
+    /// Factorises all harmonics of `sectors` sectors with the stiffness S over \[R, L\] (N/m). A single sector has no
+    /// cuts: its S has no rows.
+    ///
+    /// # Errors
+    /// [`FeError::SizeMismatch`] when S is not square, has an odd number of rows, or one sector has cuts;
+    /// [`FeError::NotPositiveDefinite`] when the ring as a whole is not held.
+    pub fn new(stiffness: MatRef<'_, f64>, sectors: usize) -> Result<Self, FeError> {
+        let rows = stiffness.nrows();
+        let cut = rows / 2;
+        let expected = if sectors == 1 { 0 } else { 2 * cut };
+        if stiffness.ncols() != expected || rows != expected {
+            return Err(FeError::SizeMismatch {
+                what: "the stiffness at the cuts of a sector",
+                found: rows,
+                expected,
+            });
+        }
+        let harmonics = if cut == 0 { 0 } else { sectors / 2 + 1 };
+        let factors = (0..harmonics)
+            .into_par_iter()
+            .map(|k| {
+                let turn = phase(k, sectors);
+                let s = Mat::from_fn(cut, cut, |i, j| {
+                    let own = stiffness[(i, j)] + stiffness[(cut + i, cut + j)];
+                    let (rl, lr) = (stiffness[(i, cut + j)], stiffness[(cut + i, j)]);
+                    turn * rl + turn.conj() * lr + c64::new(own, 0.0)
+                });
+                let llt = Llt::new(s.as_ref(), Side::Lower)
+                    .map_err(|_| FeError::NotPositiveDefinite { free_dof: 0 })?;
+                Ok(llt.L().to_owned())
+            })
+            .collect::<Result<_, FeError>>()?;
+        Ok(Self {
+            sectors,
+            cut,
+            factors,
+        })
+    }
+
+    /// Number of sectors.
+    pub fn sectors(&self) -> usize {
+        self.sectors
+    }
+
+    /// Number of harmonics that were factorised.
+    pub fn harmonics(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// Displacements of one cut.
+    pub fn cut_size(&self) -> usize {
+        self.cut
+    }
+
+    /// Λ⁻¹(p_R + e^{-ikα} p_L).
+    fn transformed(&self, k: usize, loads: MatRef<'_, f64>) -> Mat<c64> {
+        let back = phase(k, self.sectors).conj();
+        let mut y = Mat::from_fn(self.cut, loads.ncols(), |i, j| {
+            back * loads[(self.cut + i, j)] + c64::new(loads[(i, j)], 0.0)
+        });
+        solve_lower_triangular_in_place(self.factors[k].as_ref(), y.as_mut(), Par::rayon(0));
+        y
+    }
+
+    /// For loads of one sector, carried to its cuts \[R, L\] (rows) by condensation: q·u for each load q of the sector j
+    /// further on under each load p of the first one, `result[j][(q, p)]`, without what happens inside one sector with its
+    /// cuts held.
+    ///
+    /// # Panics
+    /// If `loads` does not have the rows of both cuts.
+    pub fn products(&self, loads: MatRef<'_, f64>) -> Vec<Mat<f64>> {
+        assert_eq!(loads.nrows(), 2 * self.cut, "rows of the loads at the cuts");
+        let n = loads.ncols();
+        let spectrum: Vec<Mat<c64>> = (0..self.harmonics())
+            .into_par_iter()
+            .map(|k| {
+                let y = self.transformed(k, loads);
+                y.adjoint() * &y
+            })
+            .collect();
+        (0..self.sectors)
+            .into_par_iter()
+            .map(|j| {
+                let mut sum = Mat::<f64>::zeros(n, n);
+                for (k, product) in spectrum.iter().enumerate() {
+                    let turn = phase(k * j, self.sectors) * self.weight(k);
+                    for column in 0..n {
+                        for row in 0..n {
+                            let value = product[(row, column)];
+                            sum[(row, column)] += turn.re * value.re - turn.im * value.im;
+                        }
+                    }
+                }
+                sum
+            })
+            .collect()
+    }
+
+    /// Displacements at the cuts \[R, L\] of each sector, from the loads of each sector carried to its cuts:
+    /// `result[j]` (both cuts × cases) from `loads[j]`.
+    ///
+    /// # Panics
+    /// If there is not one block of loads per sector, all with the rows of both cuts and as many columns.
+    pub fn displacements(&self, loads: &[Mat<f64>]) -> Vec<Mat<f64>> {
+        assert_eq!(loads.len(), self.sectors, "one block of loads per sector");
+        let cases = loads[0].ncols();
+        let spectrum: Vec<Mat<c64>> = (0..self.harmonics())
+            .into_par_iter()
+            .map(|k| {
+                let mut total = Mat::<c64>::zeros(self.cut, cases);
+                for (j, block) in loads.iter().enumerate() {
+                    let turn = phase(k * j, self.sectors).conj();
+                    let next = phase(k * (j + 1), self.sectors).conj();
+                    for column in 0..cases {
+                        for i in 0..self.cut {
+                            total[(i, column)] +=
+                                turn * block[(i, column)] + next * block[(self.cut + i, column)];
+                        }
+                    }
+                }
+                let factor = self.factors[k].as_ref();
+                solve_lower_triangular_in_place(factor, total.as_mut(), Par::rayon(0));
+                solve_upper_triangular_in_place(factor.adjoint(), total.as_mut(), Par::rayon(0));
+                total
+            })
+            .collect();
+        let cuts: Vec<Mat<f64>> = (0..self.sectors)
+            .into_par_iter()
+            .map(|j| {
+                let mut sum = Mat::<f64>::zeros(self.cut, cases);
+                for (k, u) in spectrum.iter().enumerate() {
+                    let turn = phase(k * j, self.sectors) * self.weight(k);
+                    for column in 0..cases {
+                        for i in 0..self.cut {
+                            let value = u[(i, column)];
+                            sum[(i, column)] += turn.re * value.re - turn.im * value.im;
+                        }
+                    }
+                }
+                sum
+            })
+            .collect();
+        (0..self.sectors)
+            .map(|j| {
+                let next = &cuts[(j + 1) % self.sectors];
+                Mat::from_fn(2 * self.cut, cases, |i, column| {
+                    if i < self.cut {
+                        cuts[j][(i, column)]
+                    } else {
+                        next[(i - self.cut, column)]
+                    }
+                })
+            })
+            .collect()
+    }
+
+    /// Share of a harmonic in the inverse transform: 1/N, and twice that where its conjugate is left out.
+    fn weight(&self, k: usize) -> f64 {
+        let alone = k == 0 || 2 * k == self.sectors;
+        (if alone { 1.0 } else { 2.0 }) / self.sectors as f64
+    }
+}
+
+/// e^{2πi k/N}, with k reduced first so that the angle is exact to rounding.
+fn phase(k: usize, sectors: usize) -> c64 {
+    let (sin, cos) = (TAU * (k % sectors) as f64 / sectors as f64).sin_cos();
+    c64::new(cos, sin)
+}

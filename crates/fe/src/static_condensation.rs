@@ -1,0 +1,140 @@
+//! Static condensation: a part is replaced by its stiffness at some kept nodes.
+//!
+//! With the displacements ordered into interior I and kept B, K = L Lᵀ and p a load,
+//!
+//! ```text
+//!     S   = K_BB - K_BI K_II^-1 K_IB = L'_BB L'_BBᵀ     stiffness of the part at its kept nodes
+//!     y_I = L_II^-1 p_I                                 what the load does inside, with B held
+//!     p_B' = p_B - K_BI K_II^-1 p_I = p_B - L_BI y_I    the load carried to the kept nodes
+//!     p_Iᵀ K_II^-1 q_I = y_I(p)ᵀ y_I(q)                 displacement work inside, with B held
+//!     u_I = L_II^-ᵀ (y_I - L_BIᵀ u_B)                   the interior again
+//! ```
+//!
+//! so that one factorisation with the kept nodes last serves everything: carrying loads out is its forward half,
+//! finding the interior its backward half. The part may float: its own S is then singular. The factorisation is
+//! therefore made of K with the diagonal of K_BB doubled, D = diag K_BB; only L_BB sees this, and
+//! S = L_BB L_BBᵀ − D undoes it at the level of rounding in K_BB itself.
+//!
+//! Source: R. J. Guyan, *Reduction of stiffness and mass matrices*, AIAA J. 3 (1965) 380; the block form of Cholesky.
+
+use crate::assembly::StiffnessMatrix;
+use crate::error::FeError;
+use crate::factor::{Factor, FactorInfo, HalfSolve};
+use crate::ordering::DofOrdering;
+use faer::{Mat, MatRef};
+
+/// A part condensed to its kept nodes.
+#[derive(Debug)]
+pub struct StaticCondensation {
+    factor: Factor,
+    interior: usize,
+    /// L_BB of the part with doubled diagonal.
+    kept_factor: Mat<f64>,
+    stiffness: Mat<f64>,
+}
+
+/// Loads carried to the kept nodes.
+#[derive(Debug, Clone)]
+pub struct CondensedLoads {
+    /// p_B', kept displacements × loads (N).
+    pub kept: Mat<f64>,
+    /// y_I, interior displacements × loads: its products are displacement work, see [`CondensedLoads::gram`].
+    pub interior: Mat<f64>,
+}
+
+impl CondensedLoads {
+    /// p_Iᵀ K_II⁻¹ q_I for all pairs of `self` (rows) and `other` (columns).
+    pub fn gram(&self, other: &Self) -> Mat<f64> {
+        self.interior.transpose() * &other.interior
+    }
+}
+
+impl StaticCondensation {
+    /// Condenses a part with stiffness `k` (three rows a node; its lower triangle is read) to the nodes `kept`. What
+    /// belongs to kept nodes is ordered as `kept`, three displacements each.
+    ///
+    /// # Errors
+    /// [`FeError::NotPositiveDefinite`] when the interior can move with the kept nodes held; those of
+    /// [`DofOrdering::interior_first`].
+    pub fn new(mut k: StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
+        let ordering = DofOrdering::interior_first(&k, kept)?;
+        let diagonal: Vec<f64> = kept
+            .iter()
+            .flat_map(|node| 3 * node..3 * node + 3)
+            .map(|dof| {
+                let entry = k.get_mut(dof, dof);
+                entry.map_or(0.0, |value| {
+                    let single = *value;
+                    *value *= 2.0;
+                    single
+                })
+            })
+            .collect();
+        let factor = Factor::new(&k, ordering)?;
+        let interior = factor.size() - diagonal.len();
+        let kept_factor = factor.trailing_block(interior);
+        let mut stiffness = &kept_factor * kept_factor.transpose();
+        for (i, value) in diagonal.into_iter().enumerate() {
+            stiffness[(i, i)] -= value;
+        }
+        Ok(Self {
+            factor,
+            interior,
+            kept_factor,
+            stiffness,
+        })
+    }
+
+    /// S, the stiffness at the kept nodes (N/m).
+    pub fn stiffness(&self) -> MatRef<'_, f64> {
+        self.stiffness.as_ref()
+    }
+
+    /// Displacements of the part, interior and kept.
+    pub fn size(&self) -> usize {
+        self.factor.size()
+    }
+
+    /// Size and cost of the factorisation.
+    pub fn info(&self) -> FactorInfo {
+        self.factor.info()
+    }
+
+    /// Carries loads (all displacements of the part × loads, N) to the kept nodes.
+    ///
+    /// # Panics
+    /// If `loads` does not have [`StaticCondensation::size`] rows.
+    pub fn condense(&self, loads: MatRef<'_, f64>) -> CondensedLoads {
+        assert_eq!(loads.nrows(), self.size(), "rows of the loads");
+        let order = self.factor.symbolic().ordering().forward();
+        let mut y = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(order[i], j)]);
+        self.factor
+            .half_solve_in_place(HalfSolve::Lower, y.as_mut());
+        let (inside, kept) = y.as_ref().split_at_row(self.interior);
+        CondensedLoads {
+            kept: &self.kept_factor * kept,
+            interior: inside.to_owned(),
+        }
+    }
+
+    /// All displacements of the part (m) from those of the kept nodes and, where loads act inside, their y_I.
+    ///
+    /// # Panics
+    /// If the arguments do not have the rows of this part or differ in their columns.
+    pub fn expand(&self, kept: MatRef<'_, f64>, interior: Option<MatRef<'_, f64>>) -> Mat<f64> {
+        let order = self.factor.symbolic().ordering();
+        let mut x = Mat::zeros(self.size(), kept.ncols());
+        if let Some(y) = interior {
+            x.as_mut().subrows_mut(0, self.interior).copy_from(y);
+        }
+        // Chosen so that the backward half begins by giving back the kept displacements.
+        let start = self.kept_factor.transpose() * kept;
+        x.as_mut()
+            .subrows_mut(self.interior, kept.nrows())
+            .copy_from(start);
+        self.factor
+            .half_solve_in_place(HalfSolve::Transposed, x.as_mut());
+        let place = order.inverse();
+        Mat::from_fn(self.size(), kept.ncols(), |i, j| x[(place[i], j)])
+    }
+}

@@ -1,0 +1,176 @@
+//! A finely graded cross-section of the tooth above the cut, for a narrow load at one place of its right flank.
+//!
+//! One mapped block: rows follow the outline from the cut to the tip corner, columns cross the tooth from the loaded to
+//! the opposite side. Both are graded towards the load, so that no mesher is needed and every column begins at a
+//! node of the exact outline. Coons' patch between the four edges:
+//!
+//!     X(s, t) = (1−t) R(s) + t L(s) + (1−s) B(t) + s T(t) − (corners, bilinear)
+//!
+//! with R the right and L the left outline, B the cut as the gear's own mesh has it, T the tip land.
+
+use crate::tooth_cell::{Pieces, ToothCell, graded};
+use gearmesh_geometry::{ProfileCurve, ToothGeometry};
+
+/// How finely a [`ContactSection`] is meshed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactGrading {
+    /// Element length at the load \[m\], along the flank and into the tooth.
+    pub smallest_m: f64,
+    /// Along the flank the element length stays the smallest up to this distance from the load's centre \[m\].
+    pub plateau_m: f64,
+    /// Growth of the element length per length, no unit, 0 to 0.5.
+    pub growth: f64,
+    /// Largest element length \[m\].
+    pub largest_m: f64,
+}
+
+/// Quads of the tooth above the cut with a node where the load's centre is.
+#[derive(Debug, Clone)]
+pub struct ContactSection {
+    /// \[x, y\] \[m\], tooth centred on +x.
+    pub nodes: Vec<[f64; 2]>,
+    /// Node numbers, counter-clockwise.
+    pub quads: Vec<[usize; 4]>,
+    /// Nodes of the loaded outline, from the cut to the tip corner.
+    pub outline: Vec<usize>,
+    /// Their arc lengths from the centre of the right tooth space \[m\].
+    pub outline_arc_m: Vec<f64>,
+    /// Element length at the load \[m\].
+    pub smallest_m: f64,
+    /// Which of them is the load's centre.
+    pub centre: usize,
+    /// Nodes of the cut and of the opposite side, tip corner included: the supports of the tooth-only submodel.
+    pub held: Vec<usize>,
+}
+
+impl ContactSection {
+    /// Meshes the tooth of `cell` for a load on the right flank at an arc length from the tooth space.
+    ///
+    /// `centre_arc_m` is taken to lie on the involute; beyond its ends it is moved there.
+    pub fn new(
+        tooth: &ToothGeometry,
+        curve: &ProfileCurve,
+        cell: &ToothCell,
+        centre_arc_m: f64,
+        grading: ContactGrading,
+    ) -> Self {
+        let cut = Polyline::new(cell.cut.iter().map(|&n| cell.nodes[n]).collect());
+        let first = cell
+            .outline
+            .iter()
+            .position(|n| Some(n) == cell.cut.first())
+            .unwrap_or(0);
+        let (s_cut, s_end, s_tip) = (
+            cell.outline_arc_m[first],
+            curve.flank_end_m(),
+            curve.tip_start_m(),
+        );
+        let s_centre = centre_arc_m.clamp(curve.flank_start_m(), s_end);
+        let growing = |distance: f64| {
+            (grading.smallest_m + grading.growth * distance.max(0.0)).min(grading.largest_m)
+        };
+
+        // Rows. Nodes at the load's centre, at the end of the flank and at the tip corner.
+        let along = |s: f64| growing((s - s_centre).abs() - grading.plateau_m);
+        let mut arcs = vec![s_cut];
+        for to in [s_centre, s_end, s_tip] {
+            let from = arcs[arcs.len() - 1];
+            // Two marks closer than this are one: an element must not be a sliver.
+            if to - from > 0.2 * grading.smallest_m {
+                let pieces = Pieces {
+                    least: 1,
+                    even: false,
+                };
+                arcs.extend(&graded(from, to, along, pieces)[1..]);
+            }
+        }
+        let centre = arcs.partition_point(|&s| s < s_centre - 1e-3 * grading.smallest_m);
+
+        // Columns, graded by the depth below the load.
+        let at = curve.point_at(s_centre);
+        let width = 2.0 * at[1].abs();
+        let shares: Vec<f64> = graded(
+            0.0,
+            width,
+            growing,
+            Pieces {
+                least: 4,
+                even: false,
+            },
+        )
+        .into_iter()
+        .map(|depth| depth / width)
+        .collect();
+
+        let mirrored = |p: [f64; 2]| [p[0], -p[1]];
+        let right: Vec<[f64; 2]> = arcs.iter().map(|&s| curve.point_at(s)).collect();
+        let (low, high) = (right[0], right[right.len() - 1]);
+        let tip_half = tooth.tip_half_angle_rad();
+        let columns = shares.len();
+        let mut nodes = Vec::with_capacity(arcs.len() * columns);
+        for (&arc, &r) in arcs.iter().zip(&right) {
+            let s = (arc - s_cut) / (s_tip - s_cut);
+            for &t in &shares {
+                let bottom = cut.at(t);
+                let angle = tip_half * (2.0 * t - 1.0);
+                let top = [
+                    tooth.tip_radius_m * angle.cos(),
+                    tooth.tip_radius_m * angle.sin(),
+                ];
+                nodes.push(std::array::from_fn(|axis| {
+                    let left = mirrored(r)[axis];
+                    let corners = (1.0 - s) * ((1.0 - t) * low[axis] + t * mirrored(low)[axis])
+                        + s * ((1.0 - t) * high[axis] + t * mirrored(high)[axis]);
+                    (1.0 - t) * r[axis] + t * left + (1.0 - s) * bottom[axis] + s * top[axis]
+                        - corners
+                }));
+            }
+        }
+        let mut quads = Vec::with_capacity((arcs.len() - 1) * (columns - 1));
+        for i in 0..arcs.len() - 1 {
+            for j in 0..columns - 1 {
+                let n = i * columns + j;
+                quads.push([n, n + columns, n + columns + 1, n + 1]);
+            }
+        }
+        // Rows run outwards, columns counter-clockwise: (outwards, counter-clockwise) is a right-handed pair.
+        let mut held: Vec<usize> = (0..columns).collect();
+        held.extend((1..arcs.len()).map(|i| i * columns + columns - 1));
+        Self {
+            nodes,
+            quads,
+            outline: (0..arcs.len()).map(|i| i * columns).collect(),
+            outline_arc_m: arcs,
+            smallest_m: grading.smallest_m,
+            centre,
+            held,
+        }
+    }
+}
+
+/// A broken line by the share of its length.
+struct Polyline {
+    points: Vec<[f64; 2]>,
+    lengths: Vec<f64>,
+}
+
+impl Polyline {
+    fn new(points: Vec<[f64; 2]>) -> Self {
+        let mut lengths = vec![0.0];
+        for w in points.windows(2) {
+            let piece = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
+            lengths.push(lengths[lengths.len() - 1] + piece);
+        }
+        Self { points, lengths }
+    }
+
+    fn at(&self, share: f64) -> [f64; 2] {
+        let last = self.points.len() - 1;
+        let wanted = share * self.lengths[last];
+        let k = self.lengths.partition_point(|l| *l < wanted).clamp(1, last);
+        let w = (wanted - self.lengths[k - 1]) / (self.lengths[k] - self.lengths[k - 1]);
+        std::array::from_fn(|axis| {
+            self.points[k - 1][axis] + w * (self.points[k][axis] - self.points[k - 1][axis])
+        })
+    }
+}

@@ -1,0 +1,133 @@
+//! What a plane-strain problem says about the near field of a load on a tooth: the calibration of the local term.
+
+/// Deflection of the contact centre under a Hertz pressure, and of the model's own mesh under its own hats, both in
+/// plane strain on the tooth-only submodel.
+///
+/// With them the online side corrects each slice's own deflection, q its line load and a its half width:
+///
+/// ```text
+/// δ = q [ c₀(ξ) − w_h(ξ) − k ln(a/a₀) ],     k = 2(1 − ν²)/(πE),     w_h(ξ) = Φ(ξ)ᵀ W Φ(ξ)
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearField {
+    /// Half width a₀ of the Hertz pressure in metres.
+    pub half_width_m: f64,
+    /// Roll angles of the places where c₀ is given, increasing, over the whole flank.
+    pub roll_angles_rad: Vec<f64>,
+    /// c₀ in m²/N (deflection per line load), `[place]`; both flanks, which are mirror images of each other.
+    pub contact_m2_per_n: Vec<f64>,
+    /// W in m²/N, `[flank f][roll station][roll station]`: deflection, weighted by the response station's hat, per
+    /// line load spread by the load station's hat.
+    pub mesh_m2_per_n: Vec<f64>,
+    /// Element length at the load of the finer of the two meshes from which c₀ was extrapolated, in metres.
+    pub element_m: f64,
+    /// Largest relative step from the finer mesh's c₀ to the extrapolated one. The error left is a fraction of it.
+    pub residual: f64,
+}
+
+impl NearField {
+    /// c₀ in m²/N at a roll angle. Beyond the ends the end's value. No allocation.
+    ///
+    /// Towards the edge c₀ grows like the logarithm of the distance d = r_b (ξ_end² − ξ²)/2 to it. The interpolation is
+    /// therefore in u = −ln(1 + d/a₀): cubic Hermite between the places, the slope at a place that of the parabola through
+    /// it and its neighbours (one-sided at the ends).
+    pub fn contact_at(&self, roll_rad: f64, base_radius_m: f64) -> f64 {
+        let (rolls, y) = (&self.roll_angles_rad, &self.contact_m2_per_n);
+        let last = rolls.len() - 1;
+        let k = rolls
+            .partition_point(|place| *place <= roll_rad)
+            .clamp(1, last)
+            - 1;
+        let x = |i: usize| self.coordinate(rolls[i], base_radius_m);
+        let at = self.coordinate(roll_rad.clamp(rolls[0], rolls[last]), base_radius_m);
+        let length = x(k + 1) - x(k);
+        let t = (at - x(k)) / length;
+        let low = self.slope_at(k, base_radius_m) * length;
+        let high = self.slope_at(k + 1, base_radius_m) * length;
+        let (u, rise) = (1.0 - t, y[k + 1] - y[k]);
+        // Linear part, and what bends it to the two slopes.
+        y[k] + t * rise + t * u * (u * (low - rise) - t * (high - rise))
+    }
+
+    fn coordinate(&self, roll_rad: f64, base_radius_m: f64) -> f64 {
+        let end = self.roll_angles_rad[self.roll_angles_rad.len() - 1];
+        let distance_m = 0.5 * base_radius_m * (end * end - roll_rad * roll_rad);
+        -(distance_m / self.half_width_m).ln_1p()
+    }
+
+    /// Slope of c₀ over u at a place.
+    fn slope_at(&self, place: usize, base_radius_m: f64) -> f64 {
+        let y = &self.contact_m2_per_n;
+        let x = |i: usize| self.coordinate(self.roll_angles_rad[i], base_radius_m);
+        let last = y.len() - 1;
+        let secant = |i: usize| (y[i + 1] - y[i]) / (x(i + 1) - x(i));
+        if last == 1 {
+            return secant(0);
+        }
+        // The parabola through three neighbours; its slope at any of them.
+        let first = place.saturating_sub(1).min(last - 2);
+        let (a, b) = (secant(first), secant(first + 1));
+        let bend = (b - a) / (x(first + 2) - x(first));
+        a + bend * (2.0 * x(place) - x(first) - x(first + 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(places: &[f64], of: impl Fn(f64) -> f64) -> NearField {
+        NearField {
+            half_width_m: 1e-4,
+            roll_angles_rad: places.to_vec(),
+            contact_m2_per_n: places.iter().map(|&x| of(x)).collect(),
+            mesh_m2_per_n: Vec::new(),
+            element_m: 1e-5,
+            residual: 0.0,
+        }
+    }
+
+    const BASE_RADIUS: f64 = 0.07;
+
+    #[test]
+    fn a_parabola_of_the_logarithm_comes_back_exactly() {
+        let places = [0.1, 0.25, 0.3, 0.6];
+        let parabola = |x: f64| {
+            let u = -(0.5 * BASE_RADIUS * (0.36 - x * x) / 1e-4).ln_1p();
+            20.0 + 3.0 * u + 0.4 * u * u
+        };
+        let field = sampled(&places, parabola);
+        for x in [0.1, 0.12, 0.2499, 0.25, 0.28, 0.4, 0.55, 0.599, 0.6] {
+            let found = field.contact_at(x, BASE_RADIUS);
+            assert!((found - parabola(x)).abs() < 1e-12, "{x}: {found}");
+        }
+        let [low, high] = [0.0, 1.0].map(|x| field.contact_at(x, BASE_RADIUS));
+        assert_eq!(low, field.contact_m2_per_n[0]);
+        assert!((high - parabola(0.6)).abs() < 1e-12);
+    }
+
+    /// Halving the spacing divides the error by eight or more: the slopes are of second order.
+    #[test]
+    fn the_error_falls_with_the_third_power() {
+        let end = 0.5;
+        // Places at equal steps of u, whose range is 0 to U.
+        let range = (0.5 * BASE_RADIUS * end * end / 1e-4_f64).ln_1p();
+        let roll = |u: f64| {
+            (end * end - 2.0 * 1e-4 * u.exp_m1() / BASE_RADIUS)
+                .max(0.0)
+                .sqrt()
+        };
+        let of = |u: f64| (0.5 * u).sin();
+        let error = |n: usize| {
+            let steps = (0..=n).rev().map(|k| range * k as f64 / n as f64);
+            let mut field = sampled(&steps.clone().map(roll).collect::<Vec<_>>(), |_| 0.0);
+            field.contact_m2_per_n = steps.map(of).collect();
+            (0..1000)
+                .map(|k| range * f64::from(k) / 999.0)
+                .map(|u| (field.contact_at(roll(u), BASE_RADIUS) - of(u)).abs())
+                .fold(0.0, f64::max)
+        };
+        let (coarse, fine) = (error(20), error(40));
+        assert!(fine > 0.0 && coarse / fine > 7.0, "{coarse} {fine}");
+    }
+}

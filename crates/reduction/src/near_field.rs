@@ -1,0 +1,181 @@
+//! The calibration of the local term: the near field of a narrow load in plane strain, on a fine section of one tooth
+//! and on the gear's own mesh.
+//!
+//! Both problems have the supports of the tooth-only submodel: the cut and the opposite side of the tooth held. What lies
+//! beyond them is the same in both, so that their difference is what the mesh and its hats get wrong near the load
+//! (docs/theory/near_field.md). The calibration belongs to a tooth and its mesh, not to the body: it is made once.
+
+use crate::ReductionError;
+use crate::contact_problem::ContactProblem;
+use crate::flank_loads::{SparseVector, flank_loads};
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use gearmesh_fe::FeModel;
+use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_mesh::GearMesh;
+use gearmesh_mesh::contact_section::ContactGrading;
+use gearmesh_model::{FlankGrid, NearField};
+use rayon::prelude::*;
+
+/// Half width a₀ of the calibrating pressure in modules. A steel pair of ratio 1 has a/m of 0.02 to 0.06 between light
+/// and full load; the correction to the true width is exact to O((a/h)²), h some 0.7 to 1.5 modules.
+pub const HALF_WIDTH_IN_MODULES: f64 = 0.03;
+
+/// Elements in the calibrating half width.
+const ELEMENTS_IN_HALF_WIDTH: f64 = 8.0;
+/// Growth of the element length per length, away from the load.
+const GROWTH: f64 = 0.15;
+/// Largest element length in modules.
+const LARGEST_IN_MODULES: f64 = 0.2;
+/// Ratio of the element lengths of the two gradings from which c₀ is extrapolated.
+const COARSENING: f64 = 2.0;
+/// Places near the edge: distances from it in a₀.
+const EDGE_PLACES: [f64; 7] = [0.0, 0.1, 0.45, 1.0, 1.2, 1.7, 2.4];
+/// Further places down the flank.
+const FLANK_PLACES: usize = 9;
+
+/// Grading of the fine section, its element lengths and growth multiplied by `factor`.
+pub fn grading(module_m: f64, factor: f64) -> ContactGrading {
+    let half_width = HALF_WIDTH_IN_MODULES * module_m;
+    ContactGrading {
+        smallest_m: factor * half_width / ELEMENTS_IN_HALF_WIDTH,
+        plateau_m: 1.25 * half_width,
+        growth: factor * GROWTH,
+        largest_m: factor * LARGEST_IN_MODULES * module_m,
+    }
+}
+
+/// The value at vanishing element length from those of [`grading`] 1 and 2: the error is of second order.
+pub fn extrapolated(fine: f64, coarse: f64) -> f64 {
+    fine + (fine - coarse) / (COARSENING * COARSENING - 1.0)
+}
+
+/// Roll angles of the places. Where the pressure reaches the edge (distance below a₀) c₀ is no logarithm any more: there
+/// they stand at fixed multiples of a₀; farther down with equal steps of a measure that is dense towards both ends.
+pub fn places(gear: &GearDefinition) -> Vec<f64> {
+    let (profile, module) = (&gear.profile, gear.tooth.module_m);
+    let (low, high) = (profile.form_roll_rad, profile.flank_end_roll_rad);
+    let r_b = profile.base_radius_m;
+    let length = 0.5 * r_b * (high * high - low * low);
+    let a0 = HALF_WIDTH_IN_MODULES * module;
+    let mut distances: Vec<f64> = EDGE_PLACES.iter().map(|n| n * a0).collect();
+    // Towards the edge like ln(1 + d/a₀), towards the cut, some half a module below the flank, like another logarithm.
+    let measure = |d: f64| (1.0 + d / a0).ln() - 1.6 * (1.0 - d / (length + 0.5 * module)).ln();
+    let first = distances[EDGE_PLACES.len() - 1];
+    for k in 1..=FLANK_PLACES {
+        let share = k as f64 / FLANK_PLACES as f64;
+        let wanted = measure(first) + share * (measure(length) - measure(first));
+        let (mut below, mut above) = (first, length);
+        for _ in 0..60 {
+            let middle = 0.5 * (below + above);
+            if measure(middle) < wanted {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        distances.push(below);
+    }
+    // One more above the lowest: the slope there is known from one side only.
+    let n = distances.len();
+    distances.insert(n - 1, 0.5 * (distances[n - 2] + distances[n - 1]));
+    let mut rolls: Vec<f64> = distances
+        .iter()
+        .rev()
+        .map(|d| (high * high - 2.0 * d / r_b).max(low * low).sqrt())
+        .collect();
+    // The flank's own ends are meant exactly, not to the rounding of the bisection.
+    let last = rolls.len() - 1;
+    (rolls[0], rolls[last]) = (low, high);
+    rolls
+}
+
+/// Calibrates the tooth of a gear on its mesh.
+///
+/// # Errors
+/// [`ReductionError`] when a section cannot be solved.
+pub fn calibrate(
+    gear: &GearDefinition,
+    mesh: &GearMesh,
+    model: &FeModel,
+    grid: &FlankGrid,
+) -> Result<NearField, ReductionError> {
+    let module = gear.tooth.module_m;
+    let half_width_m = HALF_WIDTH_IN_MODULES * module;
+    let roll_angles_rad = places(gear);
+    let problem = ContactProblem::new(gear, mesh, *model.material());
+    let at_all = |factor: f64| -> Result<Vec<f64>, ReductionError> {
+        roll_angles_rad
+            .par_iter()
+            .map(|&roll| problem.deflection(roll, half_width_m, grading(module, factor)))
+            .collect()
+    };
+    let fine = at_all(1.0)?;
+    let coarse = at_all(COARSENING)?;
+    let contact_m2_per_n: Vec<f64> = fine
+        .iter()
+        .zip(&coarse)
+        .map(|(&fine, &coarse)| extrapolated(fine, coarse))
+        .collect();
+    let residual = fine
+        .iter()
+        .zip(&contact_m2_per_n)
+        .map(|(fine, best)| (fine / best - 1.0).abs())
+        .fold(0.0, f64::max);
+    let mut mesh_m2_per_n = Vec::new();
+    for &side in &gear.reduction.flanks {
+        mesh_m2_per_n.extend(mesh_compliance(gear, mesh, model, grid, side)?);
+    }
+    Ok(NearField {
+        half_width_m,
+        roll_angles_rad,
+        contact_m2_per_n,
+        mesh_m2_per_n,
+        element_m: grading(module, 1.0).smallest_m,
+        residual,
+    })
+}
+
+/// W = N₂ᵀK₂⁻¹N₂ \[m²/N\], `[load station][response station]`: the tooth-only submodel of the gear's own
+/// cross-section and element in plane strain, loaded by its own hats along the profile.
+///
+/// # Errors
+/// [`ReductionError::Fe`] when the submodel is not held.
+pub fn mesh_compliance(
+    gear: &GearDefinition,
+    mesh: &GearMesh,
+    model: &FeModel,
+    grid: &FlankGrid,
+    side: FlankSide,
+) -> Result<Vec<f64>, ReductionError> {
+    // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
+    let width_m = gear.mesh.flank_m;
+    let layer = mesh.single_layer(width_m)?;
+    let plane = FeModel::new(
+        layer.nodes.clone(),
+        layer.hexes.clone(),
+        *model.material(),
+        model.element(),
+    )?;
+    let across = FlankGrid {
+        roll_angles_rad: grid.roll_angles_rad.clone(),
+        z_m: layer.layers.planes_m.clone(),
+        slices: 1,
+    };
+    let loads = flank_loads(gear, &layer, &across, 0, side);
+    let submodel = ToothSubmodel::new(&plane, &layer, side, &loads, Deformation::PlaneStrain)?;
+    let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
+    let products = submodel.products(&rows);
+    let stations = grid.roll_angles_rad.len();
+    // Half of each station's two loads is one newton over the whole width: a line load of 1/width.
+    let all = across.len();
+    Ok((0..stations * stations)
+        .map(|k| {
+            let (i, j) = (k / stations, k % stations);
+            let sum: f64 = [(0, 0), (0, 1), (1, 0), (1, 1)]
+                .into_iter()
+                .map(|(a, b)| products[across.load(j, b) * all + across.load(i, a)])
+                .sum();
+            0.25 * sum * width_m
+        })
+        .collect())
+}

@@ -1,0 +1,182 @@
+//! One tooth cell, condensed to the nodes that it shares with the rest of the gear.
+//!
+//! All teeth have the same mesh, turned. In cylindrical components they have the same stiffness matrix too, so that one
+//! condensation serves the whole gear: most of its degrees of freedom are eliminated here, once.
+
+use crate::flank_loads::SparseVector;
+use crate::part::Part;
+use faer::Mat;
+use gearmesh_fe::{
+    CondensedLoads, CylindricalFrames, DofMap, FeError, FeModel, StaticCondensation,
+    StiffnessMatrix, assemble_stiffness,
+};
+use gearmesh_mesh::GearMesh;
+use rayon::prelude::*;
+
+/// The tooth cell and its condensation, in cylindrical components.
+pub struct ToothSubstructure {
+    /// Cell of tooth 0 as nodes of the whole mesh, ascending.
+    part: Vec<u32>,
+    /// Node of the cross-section's cell and plane of each of these nodes: the way to the other teeth.
+    places: Vec<(usize, usize)>,
+    /// Which of them are shared with elements outside the cell.
+    boundary: Vec<usize>,
+    /// Stiffness of the cell, nothing fixed.
+    stiffness: StiffnessMatrix,
+    condensation: StaticCondensation,
+}
+
+impl ToothSubstructure {
+    /// Condenses the cell of tooth 0.
+    ///
+    /// # Errors
+    /// [`FeError`] when the factorisation fails.
+    pub fn new(mesh: &GearMesh, model: &FeModel) -> Result<Self, FeError> {
+        let section = &mesh.section;
+        let planes = mesh.layers.planes_m.len();
+        let first = section.cell_first_quad[0];
+        let elements: Vec<u32> = (first..first + section.cell.quads.len())
+            .flat_map(|q| (0..mesh.layers.count()).filter_map(move |layer| mesh.hex(q, layer)))
+            .collect();
+        let part = Part::new(model, &elements)?;
+        let mut places = vec![(0, 0); part.nodes.len()];
+        for (c, &n) in section.cell_nodes[0].iter().enumerate() {
+            for plane in 0..planes {
+                if let Some(i) = mesh.node(n, plane).and_then(|node| part.place(node)) {
+                    places[i] = (c, plane);
+                }
+            }
+        }
+        let mut inside = vec![false; model.hexes().len()];
+        for &e in &elements {
+            inside[e as usize] = true;
+        }
+        let mut shared = vec![false; model.node_count()];
+        for (hex, _) in model
+            .hexes()
+            .iter()
+            .zip(&inside)
+            .filter(|(_, in_cell)| !**in_cell)
+        {
+            for &n in hex {
+                shared[n as usize] = true;
+            }
+        }
+        let boundary: Vec<usize> = (0..part.nodes.len())
+            .filter(|&i| shared[part.nodes[i] as usize])
+            .collect();
+        let dofs = DofMap::all_free(part.nodes.len())?;
+        let mut stiffness = assemble_stiffness(&part.model, &dofs)?;
+        CylindricalFrames::new(part.model.nodes().iter().copied()).turn_stiffness(&mut stiffness);
+        let condensation = StaticCondensation::new(stiffness.clone(), &boundary)?;
+        Ok(Self {
+            part: part.nodes,
+            places,
+            boundary,
+            stiffness,
+            condensation,
+        })
+    }
+
+    /// The condensation.
+    pub fn condensation(&self) -> &StaticCondensation {
+        &self.condensation
+    }
+
+    /// Number of nodes of the cell.
+    pub fn node_count(&self) -> usize {
+        self.part.len()
+    }
+
+    /// Number of nodes shared with the rest of the gear.
+    pub fn boundary_count(&self) -> usize {
+        self.boundary.len()
+    }
+
+    /// Node of the whole mesh of the i-th cell node, on a tooth.
+    pub fn node(&self, mesh: &GearMesh, tooth: usize, i: usize) -> Option<u32> {
+        let (c, plane) = self.places[i];
+        mesh.node(mesh.section.cell_nodes[tooth][c], plane)
+    }
+
+    /// Node of the whole mesh of the b-th shared node, on a tooth.
+    pub fn boundary_node(&self, mesh: &GearMesh, tooth: usize, b: usize) -> Option<u32> {
+        self.node(mesh, tooth, self.boundary[b])
+    }
+
+    /// Vectors on tooth 0 carried to the shared nodes.
+    pub fn condense(
+        &self,
+        frames: &CylindricalFrames,
+        vectors: &[&SparseVector],
+    ) -> CondensedLoads {
+        let mut loads = Mat::zeros(self.condensation.size(), vectors.len());
+        for (column, vector) in vectors.iter().enumerate() {
+            for &(dof, value) in *vector {
+                if let Ok(i) = self.part.binary_search(&((dof / 3) as u32)) {
+                    add_turned(frames, dof, value, |axis, part| {
+                        loads[(3 * i + axis, column)] += part;
+                    });
+                }
+            }
+        }
+        self.condensation.condense(loads.as_ref())
+    }
+
+    /// Σ over the given teeth of XᵀKX for fields over the whole mesh, in Cartesian components.
+    pub fn energy_products(
+        &self,
+        mesh: &GearMesh,
+        frames: &CylindricalFrames,
+        fields: &[Vec<f64>],
+    ) -> Mat<f64> {
+        let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
+        (0..mesh.section.cell_nodes.len())
+            .into_par_iter()
+            .map(|tooth| {
+                let nodes = (0..self.node_count()).map(|i| self.node(mesh, tooth, i));
+                let x = gather(frames, nodes, fields);
+                x.transpose() * (self.stiffness.as_ref() * &x)
+            })
+            .reduce(zero, |a, b| a + b)
+    }
+}
+
+/// Splits one Cartesian entry of a vector into the cylindrical components of its node.
+pub(crate) fn add_turned(
+    frames: &CylindricalFrames,
+    dof: usize,
+    value: f64,
+    mut add: impl FnMut(usize, f64),
+) {
+    let mut entry = [0.0; 3];
+    entry[dof % 3] = value;
+    for (axis, part) in frames
+        .to_cylindrical(dof / 3, entry)
+        .into_iter()
+        .enumerate()
+    {
+        if part != 0.0 {
+            add(axis, part);
+        }
+    }
+}
+
+/// Fields over the whole mesh at some nodes, in cylindrical components: 3·nodes × fields.
+pub(crate) fn gather(
+    frames: &CylindricalFrames,
+    nodes: impl Iterator<Item = Option<u32>>,
+    fields: &[Vec<f64>],
+) -> Mat<f64> {
+    let nodes: Vec<usize> = nodes.flatten().map(|n| n as usize).collect();
+    let mut x = Mat::zeros(3 * nodes.len(), fields.len());
+    for (column, field) in fields.iter().enumerate() {
+        for (i, &node) in nodes.iter().enumerate() {
+            let u = [field[3 * node], field[3 * node + 1], field[3 * node + 2]];
+            for (axis, part) in frames.to_cylindrical(node, u).into_iter().enumerate() {
+                x[(3 * i + axis, column)] = part;
+            }
+        }
+    }
+    x
+}

@@ -1,0 +1,108 @@
+//! A gear solved by one factorisation of all its degrees of freedom: what the cyclic way is compared with.
+
+use crate::Progress;
+use crate::flank_loads::{SparseVector, dot};
+use crate::tooth_vectors::on_tooth;
+use faer::Mat;
+use gearmesh_fe::{
+    DofMap, DofOrdering, Factor, FeError, FeModel, NodeGraph, StiffnessMatrix,
+    assemble_stiffness_with_graph,
+};
+use gearmesh_mesh::GearMesh;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Columns that are solved together.
+const BLOCK: usize = 64;
+
+/// Stiffness of the whole gear and its factor.
+pub struct WholeGear {
+    stiffness: StiffnessMatrix,
+    factor: Factor,
+}
+
+impl WholeGear {
+    /// Assembles and factorises. The wall time of each stage is added to `stage_seconds`.
+    ///
+    /// # Errors
+    /// [`FeError`] when the body is not held or memory is short.
+    pub fn new(
+        model: &FeModel,
+        dofs: &DofMap,
+        progress: &dyn Progress,
+        stage_seconds: &mut Vec<(String, f64)>,
+    ) -> Result<Self, FeError> {
+        progress.stage("assembling");
+        let clock = Instant::now();
+        let graph = NodeGraph::new(model, dofs)?;
+        let stiffness = assemble_stiffness_with_graph(model, dofs, &graph)?;
+        stage_seconds.push(("assembly".into(), clock.elapsed().as_secs_f64()));
+        progress.stage("factoring");
+        let clock = Instant::now();
+        let ordering = DofOrdering::nested_dissection(&graph, dofs)?;
+        let factor = Factor::new(&stiffness, ordering)?;
+        stage_seconds.push(("factor".into(), clock.elapsed().as_secs_f64()));
+        Ok(Self { stiffness, factor })
+    }
+
+    /// K⁻¹ p for many loads, a block at a time, as full fields handed to `each` one by one.
+    pub fn solve_each(
+        &self,
+        dofs: &DofMap,
+        loads: &[&SparseVector],
+        progress: &dyn Progress,
+        mut each: impl FnMut(usize, &[f64]),
+    ) {
+        let mut full = vec![0.0; dofs.dof_count()];
+        for (block, chunk) in loads.chunks(BLOCK).enumerate() {
+            let mut rhs = Mat::<f64>::zeros(dofs.free_count(), chunk.len());
+            for (column, load) in chunk.iter().enumerate() {
+                for &(dof, value) in *load {
+                    if let Some(free) = dofs.free_of(dof) {
+                        rhs[(free, column)] = value;
+                    }
+                }
+            }
+            self.factor.solve_in_place(rhs.as_mut());
+            for column in 0..chunk.len() {
+                for free in 0..dofs.free_count() {
+                    full[dofs.full_of(free)] = rhs[(free, column)];
+                }
+                each(block * BLOCK + column, &full);
+            }
+            progress.advance((block * BLOCK + chunk.len()).min(loads.len()), loads.len());
+        }
+    }
+
+    /// aᵀ K⁻¹ g: `[row][tooth][vector]`, as [`crate::cyclic_body::CyclicBody::readings`].
+    pub fn readings(
+        &self,
+        mesh: &GearMesh,
+        dofs: &DofMap,
+        rows: &[&SparseVector],
+        vectors: &[&SparseVector],
+        progress: &dyn Progress,
+    ) -> Vec<Vec<f64>> {
+        let teeth = mesh.section.cell_nodes.len();
+        let everywhere: Vec<SparseVector> = (0..teeth)
+            .into_par_iter()
+            .flat_map_iter(|t| vectors.iter().map(move |v| on_tooth(mesh, v, t)))
+            .collect();
+        let mut readings = Vec::with_capacity(rows.len());
+        self.solve_each(dofs, rows, progress, |_, u| {
+            readings.push(everywhere.par_iter().map(|v| dot(v, u)).collect());
+        });
+        readings
+    }
+
+    /// XᵀKX for full fields that are zero where the body is held.
+    pub fn energy_products(&self, dofs: &DofMap, fields: &[Vec<f64>]) -> Mat<f64> {
+        let mut x = Mat::zeros(dofs.free_count(), fields.len());
+        for (column, field) in fields.iter().enumerate() {
+            for free in 0..dofs.free_count() {
+                x[(free, column)] = field[dofs.full_of(free)];
+            }
+        }
+        x.transpose() * (self.stiffness.as_ref() * &x)
+    }
+}

@@ -1,0 +1,208 @@
+//! The cyclic solution against one factorisation of the whole gear: compliance, gauge rows, fields, effort.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
+use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_model::ReducedGear;
+use gearmesh_reduction::field::{GridForce, fields};
+use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
+use gearmesh_reduction::tooth_vectors::on_tooth;
+use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
+
+/// Agreement demanded of the two ways: rounding alone.
+const AGREEMENT: f64 = 1e-9;
+
+const SMALL: &str = r#"
+name = "small"
+[tooth]
+teeth = 18
+module_mm = 3.0
+profile_shift = 0.1
+face_width_mm = 12.0
+[material]
+young_GPa = 210.0
+poisson = 0.3
+[mesh]
+flank_mm = 1.5
+fillet_mm = 0.6
+body_mm = 4.0
+axial_mm = 3.0
+[reduction]
+roll_stations = 4
+slices = 2
+flanks = ["right", "left"]
+[[gauge]]
+name = "root of a tooth of the first sector"
+tooth = 0
+side = "right"
+length_mm = 0.9
+width_mm = 4.0
+[[gauge]]
+name = "root elsewhere"
+tooth = 7
+side = "left"
+length_mm = 0.9
+width_mm = 4.0
+"#;
+
+const THIN_RIM: &str = "[blank]
+kind = \"thin-rim\"
+bore_diameter_mm = 14.0
+hub_diameter_mm = 20.0
+rim_inner_diameter_mm = 38.0
+web_thickness_mm = 4.0
+";
+
+fn gear(blank: &str, symmetry: Symmetry) -> GearDefinition {
+    let text = format!("{SMALL}\n{blank}");
+    let mut gear = GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap();
+    gear.reduction.symmetry = symmetry;
+    gear
+}
+
+/// Largest difference relative to the largest value.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let largest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let worst = a
+        .iter()
+        .zip(b)
+        .fold(0.0f64, |m, (x, y)| m.max((x - y).abs()));
+    worst / largest
+}
+
+/// Reduces a gear both ways and compares everything; `factorisations` of the cyclic way are tooth, sector, harmonics.
+fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_error: bool) {
+    let python = PythonEnvironment::find().unwrap();
+    let options = ReductionOptions { estimate_error };
+    let run = |symmetry| -> (GearDefinition, ReducedGear, GearBody) {
+        let gear = gear(blank, symmetry);
+        let (model, body) = reduce(&gear, &python, options, &Silent).unwrap();
+        (gear, model, body)
+    };
+    let (gear, cyclic, body) = run(Symmetry::Auto);
+    let (_, whole, whole_body) = run(Symmetry::Off);
+    assert_eq!(gear.sectors(), sectors);
+    let effort = |model: &ReducedGear, name: &str| {
+        let counts = &model.provenance.effort;
+        counts.iter().find(|(n, _)| n == name).unwrap().1 as usize
+    };
+    assert_eq!(effort(&cyclic, "factorisations"), factorisations);
+    assert_eq!(effort(&whole, "factorisations"), 1);
+    // One per load of a sector's teeth, per sampled pattern and per gauge; the same with and without symmetry.
+    let loads = 18 / sectors * 2 * whole.grid.len();
+    for model in [&cyclic, &whole] {
+        assert_eq!(effort(model, "right-hand sides"), loads + 7 + 2);
+    }
+    assert_eq!(body.mesh.nodes, whole_body.mesh.nodes);
+
+    let c_hub = difference(&whole.c_hub, &cyclic.c_hub);
+    assert!(c_hub < AGREEMENT, "C_hub {c_hub:.1e}");
+    assert_eq!(whole.c_tooth, cyclic.c_tooth);
+    for (a, b) in whole.gauges.iter().zip(&cyclic.gauges) {
+        let adjoint = difference(&a.adjoint, &b.adjoint);
+        assert!(adjoint < AGREEMENT, "{}: {adjoint:.1e}", a.name);
+        let own = difference(&a.own_tooth, &b.own_tooth);
+        assert!(own < AGREEMENT, "{}: own tooth {own:.1e}", a.name);
+        let errors = (a.error_estimate_relative, b.error_estimate_relative);
+        assert!((errors.0 - errors.1).abs() < 1e-6 * errors.0, "{errors:?}");
+    }
+    for ((name, a), (_, b)) in whole.checks.further.iter().zip(&cyclic.checks.further) {
+        assert!((a - b).abs() < 1e-6 * a.abs(), "{name}: {a} {b}");
+    }
+
+    // Fields of loads on teeth of different sectors at once, normal and tangential.
+    let force = |tooth, side, load, normal_n, tangential_n| GridForce {
+        tooth,
+        side,
+        load,
+        normal_n,
+        tangential_n,
+    };
+    let cases = [
+        vec![
+            force(17, FlankSide::Right, 3, 100.0, 20.0),
+            force(0, FlankSide::Right, 9, 250.0, -10.0),
+            force(9, FlankSide::Left, 0, 70.0, 0.0),
+        ],
+        vec![force(5, FlankSide::Left, 12, 1.0, 0.0)],
+    ];
+    let there = fields(&gear, &body, &cases).unwrap();
+    let here = fields(&gear, &whole_body, &cases).unwrap();
+    for (a, b) in here.iter().zip(&there) {
+        let (a_u, b_u) = (
+            a.displacement_m.as_flattened(),
+            b.displacement_m.as_flattened(),
+        );
+        let displacement = difference(a_u, b_u);
+        assert!(displacement < AGREEMENT, "displacement {displacement:.1e}");
+        let stress = difference(&a.von_mises_pa, &b.von_mises_pa);
+        assert!(stress < 1e-8, "stress {stress:.1e}");
+    }
+}
+
+#[test]
+fn thin_rim_one_tooth_a_sector() {
+    both_ways_agree(THIN_RIM, 18, 2 + 10, false);
+}
+
+#[test]
+fn solid_blank() {
+    let blank = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
+    both_ways_agree(blank, 18, 2 + 10, false);
+}
+
+#[test]
+fn slots_with_several_teeth_a_sector() {
+    let slots = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
+    both_ways_agree(&format!("{THIN_RIM}{slots}"), 3, 2 + 2, true);
+}
+
+#[test]
+fn drilled_with_two_teeth_a_sector_and_a_turned_pattern() {
+    let holes = "holes = { count = 9, pitch_circle_diameter_mm = 29.0, diameter_mm = 3.5, phase_deg = 11.0 }\n";
+    both_ways_agree(&format!("{THIN_RIM}{holes}"), 9, 2 + 5, false);
+}
+
+#[test]
+fn two_sectors_share_both_their_cuts() {
+    let holes = "holes = { count = 4, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = 30.0 }\n";
+    both_ways_agree(&format!("{THIN_RIM}{holes}"), 2, 2 + 2, false);
+}
+
+#[test]
+fn no_repetition_leaves_one_sector_without_cuts() {
+    let holes = "holes = { count = 5, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = 7.0 }\n";
+    both_ways_agree(&format!("{THIN_RIM}{holes}"), 1, 2, false);
+}
+
+/// Loads of tooth 0 turned to another tooth are the loads integrated there.
+#[test]
+fn turned_loads_are_those_of_the_other_tooth() {
+    let python = PythonEnvironment::find().unwrap();
+    let gear = gear(THIN_RIM, Symmetry::Auto);
+    let body = GearBody::new(&gear, &python, &Silent).unwrap();
+    let grid = flank_grid(&gear);
+    for side in [FlankSide::Right, FlankSide::Left] {
+        let here = flank_loads(&gear, &body.mesh, &grid, 0, side);
+        let there = flank_loads(&gear, &body.mesh, &grid, 11, side);
+        for (a, b) in here.iter().zip(&there) {
+            for (from, to) in [
+                (&a.normal, &b.normal),
+                (&a.tangential, &b.tangential),
+                (&a.axial, &b.axial),
+            ] {
+                let turned = on_tooth(&body.mesh, from, 11);
+                let dofs = |v: &[(usize, f64)]| v.iter().map(|e| e.0).collect::<Vec<_>>();
+                assert_eq!(dofs(&turned), dofs(to));
+                assert!(
+                    turned
+                        .iter()
+                        .zip(to)
+                        .all(|(a, b)| (a.1 - b.1).abs() < 1e-13)
+                );
+            }
+        }
+    }
+}
