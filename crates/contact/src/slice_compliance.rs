@@ -39,6 +39,17 @@ pub struct RollPlace {
     pub share: f64,
 }
 
+/// A slice on a tooth and the place of its contact along the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedSlice {
+    /// Tooth.
+    pub tooth: usize,
+    /// Slice.
+    pub slice: usize,
+    /// Place between the roll stations.
+    pub place: RollPlace,
+}
+
 /// Which part of the compliance is taken from the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompliancePart {
@@ -206,6 +217,22 @@ impl SliceCompliance {
                 }
             }
         }
+    }
+
+    /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines.
+    pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+        let size = self.stations * self.slices;
+        let tooth = a.tooth % self.teeth_per_sector;
+        let response = (b.tooth + self.teeth - (a.tooth - tooth)) % self.teeth;
+        let block = tooth * self.teeth + response;
+        let table = &self.blocks[block * size * size..(block + 1) * size * size];
+        let row = |station: usize| &table[(station * self.slices + a.slice) * size..][..size];
+        let column = b.place.station * self.slices + b.slice;
+        let response_of = |row: &[f64]| {
+            (1.0 - b.place.share) * row[column] + b.place.share * row[column + self.slices]
+        };
+        (1.0 - a.place.share) * response_of(row(a.place.station))
+            + a.place.share * response_of(row(a.place.station + 1))
     }
 }
 

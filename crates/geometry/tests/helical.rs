@@ -212,6 +212,50 @@ fn helicoids_of_opposite_hand_touch_along_the_contact_line() {
     }
 }
 
+/// Gear 2 tilted as a rigid body about the pitch point at mid-face, displacement along its own flank's normal.
+#[test]
+fn misalignment_opens_the_flanks_as_a_rigid_tilt_does() {
+    for (helix_deg, side) in [
+        (0.0, FlankSide::Right),
+        (22.0, FlankSide::Right),
+        (-22.0, FlankSide::Right),
+        (22.0, FlankSide::Left),
+    ] {
+        for (inclination_rad, deviation_rad) in [(1.0, 0.0), (0.0, 1.0)] {
+            let mut pair = pair(helix_deg, -helix_deg).unwrap().on_flanks(side);
+            pair.misalignment = Misalignment {
+                inclination_rad,
+                deviation_rad,
+            };
+            let mirror = side.mirror();
+            let alpha_w = pair.working_pressure_angle_rad;
+            // Gear 2 stands at +x of gear 1, which pushes it along (sin α_w, ∓cos α_w).
+            let push = [alpha_w.sin(), -mirror * alpha_w.cos()];
+            // ω × e_z is the axis' displacement per metre: +x for the inclination, ∓y for the deviation.
+            let omega = [mirror * deviation_rad, inclination_rad];
+            let g2 = &pair.gear_2;
+            for (z, path) in [(8e-3, 0.0), (0.0, 4e-3), (-5e-3, -3e-3)] {
+                let roll_1 = alpha_w.tan() + path / pair.gear_1.base_radius_m;
+                let n = g2.flank_normal(side, pair.roll_2_rad(roll_1));
+                let cos = n[0].hypot(n[1]);
+                let normal = [cos * push[0], cos * push[1], n[2]];
+                let arm = [path * push[0], path * push[1], z];
+                let moved = [
+                    omega[1] * arm[2],
+                    -omega[0] * arm[2],
+                    omega[0] * arm[1] - omega[1] * arm[0],
+                ];
+                let opened: f64 = moved.iter().zip(normal).map(|(a, b)| a * b).sum();
+                let found = pair.base_helix_angle_rad().cos() * pair.misalignment_gap_m(z, path);
+                assert!(
+                    (found - opened).abs() < 1e-15,
+                    "{helix_deg} {side:?}: {found} {opened}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn contact_ratios_follow_the_closed_formulas() {
     let pair = pair(20.0, -20.0).unwrap();
