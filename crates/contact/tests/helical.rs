@@ -224,7 +224,6 @@ fn an_integer_overlap_ratio_smooths_the_transmission_error() {
         peak_to_peak(&curve(&lines, 200.0, 16, 60))
     };
     let (none, half, one, more) = (ripple(0.0), ripple(0.5), ripple(1.0), ripple(1.3));
-    println!("peak to peak: {none:.3e} {half:.3e} {one:.3e} {more:.3e} m");
     assert!(one < 0.5 * half && half < none && one < more);
 }
 
