@@ -136,8 +136,8 @@ def test_import_checks_the_elements(tmp_path):
     mirrored = points * [1, 1, -1]
     cases = {
         "Jacobian": [("hexahedron", hexes)],
-        "only 8-node hexahedra": [("hexahedron", hexes), ("tetra", hexes[:2, [0, 1, 3, 4]])],
-        "no 8-node hexahedra": [("quad", hexes[:, :4])],
+        "only hexahedra of 8 or 20 nodes": [("hexahedron", hexes), ("tetra", hexes[:2, [0, 1, 3, 4]])],
+        "no hexahedra of 8 or 20 nodes": [("quad", hexes[:, :4])],
     }
     for message, cells in cases.items():
         meshio.Mesh(mirrored if message == "Jacobian" else points, cells).write(tmp_path / "in.vtu")
@@ -162,7 +162,7 @@ def test_write_mesh_refuses_nonsense(tmp_path):
     path = tmp_path / "bad.h5"
     for message, arguments in {
         "three are needed": (points[:, :2], hexes),
-        "eight are needed": (points, hexes[:, :4]),
+        "8 or 20 are needed": (points, hexes[:, :4]),
         "indices start at 0": (points, hexes - 1),
         "refers to node": (points, hexes + 100),
         "finite": (np.where(points == points.max(), np.nan, points), hexes),

@@ -1,8 +1,9 @@
-"""Stiffness, displacements and strains against scikit-fem and against elements written out here in NumPy.
+"""Stiffness, mass, displacements, strains and natural modes against scikit-fem and against elements written out here in NumPy.
 
-The other side shares no code with the Rust one: scikit-fem assembles the plain brick, the NumPy functions below the
-brick with incompatible modes. All sides use the 2x2x2 Gauss rule, so what is left is rounding: 1e-16 an operation,
-times the condition number of K (1.7e3 here) in a displacement. 1e-10 stands above both.
+The other side shares no code with the Rust one: scikit-fem assembles the plain brick and the twenty-node brick, the
+NumPy functions below the brick with incompatible modes. All sides use the same Gauss rule, 2x2x2 points with eight nodes
+and 3x3x3 with twenty, so what is left is rounding: 1e-16 an operation, times the condition number of K (1.7e3 with eight
+nodes) in a displacement. 1e-10 stands above both.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 import gearmesh
 
-YOUNG_PA, POISSON = 210e9, 0.3
+YOUNG_PA, POISSON, DENSITY = 210e9, 0.3, 7800.0
 TOLERANCE = 1e-10
 
 # Natural coordinates of the corners in VTK order.
@@ -64,6 +65,24 @@ class Body:
         size = self.points.size
         return scipy.sparse.csc_matrix(gearmesh.stiffness(self.path, YOUNG_PA, POISSON, element), shape=(size, size))
 
+    def mass(self, element):
+        """M of the Rust side as a SciPy matrix."""
+        size = self.points.size
+        return scipy.sparse.csc_matrix(gearmesh.mass(self.path, DENSITY, element), shape=(size, size))
+
+    def natural_modes(self, element, count):
+        """Frequencies (Hz), shapes and residuals of the Rust side."""
+        return gearmesh.natural_modes(self.path, YOUNG_PA, POISSON, DENSITY, element, self.held, count)
+
+    def modes_by_scipy(self, k, m, count):
+        """Frequencies (Hz) and shapes by ARPACK for another stiffness and mass."""
+        free = self.free()
+        k, m = (matrix.tocsc()[free][:, free] for matrix in (k, m))
+        squares, columns = scipy.sparse.linalg.eigsh(k, count, m, sigma=0.0, v0=np.ones(len(free)))
+        shapes = np.zeros((count, self.points.size))
+        shapes[:, free] = columns.T
+        return np.sqrt(squares) / (2.0 * np.pi), shapes
+
     def solve(self, element):
         """Displacement of the Rust side."""
         return gearmesh.solve(self.path, YOUNG_PA, POISSON, element, self.held, self.force)
@@ -72,9 +91,13 @@ class Body:
         """Strain of the Rust side in every element."""
         return gearmesh.strain(self.path, YOUNG_PA, POISSON, element, displacement, natural)
 
+    def free(self):
+        """Degrees of freedom that are not held."""
+        return np.setdiff1d(np.arange(self.points.size), (3 * self.held[:, None] + np.arange(3)).ravel())
+
     def displacement_by_scipy(self, k):
         """Displacement under the forces for another stiffness, by SciPy's LU factorisation."""
-        free = np.setdiff1d(np.arange(self.points.size), (3 * self.held[:, None] + np.arange(3)).ravel())
+        free = self.free()
         displacement = np.zeros(self.points.size)
         displacement[free] = scipy.sparse.linalg.spsolve(k.tocsc()[free][:, free], self.force.ravel()[free])
         return displacement.reshape(-1, 3)
@@ -104,12 +127,95 @@ class ScikitFem:
         k = linear_elasticity(*lame_parameters(YOUNG_PA, POISSON)).assemble(self.basis)
         return k.tocsr()[self.theirs][:, self.theirs]
 
+    def mass(self):
+        # An order of 5 is three points a direction, as ours has for the mass of both elements.
+        basis = skfem.Basis(self.mesh, self.basis.elem, intorder=5)
+        product = skfem.BilinearForm(lambda u, v, w: DENSITY * sum(u[a] * v[a] for a in range(3)))
+        return product.assemble(basis).tocsr()[self.theirs][:, self.theirs]
+
     def centre_strain(self, displacement):
         centre = skfem.Basis(self.mesh, self.basis.elem, quadrature=(np.full((3, 1), 0.5), np.ones(1)))
         theirs = np.empty(displacement.size)
         theirs[self.theirs] = displacement.ravel()
         gradient = centre.interpolate(theirs).grad[..., 0]  # displacement axis, derivative axis, element
         return engineering(np.moveaxis(gradient, -1, 0))
+
+
+# The corners at the ends of each edge, in VTK order of the mid-edge nodes.
+EDGES = np.array([
+    [0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7],
+])
+# Natural coordinates of all twenty nodes.
+NODES_20 = np.vstack([CORNERS, CORNERS[EDGES].mean(axis=1)])
+
+
+class QuadraticBody(Body):
+    """The block with a node on every edge, off the chord by up to 0.06 of its length."""
+
+    def __init__(self, path):
+        self.path = path
+        corners, hexes, held = distorted_block()
+        random = np.random.default_rng(22)
+        ends = np.sort(hexes[:, EDGES], axis=-1).reshape(-1, 2)
+        edges, of_element = np.unique(ends, axis=0, return_inverse=True)
+        lengths = np.linalg.norm(np.diff(corners[edges], axis=1)[:, 0], axis=1)
+        middles = corners[edges].mean(axis=1) + 0.06 * lengths[:, None] * random.uniform(-1.0, 1.0, (len(edges), 3))
+        self.points = np.vstack([corners, middles])
+        self.hexes = np.hstack([hexes, len(corners) + of_element.reshape(-1, 12)])
+        self.held = np.concatenate([held, len(corners) + np.flatnonzero(np.isin(edges, held).all(axis=1))])
+        gearmesh.write_mesh(path, self.points, self.hexes)
+        self.force = random.normal(scale=100.0, size=self.points.shape)
+
+
+@pytest.fixture(scope="module")
+def quadratic_body(tmp_path_factory):
+    return QuadraticBody(tmp_path_factory.mktemp("skfem20") / "block.h5")
+
+
+def serendipity(natural):
+    """The twenty shape functions at a point: the quadratic polynomials that are 1 at one node and 0 at the others.
+
+    Found by inverting the matrix of the twenty monomials at the nodes, not from a formula.
+    """
+    powers = np.array([
+        (i, j, k) for i in range(3) for j in range(3) for k in range(3) if sum(p == 2 for p in (i, j, k)) <= 1
+    ])
+    monomials = lambda x: np.prod(x[..., None, :] ** powers, axis=-1)
+    return np.linalg.solve(monomials(NODES_20).T, monomials(np.asarray(natural, dtype=float)))
+
+
+class ScikitFem20(ScikitFem):
+    """The twenty-node brick by scikit-fem, in our order of nodes and degrees of freedom.
+
+    scikit-fem's curved brick has 27 nodes; the seven more, on faces and in the middle, are put where the twenty-node map
+    has them, so that both maps are the same.
+    """
+
+    def __init__(self, body):
+        corner = [np.flatnonzero(np.all(CORNERS == 2.0 * at - 1.0, axis=1))[0] for at in skfem.ElementHex1.doflocs]
+        used = np.unique(body.hexes[:, :8])
+        assert np.array_equal(used, np.arange(len(used)))
+        straight = skfem.MeshHex(body.points[used].T.copy(), body.hexes[:, corner].T.copy())
+        curved = skfem.MeshHex2.from_mesh(straight)
+        # The Lagrange nodes of the curved mesh, element by element, from our twenty.
+        places = 2.0 * skfem.ElementHex2.doflocs - 1.0
+        shape = np.array([serendipity(at) for at in places])
+        dofs = curved.dofs.element_dofs
+        points = np.full((3, curved.doflocs.shape[1]), np.nan)
+        for element, nodes in enumerate(body.hexes):
+            points[:, dofs[:, element]] = (shape @ body.points[nodes]).T
+        assert np.isfinite(points).all()
+        self.mesh = skfem.MeshHex2(points, curved.t)
+        # An order of 5 is three points a direction.
+        self.basis = skfem.Basis(self.mesh, skfem.ElementVector(skfem.ElementHexS2()), intorder=5)
+        assert self.basis.X.shape[-1] == 27
+        # Which VTK node lies where scikit-fem's element has its k-th; three displacements each.
+        order = [np.flatnonzero(np.all(NODES_20 == 2.0 * at - 1.0, axis=1))[0] for at in skfem.ElementHexS2.doflocs]
+        self.theirs = np.full(body.points.size, -1)
+        for element, nodes in enumerate(body.hexes):
+            ours = 3 * nodes[order][:, None] + np.arange(3)
+            self.theirs[ours.ravel()] = self.basis.element_dofs[:, element]
+        assert (np.sort(self.theirs) == np.arange(body.points.size)).all()
 
 
 def engineering(gradient):
@@ -237,6 +343,62 @@ def test_incompatible_strain_is_that_of_taylor_beresford_wilson(body, natural):
     assert in_norm(body.strain("hex8-incompatible", displacement, natural), expected) < TOLERANCE
 
 
+def test_hex20_stiffness_is_that_of_scikit_fem(quadratic_body):
+    body = quadratic_body
+    assert body.points.shape[0] == 119 + 1 + 286 and len(body.hexes) == 60
+    assert entrywise(body.stiffness("hex20"), ScikitFem20(body).stiffness()) < TOLERANCE
+
+
+def test_hex20_displacement_is_that_of_scikit_fem(quadratic_body):
+    body = quadratic_body
+    displacement = body.solve("hex20")
+    assert in_norm(displacement, body.displacement_by_scipy(ScikitFem20(body).stiffness())) < TOLERANCE
+    assert not displacement[body.held].any()
+
+
+def test_hex20_strain_at_the_centres_is_that_of_scikit_fem(quadratic_body):
+    body = quadratic_body
+    fem = ScikitFem20(body)
+    displacement = body.displacement_by_scipy(fem.stiffness())
+    assert in_norm(body.strain("hex20", displacement), fem.centre_strain(displacement)) < TOLERANCE
+    assert in_norm(body.strain("hex20", body.solve("hex20")), fem.centre_strain(displacement)) < TOLERANCE
+
+
+def test_a_mesh_of_twenty_nodes_comes_back(quadratic_body):
+    read = gearmesh.read_mesh(quadratic_body.path)
+    assert np.array_equal(read["hexes"], quadratic_body.hexes)
+
+
+def test_an_element_takes_its_own_number_of_nodes(body, quadratic_body):
+    with pytest.raises(ValueError, match="8 nodes an element; hex20 has 20"):
+        body.stiffness("hex20")
+    with pytest.raises(ValueError, match="20 nodes an element; hex8 has 8"):
+        quadratic_body.stiffness("hex8")
+
+
+@pytest.mark.parametrize("element", ["hex8", "hex20"])
+def test_mass_and_natural_modes_are_those_of_scikit_fem(body, quadratic_body, element):
+    body, fem_of = (body, ScikitFem) if element == "hex8" else (quadratic_body, ScikitFem20)
+    fem, count = fem_of(body), 12
+    m = fem.mass()
+    assert entrywise(body.mass(element), m) < TOLERANCE
+    expected, expected_shapes = body.modes_by_scipy(fem.stiffness(), m, count)
+    frequencies, shapes, residuals = body.natural_modes(element, count)
+    assert np.abs(frequencies / expected - 1.0).max() < 1e-8
+    # The search stops at 1e-10 in the mass norm; the residual weighs what is left with the square of its frequency.
+    assert residuals.max() < 1e-8
+    assert not shapes[:, body.held].any()
+    # Modal mass 1, and the same shapes but for the sign.
+    overlap = shapes.reshape(count, -1) @ (m @ expected_shapes.T)
+    assert np.abs(np.abs(overlap) - np.eye(count)).max() < 1e-6
+
+
+def test_incompatible_modes_carry_no_mass(body):
+    assert entrywise(body.mass("hex8-incompatible"), body.mass("hex8")) == 0.0
+    # Softer with the same mass: every frequency is lower.
+    assert (body.natural_modes("hex8-incompatible", 6)[0] < body.natural_modes("hex8", 6)[0]).all()
+
+
 def test_the_default_element_has_incompatible_modes(body):
     data = gearmesh.stiffness(body.path, YOUNG_PA, POISSON)[0]
     assert np.array_equal(data, gearmesh.stiffness(body.path, YOUNG_PA, POISSON, "hex8-incompatible")[0])
@@ -249,11 +411,11 @@ def test_forces_in_any_memory_order(body):
 
 
 def test_unknown_element_is_refused(body):
-    with pytest.raises(ValueError, match='"hex9".*"hex8" or "hex8-incompatible"'):
+    with pytest.raises(ValueError, match='"hex9".*"hex8", "hex8-incompatible", "hex20"'):
         gearmesh.stiffness(body.path, YOUNG_PA, POISSON, "hex9")
-    with pytest.raises(ValueError, match='"hex9".*"hex8" or "hex8-incompatible"'):
+    with pytest.raises(ValueError, match='"hex9".*"hex8", "hex8-incompatible", "hex20"'):
         gearmesh.solve(body.path, YOUNG_PA, POISSON, "hex9", body.held, body.force)
-    with pytest.raises(ValueError, match='"hex9".*"hex8" or "hex8-incompatible"'):
+    with pytest.raises(ValueError, match='"hex9".*"hex8", "hex8-incompatible", "hex20"'):
         gearmesh.strain(body.path, YOUNG_PA, POISSON, "hex9", body.force)
 
 
@@ -274,5 +436,9 @@ def test_wrong_input_is_refused(body, tmp_path):
         force = body.force.copy()
         force[7, 2] = np.nan
         solve(body.held, force)
+    with pytest.raises(ValueError, match="density is 0"):
+        gearmesh.mass(body.path, 0.0)
+    with pytest.raises(ValueError, match="0 natural modes were asked for; the model has 300 unknowns"):
+        body.natural_modes("hex8", 0)
     with pytest.raises(ValueError, match="from -1 to 1"):
         body.strain("hex8", body.force, (0.0, 1.1, 0.0))

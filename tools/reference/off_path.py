@@ -1,8 +1,8 @@
 """Static transmission error of a solid spur pair in plane strain, contact resolved along the flank, on and off the path of contact.
 
-    python off_path.py compute --h 0.01 --cache DIR                 flank elements of 0.01 mm
-    python off_path.py compute --h 0.02 --cache DIR                 a coarser flank ...
-    python off_path.py compute --h 0.02 --near 0.125 --cache DIR    ... and finer teeth and body, for the error estimate
+    python off_path.py compute --h 0.01 --near 0.125 --cache DIR    flank elements of 0.01 mm (0.0025 mm at the tip), other teeth from 0.125 mm
+    python off_path.py compute --h 0.02 --near 0.125 --cache DIR    a coarser flank ...
+    python off_path.py compute --h 0.02 --near 0.25 --cache DIR     ... and coarser teeth and body, for the error estimate
     python off_path.py write --cache DIR --out ../../reference
 
 Two equal gears: z 50, m 3 mm, 20 degrees, x 0, face width 20 mm, bore radius 30 mm fixed, E 206 GPa, nu 0.3, centre distance
@@ -35,15 +35,23 @@ def turned(p, angle):
     return p @ np.array([[c, s], [-s, c]])
 
 
+def flank_nodes(tooth, h):
+    """Arc lengths of the nodes: elements of about h, of h/4 at the tip and where a mate's tip edge may touch."""
+    s = lambda xi: tooth.arc(xi)
+    start = np.sqrt(CENTRE**2 - 4 * tooth.r_base**2) / tooth.r_base - tooth.xi_tip
+    cuts = [s(tooth.xi_form), s(start) - 0.1, s(start + 0.024) + 0.05, s(tooth.xi_tip) - 0.15, s(tooth.xi_tip)]
+    parts = [np.linspace(a, b, 1 + int(np.ceil((b - a) / (h / 4 if n % 2 else h)))) for n, (a, b) in enumerate(zip(cuts, cuts[1:]))]
+    return np.concatenate([parts[0]] + [q[1:] for q in parts[1:]])
+
+
 def mesh(tooth, h, near):
-    """Points, triangles of the gear; the right flank of tooth 0 has equal elements of about h, its neighbours of `near`."""
+    """Points, triangles of the gear; flank nodes of the right flank of tooth 0, other teeth with elements from `near`."""
     import gmsh
 
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     geo = gmsh.model.geo
-    arc = np.linspace(tooth.arc(tooth.xi_form), tooth.arc(tooth.xi_tip),
-                      1 + round((tooth.arc(tooth.xi_tip) - tooth.arc(tooth.xi_form)) / h))
+    arc = flank_nodes(tooth, h)
     half = tooth.pitch_angle / 2
     fillet = tooth.fillet_dense(401)[0][::20]
     polar = lambda r, a: np.array([r * np.cos(a), r * np.sin(a)])
@@ -81,17 +89,20 @@ def mesh(tooth, h, near):
     for name in ("MeshSizeExtendFromBoundary", "MeshSizeFromPoints"):
         gmsh.option.setNumber(f"Mesh.{name}", 0)
     field = gmsh.model.mesh.field
-    d = field.add("Distance")
-    field.setNumbers(d, "CurvesList", fine)
-    field.setNumber(d, "Sampling", 3)
-    graded = field.add("MathEval")
-    field.setString(graded, "F", f"{h} + 0.14*F{d}")
+    length = np.diff(arc)
+    fields = []
+    for size, chosen in ((h / 4, length < 0.6 * h), (h, length >= 0.6 * h)):
+        d = field.add("Distance")
+        field.setNumbers(d, "CurvesList", [c for c, yes in zip(fine, chosen) if yes])
+        field.setNumber(d, "Sampling", 3)
+        fields.append(field.add("MathEval"))
+        field.setString(fields[-1], "F", f"{size} + 0.14*F{d}")
     teeth = field.add("MathEval")  # teeth beside tooth 0, other teeth, body
     rim = tooth.r_root - 1.0
     field.setString(teeth, "F", f"{near} + {0.24 * near}*Sqrt((x-{tooth.r})^2+y^2)*Step(Sqrt((x-{tooth.r})^2+y^2)-22)"
                                 f" + {0.48 * near}*Step({rim}-Sqrt(x*x+y*y))*({rim}-Sqrt(x*x+y*y))")
     both = field.add("Min")
-    field.setNumbers(both, "FieldsList", [graded, teeth])
+    field.setNumbers(both, "FieldsList", [*fields, teeth])
     field.setAsBackgroundMesh(both)
     gmsh.model.mesh.generate(2)
     tag, x, _ = gmsh.model.mesh.getNodes()
@@ -205,9 +216,9 @@ class Pairs:
 
     def shares(self, xi):
         """Rows over the flank hats with the first moment kept."""
-        s = (np.clip(self.tooth.arc(xi), self.arc[0], self.arc[-1]) - self.arc[0]) / (self.arc[1] - self.arc[0])
-        i = np.minimum(s.astype(int), len(self.arc) - 2)
-        w = s - i
+        s = np.clip(self.tooth.arc(xi), self.arc[0], self.arc[-1])
+        i = np.clip(np.searchsorted(self.arc, s, side="right") - 1, 0, len(self.arc) - 2)
+        w = (s - self.arc[i]) / (self.arc[i + 1] - self.arc[i])
         rows = np.arange(len(xi))
         return sp.csr_matrix((np.concatenate([1 - w, w]), (np.tile(rows, 2), np.concatenate([i, i + 1]))), shape=(len(xi), len(self.arc)))
 
@@ -304,10 +315,10 @@ def write(cache, out):
     """Records of both paths, finest mesh, with the changes from the other meshes as error estimate."""
     runs = {tuple(float(v) for v in f.stem.split("_")[1:]): np.load(f) for f in sorted(cache.glob("te_*.npz"))}
     best = min(runs)
-    fine, others = runs[best], {k: v for k, v in runs.items() if k != best}
+    fine = runs[best]
     # flank: from the mesh of twice the element; teeth and body: between two meshes with the same flank
     flank = runs[2 * best[0], best[1]]
-    body = runs[2 * best[0], best[1] / 2]
+    body = runs[2 * best[0], 2 * best[1]]
     for path in PATHS:
         folder = out / f"solid_{path.replace('-', '_')}"
         folder.mkdir(parents=True, exist_ok=True)
@@ -327,7 +338,7 @@ source = "computed with tools/reference/off_path.py (Python, own finite elements
 method = """
 Quasi-static, frictionless, plane strain, no misalignment, no microgeometry, sharp tip corners. Influence functions of one flank on
 itself and on its neighbours (teeth -2 to 2): triangles with quadratic displacement on the whole cross-section, {best[0]:g} mm long on
-the flank, pressure by linear hats at its nodes. Unilateral contact of every node within {PATCH} mm of the nearest point with the
+the flank, {best[0] / 4:g} mm at its tip and where tip edges touch it, pressure by linear hats at its nodes. Unilateral contact of every node within {PATCH} mm of the nearest point with the
 involute of the mate, true position of the rigid gears, force along the mating flank's normal with its own lever arms, torque given.
 {"Tip edges touch before and after the path of contact." if path == "extended" else "Pairs exist on the path of contact only, so the TE jumps where one enters or leaves."}"""
 command = "python tools/reference/off_path.py (see its head)"
@@ -353,7 +364,8 @@ poisson_ratio = {NU}
 
 [mesh]
 flank_mm = {best[0]:g}
-neighbouring_teeth_mm = {best[1]:g}
+flank_at_tip_mm = {best[0] / 4:g}
+other_teeth_mm = {best[1]:g}
 unknowns = {fine["unknowns"]}
 
 [uncertainty]
@@ -373,7 +385,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("command", choices=["compute", "write"])
     parser.add_argument("--h", type=float, default=0.01)
-    parser.add_argument("--near", type=float, default=0.25)
+    parser.add_argument("--near", type=float, default=0.125)
     parser.add_argument("--cache", type=Path, required=True)
     parser.add_argument("--out", type=Path)
     o = parser.parse_args()

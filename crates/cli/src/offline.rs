@@ -45,6 +45,7 @@ pub fn export_mesh(
     let mut data = MeshData {
         points: mesh.nodes.clone(),
         hexes: mesh.hexes.clone(),
+        mid_edges: Vec::new(),
         point_sets: mesh.node_sets(gear),
         point_fields: BTreeMap::new(),
         cell_fields: BTreeMap::new(),

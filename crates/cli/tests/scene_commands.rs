@@ -1,5 +1,10 @@
 //! The commands on scenes, with two small gears: what they print, what they write, and identities of the figures.
-#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    missing_docs
+)]
 
 mod common;
 
@@ -77,6 +82,32 @@ fn run_balances_the_torque() {
 }
 
 /// The harmonics are those of the mesh cycle, however many pitches are run.
+/// The two local terms describe the same teeth; they differ by what one of them gets wrong, some per cent. The calibrated one is
+/// what a scene gets that does not name any.
+#[test]
+fn the_calibrated_local_term_is_the_default() {
+    let desk = Desk::new();
+    let named = workshop().scene("");
+    let run = |name: &str, scene: String| {
+        let file = desk.file(&format!("{name}.toml"), scene);
+        let output = desk.path(&format!("{name}.h5"));
+        let plan = succeeds(&["plan", argument(&file)]).stdout;
+        let figures = succeeds(&["run", argument(&file), "-o", argument(&output), "--json"]).json();
+        (plan, figures["rows"].as_array().unwrap().clone())
+    };
+    let weber = "local = \"weber-banaschek\"";
+    let (_, old) = run("old", named.clone());
+    let (plan, new) = run("new", changed(&named, weber, ""));
+    assert!(plan.contains("local `calibrated`"), "{plan}");
+    for (old, new) in old.iter().zip(&new) {
+        let ratio = number(&new["te_mean_m"]) / number(&old["te_mean_m"]);
+        println!("mean transmission error, calibrated over Weber-Banaschek: {ratio:.4}");
+        assert!((ratio - 1.0).abs() < 0.08 && ratio != 1.0, "{ratio}");
+        assert!(number(&new["torque_balance"]) < 1e-10, "{new}");
+        assert!(number(&new["residual"]) < 1e-10, "{new}");
+    }
+}
+
 #[test]
 fn run_prints_the_harmonics_of_the_mesh_cycle() {
     let (_, figures) = run_scene(&Desk::new(), "");

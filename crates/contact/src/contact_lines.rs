@@ -207,19 +207,22 @@ impl ContactLines {
         -self.pair.flank.mirror() * self.pair.base_helix_angle_rad().sin()
     }
 
-    /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂)/cos β_b \[m\] in the plane normal to the contact line; a tip edge has [`PathExtension::tip_radius_m`].
+    /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂)/cos β_b of the flanks \[m\], in the plane normal to the contact line; a
+    /// tip edge counts with its flank's end.
     pub fn relative_radius_m(&self, line: &ContactLine) -> f64 {
-        let mut radii = [
-            self.pair.gear_1.base_radius_m * line.roll_1_rad,
-            self.pair.gear_2.base_radius_m * line.roll_2_rad,
-        ];
-        if let (Some(tip), Some(extension)) = (line.tip, self.extension) {
-            let gear = match tip.tip_gear {
-                TipGear::One => &self.pair.gear_1,
-                TipGear::Two => &self.pair.gear_2,
-            };
-            radii[tip.tip_gear.indices().0] = extension.tip_radius_m(gear, tip.tilt_rad);
-        }
-        radii[0] * radii[1] / ((radii[0] + radii[1]) * self.helix_cos())
+        let a = self.pair.gear_1.base_radius_m * line.roll_1_rad;
+        let b = self.pair.gear_2.base_radius_m * line.roll_2_rad;
+        a * b / ((a + b) * self.helix_cos())
+    }
+
+    /// Tilt \[rad\] and relative radius \[m\] of the rounded edge against the flank; none on the path.
+    pub fn edge(&self, line: &ContactLine) -> Option<(f64, f64)> {
+        let (tip, extension) = line.tip.zip(self.extension)?;
+        let flank = match tip.tip_gear {
+            TipGear::One => self.pair.gear_2.base_radius_m * line.roll_2_rad,
+            TipGear::Two => self.pair.gear_1.base_radius_m * line.roll_1_rad,
+        };
+        let edge = extension.edge_radius_m;
+        Some((tip.tilt_rad, edge * flank / (edge + flank)))
     }
 }

@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
+//! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
@@ -22,6 +23,7 @@ pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod slice_compliance;
+pub mod slice_spread;
 pub mod static_contact;
 pub mod tip_contact;
 

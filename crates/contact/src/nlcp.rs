@@ -55,6 +55,7 @@
 
 mod bracket;
 mod descent;
+mod edge_contact;
 mod error;
 mod ldl;
 mod local_law;
@@ -63,6 +64,7 @@ mod solver;
 mod state;
 mod workspace;
 
+pub use edge_contact::{EdgeContact, WEDGE_WIDTH};
 pub use error::NlcpError;
 pub use local_law::{
     ContactBody, FLOOR_FRACTION, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw,

@@ -1,13 +1,15 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
-//! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis a slice covers three axial stations
-//! with the shares ¼, ½, ¼: equal slice forces then make an exactly uniform line load. Along the profile the two
+//! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`axial_shares`]) make it
+//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the two
 //! nearest stations share the force so that its first moment is kept; the outermost hats are halves, their centroid
 //! lies a third of a spacing inside, and the shares are taken with respect to centroids. C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
+use crate::slice_spread::neighbour_term;
 use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
+use std::f64::consts::PI;
 
 /// Slice compliance of one gear for loads on one hand of flank.
 #[derive(Debug, Clone)]
@@ -23,6 +25,9 @@ pub struct SliceCompliance {
     blocks: Vec<f64>,
     /// Of the flank in contact; only where the local contact is calibrated.
     near_field: Option<NearField>,
+    /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations and
+    /// half-way between; empty where there is none.
+    spread: Vec<f64>,
     base_radius_m: f64,
     young_pa: f64,
     poisson: f64,
@@ -59,8 +64,26 @@ pub enum CompliancePart {
     Hub,
 }
 
-/// Shares of a slice's force on its three axial stations.
-pub const AXIAL_SHARES: [f64; 3] = [0.25, 0.5, 0.25];
+/// Share of a slice's force on the middle of each of its neighbours.
+///
+/// A slice has axial stations at its edges and its middle. Equal forces on all slices make a uniform load whenever the
+/// edges carry ¼ each and a station in the middle ½ in sum over the slices. One share is left free: −1/24 on the
+/// neighbours' middles gives a slice's force the second moment w²/12 of a load that is uniform on it, w its width, and an
+/// edge slice the first. Without (¼, ½, ¼) it would be a triangle two slices wide with twice that moment.
+const ON_NEIGHBOUR: f64 = -1.0 / 24.0;
+
+/// Shares of the force on `slice` of `slices`, as (axial station, share). They add up to one.
+pub fn axial_shares(slice: usize, slices: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
+    let below = (slice > 0).then(|| (2 * slice - 1, ON_NEIGHBOUR));
+    let above = (slice + 1 < slices).then_some((2 * slice + 3, ON_NEIGHBOUR));
+    let neighbours = usize::from(below.is_some()) + usize::from(above.is_some());
+    let own = [
+        (2 * slice, 0.25),
+        (2 * slice + 1, 0.5 - ON_NEIGHBOUR * neighbours as f64),
+        (2 * slice + 2, 0.25),
+    ];
+    below.into_iter().chain(own).chain(above)
+}
 
 impl SliceCompliance {
     /// Condenses a reduced gear to its slices.
@@ -92,10 +115,10 @@ impl SliceCompliance {
                 for a in 0..size {
                     for b in 0..size {
                         let mut sum = 0.0;
-                        for (i, p) in AXIAL_SHARES.iter().enumerate() {
-                            let l = grid.load(a / slices, 2 * (a % slices) + i);
-                            for (j, q) in AXIAL_SHARES.iter().enumerate() {
-                                let m = grid.load(b / slices, 2 * (b % slices) + j);
+                        for (i, p) in axial_shares(a % slices, slices) {
+                            let l = grid.load(a / slices, i);
+                            for (j, q) in axial_shares(b % slices, slices) {
+                                let m = grid.load(b / slices, j);
                                 sum += p * q * block[l * loads + m];
                             }
                         }
@@ -104,19 +127,40 @@ impl SliceCompliance {
                 }
             }
         }
+        let slice_width_m = gear.face_width_m / slices as f64;
+        let centroids_rad = centroids(&grid.roll_angles_rad);
+        let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
+        let spread = near_field.as_ref().map_or(Vec::new(), |field| {
+            let opposite_m = gear.opposite_distances_m(flank);
+            // Hats are stiffer at a station than between two, where the load is shared.
+            (0..2 * stations - 1)
+                .map(|half| {
+                    let station = (half / 2).min(stations - 2);
+                    let share = 0.5 * half as f64 - station as f64;
+                    let place = RollPlace { station, share };
+                    let roll =
+                        (1.0 - share) * centroids_rad[station] + share * centroids_rad[station + 1];
+                    let missing = field.contact_at(roll, gear.base_radius_m)
+                        - mesh_at(field, stations, place);
+                    let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
+                    neighbour_term(k, missing, field.half_width_m, sizes)
+                })
+                .collect()
+        });
         Ok(Self {
             teeth: gear.teeth,
             teeth_per_sector: own,
             slices,
             stations,
-            centroids_rad: centroids(&grid.roll_angles_rad),
+            centroids_rad,
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
             near_field,
+            spread,
             base_radius_m: gear.base_radius_m,
             young_pa: gear.young_pa,
             poisson: gear.poisson,
-            slice_width_m: gear.face_width_m / slices as f64,
+            slice_width_m,
             z_m: (0..slices).map(|k| grid.z_m[2 * k + 1]).collect(),
         })
     }
@@ -158,19 +202,8 @@ impl SliceCompliance {
         let Some(field) = &self.near_field else {
             return self.opposite_distance_m(place);
         };
-        let n = self.stations;
-        let shares = [
-            (place.station, 1.0 - place.share),
-            (place.station + 1, place.share),
-        ];
-        let mut mesh = 0.0;
-        for (a, wa) in shares {
-            for (b, wb) in shares {
-                mesh += wa * wb * field.mesh_m2_per_n[a * n + b];
-            }
-        }
         effective_depth_m(
-            field.contact_at(roll_rad, self.base_radius_m) - mesh,
+            field.contact_at(roll_rad, self.base_radius_m) - mesh_at(field, self.stations, place),
             field.half_width_m,
             self.material(),
         )
@@ -184,7 +217,7 @@ impl SliceCompliance {
     }
 
     /// Adds Φᵀ C Φ between the slices of two contact lines to `c`, a block of a matrix with `stride` columns that
-    /// begins at `first`, times `factor`.
+    /// begins at `first`, times `factor`. On one and the same line the calibrated correction's part between neighbours is included.
     pub fn add_block(
         &self,
         (tooth_a, place_a): (usize, RollPlace),
@@ -217,9 +250,51 @@ impl SliceCompliance {
                 }
             }
         }
+        if tooth_a == tooth_b && !self.spread.is_empty() {
+            let term = self.spread_at(place_a);
+            for i in 1..n {
+                for (row, column, sign) in [
+                    (i, i, -1.0),
+                    (i - 1, i - 1, -1.0),
+                    (i, i - 1, 1.0),
+                    (i - 1, i, 1.0),
+                ] {
+                    c[first + row * stride + column] += sign * term;
+                }
+            }
+        }
     }
 
-    /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines.
+    /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\]; zero where there is none.
+    fn spread_at(&self, place: RollPlace) -> f64 {
+        if self.spread.is_empty() {
+            return 0.0;
+        }
+        let at = 2.0 * (place.station as f64 + place.share.clamp(0.0, 1.0));
+        let low = (at as usize).min(self.spread.len() - 2);
+        let share = at - low as f64;
+        (1.0 - share) * self.spread[low] + share * self.spread[low + 1]
+    }
+
+    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours,
+    /// and a neighbour gets the mean of the two slices' terms. With all slices at one place that of [`Self::add_block`].
+    fn spread_between(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+        if a.tooth != b.tooth {
+            return 0.0;
+        }
+        match a.slice.abs_diff(b.slice) {
+            0 => {
+                let neighbours = [a.slice > 0, a.slice + 1 < self.slices];
+                let count = neighbours.into_iter().filter(|exists| *exists).count();
+                -(count as f64) * self.spread_at(a.place)
+            }
+            1 => 0.5 * (self.spread_at(a.place) + self.spread_at(b.place)),
+            _ => 0.0,
+        }
+    }
+
+    /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
+    /// calibrated correction's part between neighbours is included.
     pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
         let size = self.stations * self.slices;
         let tooth = a.tooth % self.teeth_per_sector;
@@ -233,7 +308,23 @@ impl SliceCompliance {
         };
         (1.0 - a.place.share) * response_of(row(a.place.station))
             + a.place.share * response_of(row(a.place.station + 1))
+            + self.spread_between(a, b)
     }
+}
+
+/// w_h = Φᵀ W Φ at a roll place \[m²/N\].
+fn mesh_at(field: &NearField, stations: usize, place: RollPlace) -> f64 {
+    let shares = [
+        (place.station, 1.0 - place.share),
+        (place.station + 1, place.share),
+    ];
+    let mut sum = 0.0;
+    for (a, wa) in shares {
+        for (b, wb) in shares {
+            sum += wa * wb * field.mesh_m2_per_n[a * stations + b];
+        }
+    }
+    sum
 }
 
 /// The calibration with W of one flank only.
@@ -263,5 +354,77 @@ pub fn roll_place(centroids_rad: &[f64], roll_rad: f64) -> RollPlace {
     RollPlace {
         station: above - 1,
         share: (roll_rad - low) / (high - low),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Density of a slice's unit force at the stations, slices one unit wide: a hat of one newton is 2 high, at the faces 4.
+    fn density(slice: usize, slices: usize) -> Vec<f64> {
+        let mut density = vec![0.0; 2 * slices + 1];
+        for (station, share) in axial_shares(slice, slices) {
+            let face = station == 0 || station == 2 * slices;
+            density[station] += share * if face { 4.0 } else { 2.0 };
+        }
+        density
+    }
+
+    #[test]
+    fn equal_slice_forces_make_a_uniform_load() {
+        for slices in [1, 2, 3, 7] {
+            let mut sum = vec![0.0; 2 * slices + 1];
+            for slice in 0..slices {
+                let total: f64 = axial_shares(slice, slices).map(|(_, share)| share).sum();
+                assert!((total - 1.0).abs() < 1e-15);
+                for (s, d) in sum.iter_mut().zip(density(slice, slices)) {
+                    *s += d;
+                }
+            }
+            assert!(sum.iter().all(|s| (s - 1.0).abs() < 1e-14), "{sum:?}");
+        }
+    }
+
+    /// Moment of a slice's unit force about its middle, slices one unit wide: an inner hat has the variance 1/24 about its
+    /// station, half a hat its centroid 1/6 inside and the variance 1/72 about it.
+    fn moment(slice: usize, slices: usize, power: i32) -> f64 {
+        axial_shares(slice, slices)
+            .map(|(station, share)| {
+                let z = 0.5 * station as f64 - slice as f64 - 0.5;
+                let inwards = match station {
+                    0 => 1.0,
+                    s if s == 2 * slices => -1.0,
+                    _ => 0.0,
+                };
+                let centroid: f64 = z + inwards / 6.0;
+                let variance = if inwards == 0.0 {
+                    1.0 / 24.0
+                } else {
+                    1.0 / 72.0
+                };
+                share
+                    * match power {
+                        1 => centroid,
+                        _ => centroid * centroid + variance,
+                    }
+            })
+            .sum()
+    }
+
+    #[test]
+    fn a_slice_force_has_the_moments_of_a_uniform_load() {
+        for slices in [2, 3, 7] {
+            for slice in 0..slices {
+                assert!(
+                    moment(slice, slices, 1).abs() < 1e-15,
+                    "{slice} of {slices}"
+                );
+                if slice > 0 && slice + 1 < slices {
+                    let second = moment(slice, slices, 2);
+                    assert!((second - 1.0 / 12.0).abs() < 1e-15, "{second}");
+                }
+            }
+        }
     }
 }

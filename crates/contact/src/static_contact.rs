@@ -12,8 +12,8 @@ use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_slices::ContactSlice;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{
-    ContactBody, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
-    Problem, Workspace, solve_load, solve_position,
+    ContactBody, EdgeContact, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError,
+    NlcpError, Params, Problem, Workspace, solve_load, solve_position,
 };
 use crate::slice_compliance::{PlacedSlice, SliceCompliance};
 use gearmesh_geometry::FlankSide;
@@ -228,16 +228,24 @@ impl StaticContact {
     }
 
     /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of a slice under a normal force; q is the
-    /// force over the slice's length along the contact line.
+    /// force over the slice's length along the contact line. At a tip edge those of the Hertz contact that gives way as the
+    /// edge does.
     pub fn hertz(&self, slice: &ContactSlice, force_n: f64) -> (f64, f64) {
         let contact = self.line_contact(slice);
-        let a = contact.half_width_m(force_n);
+        let edge = self.edge(&slice.section, &contact);
+        let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
+        let a = contact.half_width_m(force_n) * share;
         if a > 0.0 {
             let line_load = force_n / contact.width_m;
             (a, 2.0 * line_load / (std::f64::consts::PI * a))
         } else {
             (0.0, 0.0)
         }
+    }
+
+    fn edge(&self, line: &ContactLine, contact: &LineContact) -> Option<EdgeContact> {
+        let (tilt_rad, radius_m) = self.lines.edge(line)?;
+        EdgeContact::new(contact, tilt_rad, radius_m)
     }
 
     fn line_contact(&self, slice: &ContactSlice) -> LineContact {
@@ -305,12 +313,16 @@ impl StaticContact {
             let law = match last {
                 // The slices of a spur line are all alike.
                 Some((number, law)) if number == slice.line && !self.lines.pair.is_helical() => law,
-                _ => (self.options.local)
-                    .law(&self.line_contact(slice), floor)
-                    .map_err(|cause| ContactError::LocalLaw {
-                        angle_deg: driver_angle_rad.to_degrees(),
-                        cause,
-                    })?,
+                _ => {
+                    let contact = self.line_contact(slice);
+                    (self.options.local)
+                        .law(&contact, floor)
+                        .map_err(|cause| ContactError::LocalLaw {
+                            angle_deg: driver_angle_rad.to_degrees(),
+                            cause,
+                        })?
+                        .with_edge(self.edge(line, &contact))
+                }
             };
             last = Some((slice.line, law));
             let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));

@@ -6,7 +6,7 @@
 //! r_b times the angle by which the flank must turn to reach it: exact, without iteration. Derivation in
 //! docs/theory/contact.md.
 
-use gearmesh_geometry::{GearPair, ToothGeometry};
+use gearmesh_geometry::GearPair;
 
 /// Gear whose tip edge touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,12 +95,6 @@ impl TipContact {
 /// room for microgeometry. A pair beyond it counts as apart.
 pub const LARGEST_GAP_OVER_BASE_PITCH: f64 = 0.015;
 
-/// Turn of the normal over which the tip's curvature passes from the flank's to the edge's \[rad\]: 1°.
-///
-/// A Hertz patch of half width a beside the edge has left the flank when the normal has turned by about a/ρ, 0.5° to 1°
-/// under usual loads. A jump of the curvature at the end of the path would be a jump of the deflection.
-pub const EDGE_RUN_OUT_RAD: f64 = std::f64::consts::PI / 180.0;
-
 /// Contact beyond the ends of the path of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathExtension {
@@ -147,15 +141,6 @@ impl PathExtension {
             start_1_rad: pair.roll_start_1_rad - reach(TipGear::Two),
             end_1_rad: pair.roll_end_1_rad + reach(TipGear::One),
         }
-    }
-
-    /// Radius of curvature of the tip \[m\] where the normal has turned by `tilt_rad` from the flank's: the flank's own at
-    /// zero, the edge radius from [`EDGE_RUN_OUT_RAD`] on, geometric in between (the local deflection goes with the
-    /// logarithm of the radius).
-    pub fn tip_radius_m(&self, tip: &ToothGeometry, tilt_rad: f64) -> f64 {
-        let flank = tip.base_radius_m * tip.flank_end_roll_rad;
-        let share = (tilt_rad.abs() / EDGE_RUN_OUT_RAD).min(1.0);
-        flank * (self.edge_radius_m / flank).powf(share)
     }
 }
 

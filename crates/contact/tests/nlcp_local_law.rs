@@ -3,7 +3,10 @@
 
 use std::f64::consts::PI;
 
-use gearmesh_contact::nlcp::{ContactBody, HALF_WIDTH_LIMIT, LineContact, LocalLaw, LocalLawError};
+use gearmesh_contact::nlcp::{
+    ContactBody, EdgeContact, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw, LocalLawError,
+    WEDGE_WIDTH,
+};
 
 fn contact() -> LineContact {
     LineContact {
@@ -144,4 +147,88 @@ fn no_law_and_bad_laws() {
         LocalLaw::logarithmic(0.0, -1.0, 1.0, 2.0),
         Err(LocalLawError::Coefficient { what: "beta", .. })
     ));
+}
+
+/// Effective depths of a calibration are those of the hats, smaller than the half widths that Weber and Banaschek's cap
+/// allows: the law goes on as far as its slope is positive.
+#[test]
+fn calibrated_law_follows_the_logarithm_until_its_slope_is_used_up() {
+    let mut shallow = contact();
+    for body in &mut shallow.bodies {
+        body.depth_m = 3e-4;
+    }
+    let law = LocalLaw::calibrated(&shallow, 1e-3).unwrap();
+    let weber = LocalLaw::weber_banaschek(&shallow, 1e-3).unwrap();
+    assert!(law.is_monotone());
+    assert!(
+        law.cap_n() > 2.0 * weber.cap_n(),
+        "{} {}",
+        law.cap_n(),
+        weber.cap_n()
+    );
+    for share in [1e-6, 1e-3, 0.1, 0.5, 0.999] {
+        let force = share * law.cap_n();
+        let expected = textbook(&shallow, force);
+        assert!((law.deflection(force) / expected - 1.0).abs() < 1e-12);
+        assert!(law.slope(force) > 0.0);
+    }
+    assert!((law.slope(law.cap_n()) / (LEAST_SLOPE * law.beta()) - 1.0).abs() < 1e-9);
+    // Within 1 % of where the slope is zero.
+    let zero = (law.alpha() / law.beta() - 1.0).exp();
+    assert!(law.cap_n() < zero && law.cap_n() > 0.99 * zero);
+}
+
+/// An edge shrinks the half width from Hertz's to the wedge's and the rounded edge's; the deflection is that of the smooth
+/// contact with the smaller half width, grows with the force, and its energy is its integral.
+#[test]
+fn an_edge_shrinks_the_half_width() {
+    let contact = contact();
+    let smooth = LocalLaw::weber_banaschek(&contact, 1e-3).unwrap();
+    let edge_radius = 1e-4;
+    assert_eq!(EdgeContact::new(&contact, 0.0, edge_radius), None);
+    for tilt in [-1e-6, -1e-3, 0.01, 0.06] {
+        let edge = EdgeContact::new(&contact, tilt, edge_radius).unwrap();
+        let law = smooth.with_edge(Some(edge));
+        assert_eq!(law.evaluate(0.0).0, 0.0);
+        let mut last = (0.0, f64::INFINITY);
+        for k in 0..60 {
+            let force = 1e-2 * 1.3f64.powi(k);
+            let narrower = -2.0 * smooth.beta() * force * edge.half_width_share(force).ln();
+            let expected = smooth.deflection(force) + narrower;
+            let (deflection, slope) = law.evaluate(force);
+            assert!((deflection / expected - 1.0).abs() < 1e-12);
+            assert!(deflection > last.0 && slope > 0.0 && slope <= last.1);
+            last = (deflection, slope);
+            let h = 1e-4 * force;
+            let difference = (law.deflection(force + h) - law.deflection(force - h)) / (2.0 * h);
+            assert!((difference / slope - 1.0).abs() < 1e-6, "{tilt} {force}");
+            let work = (law.stored_energy(force + h) - law.stored_energy(force - h)) / (2.0 * h);
+            assert!(
+                (work / (force * slope) - 1.0).abs() < 1e-5,
+                "{tilt} {force}"
+            );
+        }
+    }
+    // The three limits: no tilt, a sharp edge under a steep angle, a light load on a rounded edge.
+    let share = |tilt, radius, force| {
+        EdgeContact::new(&contact, tilt, radius)
+            .unwrap()
+            .half_width_share(force)
+    };
+    assert!((share(1e-7, edge_radius, 1e3) - 1.0).abs() < 1e-6);
+    let (force, tilt) = (1e3, 0.3);
+    let compliance: f64 = contact
+        .bodies
+        .iter()
+        .map(|b| (1.0 - b.poisson_ratio.powi(2)) / b.youngs_modulus_pa)
+        .sum();
+    let wedge = WEDGE_WIDTH * force / contact.width_m * compliance / tilt;
+    let found = share(tilt, 0.0, force) * contact.half_width_m(force);
+    assert!((found / wedge - 1.0).abs() < 1e-3, "{found} {wedge}");
+    let rounded = LineContact {
+        relative_radius_m: edge_radius,
+        ..contact
+    };
+    let found = share(tilt, edge_radius, 1e-4) * contact.half_width_m(1e-4);
+    assert!((found / rounded.half_width_m(1e-4) - 1.0).abs() < 1e-3);
 }

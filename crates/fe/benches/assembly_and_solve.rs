@@ -4,8 +4,8 @@
 use divan::{Bencher, black_box};
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, StiffnessMatrix, StructuredMesh,
-    assemble_stiffness,
+    DofMap, Factor, FeModel, HexElement, Material, QuadraticMesh, StiffnessMatrix, StructuredMesh,
+    assemble_stiffness, chord_middle,
 };
 
 fn main() {
@@ -14,14 +14,16 @@ fn main() {
 
 fn block(elements: usize, element: HexElement) -> (FeModel, DofMap) {
     let mesh = StructuredMesh::block([elements; 3], [1.0; 3]);
-    let held = mesh.nodes_where(|x| x[0] == 0.0);
-    let model = FeModel::new(
-        mesh.nodes,
-        mesh.hexes,
-        Material::new(210e9, 0.3).unwrap(),
-        element,
-    )
-    .unwrap();
+    let steel = Material::new(210e9, 0.3).unwrap();
+    let model = if element == HexElement::Hex20 {
+        let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |_, ends| chord_middle(ends));
+        FeModel::new(mesh.nodes, mesh.hexes, steel, element).unwrap()
+    } else {
+        FeModel::new(mesh.nodes, mesh.hexes, steel, element).unwrap()
+    };
+    let held: Vec<usize> = (0..model.node_count())
+        .filter(|n| model.nodes()[*n][0] == 0.0)
+        .collect();
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
     (model, dofs)
 }
@@ -41,6 +43,12 @@ fn assemble_hex8(bencher: Bencher, elements: usize) {
 #[divan::bench(args = [8, 16], sample_count = 10)]
 fn assemble_hex8_incompatible(bencher: Bencher, elements: usize) {
     let (model, dofs) = block(elements, HexElement::Hex8Incompatible);
+    bencher.bench(|| assemble_stiffness(black_box(&model), &dofs).unwrap());
+}
+
+#[divan::bench(args = [4, 8], sample_count = 10)]
+fn assemble_hex20(bencher: Bencher, elements: usize) {
+    let (model, dofs) = block(elements, HexElement::Hex20);
     bencher.bench(|| assemble_stiffness(black_box(&model), &dofs).unwrap());
 }
 

@@ -1,25 +1,26 @@
-//! Assembly of the sparse stiffness over the free degrees of freedom.
+//! Assembly of sparse stiffness and mass over the free degrees of freedom.
 //!
 //! Two passes over the node graph: the first counts and writes the pattern, the second gathers each column from
 //! the elements around its node, elements ascending. A column is written by one thread and always in the same
 //! order, so the result is the same to the last bit for any number of threads, and K is symmetric to the last bit.
 //!
-//! Memory beside K itself: one packed half of a 24x24 matrix per element (2.4 kB).
+//! Memory beside K itself: one packed half of the matrix of each element, 2.4 kB with 8 nodes, 14.6 kB with 20.
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::prelude::*;
 
 use crate::constraints::DofMap;
-use crate::element::ElementStiffness;
+use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
+use crate::reference_points::add_reference_points;
 
-/// Full symmetric stiffness (N/m), compressed columns, rows ascending, over the free degrees of freedom.
-pub type StiffnessMatrix = SparseColMat<usize, f64>;
+/// A full symmetric matrix, compressed columns, rows ascending, over the free degrees of freedom.
+pub type SparseMatrix = SparseColMat<usize, f64>;
 
-/// Number of entries in the upper triangle of a 24x24 matrix.
-const PACKED: usize = 24 * 25 / 2;
+/// Stiffness (N/m) over the free degrees of freedom.
+pub type StiffnessMatrix = SparseMatrix;
 
 /// Stiffness K (free x free, N/m) of a model under constraints.
 ///
@@ -38,9 +39,19 @@ pub fn assemble_stiffness_with_graph(
     dofs: &DofMap,
     graph: &NodeGraph,
 ) -> Result<StiffnessMatrix, FeError> {
+    assemble(model, dofs, graph, |e| model.element_stiffness(e))
+}
+
+/// Sum of the matrices of all elements, Tᵀ (Σ M_e) T for the constraints u = T q.
+pub(crate) fn assemble(
+    model: &FeModel,
+    dofs: &DofMap,
+    graph: &NodeGraph,
+    element_matrix: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
+) -> Result<SparseMatrix, FeError> {
     let (column_offsets, rows) = pattern(dofs, graph);
     let mut values = vec![0.0; rows.len()];
-    let elements = ElementMatrices::compute(model, dofs)?;
+    let elements = ElementMatrices::compute(model, dofs, &element_matrix)?;
 
     // One mutable slice of values per node: its one to three columns.
     let mut slices = Vec::with_capacity(graph.active_nodes().len());
@@ -59,9 +70,13 @@ pub fn assemble_stiffness_with_graph(
         .with_min_len(256)
         .for_each(|(i, values)| fill_node_columns(values, i, model, dofs, graph, &elements));
 
-    let size = dofs.free_count();
+    let size = dofs.nodal_free_count();
     let symbolic = SymbolicSparseColMat::new_checked(size, size, column_offsets, None, rows);
-    Ok(SparseColMat::new(symbolic, values))
+    let nodal = SparseColMat::new(symbolic, values);
+    if dofs.free_count() == size {
+        return Ok(nodal);
+    }
+    add_reference_points(&nodal, model, dofs, element_matrix)
 }
 
 /// Column offsets and row indices of K.
@@ -78,7 +93,7 @@ fn pattern(dofs: &DofMap, graph: &NodeGraph) -> (Vec<usize>, Vec<usize>) {
         .map(|i| free_rows(i).count())
         .collect();
 
-    let mut column_offsets = Vec::with_capacity(dofs.free_count() + 1);
+    let mut column_offsets = Vec::with_capacity(dofs.nodal_free_count() + 1);
     column_offsets.push(0);
     let mut total = 0;
     for (i, &node) in active.iter().enumerate() {
@@ -100,52 +115,38 @@ fn pattern(dofs: &DofMap, graph: &NodeGraph) -> (Vec<usize>, Vec<usize>) {
     (column_offsets, rows)
 }
 
-/// Packed upper halves of the stiffnesses of the elements that touch a free degree of freedom.
+/// The matrices of the elements that touch a free degree of freedom.
 struct ElementMatrices {
-    /// Place of each element in `packed`; `u32::MAX` where it has none.
+    /// Place of each element in `matrices`; `u32::MAX` where it has none.
     place: Vec<u32>,
-    packed: Vec<[f64; PACKED]>,
+    matrices: Vec<ElementMatrix>,
 }
 
 impl ElementMatrices {
-    fn compute(model: &FeModel, dofs: &DofMap) -> Result<Self, FeError> {
-        let mut place = vec![u32::MAX; model.hexes().len()];
+    fn compute(
+        model: &FeModel,
+        dofs: &DofMap,
+        element_matrix: impl Fn(usize) -> Result<ElementMatrix, FeError> + Sync,
+    ) -> Result<Self, FeError> {
+        let mut place = vec![u32::MAX; model.element_count()];
         let mut needed = Vec::new();
-        for (e, hex) in model.hexes().iter().enumerate() {
-            if hex
-                .iter()
-                .any(|n| dofs.free_of_node(*n as usize).next().is_some())
-            {
-                place[e] = needed.len() as u32;
+        for (e, place) in place.iter_mut().enumerate() {
+            let mut nodes = model.element_nodes(e).iter();
+            if nodes.any(|n| dofs.free_of_node(*n as usize).next().is_some()) {
+                *place = needed.len() as u32;
                 needed.push(e);
             }
         }
-        let packed = needed
+        let matrices = needed
             .par_iter()
-            .map(|&e| model.element_stiffness(e).map(|k| pack(&k)))
+            .map(|&e| element_matrix(e))
             .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { place, packed })
+        Ok(Self { place, matrices })
     }
 
-    fn get(&self, element: u32) -> &[f64; PACKED] {
-        &self.packed[self.place[element as usize] as usize]
+    fn get(&self, element: u32) -> &ElementMatrix {
+        &self.matrices[self.place[element as usize] as usize]
     }
-}
-
-/// Position of entry (i, j) of a symmetric 24x24 matrix in its packed upper triangle.
-fn packed_index(i: usize, j: usize) -> usize {
-    let (low, high) = if i <= j { (i, j) } else { (j, i) };
-    high * (high + 1) / 2 + low
-}
-
-fn pack(k: &ElementStiffness) -> [f64; PACKED] {
-    let mut packed = [0.0; PACKED];
-    for j in 0..24 {
-        for (i, row) in k.iter().enumerate().take(j + 1) {
-            packed[packed_index(i, j)] = row[j];
-        }
-    }
-    packed
 }
 
 /// Sums the elements around the i-th active node into its columns.
@@ -167,20 +168,18 @@ fn fill_node_columns(
         height += dofs.free_count_of_node(n as usize);
     }
     for &element in graph.elements(i) {
-        let hex = &model.hexes()[element as usize];
+        let nodes = model.element_nodes(element as usize);
         let k = elements.get(element);
-        for (local_column, _) in hex.iter().enumerate().filter(|(_, n)| **n == node) {
-            for (local_row, row_node) in hex.iter().enumerate() {
+        for (local_column, _) in nodes.iter().enumerate().filter(|(_, n)| **n == node) {
+            for (local_row, row_node) in nodes.iter().enumerate() {
                 // A neighbour that is wholly fixed has no rows.
                 let Ok(place) = neighbours.binary_search(row_node) else {
                     continue;
                 };
                 for (c, (axis_column, _)) in dofs.free_of_node(node as usize).enumerate() {
                     for (r, (axis_row, _)) in dofs.free_of_node(*row_node as usize).enumerate() {
-                        values[c * height + offsets[place] + r] += k[packed_index(
-                            3 * local_row + axis_row,
-                            3 * local_column + axis_column,
-                        )];
+                        values[c * height + offsets[place] + r] +=
+                            k[(3 * local_row + axis_row, 3 * local_column + axis_column)];
                     }
                 }
             }
@@ -216,13 +215,13 @@ mod tests {
         let k = assemble_stiffness(&model, &dofs).unwrap();
         let n = dofs.free_count();
         let mut dense = vec![vec![0.0; n]; n];
-        for e in 0..model.hexes().len() {
+        for e in 0..model.element_count() {
             let ke = model.element_stiffness(e).unwrap();
             let map = model.element_dofs(e).unwrap();
             for (i, row) in map.iter().enumerate() {
                 for (j, column) in map.iter().enumerate() {
                     if let (Some(r), Some(c)) = (dofs.free_of(*row), dofs.free_of(*column)) {
-                        dense[r][c] += ke[i][j];
+                        dense[r][c] += ke[(i, j)];
                     }
                 }
             }

@@ -16,6 +16,14 @@ pub enum ElementError {
         /// Determinant found (m³).
         determinant_m3: f64,
     },
+    /// Coordinates of another number of nodes than the element has.
+    #[error("the coordinates of {found} nodes were given; the element has {expected}")]
+    NodeCount {
+        /// Number given.
+        found: usize,
+        /// Number of nodes of the element.
+        expected: usize,
+    },
     /// The 9x9 stiffness of the incompatible modes has no Cholesky factor: only coordinates that overflow reach this.
     #[error(
         "the stiffness of the incompatible modes is not positive definite; the coordinates must be finite and of ordinary size (m)"
@@ -38,11 +46,57 @@ pub enum FeError {
         /// Value found.
         poisson: f64,
     },
+    /// Density outside its range.
+    #[error("the density is {density_kg_per_m3:e} kg/m^3; it must be positive and finite")]
+    DensityOutOfRange {
+        /// Value found (kg/m³).
+        density_kg_per_m3: f64,
+    },
+    /// A node is to be rigid that is fixed or rigid already.
+    #[error(
+        "node {node} is to move rigidly with a reference point, but it is fixed, or listed in a group before"
+    )]
+    RigidNodeTwice {
+        /// Node index.
+        node: usize,
+    },
+    /// The search for natural modes did not converge.
+    #[error(
+        "{converged} of {wanted} natural modes converged within {restarts} restarts; ask for fewer, or allow more"
+    )]
+    ModesNotConverged {
+        /// Modes found to the tolerance.
+        converged: usize,
+        /// Modes asked for.
+        wanted: usize,
+        /// Restarts made.
+        restarts: usize,
+    },
+    /// More modes than unknowns, or none.
+    #[error(
+        "{found} natural modes were asked for; the model has {unknowns} unknowns: ask for 1 to {unknowns}"
+    )]
+    ModeCount {
+        /// Number asked for.
+        found: usize,
+        /// Unknowns of the model.
+        unknowns: usize,
+    },
     /// The model has no elements.
     #[error("the model has {nodes} nodes and no elements; give at least one hexahedron")]
     NoElements {
         /// Number of nodes given.
         nodes: usize,
+    },
+    /// The rows of the connectivity do not have as many nodes as the element.
+    #[error("the connectivity has {found} nodes an element; {element} has {expected}")]
+    NodesPerElement {
+        /// Name of the element.
+        element: &'static str,
+        /// Nodes an element found.
+        found: usize,
+        /// Nodes the element has.
+        expected: usize,
     },
     /// More nodes than 32-bit indices allow.
     #[error(

@@ -8,14 +8,12 @@ use std::time::Instant;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError as PivotError;
-use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::{Conj, Mat, MatMut, Par, Side, Spec};
+use faer::{Conj, MatMut, Par, Side, Spec};
 use rayon::prelude::*;
 
 use crate::assembly::StiffnessMatrix;
@@ -27,7 +25,7 @@ use crate::ordering::DofOrdering;
 
 /// Columns solved together by one thread. Fixed, so that the result of a column never depends on the number of
 /// threads; 32 columns make the solve a matrix product, and two threads share a block of 64.
-const SOLVE_COLUMNS: usize = 32;
+pub(crate) const SOLVE_COLUMNS: usize = 32;
 
 /// Smallest pivot accepted, relative to the diagonal entry of K. The last pivot of a held body compares the
 /// stiffness of a point in the whole body with that of its element patch alone: some 1e-1 for a compact solid, and
@@ -38,7 +36,7 @@ const SMALLEST_RELATIVE_PIVOT: f64 = 1e-11;
 /// Where L has entries: elimination order, supernodes, counts. Reusable for every matrix with the same pattern.
 #[derive(Debug)]
 pub struct SymbolicFactor {
-    cholesky: SymbolicCholesky<usize>,
+    pub(crate) cholesky: SymbolicCholesky<usize>,
     ordering: DofOrdering,
     nnz_k: usize,
     nnz_l: usize,
@@ -143,8 +141,8 @@ pub struct FactorInfo {
 /// A factorised stiffness matrix.
 #[derive(Debug)]
 pub struct Factor {
-    symbolic: Arc<SymbolicFactor>,
-    values: Vec<f64>,
+    pub(crate) symbolic: Arc<SymbolicFactor>,
+    pub(crate) values: Vec<f64>,
     info: FactorInfo,
 }
 
@@ -276,86 +274,6 @@ impl Factor {
         let rows = rhs.len();
         self.solve_in_place(MatMut::from_column_major_slice_mut(rhs, rows, 1));
     }
-}
-
-/// The two halves of a solve, in the order of elimination, and a block of L: what static condensation is made of.
-impl Factor {
-    /// Overwrites B (rows in the order of elimination) with L⁻¹ B, or with L⁻ᵀ B. Blocks of 32 columns run in parallel.
-    ///
-    /// # Panics
-    /// If `rhs` does not have [`Factor::size`] rows.
-    pub(crate) fn half_solve_in_place(&self, half: HalfSolve, rhs: MatMut<'_, f64>) {
-        assert_eq!(rhs.nrows(), self.size(), "rows of the right-hand side");
-        rhs.par_col_chunks_mut(SOLVE_COLUMNS).for_each(|block| {
-            let symbolic = &self.symbolic.cholesky;
-            let request = symbolic.solve_in_place_scratch::<f64>(block.ncols(), Par::Seq);
-            let mut memory = MemBuffer::new(request);
-            let stack = MemStack::new(&mut memory);
-            match symbolic.raw() {
-                SymbolicCholeskyRaw::Supernodal(raw) => {
-                    let l = SupernodalLltRef::new(raw, &self.values);
-                    match half {
-                        HalfSolve::Lower => l.l_solve_with_conj(Conj::No, block, Par::Seq, stack),
-                        HalfSolve::Transposed => {
-                            l.l_transpose_solve_with_conj(Conj::No, block, Par::Seq, stack);
-                        }
-                    }
-                }
-                SymbolicCholeskyRaw::Simplicial(raw) => {
-                    let l = SparseColMatRef::new(raw.factor(), &self.values);
-                    match half {
-                        HalfSolve::Lower => l.sp_solve_lower_triangular_in_place(block),
-                        HalfSolve::Transposed => {
-                            l.transpose().sp_solve_upper_triangular_in_place(block);
-                        }
-                    }
-                }
-            }
-        });
-    }
-
-    /// The lower triangle of L from row and column `first` (in the order of elimination) on, as a dense matrix.
-    pub(crate) fn trailing_block(&self, first: usize) -> Mat<f64> {
-        let size = self.size() - first;
-        let mut block = Mat::zeros(size, size);
-        match self.symbolic.cholesky.raw() {
-            SymbolicCholeskyRaw::Supernodal(raw) => {
-                let l = SupernodalLltRef::new(raw, &self.values);
-                for s in 0..raw.n_supernodes() {
-                    let node = l.supernode(s);
-                    let (start, values) = (node.start(), node.val());
-                    let columns = values.ncols();
-                    for c in first.saturating_sub(start)..columns {
-                        let column = start + c - first;
-                        for r in c..columns {
-                            block[(start + r - first, column)] = values[(r, c)];
-                        }
-                        for (r, &row) in node.pattern().iter().enumerate() {
-                            block[(row - first, column)] = values[(columns + r, c)];
-                        }
-                    }
-                }
-            }
-            SymbolicCholeskyRaw::Simplicial(raw) => {
-                let (starts, rows) = (raw.col_ptr(), raw.row_idx());
-                for column in first..self.size() {
-                    for at in starts[column]..starts[column + 1] {
-                        block[(rows[at] - first, column - first)] = self.values[at];
-                    }
-                }
-            }
-        }
-        block
-    }
-}
-
-/// Which half of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum HalfSolve {
-    /// L⁻¹.
-    Lower,
-    /// L⁻ᵀ.
-    Transposed,
 }
 
 /// Smallest L_ii²/K_ii.

@@ -74,7 +74,7 @@ impl NodeGraph {
                 let mut list: Vec<u32> = elements
                     .get(i)
                     .iter()
-                    .flat_map(|e| model.hexes()[*e as usize])
+                    .flat_map(|e| model.element_nodes(*e as usize).iter().copied())
                     .filter(|n| is_active[*n as usize])
                     .collect();
                 list.sort_unstable();
@@ -111,19 +111,17 @@ impl NodeGraph {
 
 /// Count, then fill: the elements at each active node, ascending.
 fn elements_at_nodes(model: &FeModel, position: &[u32], active_count: usize) -> Lists {
-    let active_of = |hex: &[u32; 8]| {
-        let mut found: Vec<usize> = Vec::with_capacity(8);
-        found.extend(
-            hex.iter()
-                .map(|n| position[*n as usize])
-                .filter(|p| *p != u32::MAX)
-                .map(|p| p as usize),
-        );
-        found
+    let active_of = |element: usize| {
+        model
+            .element_nodes(element)
+            .iter()
+            .map(|n| position[*n as usize])
+            .filter(|p| *p != u32::MAX)
+            .map(|p| p as usize)
     };
     let mut offsets = vec![0usize; active_count + 1];
-    for hex in model.hexes() {
-        for p in active_of(hex) {
+    for e in 0..model.element_count() {
+        for p in active_of(e) {
             offsets[p + 1] += 1;
         }
     }
@@ -132,8 +130,8 @@ fn elements_at_nodes(model: &FeModel, position: &[u32], active_count: usize) -> 
     }
     let mut next = offsets.clone();
     let mut items = vec![0u32; offsets[active_count]];
-    for (e, hex) in model.hexes().iter().enumerate() {
-        for p in active_of(hex) {
+    for e in 0..model.element_count() {
+        for p in active_of(e) {
             items[next[p]] = e as u32;
             next[p] += 1;
         }

@@ -24,10 +24,13 @@
 
 use nalgebra::SMatrix;
 
-use crate::element::{ElementStiffness, HexCoordinates, StrainOperator};
+use crate::element::{StrainOperator, compatible_strain_operator};
+use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
-use crate::hex8::{GAUSS_POINTS, Jacobian, jacobian, point_gradients};
+use crate::hex8::{HexCoordinates, jacobian, point_gradients};
+use crate::isoparametric::Jacobian;
 use crate::material::LameParameters;
+use crate::quadrature::GAUSS_2;
 use crate::stiffness_block::{BlockStiffness, add_point_stiffness, strain_columns};
 
 /// Rows per mode amplitude (3 modes x 3 directions), columns per nodal displacement.
@@ -59,7 +62,8 @@ fn eliminate(
 ) -> Result<Elimination, ElementError> {
     let centre = jacobian(coordinates, [0.0; 3])?;
     let mut full = BlockStiffness::<11>::zero();
-    for point in GAUSS_POINTS {
+    // Every weight of the rule is 1.
+    for (point, _) in GAUSS_2 {
         let at = point_gradients(coordinates, point)?;
         let modes = mode_gradients(point, at.determinant, &centre);
         let gradients: [[f64; 3]; 11] =
@@ -86,21 +90,16 @@ fn eliminate(
 pub(crate) fn stiffness(
     coordinates: &HexCoordinates,
     lame: LameParameters,
-) -> Result<ElementStiffness, ElementError> {
+) -> Result<ElementMatrix, ElementError> {
     let Elimination {
         full, half_solved, ..
     } = eliminate(coordinates, lame)?;
-    let mut k = [[0.0; 24]; 24];
-    for i in 0..24 {
-        for j in i..24 {
-            let condensed: f64 = (0..9)
-                .map(|m| half_solved[(m, i)] * half_solved[(m, j)])
-                .sum();
-            k[i][j] = full.entry(i, j) - condensed;
-            k[j][i] = k[i][j];
-        }
-    }
-    Ok(k)
+    Ok(ElementMatrix::from_upper(24, |i, j| {
+        let condensed: f64 = (0..9)
+            .map(|m| half_solved[(m, i)] * half_solved[(m, j)])
+            .sum();
+        full.entry(i, j) - condensed
+    }))
 }
 
 /// Strain operator B − G K_aa⁻¹ K_au at a natural point: the strain that the condensed stiffness is the energy of.
@@ -118,7 +117,7 @@ pub(crate) fn strain_operator(
     let centre = jacobian(coordinates, [0.0; 3])?;
     let at = point_gradients(coordinates, natural)?;
     let modes = mode_gradients(natural, at.determinant, &centre);
-    let mut b = crate::element::compatible_strain_operator(&at.gradients);
+    let mut b = compatible_strain_operator(&at.gradients);
     for (k, gradient) in modes.into_iter().enumerate() {
         for (row, columns) in strain_columns(gradient).into_iter().enumerate() {
             for (a, value) in columns.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Linear elasticity on eight-node hexahedra: elements, assembly, constraints, ordering, factorisation.
+//! Linear elasticity on hexahedra of eight and twenty nodes: elements, assembly, constraints, ordering, factorisation.
 //!
 //! Arrays go in (node coordinates, hexahedra), arrays come out (stiffness, displacements, strain operators).
 //! The crate knows solids, not what they are used for. SI units throughout: m, N, Pa.
@@ -7,13 +7,19 @@
 //!
 //! ```text
 //! nodes, hexes, Material, HexElement -> FeModel            checked once: indices, Jacobians
-//! fixed degrees of freedom           -> DofMap             full <-> free numbering
+//! (QuadraticMesh puts nodes on the edges of eight-node hexahedra)
+//! fixed DOFs, RigidGroups            -> DofMap             constraints u = T q, full <-> free numbering
 //! FeModel + DofMap                   -> NodeGraph          which nodes share an element
 //!                                    -> assemble_stiffness sparse K over the free DOFs
+//!                                    -> assemble_mass      consistent M, same pattern
 //! NodeGraph                          -> DofOrdering        METIS nested dissection
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
+//! K + M + Factor                     -> natural_modes      lowest frequencies and shapes
+//! K + kept nodes                     -> StaticCondensation a part replaced by its stiffness at some nodes
+//! stiffness of a sector at its cuts  -> CyclicInterface    a ring of equal sectors, by harmonics
 //! ```
+//! The last two work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
 //!
 //! ```
 //! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, HexElement, Material, StructuredMesh};
@@ -41,8 +47,10 @@
 //! | [`HexElement::Hex8Incompatible`] | the default; anything that bends | element stiffness about twice as dear, K and solves the same | strains jump a little more between elements; distorted elements lose part of the gain in bending |
 //! | [`HexElement::Hex8`] | comparison with codes that use the plain trilinear brick | cheapest | shear locking: a slab one element thick is far too stiff in bending |
 //!
-//! Both pass the patch test on distorted meshes, have exactly six zero-energy modes and converge with
-//! order 1 in the energy norm and order 2 in displacement.
+//! | [`HexElement::Hex20`] | curved bodies, stress, a few elements across a thickness | four times the nodes of the same elements as hex8; a fuller K at equal nodes | needs mid-edge nodes on the true surface to keep its order |
+//!
+//! All pass the patch test on distorted meshes and have exactly six zero-energy modes. The eight-node elements
+//! converge with order 1 in the energy norm and order 2 in displacement, the twenty-node element with 2 and 3.
 //!
 //! # Which solve
 //!
@@ -51,10 +59,18 @@
 //! not depend on the number of threads it runs on.
 //! When the same pattern comes back with other values (another element or material) keep the [`SymbolicFactor`].
 //!
+//! # Which support
+//!
+//! | support | how | K |
+//! | --- | --- | --- |
+//! | nodes or single displacements held | [`DofMap::with_fixed_nodes`], [`DofMap::with_fixed_dofs`] | smaller by what is held |
+//! | nodes rigid on a reference point, some of its six degrees of freedom held | [`DofMap::with_rigid_groups`] | a border of up to six full columns a group |
+//! | nothing held | [`DofMap::all_free`] | singular: products only, or [`natural_modes`] with a shift |
+//!
 //! # Limits
 //!
 //! Small displacements, linear isotropic material, one material per model, hexahedra only, zero-displacement
-//! constraints only. Elements with a Jacobian that is not positive at the Gauss points, the corners or the centre
+//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the Gauss points, the nodes or the centre
 //! are refused, so collapsed hexahedra (wedges) are not accepted. Nearly incompressible material locks in
 //! [`HexElement::Hex8`] and has not been studied with the incompatible modes.
 
@@ -63,31 +79,50 @@ mod constraints;
 mod cyclic;
 mod cylindrical;
 mod element;
+mod element_matrix;
 mod error;
 mod factor;
 mod graph;
+mod half_solve;
+mod hex20;
 mod hex8;
 mod hex8_incompatible;
+mod isoparametric;
+mod lanczos_basis;
+mod mass;
 mod material;
 mod model;
+mod modes;
 mod ordering;
+mod quadratic_mesh;
+mod quadrature;
+mod reference_points;
+mod rigid_group;
 mod static_condensation;
 mod stiffness_block;
 mod structured;
+mod symmetric_product;
 
-pub use assembly::{StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph};
+pub use assembly::{
+    SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
+};
 pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;
-pub use element::{ElementStiffness, HexCoordinates, HexElement, StrainOperator, element_volume};
+pub use element::{HexElement, StrainOperator};
+pub use element_matrix::ElementMatrix;
 pub use error::{ElementError, FeError};
 pub use factor::{Factor, FactorInfo, SymbolicFactor};
 pub use graph::NodeGraph;
-pub use hex8::{
-    CORNERS, GAUSS_POINTS, PointGradients, point_gradients, position_at, shape_functions,
-};
+pub use hex8::CORNERS;
+pub use hex20::EDGE_CORNERS;
+pub use mass::assemble_mass;
 pub use material::{LameParameters, Material, von_mises};
 pub use model::FeModel;
+pub use modes::{ModeSettings, NaturalModes, natural_modes, shifted_stiffness};
 pub use ordering::DofOrdering;
+pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};
+pub use quadrature::WeightedPoint;
+pub use rigid_group::RigidGroup;
 pub use static_condensation::{CondensedLoads, StaticCondensation};
 pub use structured::StructuredMesh;

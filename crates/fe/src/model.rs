@@ -2,9 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::element::{
-    ElementStiffness, HexCoordinates, HexElement, StrainOperator, check_shape, element_volume,
-};
+use crate::element::{HexElement, StrainOperator};
+use crate::element_matrix::ElementMatrix;
 use crate::error::{ElementError, FeError};
 use crate::material::Material;
 
@@ -12,7 +11,8 @@ use crate::material::Material;
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeModel {
     nodes: Vec<[f64; 3]>,
-    hexes: Vec<[u32; 8]>,
+    /// Node indices, element by element; their number an element is that of the formulation.
+    connectivity: Vec<u32>,
     material: Material,
     element: HexElement,
 }
@@ -20,18 +20,26 @@ pub struct FeModel {
 impl FeModel {
     /// Checks and keeps a mesh.
     ///
-    /// `nodes`: coordinates (m). `hexes`: node indices in VTK order (bottom 0-3 counter-clockwise, top 4-7).
+    /// `nodes`: coordinates (m). `hexes`: node indices in VTK order (bottom 0-3 counter-clockwise, top 4-7, then for
+    /// twenty nodes the edges), `[u32; 8]` or `[u32; 20]` as the element demands.
     ///
     /// # Errors
-    /// [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
+    /// [`FeError::NodesPerElement`], [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
     /// [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and [`FeError::Element`] naming the first
-    /// element whose Jacobian is not positive at all Gauss points, corners and the centre.
-    pub fn new(
+    /// element whose Jacobian is not positive at all Gauss points, nodes and the centre.
+    pub fn new<const N: usize>(
         nodes: Vec<[f64; 3]>,
-        hexes: Vec<[u32; 8]>,
+        hexes: Vec<[u32; N]>,
         material: Material,
         element: HexElement,
     ) -> Result<Self, FeError> {
+        if N != element.node_count() {
+            return Err(FeError::NodesPerElement {
+                element: element.name(),
+                found: N,
+                expected: element.node_count(),
+            });
+        }
         if hexes.is_empty() {
             return Err(FeError::NoElements { nodes: nodes.len() });
         }
@@ -71,25 +79,62 @@ impl FeModel {
         }
         let model = Self {
             nodes,
-            hexes,
+            connectivity: hexes.into_flattened(),
             material,
             element,
         };
-        let broken = (0..model.hexes.len()).into_par_iter().find_map_first(|e| {
-            check_shape(&model.gather(e))
-                .err()
-                .map(|source| (e, source))
-        });
+        let broken = (0..model.element_count())
+            .into_par_iter()
+            .find_map_first(|e| {
+                let checked = element.check_shape(&model.gather(e));
+                checked.err().map(|source| (e, source))
+            });
         match broken {
             Some((element, source)) => Err(FeError::Element { element, source }),
             None => Ok(model),
         }
     }
 
-    /// The same mesh with another element formulation.
-    #[must_use]
-    pub fn with_element(self, element: HexElement) -> Self {
-        Self { element, ..self }
+    /// The same mesh with another formulation of as many nodes.
+    ///
+    /// # Errors
+    /// [`FeError::NodesPerElement`].
+    pub fn with_element(self, element: HexElement) -> Result<Self, FeError> {
+        if element.node_count() != self.element.node_count() {
+            return Err(FeError::NodesPerElement {
+                element: element.name(),
+                found: self.element.node_count(),
+                expected: element.node_count(),
+            });
+        }
+        Ok(Self { element, ..self })
+    }
+
+    /// The part made of some elements, on its own; and the node of this model of each of its nodes, ascending.
+    ///
+    /// # Errors
+    /// [`FeError::NoElements`] when `elements` is empty.
+    ///
+    /// # Panics
+    /// If an element is not below [`FeModel::element_count`].
+    pub fn part(&self, elements: &[u32]) -> Result<(Vec<u32>, Self), FeError> {
+        if elements.is_empty() {
+            return Err(FeError::NoElements {
+                nodes: self.nodes.len(),
+            });
+        }
+        let of_element = |&e: &u32| self.element_nodes(e as usize).iter().copied();
+        let mut nodes: Vec<u32> = elements.iter().flat_map(of_element).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let place = |n: u32| nodes.partition_point(|&other| other < n) as u32;
+        let model = Self {
+            nodes: nodes.iter().map(|&n| self.nodes[n as usize]).collect(),
+            connectivity: elements.iter().flat_map(of_element).map(place).collect(),
+            material: self.material,
+            element: self.element,
+        };
+        Ok((nodes, model))
     }
 
     /// Node coordinates (m).
@@ -97,9 +142,18 @@ impl FeModel {
         &self.nodes
     }
 
-    /// Node indices of each hexahedron, VTK order.
-    pub fn hexes(&self) -> &[[u32; 8]] {
-        &self.hexes
+    /// Number of elements.
+    pub fn element_count(&self) -> usize {
+        self.connectivity.len() / self.element.node_count()
+    }
+
+    /// Node indices of an element, VTK order.
+    ///
+    /// # Panics
+    /// If `element` is not below [`FeModel::element_count`].
+    pub fn element_nodes(&self, element: usize) -> &[u32] {
+        let n = self.element.node_count();
+        &self.connectivity[n * element..n * (element + 1)]
     }
 
     /// The material.
@@ -126,33 +180,35 @@ impl FeModel {
     ///
     /// # Errors
     /// [`FeError::ElementOutOfRange`].
-    pub fn element_coordinates(&self, element: usize) -> Result<HexCoordinates, FeError> {
+    pub fn element_coordinates(&self, element: usize) -> Result<Vec<[f64; 3]>, FeError> {
         self.check_element(element)?;
         Ok(self.gather(element))
     }
 
-    /// The 24 degrees of freedom of an element, in the column order of its operators.
+    /// The degrees of freedom of an element, three per node, in the column order of its operators.
     ///
     /// # Errors
     /// [`FeError::ElementOutOfRange`].
-    pub fn element_dofs(&self, element: usize) -> Result<[usize; 24], FeError> {
+    pub fn element_dofs(&self, element: usize) -> Result<Vec<usize>, FeError> {
         self.check_element(element)?;
-        let hex = self.hexes[element];
-        Ok(std::array::from_fn(|i| 3 * hex[i / 3] as usize + i % 3))
+        let nodes = self.element_nodes(element).iter();
+        Ok(nodes
+            .flat_map(|n| (0..3).map(move |axis| 3 * *n as usize + axis))
+            .collect())
     }
 
-    /// Stiffness of one element (24x24, N/m).
+    /// Stiffness of one element (N/m).
     ///
     /// # Errors
     /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
-    pub fn element_stiffness(&self, element: usize) -> Result<ElementStiffness, FeError> {
+    pub fn element_stiffness(&self, element: usize) -> Result<ElementMatrix, FeError> {
         let coordinates = self.element_coordinates(element)?;
         self.element
             .stiffness(&coordinates, &self.material)
             .map_err(|source| FeError::Element { element, source })
     }
 
-    /// Strain operator (6x24, 1/m) of one element at a natural point, modes included; see
+    /// Strain operator (1/m) of one element at a natural point, modes included; see
     /// [`HexElement::strain_operator`]. Columns follow [`FeModel::element_dofs`].
     ///
     /// # Errors
@@ -191,8 +247,8 @@ impl FeModel {
         let dofs = self.element_dofs(element)?;
         Ok(operator.map(|row| {
             row.iter()
-                .zip(dofs)
-                .map(|(b, dof)| b * displacement[dof])
+                .zip(&dofs)
+                .map(|(b, dof)| b * displacement[*dof])
                 .sum()
         }))
     }
@@ -202,28 +258,32 @@ impl FeModel {
     /// # Errors
     /// [`FeError::Element`]; not for a model that was accepted.
     pub fn volume(&self) -> Result<f64, FeError> {
-        (0..self.hexes.len())
+        (0..self.element_count())
             .map(|element| {
-                element_volume(&self.gather(element))
+                self.element
+                    .volume(&self.gather(element))
                     .map_err(|source: ElementError| FeError::Element { element, source })
             })
             .sum()
     }
 
     fn check_element(&self, element: usize) -> Result<(), FeError> {
-        if element < self.hexes.len() {
+        if element < self.element_count() {
             Ok(())
         } else {
             Err(FeError::ElementOutOfRange {
                 element,
-                element_count: self.hexes.len(),
+                element_count: self.element_count(),
             })
         }
     }
 
     /// Coordinates of an element that exists.
-    pub(crate) fn gather(&self, element: usize) -> HexCoordinates {
-        self.hexes[element].map(|node| self.nodes[node as usize])
+    pub(crate) fn gather(&self, element: usize) -> Vec<[f64; 3]> {
+        self.element_nodes(element)
+            .iter()
+            .map(|node| self.nodes[*node as usize])
+            .collect()
     }
 }
 
@@ -279,6 +339,23 @@ mod tests {
         let mut mesh = good();
         mesh.hexes.clear();
         assert_eq!(build(mesh), Err(FeError::NoElements { nodes: 12 }));
+    }
+
+    #[test]
+    fn an_element_takes_its_own_number_of_nodes() {
+        let mesh = StructuredMesh::block([2, 1, 1], [2.0, 1.0, 1.0]);
+        let eight = build(mesh.clone()).unwrap();
+        let refused = FeError::NodesPerElement {
+            element: "hex20",
+            found: 8,
+            expected: 20,
+        };
+        assert_eq!(eight.with_element(HexElement::Hex20), Err(refused.clone()));
+        let steel = Material::new(210e9, 0.3).unwrap();
+        assert_eq!(
+            FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20),
+            Err(refused)
+        );
     }
 
     #[test]

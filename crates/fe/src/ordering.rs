@@ -45,6 +45,8 @@ impl DofOrdering {
                 dofs.free_of_node(nodes[place as usize] as usize)
                     .map(|(_, free)| free)
             })
+            // The few unknowns of reference points touch many nodes: eliminated last they fill in nothing.
+            .chain(dofs.nodal_free_count()..dofs.free_count())
             .collect();
         Self::from_forward(forward)
     }

@@ -19,9 +19,9 @@
 
 use crate::assembly::StiffnessMatrix;
 use crate::error::FeError;
-use crate::factor::{Factor, FactorInfo, HalfSolve};
+use crate::factor::{Factor, FactorInfo};
 use crate::ordering::DofOrdering;
-use faer::{Mat, MatRef};
+use faer::{ColMut, Mat, MatRef};
 
 /// A part condensed to its kept nodes.
 #[derive(Debug)]
@@ -38,14 +38,32 @@ pub struct StaticCondensation {
 pub struct CondensedLoads {
     /// p_B', kept displacements × loads (N).
     pub kept: Mat<f64>,
-    /// y_I, interior displacements × loads: its products are displacement work, see [`CondensedLoads::gram`].
-    pub interior: Mat<f64>,
+    /// y_I where it is not zero: `rows` × loads. Loads on a small part of the body reach few rows.
+    interior: Mat<f64>,
+    /// Places of these rows in the order of elimination, ascending.
+    rows: Vec<usize>,
 }
 
 impl CondensedLoads {
-    /// p_Iᵀ K_II⁻¹ q_I for all pairs of `self` (rows) and `other` (columns).
+    /// p_Iᵀ K_II⁻¹ q_I for all pairs of loads p of `self` (rows) and q of `other` (columns), of the same part.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
-        self.interior.transpose() * &other.interior
+        let common: Vec<(usize, usize)> = (self.rows.iter().enumerate())
+            .filter_map(|(i, row)| Some((i, other.rows.binary_search(row).ok()?)))
+            .collect();
+        let pick = |m: &Mat<f64>, row: &dyn Fn(usize) -> usize| {
+            Mat::from_fn(common.len(), m.ncols(), |i, j| m[(row(i), j)])
+        };
+        pick(&self.interior, &|i| common[i].0).transpose() * pick(&other.interior, &|i| common[i].1)
+    }
+
+    /// Writes y_I of one load into a column over all interior displacements, as [`StaticCondensation::expand`] wants it.
+    ///
+    /// # Panics
+    /// If there is no such load or the column is shorter than the interior.
+    pub fn put_interior(&self, load: usize, mut column: ColMut<'_, f64>) {
+        for (i, &row) in self.rows.iter().enumerate() {
+            column[row] = self.interior[(i, load)];
+        }
     }
 }
 
@@ -95,6 +113,11 @@ impl StaticCondensation {
         self.factor.size()
     }
 
+    /// Displacements of its interior.
+    pub fn interior_size(&self) -> usize {
+        self.interior
+    }
+
     /// Size and cost of the factorisation.
     pub fn info(&self) -> FactorInfo {
         self.factor.info()
@@ -108,12 +131,12 @@ impl StaticCondensation {
         assert_eq!(loads.nrows(), self.size(), "rows of the loads");
         let order = self.factor.symbolic().ordering().forward();
         let mut y = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(order[i], j)]);
-        self.factor
-            .half_solve_in_place(HalfSolve::Lower, y.as_mut());
-        let (inside, kept) = y.as_ref().split_at_row(self.interior);
+        let mut rows = self.factor.lower_solve_in_place(y.as_mut());
+        rows.truncate(rows.partition_point(|row| *row < self.interior));
         CondensedLoads {
-            kept: &self.kept_factor * kept,
-            interior: inside.to_owned(),
+            kept: &self.kept_factor * y.subrows(self.interior, y.nrows() - self.interior),
+            interior: Mat::from_fn(rows.len(), y.ncols(), |i, j| y[(rows[i], j)]),
+            rows,
         }
     }
 
@@ -132,8 +155,7 @@ impl StaticCondensation {
         x.as_mut()
             .subrows_mut(self.interior, kept.nrows())
             .copy_from(start);
-        self.factor
-            .half_solve_in_place(HalfSolve::Transposed, x.as_mut());
+        self.factor.upper_solve_in_place(x.as_mut());
         let place = order.inverse();
         Mat::from_fn(self.size(), kept.ncols(), |i, j| x[(place[i], j)])
     }

@@ -1,7 +1,8 @@
-//! Orders of convergence with a manufactured solution on distorted refinements: energy norm 1, L2 norm 2.
+//! Orders of convergence with a manufactured solution on distorted refinements: energy norm 1 and L2 norm 2 for the
+//! eight-node elements, 2 and 3 for the twenty-node element.
 //!
 //! u = s (1, −0.5, 0.7) with s = sin πx sin πy sin πz on the unit cube, zero on the boundary. The body force
-//! f = −(λ + μ) ∇(div u) − μ Δu is integrated against the trilinear functions with 3x3x3 Gauss points.
+//! f = −(λ + μ) ∇(div u) − μ Δu is integrated against the shape functions with 3x3x3 Gauss points.
 //! The cube is bent smoothly (same map for every refinement) so that elements are not bricks.
 #![allow(clippy::unwrap_used)]
 
@@ -9,29 +10,16 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{ELEMENTS, model, steel};
+use common::{ELEMENTS, nodes_where, steel};
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, StructuredMesh, assemble_stiffness,
-    point_gradients, position_at, shape_functions,
+    DofMap, Factor, FeModel, HexElement, Material, QuadraticMesh, StructuredMesh,
+    assemble_stiffness, chord_middle,
 };
 
 const AMPLITUDE: [f64; 3] = [1.0, -0.5, 0.7];
-const GAUSS_3: [(f64, f64); 3] = [
-    (-0.774_596_669_241_483_4, 5.0 / 9.0),
-    (0.0, 8.0 / 9.0),
-    (0.774_596_669_241_483_4, 5.0 / 9.0),
-];
-
-fn rule() -> Vec<([f64; 3], f64)> {
-    let mut points = Vec::new();
-    for (x, wx) in GAUSS_3 {
-        for (y, wy) in GAUSS_3 {
-            for (z, wz) in GAUSS_3 {
-                points.push(([x, y, z], wx * wy * wz));
-            }
-        }
-    }
-    points
+/// 3×3×3 Gauss points.
+fn rule() -> &'static [([f64; 3], f64)] {
+    HexElement::Hex20.integration_points()
 }
 
 fn displacement(x: [f64; 3]) -> [f64; 3] {
@@ -90,33 +78,42 @@ fn body_force(x: [f64; 3], material: &Material) -> [f64; 3] {
     })
 }
 
-fn mesh(n: usize) -> StructuredMesh {
-    StructuredMesh::mapped([n; 3], |x| {
-        let bubble = x.iter().map(|v| (PI * v).sin()).product::<f64>();
-        [
-            x[0] + 0.10 * bubble,
-            x[1] - 0.08 * bubble,
-            x[2] + 0.06 * bubble,
-        ]
-    })
+fn bend(x: [f64; 3]) -> [f64; 3] {
+    let bubble = x.iter().map(|v| (PI * v).sin()).product::<f64>();
+    [
+        x[0] + 0.10 * bubble,
+        x[1] - 0.08 * bubble,
+        x[2] + 0.06 * bubble,
+    ]
+}
+
+/// The bent cube; mid-edge nodes lie on the bent edges.
+fn model(n: usize, element: HexElement) -> FeModel {
+    let mesh = StructuredMesh::mapped([n; 3], |x| x);
+    if element == HexElement::Hex20 {
+        let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |_, ends| chord_middle(ends));
+        let nodes = mesh.nodes.into_iter().map(bend).collect();
+        return FeModel::new(nodes, mesh.hexes, steel(), element).unwrap();
+    }
+    let nodes = mesh.nodes.into_iter().map(bend).collect();
+    FeModel::new(nodes, mesh.hexes, steel(), element).unwrap()
 }
 
 /// (energy norm error, L2 error), relative to the norms of the exact solution.
 fn errors(n: usize, element: HexElement) -> (f64, f64) {
-    let mesh = mesh(n);
+    let model = model(n, element);
     let on_boundary = |v: &f64| v.abs() < 1e-12 || (v - 1.0).abs() < 1e-12;
-    let boundary = mesh.nodes_where(|x| x.iter().any(on_boundary));
-    let model: FeModel = model(mesh, element);
+    let boundary = nodes_where(&model, |x| x.iter().any(on_boundary));
     let material = steel();
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &boundary).unwrap();
     let mut load = vec![0.0; model.dof_count()];
-    for e in 0..model.hexes().len() {
+    for e in 0..model.element_count() {
         let x = model.element_coordinates(e).unwrap();
-        for (point, weight) in rule() {
-            let f = body_force(position_at(&x, point), &material);
-            let w = weight * point_gradients(&x, point).unwrap().determinant;
-            let shape = shape_functions(point);
-            for (i, node) in model.hexes()[e].iter().enumerate() {
+        for &(point, weight) in rule() {
+            let f = body_force(element.position_at(&x, point), &material);
+            let w = weight * element.jacobian_determinant(&x, point).unwrap();
+            let shape = element.shape_functions(point);
+            for (i, node) in model.element_nodes(e).iter().enumerate() {
                 for axis in 0..3 {
                     load[3 * *node as usize + axis] += w * shape[i] * f[axis];
                 }
@@ -131,12 +128,12 @@ fn errors(n: usize, element: HexElement) -> (f64, f64) {
     let u = dofs.expand(&u);
 
     let (mut energy, mut energy_exact, mut l2, mut l2_exact) = (0.0, 0.0, 0.0, 0.0);
-    for e in 0..model.hexes().len() {
+    for e in 0..model.element_count() {
         let x = model.element_coordinates(e).unwrap();
-        let hex = model.hexes()[e];
-        for (point, weight) in rule() {
-            let at = position_at(&x, point);
-            let w = weight * point_gradients(&x, point).unwrap().determinant;
+        let hex = model.element_nodes(e);
+        for &(point, weight) in rule() {
+            let at = element.position_at(&x, point);
+            let w = weight * element.jacobian_determinant(&x, point).unwrap();
             let (exact, found) = (strain(at), model.strain(e, point, &u).unwrap());
             let difference: [f64; 6] = std::array::from_fn(|i| found[i] - exact[i]);
             let work = |s: &[f64; 6]| {
@@ -149,10 +146,10 @@ fn errors(n: usize, element: HexElement) -> (f64, f64) {
             };
             energy += w * work(&difference);
             energy_exact += w * work(&exact);
-            let shape = shape_functions(point);
+            let shape = element.shape_functions(point);
             let exact = displacement(at);
             for axis in 0..3 {
-                let found: f64 = (0..8)
+                let found: f64 = (0..hex.len())
                     .map(|i| shape[i] * u[3 * hex[i] as usize + axis])
                     .sum();
                 l2 += w * (found - exact[axis]).powi(2);
@@ -163,22 +160,48 @@ fn errors(n: usize, element: HexElement) -> (f64, f64) {
     ((energy / energy_exact).sqrt(), (l2 / l2_exact).sqrt())
 }
 
+/// What an element must show.
+struct Expected {
+    energy_order: i32,
+    l2_order: i32,
+    /// Two meshes each, the second twice as fine. Quadratic elements need six over the wave before the leading term of
+    /// the error stands alone: from 4 to 8 their order is still 2.18.
+    elements_per_side: [[usize; 2]; 2],
+}
+
+fn expected(element: HexElement) -> Expected {
+    match element {
+        HexElement::Hex8 | HexElement::Hex8Incompatible => Expected {
+            energy_order: 1,
+            l2_order: 2,
+            elements_per_side: [[4, 8], [8, 16]],
+        },
+        HexElement::Hex20 => Expected {
+            energy_order: 2,
+            l2_order: 3,
+            elements_per_side: [[6, 12], [7, 14]],
+        },
+    }
+}
+
 #[test]
-fn orders_are_one_in_energy_and_two_in_l2() {
+fn orders_are_those_of_the_polynomials() {
     for element in ELEMENTS {
-        let [coarse, middle, fine] = [4, 8, 16].map(|n| errors(n, element));
-        // A band of 0.08 about the limit: the first mesh has only four elements over half a wave.
-        for (a, b) in [(coarse, middle), (middle, fine)] {
-            let (energy_rate, l2_rate) = ((a.0 / b.0).log2(), (a.1 / b.1).log2());
-            assert!(
-                (energy_rate - 1.0).abs() < 0.08,
-                "{element:?}: energy norm order {energy_rate}"
-            );
-            assert!(
-                (l2_rate - 2.0).abs() < 0.08,
-                "{element:?}: L2 order {l2_rate}"
-            );
+        let expected = expected(element);
+        for sizes in expected.elements_per_side {
+            let [a, b] = sizes.map(|n| errors(n, element));
+            for (name, coarse, fine, order) in [
+                ("energy norm", a.0, b.0, expected.energy_order),
+                ("L2", a.1, b.1, expected.l2_order),
+            ] {
+                let rate = (coarse / fine).log2();
+                // A band of 0.08 about the limit: the coarse mesh has only a few elements over half a wave.
+                assert!(
+                    (rate - f64::from(order)).abs() < 0.08,
+                    "{element:?}: {name} order {rate}"
+                );
+                assert!(coarse < 0.3, "{element:?}: {name} error {coarse}");
+            }
         }
-        assert!(fine.0 < 0.1 && fine.1 < 0.01, "{element:?}: {fine:?}");
     }
 }

@@ -4,16 +4,19 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-/// A mesh of 8-node hexahedra with node sets and fields.
+/// A mesh of 8- or 20-node hexahedra with node sets and fields.
 ///
 /// Node order of a hexahedron as in VTK: 0-3 around its bottom face, counter-clockwise seen from the top; 4-7 above
-/// them.
+/// them. A 20-node hexahedron has a further node on every edge, in the order 0-1, 1-2, 2-3, 3-0, the same above, then
+/// 0-4, 1-5, 2-6, 3-7.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshData {
     /// Coordinates of the nodes in metres.
     pub points: Vec<[f64; 3]>,
-    /// Node indices of each element.
+    /// Node indices of each element's corners.
     pub hexes: Vec<[u32; 8]>,
+    /// Node indices on each element's edges; empty where all elements have eight nodes.
+    pub mid_edges: Vec<[u32; 12]>,
     /// Named sets of nodes.
     pub point_sets: BTreeMap<String, Vec<u32>>,
     /// Named fields, one row a node.
@@ -43,6 +46,16 @@ pub enum MeshDataError {
         node: usize,
         /// Its coordinates.
         coordinates_m: [f64; 3],
+    },
+    /// Some elements have mid-edge nodes and others have none.
+    #[error(
+        "{found} elements of the mesh have mid-edge nodes, but there are {elements} elements; all or none must have them"
+    )]
+    MidEdgeCount {
+        /// How many rows of mid-edge nodes there are.
+        found: usize,
+        /// How many elements there are.
+        elements: usize,
     },
     /// An element or a set refers to a node that does not exist.
     #[error(
@@ -98,6 +111,32 @@ const CORNER_EDGES: [[usize; 3]; 8] = [
 ];
 
 impl MeshData {
+    /// The twenty nodes of each element; `None` where elements have eight.
+    pub fn hexes_of_20(&self) -> Option<Vec<[u32; 20]>> {
+        let rows = self.hexes.iter().zip(&self.mid_edges);
+        (!self.mid_edges.is_empty()).then(|| {
+            rows.map(|(corners, edges)| {
+                let mut hex = [0; 20];
+                hex[..8].copy_from_slice(corners);
+                hex[8..].copy_from_slice(edges);
+                hex
+            })
+            .collect()
+        })
+    }
+
+    /// Splits twenty-node hexahedra into corners and mid-edge nodes, in place of all elements.
+    pub fn set_hexes_of_20(&mut self, hexes: &[[u32; 20]]) {
+        self.hexes = hexes
+            .iter()
+            .map(|h| std::array::from_fn(|i| h[i]))
+            .collect();
+        self.mid_edges = hexes
+            .iter()
+            .map(|h| std::array::from_fn(|i| h[8 + i]))
+            .collect();
+    }
+
     /// Checks that indices, field lengths and coordinates make sense; says nothing about the shape of the elements.
     ///
     /// # Errors
@@ -120,8 +159,15 @@ impl MeshData {
                 .copied()
                 .find(|&index| index as usize >= nodes)
         };
+        if !self.mid_edges.is_empty() && self.mid_edges.len() != self.hexes.len() {
+            return Err(MeshDataError::MidEdgeCount {
+                found: self.mid_edges.len(),
+                elements: self.hexes.len(),
+            });
+        }
         for (element, hex) in self.hexes.iter().enumerate() {
-            if let Some(found) = outside(hex) {
+            let mid_edges = self.mid_edges.get(element).map_or(&[][..], |m| m);
+            if let Some(found) = outside(hex).or_else(|| outside(mid_edges)) {
                 return Err(MeshDataError::NodeOutOfRange {
                     item: format!("element {element}"),
                     found,
@@ -236,6 +282,22 @@ mod tests {
 
     #[test]
     fn wrong_indices_and_lengths_are_named() {
+        let mut mesh = block_mesh();
+        mesh.mid_edges = vec![[0; 12]; mesh.hexes.len() - 1];
+        assert!(matches!(
+            mesh.validate(),
+            Err(MeshDataError::MidEdgeCount {
+                found: 1,
+                elements: 2
+            })
+        ));
+        mesh.mid_edges.push([77; 12]);
+        let message = mesh.validate().unwrap_err().to_string();
+        assert!(
+            message.contains("element 1") && message.contains("77"),
+            "{message}"
+        );
+
         let mut mesh = block_mesh();
         mesh.point_sets.insert("bore".to_owned(), vec![0, 99]);
         let message = mesh.validate().unwrap_err().to_string();

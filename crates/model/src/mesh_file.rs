@@ -51,6 +51,12 @@ pub fn write_mesh(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
             "node indices of the hexahedra in VTK order",
         ),
     );
+    if !mesh.mid_edges.is_empty() {
+        let nodes = Values::U32(mesh.mid_edges.as_flattened().to_vec());
+        let axes = [("element", mesh.mid_edges.len()), ("edge", 12)];
+        let meaning = "node indices on the edges of the hexahedra in VTK order";
+        tree.put("mid_edges", DataArray::new(nodes, &axes, "1", meaning));
+    }
     for (name, set) in &mesh.point_sets {
         let axes = [("member", set.len())];
         let array = DataArray::new(
@@ -80,6 +86,10 @@ pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
     let [elements, _] = tree.shape(path, "hexes")?;
     let points = tree.take_f64(path, "points", &[nodes, 3])?;
     let hexes = tree.take_u32(path, "hexes", &[elements, 8])?;
+    let mid_edges = match tree.arrays.contains_key("mid_edges") {
+        true => tree.take_u32(path, "mid_edges", &[elements, 12])?,
+        false => Vec::new(),
+    };
     let mut point_sets = BTreeMap::new();
     for name in tree.children("point_sets") {
         let stored = format!("point_sets/{name}");
@@ -89,6 +99,7 @@ pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
     let mesh = MeshData {
         points: points.as_chunks().0.to_vec(),
         hexes: hexes.as_chunks().0.to_vec(),
+        mid_edges: mid_edges.as_chunks().0.to_vec(),
         point_sets,
         point_fields: take_fields(&mut tree, path, "point_fields", nodes)?,
         cell_fields: take_fields(&mut tree, path, "cell_fields", elements)?,
@@ -164,6 +175,18 @@ mod tests {
         );
         write_mesh(&path, &mesh).unwrap();
         assert_eq!(read_mesh(&path).unwrap(), mesh);
+
+        // Twenty nodes an element come back as they went.
+        let hexes: Vec<[u32; 20]> = mesh
+            .hexes
+            .iter()
+            .map(|hex| std::array::from_fn(|i| hex[i % 8]))
+            .collect();
+        mesh.set_hexes_of_20(&hexes);
+        write_mesh(&path, &mesh).unwrap();
+        let read = read_mesh(&path).unwrap();
+        assert_eq!(read, mesh);
+        assert_eq!(read.hexes_of_20().unwrap(), hexes);
     }
 
     #[test]

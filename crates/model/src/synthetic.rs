@@ -146,6 +146,7 @@ pub fn block_mesh() -> MeshData {
     MeshData {
         points,
         hexes: vec![hex(0), hex(1)],
+        mid_edges: Vec::new(),
         point_sets: BTreeMap::from([("bore".to_owned(), vec![0, 3, 6, 9])]),
         point_fields: BTreeMap::from([("displacement".to_owned(), field)]),
         cell_fields: BTreeMap::new(),

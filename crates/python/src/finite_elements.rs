@@ -1,11 +1,14 @@
-//! Stiffness, displacements and strains of the body in a mesh file.
+//! Stiffness, mass, displacements, strains and natural modes of the body in a mesh file.
 //!
 //! Degree of freedom 3 n + a is the displacement of node n along axis a.
 
 use std::path::{Path, PathBuf};
 
-use gearmesh_fe::{DofMap, Factor, FeModel, HexElement, Material, assemble_stiffness};
-use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike2, PyArrayMethods};
+use gearmesh_fe::{
+    DofMap, Factor, FeModel, HexElement, Material, ModeSettings, SparseMatrix, assemble_mass,
+    assemble_stiffness, natural_modes as search_modes,
+};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArray3, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -20,10 +23,17 @@ type CompressedColumns<'py> = (
     Bound<'py, PyArray1<i64>>,
 );
 
+/// Frequencies, shapes and residuals.
+type NaturalModes<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
 /// Stiffness (N/m) of a body over all its degrees of freedom, nothing held: (data, row_indices, column_pointers).
 ///
 /// Both triangles are stored, by columns: scipy.sparse.csc_matrix takes the tuple as it is. Young's modulus in Pa;
-/// element is "hex8" or "hex8-incompatible". Degree of freedom 3 n + a is the displacement of node n along axis a.
+/// element is "hex8", "hex8-incompatible" or, for a mesh of twenty nodes an element, "hex20". Degree of freedom 3 n + a is the displacement of node n along axis a.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, young_pa, poisson, element = "hex8-incompatible"))]
 pub(crate) fn stiffness<'py>(
@@ -38,16 +48,79 @@ pub(crate) fn stiffness<'py>(
         let dofs = DofMap::all_free(model.node_count()).map_err(fe_error)?;
         assemble_stiffness(&model, &dofs).map_err(fe_error)
     })?;
-    // SciPy knows signed indices only.
+    Ok(compressed_columns(py, &k))
+}
+
+/// Consistent mass (kg) of a body over all its degrees of freedom: (data, row_indices, column_pointers) as stiffness.
+///
+/// Density in kg/m3. The condensed modes of "hex8-incompatible" carry no mass: it has the mass of "hex8".
+#[pyfunction]
+#[pyo3(signature = (mesh_h5, density_kg_per_m3, element = "hex8-incompatible"))]
+pub(crate) fn mass<'py>(
+    py: Python<'py>,
+    mesh_h5: PathBuf,
+    density_kg_per_m3: f64,
+    element: &str,
+) -> PyResult<CompressedColumns<'py>> {
+    let m = py.detach(|| {
+        // The mass asks nothing of the elastic constants.
+        let model = model(&mesh_h5, 1.0, 0.0, element)?;
+        let dofs = DofMap::all_free(model.node_count()).map_err(fe_error)?;
+        assemble_mass(&model, &dofs, density_kg_per_m3).map_err(fe_error)
+    })?;
+    Ok(compressed_columns(py, &m))
+}
+
+/// Frequencies (count,) in Hz, shapes (count, n, 3) and relative residuals (count,) of the lowest natural modes.
+///
+/// The listed nodes are held. A shape has modal mass 1: its unit is kg^-1/2. A residual is
+/// |K phi - w^2 M phi| / (w^2 |M phi|). The other arguments are those of stiffness.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+pub(crate) fn natural_modes<'py>(
+    py: Python<'py>,
+    mesh_h5: PathBuf,
+    young_pa: f64,
+    poisson: f64,
+    density_kg_per_m3: f64,
+    element: &str,
+    fixed_nodes: Vec<i64>,
+    count: usize,
+) -> PyResult<NaturalModes<'py>> {
+    let (modes, shapes, nodes) = py.detach(|| {
+        let model = model(&mesh_h5, young_pa, poisson, element)?;
+        let fixed = node_indices(&fixed_nodes, &model)?;
+        let dofs = DofMap::with_fixed_nodes(model.node_count(), &fixed).map_err(fe_error)?;
+        let k = assemble_stiffness(&model, &dofs).map_err(fe_error)?;
+        let m = assemble_mass(&model, &dofs, density_kg_per_m3).map_err(fe_error)?;
+        let factor = Factor::of_model(&model, &dofs, &k).map_err(fe_error)?;
+        let modes = search_modes(&k, &m, &factor, &ModeSettings::new(count)).map_err(fe_error)?;
+        let shapes: Vec<f64> = (0..count)
+            .flat_map(|mode| {
+                let free: Vec<f64> = modes.shapes.col(mode).iter().copied().collect();
+                dofs.expand(&free)
+            })
+            .collect();
+        Ok::<_, PyErr>((modes, shapes, model.node_count()))
+    })?;
+    Ok((
+        PyArray1::from_vec(py, modes.frequencies_hz()),
+        PyArray1::from_vec(py, shapes).reshape([count, nodes, 3])?,
+        PyArray1::from_vec(py, modes.relative_residuals),
+    ))
+}
+
+/// The arrays of a sparse matrix; SciPy knows signed indices only.
+fn compressed_columns<'py>(py: Python<'py>, matrix: &SparseMatrix) -> CompressedColumns<'py> {
     let signed = |indices: &[usize]| {
         let indices = indices.iter().map(|&index| index as i64).collect();
         PyArray1::<i64>::from_vec(py, indices)
     };
-    Ok((
-        PyArray1::from_slice(py, k.val()),
-        signed(k.symbolic().row_idx()),
-        signed(k.symbolic().col_ptr()),
-    ))
+    (
+        PyArray1::from_slice(py, matrix.val()),
+        signed(matrix.symbolic().row_idx()),
+        signed(matrix.symbolic().col_ptr()),
+    )
 }
 
 /// Displacement (n, 3) in metres of a body under nodal forces (n, 3) in newtons, with the listed nodes held.
@@ -103,7 +176,7 @@ pub(crate) fn strain<'py>(
     let rows = py.detach(|| {
         let model = model(&mesh_h5, young_pa, poisson, element)?;
         check_node_rows("displacement", shape, &displacement, &model)?;
-        (0..model.hexes().len())
+        (0..model.element_count())
             .map(|e| model.strain(e, natural, &displacement).map_err(fe_error))
             .collect::<PyResult<Vec<_>>>()
     })?;
@@ -112,18 +185,21 @@ pub(crate) fn strain<'py>(
 
 /// The model of the body in a mesh file.
 fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult<FeModel> {
-    let element = match element {
-        "hex8" => HexElement::Hex8,
-        "hex8-incompatible" => HexElement::Hex8Incompatible,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "the element is {other:?}; it must be \"hex8\" or \"hex8-incompatible\""
-            )));
-        }
-    };
+    let names = HexElement::ALL.map(|e| format!("{:?}", e.name()));
+    let element = HexElement::from_name(element).ok_or_else(|| {
+        let message = format!(
+            "the element is {element:?}; it must be one of {}",
+            names.join(", ")
+        );
+        PyValueError::new_err(message)
+    })?;
     let material = Material::new(young_pa, poisson).map_err(fe_error)?;
     let mesh = gearmesh_model::read_mesh(mesh_h5).map_err(file_error)?;
-    FeModel::new(mesh.points, mesh.hexes, material, element).map_err(fe_error)
+    match mesh.hexes_of_20() {
+        Some(hexes) => FeModel::new(mesh.points, hexes, material, element),
+        None => FeModel::new(mesh.points, mesh.hexes, material, element),
+    }
+    .map_err(fe_error)
 }
 
 fn shape(array: &FloatRows<'_>) -> [usize; 2] {

@@ -6,6 +6,7 @@
 //! | read and write a mesh file with NumPy arrays | `read_mesh`, `write_mesh` |
 //! | look into a reduced gear with NumPy arrays | `read_reduced` |
 //! | compute stiffness, displacements and strains of the body in a mesh file | `stiffness`, `solve`, `strain` |
+//! | compute its mass, natural frequencies and shapes | `mass`, `natural_modes` |
 //!
 //! Wrong input raises `ValueError`, a refusing disk `OSError`; both with the message of the Rust side.
 
@@ -20,7 +21,7 @@ mod reduced;
 #[pyo3::pymodule]
 mod gearmesh {
     #[pymodule_export]
-    use crate::finite_elements::{solve, stiffness, strain};
+    use crate::finite_elements::{mass, natural_modes, solve, stiffness, strain};
     #[pymodule_export]
     use crate::mesh_arrays::{read_mesh, write_mesh};
     #[pymodule_export]

@@ -15,7 +15,7 @@ type FloatRows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 /// Reads a mesh file into a dict of NumPy arrays.
 ///
-/// Keys: points (n, 3) in metres, hexes (m, 8) in VTK node order, point_sets {name: indices}, point_fields and
+/// Keys: points (n, 3) in metres, hexes (m, 8) or (m, 20) in VTK node order, point_sets {name: indices}, point_fields and
 /// cell_fields {name: (rows, components)}.
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
@@ -27,10 +27,12 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
         "points",
         PyArray1::from_slice(py, mesh.points.as_flattened()).reshape([mesh.points.len(), 3])?,
     )?;
-    result.set_item(
-        "hexes",
-        PyArray1::from_slice(py, mesh.hexes.as_flattened()).reshape([mesh.hexes.len(), 8])?,
-    )?;
+    let elements = mesh.hexes.len();
+    let hexes = match mesh.hexes_of_20() {
+        Some(hexes) => PyArray1::from_vec(py, hexes.into_flattened()).reshape([elements, 20])?,
+        None => PyArray1::from_slice(py, mesh.hexes.as_flattened()).reshape([elements, 8])?,
+    };
+    result.set_item("hexes", hexes)?;
     let sets = PyDict::new(py);
     for (name, set) in mesh.point_sets {
         sets.set_item(name, PyArray1::from_vec(py, set))?;
@@ -50,7 +52,8 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     Ok(result)
 }
 
-/// Writes a mesh file from arrays: points (n, 3) in metres, hexes (m, 8) in VTK node order, sets and fields by name.
+/// Writes a mesh file from arrays: points (n, 3) in metres, hexes (m, 8) or (m, 20) in VTK node order, sets and fields
+/// by name.
 ///
 /// Fields are (rows, components). Every hexahedron must have a positive Jacobian at each corner.
 #[pyfunction]
@@ -65,10 +68,13 @@ pub(crate) fn write_mesh(
 ) -> PyResult<()> {
     let mut mesh = MeshData {
         points: point_rows(&points, 1.0)?,
-        hexes: hex_rows(&hexes)?,
         point_sets: point_sets.unwrap_or_default(),
         ..MeshData::default()
     };
+    match hexes.as_array().ncols() {
+        20 => mesh.set_hexes_of_20(&hex_rows(&hexes)?),
+        _ => mesh.hexes = hex_rows(&hexes)?,
+    }
     for (name, array) in point_fields.unwrap_or_default() {
         mesh.point_fields.insert(name, field(&array));
     }
@@ -94,21 +100,23 @@ pub(crate) fn point_rows(array: &FloatRows<'_>, metres_per_unit: f64) -> PyResul
         .collect())
 }
 
-/// Node indices; the array must have eight columns and hold no negative index.
-pub(crate) fn hex_rows(array: &PyArrayLike2<'_, i64, AllowTypeChange>) -> PyResult<Vec<[u32; 8]>> {
+/// Node indices; the array must have N columns and hold no negative index.
+pub(crate) fn hex_rows<const N: usize>(
+    array: &PyArrayLike2<'_, i64, AllowTypeChange>,
+) -> PyResult<Vec<[u32; N]>> {
     let view = array.as_array();
-    if view.ncols() != 8 {
+    if view.ncols() != N {
         let message = format!(
-            "hexahedra have {} nodes; eight are needed (m, 8)",
+            "hexahedra have {} nodes; 8 or 20 are needed, (m, 8) or (m, 20)",
             view.ncols()
         );
         return Err(PyValueError::new_err(message));
     }
     let mut rows = Vec::with_capacity(view.nrows());
     for (element, row) in view.rows().into_iter().enumerate() {
-        let mut hex = [0; 8];
-        for (corner, &node) in hex.iter_mut().zip(row) {
-            *corner = u32::try_from(node).map_err(|_| {
+        let mut hex = [0; N];
+        for (slot, &node) in hex.iter_mut().zip(row) {
+            *slot = u32::try_from(node).map_err(|_| {
                 PyValueError::new_err(format!(
                     "element {element} refers to node {node}; indices start at 0"
                 ))

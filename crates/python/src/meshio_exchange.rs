@@ -86,7 +86,7 @@ pub(crate) fn export_mesh(
     Ok(names.into_iter().filter(|name| !kept(name)).collect())
 }
 
-/// Reads any format that meshio reads into a mesh file: 8-node hexahedra, node sets and fields.
+/// Reads any format that meshio reads into a mesh file: hexahedra of 8 or 20 nodes, node sets and fields.
 ///
 /// length_unit is the unit of the coordinates in the file that is read, "m" or "mm". Fields named "set:..." become node
 /// sets. Surface, line and point cells are left out; returned is what was. Other volume cells raise ValueError.
@@ -110,7 +110,7 @@ pub(crate) fn import_mesh(
     let (mesh, left_out) = from_meshio(py, &format.read(py, &in_path)?, &format, metres_per_unit)?;
     if mesh.hexes.is_empty() {
         return Err(PyValueError::new_err(format!(
-            "{}: there are no 8-node hexahedra",
+            "{}: there are no hexahedra of 8 or 20 nodes",
             in_path.display()
         )));
     }
@@ -144,13 +144,15 @@ fn to_meshio<'py>(
         .map(|x| x / metres_per_unit)
         .collect();
     let points = PyArray1::<f64>::from_vec(py, points).reshape([mesh.points.len(), 3])?;
-    let hexes = mesh
-        .hexes
-        .as_flattened()
-        .iter()
-        .map(|&node| i64::from(node))
-        .collect();
-    let hexes = PyArray1::<i64>::from_vec(py, hexes).reshape([mesh.hexes.len(), 8])?;
+    // meshio numbers both hexahedra as VTK does.
+    let quadratic = mesh.hexes_of_20();
+    let (cell_type, nodes) = match &quadratic {
+        Some(hexes) => ("hexahedron20", hexes.as_flattened()),
+        None => ("hexahedron", mesh.hexes.as_flattened()),
+    };
+    let hexes = nodes.iter().map(|&node| i64::from(node)).collect();
+    let hexes = PyArray1::<i64>::from_vec(py, hexes)
+        .reshape([mesh.hexes.len(), nodes.len() / mesh.hexes.len().max(1)])?;
     let (point_data, cell_data, point_sets) = (PyDict::new(py), PyDict::new(py), PyDict::new(py));
     for (name, set) in &mesh.point_sets {
         if format.has_point_sets() {
@@ -193,7 +195,7 @@ fn to_meshio<'py>(
     options.set_item("point_data", point_data)?;
     options.set_item("cell_data", cell_data)?;
     options.set_item("point_sets", point_sets)?;
-    let cells = PyList::new(py, [("hexahedron", hexes)])?;
+    let cells = PyList::new(py, [(cell_type, hexes)])?;
     let outgoing = py
         .import("meshio")?
         .getattr("Mesh")?
@@ -220,22 +222,37 @@ fn from_meshio(
     };
     let mut left_out = Vec::new();
     let mut hex_blocks = Vec::new();
+    let mut quadratic = Vec::new();
     for (block, cells) in incoming.getattr("cells")?.try_iter()?.enumerate() {
         let cells = cells?;
         let kind: String = cells.getattr("type")?.extract()?;
         let data = cells.getattr("data")?;
         if kind == "hexahedron" {
-            mesh.hexes.extend(hex_rows(&data.extract()?)?);
+            mesh.hexes.extend(hex_rows::<8>(&data.extract()?)?);
+            hex_blocks.push(block);
+        } else if kind == "hexahedron20" {
+            quadratic.extend(hex_rows::<20>(&data.extract()?)?);
             hex_blocks.push(block);
         } else if cells.getattr("dim")?.extract::<usize>()? < 3 {
             left_out.push(format!("{} {kind} cells", data.len()?));
         } else {
             let message = format!(
-                "{} {kind} cells; only 8-node hexahedra are allowed: mesh the body with them",
+                "{} {kind} cells; only hexahedra of 8 or 20 nodes are allowed: mesh the body with them",
                 data.len()?
             );
             return Err(PyValueError::new_err(message));
         }
+    }
+    if !quadratic.is_empty() {
+        if !mesh.hexes.is_empty() {
+            let message = format!(
+                "{} hexahedra of 8 and {} of 20 nodes; all must have the same number of nodes",
+                mesh.hexes.len(),
+                quadratic.len()
+            );
+            return Err(PyValueError::new_err(message));
+        }
+        mesh.set_hexes_of_20(&quadratic);
     }
     for (name, set) in incoming.getattr("point_sets")?.cast::<PyDict>()?.iter() {
         mesh.point_sets.insert(stored_name(&name)?, node_set(&set)?);

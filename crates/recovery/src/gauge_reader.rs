@@ -1,6 +1,6 @@
 //! One gauge of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::slice_compliance::{AXIAL_SHARES, centroids, roll_place};
+use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
 /// Force on one slice of this gear.
@@ -58,8 +58,8 @@ impl GaugeReader {
             for station in 0..stations {
                 for slice in 0..slices {
                     let mut row = [0.0; 3];
-                    for (k, share) in AXIAL_SHARES.iter().enumerate() {
-                        let load = grid.load(station, 2 * slice + k);
+                    for (axial, share) in axial_shares(slice, slices) {
+                        let load = grid.load(station, axial);
                         let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
                         let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
                         let local = if tooth == gauge.tooth {
@@ -140,10 +140,7 @@ mod tests {
             .iter()
             .enumerate()
             .flat_map(|(slice, f)| {
-                AXIAL_SHARES
-                    .iter()
-                    .enumerate()
-                    .map(move |(k, s)| (2 * slice + k, f * s))
+                axial_shares(slice, forces.len()).map(move |(axial, share)| (axial, f * share))
             })
             .map(|(axial, f)| f * gauge.own_tooth[model.grid.load(station, axial)])
             .sum();

@@ -1,7 +1,7 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
 use crate::gauge_reader::LoadedSlice;
-use gearmesh_contact::slice_compliance::{AXIAL_SHARES, centroids, roll_place};
+use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.
@@ -30,12 +30,12 @@ pub fn grid_forces(
             (place.station, 1.0 - place.share),
             (place.station + 1, place.share),
         ] {
-            for (k, share) in AXIAL_SHARES.iter().enumerate() {
+            for (axial, share) in axial_shares(loaded.slice, grid.slices) {
                 let on_load = weight * share * loaded.force_n;
                 if on_load != 0.0 {
                     forces.push(GridLoadForce {
                         tooth: loaded.tooth,
-                        load: grid.load(station, 2 * loaded.slice + k),
+                        load: grid.load(station, axial),
                         normal_n: on_load * loaded.components[0],
                         tangential_n: on_load * loaded.components[1],
                     });

@@ -88,7 +88,7 @@ impl<'a> ContactProblem<'a> {
             .into_iter()
             .flat_map(|z| section.nodes.iter().map(move |p| [p[0], p[1], z]))
             .collect();
-        let hexes = section
+        let hexes: Vec<[u32; 8]> = section
             .quads
             .iter()
             .map(|q| std::array::from_fn(|i| (q[i % 4] + count * (i / 4)) as u32))
@@ -104,7 +104,7 @@ impl<'a> ContactProblem<'a> {
                 };
                 // Rows and columns of the lower and of the upper face, 12 apart, are summed.
                 let (r, c) = (3 * (row / 2) + row % 2, 3 * (column / 2) + column % 2);
-                let sum = k[r][c] + k[r + 12][c] + k[r][c + 12] + k[r + 12][c + 12];
+                let sum = k[(r, c)] + k[(r + 12, c)] + k[(r, c + 12)] + k[(r + 12, c + 12)];
                 entries.push(Triplet::new(i, j, sum / thickness));
             }
         }

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
-//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs` |
+//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
 //! | loads of tooth 0 turned to other teeth | `tooth_vectors.rs` |
 //! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
@@ -21,6 +21,7 @@
 
 pub mod contact_problem;
 pub mod cyclic_body;
+mod cyclic_response;
 pub mod error_estimate;
 pub mod field;
 pub mod flank_loads;

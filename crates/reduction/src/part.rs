@@ -16,17 +16,7 @@ impl Part {
     /// # Errors
     /// [`FeError::NoElements`] when there are none.
     pub fn new(whole: &FeModel, elements: &[u32]) -> Result<Self, FeError> {
-        let hexes = elements.iter().map(|&e| whole.hexes()[e as usize]);
-        let mut nodes: Vec<u32> = hexes.clone().flatten().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let place = |n: u32| nodes.partition_point(|&other| other < n) as u32;
-        let model = FeModel::new(
-            nodes.iter().map(|&n| whole.nodes()[n as usize]).collect(),
-            hexes.map(|hex| hex.map(place)).collect(),
-            *whole.material(),
-            whole.element(),
-        )?;
+        let (nodes, model) = whole.part(elements)?;
         Ok(Self { nodes, model })
     }
 

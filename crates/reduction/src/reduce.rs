@@ -18,6 +18,8 @@ const IDENTITY_ALLOWED: f64 = 1e-9;
 /// Patterns on which the identity is checked: K is applied to each, which costs as much as a solve.
 const IDENTITY_SAMPLES: usize = 8;
 
+const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
+
 /// What a reduction does besides its main job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReductionOptions {
@@ -91,10 +93,12 @@ pub fn reduce(
         teeth * normals.len(),
         &c_tooth,
     );
+    let rows_by_fields = rows_by_fields(&body, &normals, &c_rows, teeth * normals.len());
     let c_hub = by_blocks(&c_rows, own, flanks.len(), teeth, count);
     for (check, found, allowed) in [
         ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
         ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
+        (ROWS_BY_FIELDS, rows_by_fields, IDENTITY_ALLOWED),
     ] {
         if found.is_nan() || found > allowed {
             return Err(ReductionError::Check {
@@ -108,7 +112,7 @@ pub fn reduce(
 
     let mut gauges = gauges(gear, &body, &loads, &submodels, progress)?;
     lap("gauges");
-    let mut further = Vec::new();
+    let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     if options.estimate_error {
         let ErrorEstimate {
             compliance,
@@ -196,6 +200,29 @@ fn asymmetry(rows: &[f64], own: usize, flanks: usize, teeth: usize, count: usize
     for i in 0..size {
         for j in 0..=i {
             let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
+            worst = worst.max((a - b).abs());
+            largest = largest.max(a.abs());
+        }
+    }
+    worst / largest
+}
+
+/// Largest difference, relative to the largest value, between rows of C_hub and what all teeth read of the solved fields
+/// of some loads. By repetition C_hub is made of products of half solves, symmetric by construction: this goes the
+/// other way, out to every tooth again.
+fn rows_by_fields(
+    body: &GearBody,
+    normals: &[&SparseVector],
+    c_rows: &[f64],
+    row_length: usize,
+) -> f64 {
+    let sampled: Vec<usize> = (0..normals.len())
+        .step_by(normals.len().div_ceil(IDENTITY_SAMPLES))
+        .collect();
+    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
+    let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
+    for (&load, reading) in sampled.iter().zip(body.readings(&loads, normals, &Silent)) {
+        for (a, b) in c_rows[load * row_length..].iter().zip(&reading) {
             worst = worst.max((a - b).abs());
             largest = largest.max(a.abs());
         }

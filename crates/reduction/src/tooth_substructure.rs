@@ -47,18 +47,13 @@ impl ToothSubstructure {
                 }
             }
         }
-        let mut inside = vec![false; model.hexes().len()];
+        let mut inside = vec![false; model.element_count()];
         for &e in &elements {
             inside[e as usize] = true;
         }
         let mut shared = vec![false; model.node_count()];
-        for (hex, _) in model
-            .hexes()
-            .iter()
-            .zip(&inside)
-            .filter(|(_, in_cell)| !**in_cell)
-        {
-            for &n in hex {
+        for outside in (0..model.element_count()).filter(|&e| !inside[e]) {
+            for &n in model.element_nodes(outside) {
                 shared[n as usize] = true;
             }
         }

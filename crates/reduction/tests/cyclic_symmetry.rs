@@ -54,11 +54,10 @@ rim_inner_diameter_mm = 38.0
 web_thickness_mm = 4.0
 ";
 
-fn gear(blank: &str, symmetry: Symmetry) -> GearDefinition {
-    let text = format!("{SMALL}\n{blank}");
-    let mut gear = GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap();
-    gear.reduction.symmetry = symmetry;
-    gear
+fn gear(blank: &str, symmetry: &str) -> GearDefinition {
+    let settings = format!("[reduction]\nsymmetry = \"{symmetry}\"");
+    let text = format!("{}\n{blank}", SMALL.replace("[reduction]", &settings));
+    GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
 }
 
 /// Largest difference relative to the largest value.
@@ -81,8 +80,8 @@ fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_
         let (model, body) = reduce(&gear, &python, options, &Silent).unwrap();
         (gear, model, body)
     };
-    let (gear, cyclic, body) = run(Symmetry::Auto);
-    let (_, whole, whole_body) = run(Symmetry::Off);
+    let (gear, cyclic, body) = run("auto");
+    let (_, whole, whole_body) = run("off");
     assert_eq!(gear.sectors(), sectors);
     let effort = |model: &ReducedGear, name: &str| {
         let counts = &model.provenance.effort;
@@ -90,10 +89,10 @@ fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_
     };
     assert_eq!(effort(&cyclic, "factorisations"), factorisations);
     assert_eq!(effort(&whole, "factorisations"), 1);
-    // One per load of a sector's teeth, per sampled pattern and per gauge; the same with and without symmetry.
+    // One per load of a sector's teeth, per sampled pattern and row, and per gauge; the same with and without symmetry.
     let loads = 18 / sectors * 2 * whole.grid.len();
     for model in [&cyclic, &whole] {
-        assert_eq!(effort(model, "right-hand sides"), loads + 7 + 2);
+        assert_eq!(effort(model, "right-hand sides"), loads + 7 + 8 + 2);
     }
     assert_eq!(body.mesh.nodes, whole_body.mesh.nodes);
 
@@ -106,10 +105,11 @@ fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_
         let own = difference(&a.own_tooth, &b.own_tooth);
         assert!(own < AGREEMENT, "{}: own tooth {own:.1e}", a.name);
         let errors = (a.error_estimate_relative, b.error_estimate_relative);
-        assert!((errors.0 - errors.1).abs() < 1e-6 * errors.0, "{errors:?}");
+        assert!((errors.0 - errors.1).abs() <= 1e-6 * errors.0, "{errors:?}");
     }
     for ((name, a), (_, b)) in whole.checks.further.iter().zip(&cyclic.checks.further) {
-        assert!((a - b).abs() < 1e-6 * a.abs(), "{name}: {a} {b}");
+        let same = (a - b).abs() < 1e-6 * a.abs();
+        assert!(same || a.max(*b) < AGREEMENT, "{name}: {a} {b}");
     }
 
     // Fields of loads on teeth of different sectors at once, normal and tangential.
@@ -177,11 +177,26 @@ fn no_repetition_leaves_one_sector_without_cuts() {
     both_ways_agree(&format!("{THIN_RIM}{holes}"), 1, 2, false);
 }
 
+#[test]
+fn symmetry_is_used_unless_it_is_switched_off() {
+    let text = |line: &str| format!("{SMALL}\n{THIN_RIM}").replace("slices = 2", line);
+    let read = |line| GearDefinition::from_document(&InputDocument::new("small.toml", text(line)));
+    let symmetry = |line| read(line).unwrap().reduction.symmetry;
+    assert_eq!(symmetry("slices = 2"), Symmetry::Auto);
+    assert_eq!(symmetry("symmetry = \"auto\""), Symmetry::Auto);
+    assert_eq!(symmetry("symmetry = \"off\""), Symmetry::Off);
+    let refused = read("symmetry = \"on\"").unwrap_err().to_string();
+    assert!(
+        refused.contains("auto") && refused.contains("off"),
+        "{refused}"
+    );
+}
+
 /// Loads of tooth 0 turned to another tooth are the loads integrated there.
 #[test]
 fn turned_loads_are_those_of_the_other_tooth() {
     let python = PythonEnvironment::find().unwrap();
-    let gear = gear(THIN_RIM, Symmetry::Auto);
+    let gear = gear(THIN_RIM, "auto");
     let body = GearBody::new(&gear, &python, &Silent).unwrap();
     let grid = flank_grid(&gear);
     for side in [FlankSide::Right, FlankSide::Left] {

@@ -20,7 +20,7 @@ fn record(name: &str) -> ReferenceRecord {
 
 #[test]
 fn every_column_agrees_with_itself() {
-    for name in ["pair_a", "pair_b"] {
+    for name in ["pair_a", "pair_b", "solid_line_of_action", "solid_extended"] {
         let record = record(name);
         assert_eq!(
             record.kind,

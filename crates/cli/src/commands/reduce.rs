@@ -62,7 +62,12 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
         ),
     ];
     for (name, value) in &model.checks.further {
-        lines.push(format!("{name}: {:.2} %", 100.0 * value));
+        // Estimates are per cents; identities that hold to rounding would read as zero.
+        lines.push(if value.abs() < 1e-5 {
+            format!("{name}: {value:.1e}")
+        } else {
+            format!("{name}: {:.2} %", 100.0 * value)
+        });
     }
     for g in &model.gauges {
         lines.push(format!(

@@ -34,6 +34,7 @@
 
 use std::f64::consts::PI;
 
+use super::edge_contact::EdgeContact;
 use thiserror::Error;
 
 /// Recommended floor of the logarithm as a fraction of the mean slice force of the nominal load.
@@ -125,12 +126,16 @@ impl LineContact {
 
     /// `c` of `a = c √F` \[m/√N\].
     fn half_width_factor(&self) -> f64 {
-        let compliance: f64 = self
-            .bodies
+        let compliance = self.plane_strain_compliance();
+        (4.0 * self.relative_radius_m * compliance / (PI * self.width_m)).sqrt()
+    }
+
+    /// `1/E* = Σ (1 − ν²)/E` \[1/Pa\].
+    pub(super) fn plane_strain_compliance(&self) -> f64 {
+        self.bodies
             .iter()
             .map(ContactBody::plane_strain_compliance)
-            .sum();
-        (4.0 * self.relative_radius_m * compliance / (PI * self.width_m)).sqrt()
+            .sum()
     }
 }
 
@@ -173,7 +178,8 @@ pub enum LocalLawError {
     },
 }
 
-/// Local deflection of one slice, `δ(F) = F (α − β ln F)` with both ends continued (module documentation).
+/// Local deflection of one slice, `δ(F) = F (α − β ln F)` with both ends continued (module documentation), and what an
+/// edge adds to it ([`EdgeContact`]).
 ///
 /// `δ` \[m\] closes the gap's way: positive under a positive force `F` \[N\], zero at zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -188,6 +194,8 @@ pub struct LocalLaw {
     floor_curvature: f64,
     slope_at_cap: f64,
     deflection_at_cap: f64,
+    /// What a tilted edge adds.
+    edge: Option<EdgeContact>,
 }
 
 impl LocalLaw {
@@ -202,6 +210,7 @@ impl LocalLaw {
             floor_curvature: 0.0,
             slope_at_cap: 0.0,
             deflection_at_cap: 0.0,
+            edge: None,
         }
     }
 
@@ -288,12 +297,32 @@ impl LocalLaw {
             floor_curvature: beta / floor_force_n,
             slope_at_cap,
             deflection_at_cap,
+            edge: None,
         })
+    }
+
+    /// The same law where an edge of one body presses on the other: `β F ln[(1 + u)/(e + u)]` is added, see
+    /// [`EdgeContact`]. The law without logarithm stays as it is.
+    pub fn with_edge(self, edge: Option<EdgeContact>) -> Self {
+        Self { edge, ..self }
     }
 
     /// Deflection `δ` \[m\] and slope `δ'` \[m/N\] at the force `force_n` ≥ 0 \[N\].
     #[inline]
     pub fn evaluate(&self, force_n: f64) -> (f64, f64) {
+        let (deflection, slope) = self.evaluate_smooth(force_n);
+        match &self.edge {
+            None => (deflection, slope),
+            Some(edge) => {
+                let (more, steeper) = edge.evaluate(force_n);
+                (deflection + self.beta * more, slope + self.beta * steeper)
+            }
+        }
+    }
+
+    /// Without the edge.
+    #[inline]
+    fn evaluate_smooth(&self, force_n: f64) -> (f64, f64) {
         if self.beta == 0.0 {
             (self.alpha * force_n, self.alpha)
         } else if force_n < self.floor_n {
@@ -345,6 +374,9 @@ impl LocalLaw {
         if force_n > self.cap_n {
             let beyond = force_n - self.cap_n;
             energy += beyond * (self.deflection_at_cap + 0.5 * self.slope_at_cap * beyond);
+        }
+        if let Some(edge) = &self.edge {
+            energy += self.beta * edge.complementary_energy(force_n);
         }
         energy
     }

@@ -1,9 +1,9 @@
 //! What the integration tests share: a steel, the element list, a distorted block.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use gearmesh_fe::{FeModel, HexElement, Material, StructuredMesh};
+use gearmesh_fe::{FeModel, HexElement, Material, QuadraticMesh, StructuredMesh, chord_middle};
 
-pub const ELEMENTS: [HexElement; 2] = [HexElement::Hex8, HexElement::Hex8Incompatible];
+pub const ELEMENTS: [HexElement; 3] = HexElement::ALL;
 
 pub fn steel() -> Material {
     Material::new(210e9, 0.3).unwrap()
@@ -25,8 +25,28 @@ pub fn distorted_cube(n: usize) -> StructuredMesh {
     mesh
 }
 
+/// A model of a mesh in the unit cube. With twenty nodes the edges inside are bent by up to 0.07 of their length, those
+/// on the boundary are straight.
 pub fn model(mesh: StructuredMesh, element: HexElement) -> FeModel {
+    if element.node_count() == 8 {
+        return FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap();
+    }
+    let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |numbers, [a, b]| {
+        let middle = chord_middle([a, b]);
+        let inside = middle.iter().all(|v| *v > 1e-9 && *v < 1.0 - 1e-9);
+        let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+        let bend = if inside { 0.04 * length } else { 0.0 };
+        let seed = 12.9898 * f64::from(numbers[0]) + 78.233 * f64::from(numbers[1]);
+        std::array::from_fn(|k| middle[k] + bend * (seed + 2.1 * k as f64).sin())
+    });
     FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap()
+}
+
+/// Indices of the nodes of a model whose coordinates satisfy a condition.
+pub fn nodes_where(model: &FeModel, condition: impl Fn([f64; 3]) -> bool) -> Vec<usize> {
+    (0..model.node_count())
+        .filter(|&n| condition(model.nodes()[n]))
+        .collect()
 }
 
 /// Rotation matrix about a unit-scaled axis by an angle (Rodrigues).

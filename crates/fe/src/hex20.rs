@@ -1,0 +1,231 @@
+//! The twenty-node serendipity hexahedron: reference coordinates, shape functions, gradients, stiffness.
+//!
+//! ```text
+//! corner      N_i = (1 + ξξ_i)(1 + ηη_i)(1 + ζζ_i)(ξξ_i + ηη_i + ζζ_i − 2)/8
+//! mid-edge    N_i = (1 − ξ²)(1 + ηη_i)(1 + ζζ_i)/4          where ξ_i = 0; the other two axes alike
+//! ```
+//!
+//! Node order (VTK quadratic hexahedron): corners as the eight-node hexahedron; 8-11 on the edges 0-1, 1-2, 2-3, 3-0;
+//! 12-15 above them; 16-19 on the upright edges 0-4, 1-5, 2-6, 3-7. Mid-edge nodes may lie off the chord: edges are
+//! then parabolas.
+//!
+//! Integration: 3×3×3 Gauss points. The integrand of the stiffness of a parallelepiped has degree 4 in each variable
+//! (N_i has degree 2), so the rule is exact there; with 2×2×2 points one element has six zero-energy modes too many.
+//!
+//! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, section 3.7 (serendipity) and 3.8 (quadrature).
+
+use crate::error::ElementError;
+use crate::isoparametric::{Jacobian, PointGradients};
+use crate::material::LameParameters;
+use crate::quadrature::WeightedPoint;
+use crate::stiffness_block::{BlockStiffness, add_point_stiffness};
+
+/// Natural coordinates of the twenty nodes.
+pub(crate) const NODES: [[f64; 3]; 20] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+    [0.0, -1.0, -1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, -1.0],
+    [-1.0, 0.0, -1.0],
+    [0.0, -1.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [-1.0, 0.0, 1.0],
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+];
+
+/// The corners at the ends of each edge; edge k carries node 8 + k.
+pub const EDGE_CORNERS: [[usize; 2]; 12] = [
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+/// Shape functions N_i(ξ, η, ζ).
+pub(crate) fn shape_functions(natural: [f64; 3]) -> [f64; 20] {
+    std::array::from_fn(|i| {
+        let product: f64 = (0..3).map(|k| factor(i, k, natural[k])).product();
+        match i {
+            0..8 => product * corner_sum(i, natural) / 8.0,
+            _ => product / 4.0,
+        }
+    })
+}
+
+/// Derivatives ∂N_i/∂(ξ, η, ζ), one row per node.
+pub(crate) fn natural_gradients(natural: [f64; 3]) -> [[f64; 3]; 20] {
+    std::array::from_fn(|i| {
+        let f: [f64; 3] = std::array::from_fn(|k| factor(i, k, natural[k]));
+        std::array::from_fn(|k| {
+            let others = f[(k + 1) % 3] * f[(k + 2) % 3];
+            match i {
+                // Product rule of (1 + ξξ_i)·(sum), both with the slope ξ_i.
+                0..8 => NODES[i][k] * others * (corner_sum(i, natural) + f[k]) / 8.0,
+                _ if NODES[i][k] == 0.0 => -2.0 * natural[k] * others / 4.0,
+                _ => NODES[i][k] * others / 4.0,
+            }
+        })
+    })
+}
+
+/// 1 + x x_i, or 1 − x² along the edge of a mid-edge node.
+fn factor(node: usize, axis: usize, x: f64) -> f64 {
+    let at = NODES[node][axis];
+    if at == 0.0 { 1.0 - x * x } else { 1.0 + x * at }
+}
+
+/// ξξ_i + ηη_i + ζζ_i − 2 of a corner.
+fn corner_sum(node: usize, natural: [f64; 3]) -> f64 {
+    (0..3).map(|k| natural[k] * NODES[node][k]).sum::<f64>() - 2.0
+}
+
+/// Jacobian at a natural point.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`].
+pub(crate) fn jacobian(
+    coordinates: &[[f64; 3]; 20],
+    natural: [f64; 3],
+) -> Result<Jacobian, ElementError> {
+    Jacobian::new(coordinates, &natural_gradients(natural), natural)
+}
+
+/// Gradients of the shape functions in physical coordinates at a natural point.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`].
+pub(crate) fn point_gradients(
+    coordinates: &[[f64; 3]; 20],
+    natural: [f64; 3],
+) -> Result<PointGradients<20>, ElementError> {
+    PointGradients::new(coordinates, &natural_gradients(natural), natural)
+}
+
+/// Stiffness by the given quadrature: K = Σ w |J| Bᵀ D B.
+pub(crate) fn stiffness(
+    coordinates: &[[f64; 3]; 20],
+    lame: LameParameters,
+    rule: &[WeightedPoint],
+) -> Result<Box<BlockStiffness<20>>, ElementError> {
+    let mut k = Box::new(BlockStiffness::zero());
+    for &(point, weight) in rule {
+        let at = point_gradients(coordinates, point)?;
+        add_point_stiffness(&mut k, &at.gradients, weight * at.determinant, lame);
+    }
+    Ok(k)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::quadrature::{GAUSS_2, GAUSS_3};
+
+    /// Corners moved, edges bent.
+    fn distorted() -> [[f64; 3]; 20] {
+        let mut x = NODES;
+        x[6] = [1.4, 1.2, 1.3];
+        x[1] = [0.9, -1.2, -0.8];
+        for (k, [a, b]) in EDGE_CORNERS.into_iter().enumerate() {
+            x[8 + k] = std::array::from_fn(|axis| {
+                0.5 * (x[a][axis] + x[b][axis]) + 0.1 * ((3 * k + axis) as f64).sin()
+            });
+        }
+        x
+    }
+
+    #[test]
+    fn mid_edge_nodes_lie_between_their_corners() {
+        for (k, [a, b]) in EDGE_CORNERS.into_iter().enumerate() {
+            let middle = std::array::from_fn(|axis| 0.5 * (NODES[a][axis] + NODES[b][axis]));
+            assert_eq!(NODES[8 + k], middle);
+        }
+    }
+
+    #[test]
+    fn shape_functions_are_nodal() {
+        for (i, node) in NODES.iter().enumerate() {
+            for (j, value) in shape_functions(*node).iter().enumerate() {
+                assert!((value - f64::from(u8::from(i == j))).abs() < 1e-15);
+            }
+        }
+    }
+
+    /// Every quadratic of the three coordinates, and ξ²η besides, is a sum of shape functions.
+    #[test]
+    fn quadratics_are_reproduced() {
+        let functions: [fn([f64; 3]) -> f64; 11] = [
+            |_| 1.0,
+            |x| x[0],
+            |x| x[1],
+            |x| x[2],
+            |x| x[0] * x[0],
+            |x| x[1] * x[1],
+            |x| x[2] * x[2],
+            |x| x[0] * x[1],
+            |x| x[1] * x[2],
+            |x| x[0] * x[2],
+            |x| x[0] * x[0] * x[1],
+        ];
+        let at = [0.3, -0.7, 0.1];
+        let n = shape_functions(at);
+        for f in functions {
+            let sum: f64 = (0..20).map(|i| n[i] * f(NODES[i])).sum();
+            assert!((sum - f(at)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn gradients_equal_central_differences() {
+        let at = [0.2, -0.4, 0.6];
+        let step = 1e-5;
+        for k in 0..3 {
+            let (mut plus, mut minus) = (at, at);
+            plus[k] += step;
+            minus[k] -= step;
+            let (np, nm) = (shape_functions(plus), shape_functions(minus));
+            for (i, gradient) in natural_gradients(at).iter().enumerate() {
+                // Third derivatives vanish along one axis: rounding only, about 1e-16/step.
+                assert!((gradient[k] - (np[i] - nm[i]) / (2.0 * step)).abs() < 1e-10);
+            }
+        }
+    }
+
+    fn zero_modes(rule: &[WeightedPoint]) -> usize {
+        let lame = crate::Material::new(210e9, 0.3).unwrap().lame();
+        let k = stiffness(&distorted(), lame, rule).unwrap();
+        let dense = faer::Mat::from_fn(60, 60, |i, j| k.entry(i, j));
+        let eigenvalues = dense.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
+        let largest = eigenvalues.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        eigenvalues
+            .iter()
+            .filter(|v| v.abs() < 1e-10 * largest)
+            .count()
+    }
+
+    /// 2×2×2 points give 48 strains for 60 − 6 deformations: six modes too many. The full rule has none.
+    #[test]
+    fn reduced_quadrature_has_six_modes_too_many() {
+        assert_eq!(zero_modes(&GAUSS_2), 12);
+        assert_eq!(zero_modes(&GAUSS_3), 6);
+    }
+}

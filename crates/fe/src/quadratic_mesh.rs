@@ -1,0 +1,112 @@
+//! Twenty-node hexahedra from eight-node ones: one node more on every edge.
+
+use std::collections::HashMap;
+
+use crate::hex20::EDGE_CORNERS;
+
+/// A mesh of twenty-node hexahedra in VTK node order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuadraticMesh {
+    /// Node coordinates (m): the corners with their old numbers, then the mid-edge nodes.
+    pub nodes: Vec<[f64; 3]>,
+    /// Node indices of the hexahedra.
+    pub hexes: Vec<[u32; 20]>,
+}
+
+impl QuadraticMesh {
+    /// Adds a node on every edge of a mesh of eight-node hexahedra.
+    ///
+    /// `place(a, b)` gives the position (m) of the node between two corners, given with their node numbers: the middle
+    /// of the chord where an edge is straight, a point of the curve near its middle where the body is curved. It is
+    /// asked once per edge, the smaller node number first.
+    ///
+    /// # Panics
+    /// If an element names a node that does not exist, or the nodes pass 2³².
+    pub fn new(
+        mut nodes: Vec<[f64; 3]>,
+        hexes: &[[u32; 8]],
+        mut place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+    ) -> Self {
+        let mut on_edge: HashMap<[u32; 2], u32> = HashMap::new();
+        let hexes = hexes
+            .iter()
+            .map(|corners| {
+                let mut hex = [0; 20];
+                hex[..8].copy_from_slice(corners);
+                for (node, [a, b]) in hex[8..].iter_mut().zip(EDGE_CORNERS) {
+                    let mut edge = [corners[a], corners[b]];
+                    edge.sort_unstable();
+                    *node = *on_edge.entry(edge).or_insert_with(|| {
+                        nodes.push(place(edge, edge.map(|n| nodes[n as usize])));
+                        (nodes.len() - 1) as u32
+                    });
+                }
+                hex
+            })
+            .collect();
+        assert!(
+            u32::try_from(nodes.len()).is_ok(),
+            "node numbers of 32 bits"
+        );
+        Self { nodes, hexes }
+    }
+
+    /// Indices of the nodes whose coordinates satisfy a condition.
+    pub fn nodes_where(&self, condition: impl Fn([f64; 3]) -> bool) -> Vec<usize> {
+        (0..self.nodes.len())
+            .filter(|&n| condition(self.nodes[n]))
+            .collect()
+    }
+}
+
+/// Middle of a chord.
+pub fn chord_middle([a, b]: [[f64; 3]; 2]) -> [f64; 3] {
+    std::array::from_fn(|k| 0.5 * (a[k] + b[k]))
+}
+
+/// The point midway between two points of a body of revolution about z, at their mean angle, mean radius and mean
+/// height: on the circle where both lie on one. Neither may lie on the axis, nor both opposite each other.
+pub fn arc_middle([a, b]: [[f64; 3]; 2]) -> [f64; 3] {
+    let radii = [a, b].map(|p| p[0].hypot(p[1]));
+    let direction = |k: usize| a[k] / radii[0] + b[k] / radii[1];
+    let scale = 0.5 * (radii[0] + radii[1]) / direction(0).hypot(direction(1));
+    [
+        scale * direction(0),
+        scale * direction(1),
+        0.5 * (a[2] + b[2]),
+    ]
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::{FeModel, HexElement, Material, StructuredMesh};
+
+    /// Euler's count for a block: edges of an n³ grid are 3 n (n + 1)².
+    #[test]
+    fn every_edge_gets_one_node() {
+        let n = 3;
+        let block = StructuredMesh::block([n; 3], [1.0; 3]);
+        let corners = block.nodes.len();
+        let mesh = QuadraticMesh::new(block.nodes, &block.hexes, |_, ends| chord_middle(ends));
+        assert_eq!(mesh.nodes.len() - corners, 3 * n * (n + 1) * (n + 1));
+        let steel = Material::new(210e9, 0.3).unwrap();
+        let model = FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20).unwrap();
+        assert!((model.volume().unwrap() - 1.0).abs() < 1e-14);
+    }
+
+    /// The volume of a ring with parabolas for arcs converges with the fourth power of the element's angle.
+    #[test]
+    fn a_ring_is_round_to_fourth_order() {
+        let error = |around: usize| {
+            let ring = StructuredMesh::ring([around, 1, 1], [1.0, 2.0], 1.0);
+            let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
+            let steel = Material::new(210e9, 0.3).unwrap();
+            let model = FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20).unwrap();
+            (model.volume().unwrap() / (3.0 * std::f64::consts::PI) - 1.0).abs()
+        };
+        let order = (error(8) / error(16)).log2();
+        assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+}

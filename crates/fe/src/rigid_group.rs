@@ -1,0 +1,32 @@
+//! Nodes that move as one rigid body with the six degrees of freedom of a reference point.
+//!
+//! ```text
+//! u_n = t + θ × (x_n − x_R)          t: displacement of the reference point (m), θ: its rotation (rad), small
+//! ```
+//!
+//! Written for all degrees of freedom this is u = T q. Forces follow by the transpose, Tᵀ f: the force on a rigid node
+//! goes to the reference point with its moment (x_n − x_R) × f.
+
+/// A set of nodes tied rigidly to a reference point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidGroup {
+    /// The nodes. Three that are not on one line let the group hold a body against rotation.
+    pub nodes: Vec<usize>,
+    /// Place of the reference point (m); it need not be a node.
+    pub reference_m: [f64; 3],
+    /// Which of the six degrees of freedom of the reference point are fixed: x, y, z, then rotation about x, y, z.
+    pub fixed: [bool; 6],
+}
+
+/// The part of u_n along `axis` that each of the six degrees of freedom contributes: a row of T.
+///
+/// `arm`: x_n − x_R (m).
+pub(crate) fn row(arm: [f64; 3], axis: usize) -> [f64; 6] {
+    let [x, y, z] = arm;
+    // Columns e_b × r for b = x, y, z.
+    let rotations = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+    std::array::from_fn(|q| match q {
+        0..3 => f64::from(u8::from(q == axis)),
+        _ => rotations[q - 3][axis],
+    })
+}
