@@ -220,7 +220,7 @@ impl GearPair {
 
     /// Overlap ratio ε_β = b tan β_b/p_bt = b sin β/(π m_n) of teeth that touch over the width b.
     pub fn overlap_ratio(&self, face_width_m: f64) -> f64 {
-        face_width_m * self.gear_1.twist_rad_per_m().abs() / self.pitch_1_rad()
+        self.gear_1.overlap_ratio(face_width_m)
     }
 
     /// Total contact ratio ε_γ = ε_α + ε_β.

@@ -229,6 +229,11 @@ impl ToothGeometry {
         (self.base_radius_m * self.twist_rad_per_m()).atan()
     }
 
+    /// Overlap ratio ε_β = b tan β_b/p_bt = b sin β/(π m_n) over a width b: pitches that a tooth twists through.
+    pub fn overlap_ratio(&self, face_width_m: f64) -> f64 {
+        face_width_m * self.twist_rad_per_m().abs() * self.teeth as f64 / std::f64::consts::TAU
+    }
+
     /// Number of teeth of the spur gear that a helical tooth resembles in its normal section:
     /// z_n = z/(cos²β_b cos β).
     pub fn virtual_teeth(&self) -> f64 {

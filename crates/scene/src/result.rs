@@ -96,6 +96,18 @@ impl SceneResult {
         &values[torque * self.angles()..(torque + 1) * self.angles()]
     }
 
+    /// Whether the gears push each other along the axis: helical teeth.
+    pub fn has_axial_force(&self) -> bool {
+        self.axial_force_1_n.iter().any(|force| *force != 0.0)
+    }
+
+    /// Sum of all slice forces at each position of a torque \[N\], `[A]`.
+    pub fn normal_force_n(&self, torque: usize) -> Vec<f64> {
+        (0..self.angles())
+            .map(|angle| self.position_forces(torque, angle).iter().sum())
+            .collect()
+    }
+
     /// Slice forces of all lines at one position \[N\], `[L][S]`.
     pub fn position_forces(&self, torque: usize, angle: usize) -> &[f64] {
         let size = self.slots * self.slices;
