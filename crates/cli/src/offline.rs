@@ -111,12 +111,9 @@ pub fn field_of(
     case: FieldCase,
 ) -> Result<Field, Failure> {
     let model = &loaded.models[case.gear - 1];
-    let mut lines = Vec::new();
-    loaded.lines.at(result.angle_rad[case.angle], &mut lines);
-    let loads = lines.iter().enumerate().map(|(slot, line)| {
-        let forces = result.forces(case.torque, case.angle, slot);
-        loaded.loaded_line(case.gear, line, forces)
-    });
+    let slices = loaded.slices_at(result.angle_rad[case.angle]);
+    let forces = result.position_forces(case.torque, case.angle);
+    let loads = loaded.loaded_slices(case.gear, &slices, forces);
     let forces: Vec<GridForce> = grid_forces(&model.grid, loads)
         .into_iter()
         .map(|f| GridForce {

@@ -1,5 +1,10 @@
 //! The commands on scenes, with two small gears: what they print, what they write, and identities of the figures.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    missing_docs
+)]
 
 mod common;
 

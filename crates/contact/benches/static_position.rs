@@ -86,12 +86,13 @@ fn static_position(bencher: divan::Bencher, torque_nm: f64) {
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
         extension: None,
+        face_width_m: gear_1.tooth.face_width_m,
     };
     let options = ContactOptions {
         local: LocalContact::WeberBanaschek,
         friction: None,
     };
-    let mut contact = StaticContact::new(lines, &model_1, &model_2, Flank::Right, options).unwrap();
+    let mut contact = StaticContact::new(lines, &model_1, &model_2, options).unwrap();
     let step = std::f64::consts::TAU / 57.0 / 400.0;
     let mut position = 0;
     bencher.bench_local(|| {

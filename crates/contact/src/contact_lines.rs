@@ -21,10 +21,11 @@ impl Friction {
     }
 }
 
-/// One line of contact: a tooth pair at a driver angle.
+/// One line of contact: a tooth pair at a driver angle. Of helical teeth it slants over the flank and its numbers are those
+/// of the section at mid-face; see [`ContactLines::section`] for others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLine {
-    /// Pair number p: gear 1 tooth p with gear 2 tooth −p.
+    /// Pair number p, see [`GearPair::teeth_of`].
     pub pair: i64,
     /// Tooth of gear 1.
     pub tooth_1: usize,
@@ -71,8 +72,10 @@ pub struct ContactLines {
     pub microgeometry_1: Microgeometry,
     /// Microgeometry of gear 2.
     pub microgeometry_2: Microgeometry,
-    /// Contact beyond the ends of the path; without it pairs touch on the rigid path only.
+    /// Contact beyond the ends of the path; without it pairs touch on the rigid path only. Spur teeth only.
     pub extension: Option<PathExtension>,
+    /// Width over which the teeth face each other \[m\]: how far a helical contact line reaches.
+    pub face_width_m: f64,
 }
 
 impl ContactLines {
@@ -83,19 +86,20 @@ impl ContactLines {
         let (start, end) = self.range_1_rad();
         let pitch = self.pair.pitch_1_rad();
         let at_zero = self.pair.roll_1_rad(driver_angle_rad, 0);
+        // A pair counts as long as any of its sections is within the range.
         let first = ((at_zero - end) / pitch).ceil() as i64;
         let last = ((at_zero - start) / pitch).floor() as i64;
         lines.extend((first..=last).map(|pair| self.line(driver_angle_rad, pair)));
     }
 
     fn line(&self, driver_angle_rad: f64, pair: i64) -> ContactLine {
-        let wrap = |tooth: i64, teeth: usize| tooth.rem_euclid(teeth as i64) as usize;
+        let [tooth_1, tooth_2] = self.pair.teeth_of(pair);
         let roll_1_rad = self.pair.roll_1_rad(driver_angle_rad, pair);
         let roll_2_rad = self.pair.roll_2_rad(roll_1_rad);
         let line = ContactLine {
             pair,
-            tooth_1: wrap(pair, self.pair.gear_1.teeth),
-            tooth_2: wrap(-pair, self.pair.gear_2.teeth),
+            tooth_1,
+            tooth_2,
             roll_1_rad,
             roll_2_rad,
             path_m: self.pair.path_from_pitch_point_m(roll_1_rad),
@@ -125,12 +129,14 @@ impl ContactLines {
         }
     }
 
-    /// Roll angles on gear 1 between which pairs are looked for.
+    /// Roll angles on gear 1 at mid-face between which pairs are looked for.
     fn range_1_rad(&self) -> (f64, f64) {
-        self.extension.map_or(
+        let (start, end) = self.extension.map_or(
             (self.pair.roll_start_1_rad, self.pair.roll_end_1_rad),
             |e| (e.start_1_rad, e.end_1_rad),
-        )
+        );
+        let slant = 0.5 * self.face_width_m * self.pair.roll_slope_1_rad_per_m().abs();
+        (start - slant, end + slant)
     }
 
     /// Largest number of lines at once.
@@ -139,15 +145,18 @@ impl ContactLines {
         ((end - start) / self.pair.pitch_1_rad()).floor() as usize + 1
     }
 
-    /// Unloaded separation \[m\] of a slice at zero transmission error, open positive: the gap of a tip edge, material
-    /// removed from both flanks and misalignment. What is removed from a tip edge along its own normal opens the gap by
+    /// Unloaded separation \[m\] along the normal of a slice at zero transmission error, open positive: the gap of a tip
+    /// edge, material removed from both flanks and misalignment. `line` is the line in the slice's section. What is removed from a tip edge along its own normal opens the gap by
     /// its component cos δ.
     pub fn separation_m(&self, line: &ContactLine, z_m: f64) -> f64 {
         let removed_1 = self.microgeometry_1.removed_m(line.roll_1_rad, z_m);
         let removed_2 = self.microgeometry_2.removed_m(line.roll_2_rad, z_m);
         let tilted_axes = self.pair.misalignment;
         let (gap, misalignment) = match line.tip {
-            None => (0.0, self.pair.misalignment_gap_m(z_m)),
+            None => (
+                0.0,
+                self.helix_cos() * self.pair.misalignment_gap_m(z_m, line.path_m),
+            ),
             Some(tip) => {
                 let (sin, cos) = tip.force_angle_rad.sin_cos();
                 let slope = tilted_axes.inclination_rad * sin + tilted_axes.deviation_rad * cos;
@@ -157,27 +166,33 @@ impl ContactLines {
         gap + line.tilt_rad(0).cos() * removed_1 + line.tilt_rad(1).cos() * removed_2 + misalignment
     }
 
-    /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: 1, but for gear 2's
-    /// tip edge, whose lever arm over r_b2 it is.
+    /// cos β_b: turns lengths along the normal into lengths in the transverse plane.
+    fn helix_cos(&self) -> f64 {
+        self.pair.base_helix_angle_rad().cos()
+    }
+
+    /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: cos β_b, but for gear
+    /// 2's tip edge, whose lever arm over r_b2 it is.
     pub fn closing(&self, line: &ContactLine) -> f64 {
         match line.tip {
             Some(tip) if tip.tip_gear == TipGear::Two => {
                 tip.tip_arm_m / self.pair.gear_2.base_radius_m
             }
-            _ => 1.0,
+            _ => self.helix_cos(),
         }
     }
 
-    /// Torque about the axes of gear 1 and gear 2 per newton of normal force \[m\]: b = r_b + ratio ρ, or the lever arms of
-    /// a tip edge in their place. `friction_ratio` as [`Friction::ratio`].
+    /// Torque about the axes of gear 1 and gear 2 per newton of normal force \[m\]: b = r_b (cos β_b + ratio ξ), or the lever
+    /// arms of a tip edge in their place: friction acts along the profile, in the transverse plane. `friction_ratio` as [`Friction::ratio`].
     pub fn lever_arms_m(&self, line: &ContactLine, friction_ratio: f64) -> [f64; 2] {
+        let cos = self.helix_cos();
         let bases = [
             self.pair.gear_1.base_radius_m,
             self.pair.gear_2.base_radius_m,
         ];
         let mut arms = [
-            bases[0] * (1.0 + friction_ratio * line.roll_1_rad),
-            bases[1] * (1.0 + friction_ratio * line.roll_2_rad),
+            bases[0] * (cos + friction_ratio * line.roll_1_rad),
+            bases[1] * (cos + friction_ratio * line.roll_2_rad),
         ];
         if let Some(tip) = line.tip {
             arms[tip.tip_gear.indices().0] =
@@ -186,11 +201,18 @@ impl ContactLines {
         arms
     }
 
-    /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂) of the flanks \[m\]; a tip edge counts with its flank's end.
+    /// Force along +z on gear 1 per newton of normal force, ∓sin β_b: − where a right-hand gear 1 is loaded on right
+    /// flanks. Gear 2 feels the opposite.
+    pub fn axial_share_1(&self) -> f64 {
+        -self.pair.flank.mirror() * self.pair.base_helix_angle_rad().sin()
+    }
+
+    /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂)/cos β_b of the flanks \[m\], in the plane normal to the contact line; a
+    /// tip edge counts with its flank's end.
     pub fn relative_radius_m(&self, line: &ContactLine) -> f64 {
         let a = self.pair.gear_1.base_radius_m * line.roll_1_rad;
         let b = self.pair.gear_2.base_radius_m * line.roll_2_rad;
-        a * b / (a + b)
+        a * b / ((a + b) * self.helix_cos())
     }
 
     /// Tilt \[rad\] and relative radius \[m\] of the rounded edge against the flank; none on the path.

@@ -6,6 +6,7 @@
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
+//! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
@@ -16,6 +17,7 @@
 //! The theory is in docs/theory/contact.md.
 
 pub mod contact_lines;
+pub mod contact_slices;
 pub mod flank_deflection;
 pub mod local_contact;
 pub mod mesh_stiffness;
@@ -26,6 +28,7 @@ pub mod static_contact;
 pub mod tip_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};
+pub use contact_slices::ContactSlice;
 pub use local_contact::LocalContact;
 pub use slice_compliance::SliceCompliance;
 pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};

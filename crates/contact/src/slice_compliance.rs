@@ -44,6 +44,17 @@ pub struct RollPlace {
     pub share: f64,
 }
 
+/// A slice on a tooth and the place of its contact along the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedSlice {
+    /// Tooth.
+    pub tooth: usize,
+    /// Slice.
+    pub slice: usize,
+    /// Place between the roll stations.
+    pub place: RollPlace,
+}
+
 /// Which part of the compliance is taken from the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompliancePart {
@@ -240,10 +251,7 @@ impl SliceCompliance {
             }
         }
         if tooth_a == tooth_b && !self.spread.is_empty() {
-            let at = 2.0 * (place_a.station as f64 + place_a.share.clamp(0.0, 1.0));
-            let low = (at as usize).min(self.spread.len() - 2);
-            let share = at - low as f64;
-            let term = (1.0 - share) * self.spread[low] + share * self.spread[low + 1];
+            let term = self.spread_at(place_a);
             for i in 1..n {
                 for (row, column, sign) in [
                     (i, i, -1.0),
@@ -255,6 +263,52 @@ impl SliceCompliance {
                 }
             }
         }
+    }
+
+    /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\]; zero where there is none.
+    fn spread_at(&self, place: RollPlace) -> f64 {
+        if self.spread.is_empty() {
+            return 0.0;
+        }
+        let at = 2.0 * (place.station as f64 + place.share.clamp(0.0, 1.0));
+        let low = (at as usize).min(self.spread.len() - 2);
+        let share = at - low as f64;
+        (1.0 - share) * self.spread[low] + share * self.spread[low + 1]
+    }
+
+    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours,
+    /// and a neighbour gets the mean of the two slices' terms. With all slices at one place that of [`Self::add_block`].
+    fn spread_between(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+        if a.tooth != b.tooth {
+            return 0.0;
+        }
+        match a.slice.abs_diff(b.slice) {
+            0 => {
+                let neighbours = [a.slice > 0, a.slice + 1 < self.slices];
+                let count = neighbours.into_iter().filter(|exists| *exists).count();
+                -(count as f64) * self.spread_at(a.place)
+            }
+            1 => 0.5 * (self.spread_at(a.place) + self.spread_at(b.place)),
+            _ => 0.0,
+        }
+    }
+
+    /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
+    /// calibrated correction's part between neighbours is included.
+    pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+        let size = self.stations * self.slices;
+        let tooth = a.tooth % self.teeth_per_sector;
+        let response = (b.tooth + self.teeth - (a.tooth - tooth)) % self.teeth;
+        let block = tooth * self.teeth + response;
+        let table = &self.blocks[block * size * size..(block + 1) * size * size];
+        let row = |station: usize| &table[(station * self.slices + a.slice) * size..][..size];
+        let column = b.place.station * self.slices + b.slice;
+        let response_of = |row: &[f64]| {
+            (1.0 - b.place.share) * row[column] + b.place.share * row[column + self.slices]
+        };
+        (1.0 - a.place.share) * response_of(row(a.place.station))
+            + a.place.share * response_of(row(a.place.station + 1))
+            + self.spread_between(a, b)
     }
 }
 

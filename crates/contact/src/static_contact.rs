@@ -4,14 +4,19 @@
 //! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn it).
 //! Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without friction)
 //! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
+//!
+//! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms are
+//! b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
 
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
+use crate::contact_slices::ContactSlice;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{
     ContactBody, EdgeContact, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError,
     NlcpError, Params, Problem, Workspace, solve_load, solve_position,
 };
-use crate::slice_compliance::SliceCompliance;
+use crate::slice_compliance::{PlacedSlice, SliceCompliance};
+use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 
 /// What a contact computation includes.
@@ -53,6 +58,11 @@ pub enum ContactError {
         /// Teeth of the pair.
         needed: usize,
     },
+    /// Tip edges of helical teeth are not modelled.
+    #[error(
+        "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
+    )]
+    HelicalExtension,
     /// No local law.
     #[error("at driver angle {angle_deg:.4} deg: {cause}")]
     LocalLaw {
@@ -91,6 +101,8 @@ pub struct ContactState {
     pub torque_2_nm: f64,
     /// Torque on gear 1 \[N·m\]; differs from T₂ r_b1/r_b2 by friction.
     pub torque_1_nm: f64,
+    /// Axial force on gear 1 \[N\], positive along +z; gear 2 feels the opposite. Zero for spur teeth.
+    pub axial_force_1_n: f64,
     /// −dT₂/dTE \[N\]: tangent.
     pub torque_rate_n: f64,
     /// Solver effort and flags.
@@ -106,6 +118,9 @@ pub struct StaticContact {
     options: ContactOptions,
     params: Params,
     active: Vec<ContactLine>,
+    touching: Vec<ContactSlice>,
+    placed: Vec<[PlacedSlice; 2]>,
+    forces: Vec<f64>,
     c: Vec<f64>,
     local: Vec<LocalLaw>,
     separation: Vec<f64>,
@@ -116,7 +131,7 @@ pub struct StaticContact {
 }
 
 impl StaticContact {
-    /// Prepares the contact of two gears on flanks of the given hand.
+    /// Prepares the contact of two gears on the flanks that the pair names.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the pair or each other.
@@ -124,9 +139,15 @@ impl StaticContact {
         lines: ContactLines,
         gear_1: &ReducedGear,
         gear_2: &ReducedGear,
-        flank: Flank,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
+        if lines.pair.is_helical() && lines.extension.is_some() {
+            return Err(ContactError::HelicalExtension);
+        }
+        let flank = match lines.pair.flank {
+            FlankSide::Right => Flank::Right,
+            FlankSide::Left => Flank::Left,
+        };
         for (gear, model, needed) in [
             (1, gear_1, lines.pair.gear_1.teeth),
             (2, gear_2, lines.pair.gear_2.teeth),
@@ -158,6 +179,9 @@ impl StaticContact {
             options,
             params: Params::default(),
             active: Vec::with_capacity(capacity),
+            touching: Vec::with_capacity(capacity),
+            placed: Vec::with_capacity(capacity),
+            forces: Vec::with_capacity(capacity),
             c: vec![0.0; capacity * capacity],
             local: Vec::with_capacity(capacity),
             separation: Vec::with_capacity(capacity),
@@ -183,9 +207,19 @@ impl StaticContact {
         &self.active
     }
 
-    /// Slice forces of the last position \[N\], `[line][slice]`.
+    /// Slices that touch or may touch at the last position.
+    pub fn active_slices(&self) -> &[ContactSlice] {
+        &self.touching
+    }
+
+    /// Normal forces of the last position \[N\], `[line][slice]`, zero for slices that are off the path.
     pub fn forces_n(&self) -> &[f64] {
-        self.work.forces()
+        &self.forces
+    }
+
+    /// Normal force of an active slice \[N\].
+    pub fn force_n(&self, slice: &ContactSlice) -> f64 {
+        self.forces[slice.line * self.slices() + slice.slice]
     }
 
     /// Forgets the last solution: the next position starts cold.
@@ -193,15 +227,17 @@ impl StaticContact {
         self.work.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact under a line load q \[N/m\]; at a tip edge those
-    /// of the Hertz contact that gives way as the edge does.
-    pub fn hertz(&self, line: &ContactLine, line_load_n_per_m: f64) -> (f64, f64) {
-        let contact = self.line_contact(line);
-        let force = line_load_n_per_m * contact.width_m;
-        let edge = self.edge(line, &contact);
-        let a = contact.half_width_m(force) * edge.map_or(1.0, |e| e.half_width_share(force));
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of a slice under a normal force; q is the
+    /// force over the slice's length along the contact line. At a tip edge those of the Hertz contact that gives way as the
+    /// edge does.
+    pub fn hertz(&self, slice: &ContactSlice, force_n: f64) -> (f64, f64) {
+        let contact = self.line_contact(slice);
+        let edge = self.edge(&slice.section, &contact);
+        let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
+        let a = contact.half_width_m(force_n) * share;
         if a > 0.0 {
-            (a, 2.0 * line_load_n_per_m / (std::f64::consts::PI * a))
+            let line_load = force_n / contact.width_m;
+            (a, 2.0 * line_load / (std::f64::consts::PI * a))
         } else {
             (0.0, 0.0)
         }
@@ -212,7 +248,9 @@ impl StaticContact {
         EdgeContact::new(contact, tilt_rad, radius_m)
     }
 
-    fn line_contact(&self, line: &ContactLine) -> LineContact {
+    fn line_contact(&self, slice: &ContactSlice) -> LineContact {
+        let line = &slice.section;
+        let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
         let body = |compliance: &SliceCompliance, roll: f64| {
             let (youngs_modulus_pa, poisson_ratio) = compliance.material();
             ContactBody {
@@ -222,7 +260,7 @@ impl StaticContact {
             }
         };
         LineContact {
-            width_m: self.slice_width_m(),
+            width_m: slice.share * self.slice_width_m() / helix_cos,
             relative_radius_m: self.lines.relative_radius_m(line),
             bodies: [
                 body(&self.compliance_1, line.roll_1_rad),
@@ -242,6 +280,102 @@ impl StaticContact {
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
         self.lines.at(driver_angle_rad, &mut self.active);
+        let (centres, width) = (
+            self.compliance_1.slice_centres_m(),
+            self.compliance_1.slice_width_m(),
+        );
+        self.touching.clear();
+        for line in self.active.iter().enumerate() {
+            self.lines
+                .push_slices(line, centres, width, &mut self.touching);
+        }
+        let n = self.touching.len();
+        if self.lines.pair.is_helical() {
+            self.fill_compliance_by_slices();
+        } else {
+            self.fill_compliance_by_lines();
+        }
+
+        let base_2 = self.lines.pair.gear_2.base_radius_m;
+        let scale_force = match drive {
+            Drive::Torque(torque) => torque.abs() / (base_2 * n as f64),
+            Drive::TransmissionError(_) => 0.0,
+        };
+        let floor = FLOOR_FRACTION * scale_force.max(1.0);
+        self.local.clear();
+        self.separation.clear();
+        self.closing.clear();
+        self.lever_1.clear();
+        self.lever_2.clear();
+        let mut last: Option<(usize, LocalLaw)> = None;
+        for slice in &self.touching {
+            let line = &slice.section;
+            let law = match last {
+                // The slices of a spur line are all alike.
+                Some((number, law)) if number == slice.line && !self.lines.pair.is_helical() => law,
+                _ => {
+                    let contact = self.line_contact(slice);
+                    (self.options.local)
+                        .law(&contact, floor)
+                        .map_err(|cause| ContactError::LocalLaw {
+                            angle_deg: driver_angle_rad.to_degrees(),
+                            cause,
+                        })?
+                        .with_edge(self.edge(line, &contact))
+                }
+            };
+            last = Some((slice.line, law));
+            let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
+            let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
+            self.local.push(law);
+            self.separation
+                .push(self.lines.separation_m(line, slice.z_m));
+            self.closing.push(self.lines.closing(line));
+            self.lever_1.push(lever_1);
+            self.lever_2.push(lever_2);
+        }
+        let nlcp = |cause| ContactError::Nlcp {
+            angle_deg: driver_angle_rad.to_degrees(),
+            cause,
+        };
+        let problem = Problem::new(
+            &self.c[..n * n],
+            &self.local,
+            &self.separation,
+            &self.closing,
+            &self.lever_2,
+        )
+        .map_err(nlcp)?;
+        let unloaded_m = -problem.first_contact();
+        let info = match drive {
+            Drive::Torque(torque) => solve_load(&problem, torque, &self.params, &mut self.work),
+            Drive::TransmissionError(te) => {
+                solve_position(&problem, -te, &self.params, &mut self.work)
+            }
+        }
+        .map_err(nlcp)?;
+        let forces = self.work.forces();
+        let torque_1_nm = forces.iter().zip(&self.lever_1).map(|(f, b)| f * b).sum();
+        let axial_force_1_n = self.lines.axial_share_1() * forces.iter().sum::<f64>();
+        let slices = self.compliance_1.slices();
+        self.forces.clear();
+        self.forces.resize(self.active.len() * slices, 0.0);
+        for (slice, force) in self.touching.iter().zip(forces) {
+            self.forces[slice.line * slices + slice.slice] = *force;
+        }
+        Ok(ContactState {
+            transmission_error_m: -info.approach_m,
+            unloaded_m,
+            torque_2_nm: info.load,
+            torque_1_nm,
+            axial_force_1_n,
+            torque_rate_n: info.stiffness,
+            info,
+        })
+    }
+
+    /// C of slices that share the place of their line, block by block.
+    fn fill_compliance_by_lines(&mut self) {
         let slices = self.slices();
         let n = self.active.len() * slices;
         let c = &mut self.c[..n * n];
@@ -276,73 +410,33 @@ impl StaticContact {
             }
         }
         symmetrise(c, n);
+    }
 
-        let base_2 = self.lines.pair.gear_2.base_radius_m;
-        let scale_force = match drive {
-            Drive::Torque(torque) => torque.abs() / (base_2 * n as f64),
-            Drive::TransmissionError(_) => 0.0,
-        };
-        let floor = FLOOR_FRACTION * scale_force.max(1.0);
-        self.local.clear();
-        self.separation.clear();
-        self.closing.clear();
-        self.lever_1.clear();
-        self.lever_2.clear();
-        for line in &self.active {
-            let contact = self.line_contact(line);
-            let law = (self.options.local)
-                .law(&contact, floor)
-                .map_err(|cause| ContactError::LocalLaw {
-                    angle_deg: driver_angle_rad.to_degrees(),
-                    cause,
-                })?
-                .with_edge(self.edge(line, &contact));
-            let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
-            let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
-            let closing = self.lines.closing(line);
-            for &z in self.compliance_1.slice_centres_m() {
-                self.local.push(law);
-                self.separation.push(self.lines.separation_m(line, z));
-                self.closing.push(closing);
-                self.lever_1.push(lever_1);
-                self.lever_2.push(lever_2);
+    /// C of slices that each have their own place, entry by entry.
+    fn fill_compliance_by_slices(&mut self) {
+        let n = self.touching.len();
+        let gears = [&self.compliance_1, &self.compliance_2];
+        self.placed.clear();
+        self.placed.extend(self.touching.iter().map(|s| {
+            let line = &s.section;
+            let placed = |gear: usize, tooth: usize, roll: f64| PlacedSlice {
+                tooth,
+                slice: s.slice,
+                place: gears[gear].place(roll),
+            };
+            [
+                placed(0, line.tooth_1, line.roll_1_rad),
+                placed(1, line.tooth_2, line.roll_2_rad),
+            ]
+        }));
+        let c = &mut self.c[..n * n];
+        for (i, a) in self.placed.iter().enumerate() {
+            for (j, b) in self.placed.iter().enumerate() {
+                c[i * n + j] =
+                    gears[0].between_slices(a[0], b[0]) + gears[1].between_slices(a[1], b[1]);
             }
         }
-        let nlcp = |cause| ContactError::Nlcp {
-            angle_deg: driver_angle_rad.to_degrees(),
-            cause,
-        };
-        let problem = Problem::new(
-            &self.c[..n * n],
-            &self.local,
-            &self.separation,
-            &self.closing,
-            &self.lever_2,
-        )
-        .map_err(nlcp)?;
-        let unloaded_m = -problem.first_contact();
-        let info = match drive {
-            Drive::Torque(torque) => solve_load(&problem, torque, &self.params, &mut self.work),
-            Drive::TransmissionError(te) => {
-                solve_position(&problem, -te, &self.params, &mut self.work)
-            }
-        }
-        .map_err(nlcp)?;
-        let torque_1_nm = self
-            .work
-            .forces()
-            .iter()
-            .zip(&self.lever_1)
-            .map(|(f, b)| f * b)
-            .sum();
-        Ok(ContactState {
-            transmission_error_m: -info.approach_m,
-            unloaded_m,
-            torque_2_nm: info.load,
-            torque_1_nm,
-            torque_rate_n: info.stiffness,
-            info,
-        })
+        symmetrise(c, n);
     }
 }
 

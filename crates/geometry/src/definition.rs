@@ -41,14 +41,14 @@ impl FlankSide {
     }
 }
 
-/// Involute spur teeth cut by a rack. Lengths in metres, coefficients in multiples of the module.
+/// External involute teeth, spur or helical, cut by a rack. Lengths in metres, coefficients in multiples of the module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothDefinition {
     /// Number of teeth.
     pub teeth: usize,
-    /// Module \[m\].
+    /// Module \[m\], of helical teeth in the normal section.
     pub module_m: f64,
-    /// Pressure angle of the rack \[rad\].
+    /// Pressure angle of the rack \[rad\], of helical teeth in the normal section.
     pub pressure_angle_rad: f64,
     /// Profile shift coefficient x.
     pub profile_shift: f64,
@@ -66,6 +66,9 @@ pub struct ToothDefinition {
     pub tip_chamfer_m: f64,
     /// Face width \[m\].
     pub face_width_m: f64,
+    /// Helix angle β on the reference cylinder \[rad\]: positive for a right hand, the section at z is then turned
+    /// counter-clockwise by z tan β/r; zero for spur teeth.
+    pub helix_angle_rad: f64,
 }
 
 /// The body below the teeth. Held at the bore.

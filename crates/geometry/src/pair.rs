@@ -1,5 +1,6 @@
 //! Two gears at a centre distance: working pressure angle, path of contact, backlash, sliding, interference.
 
+use crate::definition::FlankSide;
 use crate::involute;
 use crate::tooth::ToothGeometry;
 use std::f64::consts::TAU;
@@ -9,13 +10,27 @@ use std::f64::consts::TAU;
 pub enum PairError {
     /// Different base pitches.
     #[error(
-        "the base pitches differ: {base_pitch_1_mm:.5} and {base_pitch_2_mm:.5} mm; module and pressure angle of both gears must agree"
+        "the transverse base pitches differ: {base_pitch_1_mm:.5} and {base_pitch_2_mm:.5} mm; module, pressure angle and helix angle of both gears must agree"
     )]
     BasePitch {
         /// Base pitch of gear 1.
         base_pitch_1_mm: f64,
         /// Base pitch of gear 2.
         base_pitch_2_mm: f64,
+    },
+    /// The helices do not fit on parallel axes.
+    #[error(
+        "the helices do not fit: base helix angles {helix_1_deg:.5} deg ({hand_1}) and {helix_2_deg:.5} deg ({hand_2}); external gears on parallel axes need equal angles of opposite hand"
+    )]
+    Helix {
+        /// Base helix angle of gear 1 without its sign.
+        helix_1_deg: f64,
+        /// Hand of gear 1.
+        hand_1: &'static str,
+        /// Base helix angle of gear 2 without its sign.
+        helix_2_deg: f64,
+        /// Hand of gear 2.
+        hand_2: &'static str,
     },
     /// The base circles overlap.
     #[error(
@@ -59,7 +74,7 @@ pub enum PairError {
     },
     /// Contact is lost between two pairs.
     #[error(
-        "the contact ratio is {contact_ratio:.4}: below 1 the pair loses contact between teeth"
+        "the transverse contact ratio is {contact_ratio:.4}: below 1 the pair loses contact between teeth (also helical gears are taken from 1 on only)"
     )]
     ContactRatio {
         /// Transverse contact ratio.
@@ -76,7 +91,7 @@ pub struct Misalignment {
     pub deviation_rad: f64,
 }
 
-/// An external spur gear pair. Gear 1 drives; both are loaded on flanks of the same hand.
+/// An external gear pair on parallel axes, spur or helical. Gear 1 drives; both are loaded on flanks of the same hand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
     /// Driving gear.
@@ -89,6 +104,8 @@ pub struct GearPair {
     pub working_pressure_angle_rad: f64,
     /// Axis errors.
     pub misalignment: Misalignment,
+    /// Side of the flanks in contact, on both gears: right where gear 1 turns clockwise.
+    pub flank: FlankSide,
     /// Roll angle on gear 1 where contact starts (tip of gear 2).
     pub roll_start_1_rad: f64,
     /// Roll angle on gear 1 where contact ends (tip of gear 1).
@@ -96,7 +113,7 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// Checks that the gears run together and derives the path of contact.
+    /// Checks that the gears run together and derives the path of contact, right flanks in contact.
     ///
     /// # Errors
     /// [`PairError`] with the numbers that make it impossible.
@@ -112,6 +129,15 @@ impl GearPair {
             return Err(PairError::BasePitch {
                 base_pitch_1_mm: p1 * 1e3,
                 base_pitch_2_mm: p2 * 1e3,
+            });
+        }
+        let (h1, h2) = (gear_1.base_helix_angle_rad(), gear_2.base_helix_angle_rad());
+        if (h1 + h2).abs() > 1e-6 * h1.abs() {
+            return Err(PairError::Helix {
+                helix_1_deg: h1.abs().to_degrees(),
+                hand_1: gear_1.hand(),
+                helix_2_deg: h2.abs().to_degrees(),
+                hand_2: gear_2.hand(),
             });
         }
         let smallest = gear_1.base_radius_m + gear_2.base_radius_m;
@@ -132,6 +158,7 @@ impl GearPair {
             centre_distance_m,
             working_pressure_angle_rad: alpha_w,
             misalignment,
+            flank: FlankSide::Right,
         };
         for (gear, tip, mate) in [
             (1, &pair.gear_1, &pair.gear_2),
@@ -169,6 +196,38 @@ impl GearPair {
         Ok(pair)
     }
 
+    /// The same pair with contact on the flanks of the given side.
+    pub fn on_flanks(self, flank: FlankSide) -> Self {
+        Self { flank, ..self }
+    }
+
+    /// Base helix angle β_b of gear 1 \[rad\], positive for a right hand; gear 2 has the opposite.
+    pub fn base_helix_angle_rad(&self) -> f64 {
+        self.gear_1.base_helix_angle_rad()
+    }
+
+    /// Whether the teeth are helical: contact lines then slant and every section has its own roll angle.
+    pub fn is_helical(&self) -> bool {
+        self.gear_1.helix_angle_rad != 0.0
+    }
+
+    /// How the roll angle on gear 1 of one pair changes along the axis \[rad/m\]. A right-hand helix turns the sections
+    /// above mid-face counter-clockwise: where gear 1 turns clockwise (right flanks in contact) they lag behind,
+    /// ξ₁(z) = ξ₁(0) − z tan β₁/r₁; on left flanks they are ahead.
+    pub fn roll_slope_1_rad_per_m(&self) -> f64 {
+        -self.flank.mirror() * self.gear_1.twist_rad_per_m()
+    }
+
+    /// Overlap ratio ε_β = b tan β_b/p_bt = b sin β/(π m_n) of teeth that touch over the width b.
+    pub fn overlap_ratio(&self, face_width_m: f64) -> f64 {
+        self.gear_1.overlap_ratio(face_width_m)
+    }
+
+    /// Total contact ratio ε_γ = ε_α + ε_β.
+    pub fn total_contact_ratio(&self, face_width_m: f64) -> f64 {
+        self.contact_ratio() + self.overlap_ratio(face_width_m)
+    }
+
     /// Angle between two teeth of gear 1 \[rad\].
     pub fn pitch_1_rad(&self) -> f64 {
         TAU / self.gear_1.teeth as f64
@@ -189,10 +248,24 @@ impl GearPair {
             - 2.0 * r_w2 * self.gear_2.half_angle_rad(roll)
     }
 
-    /// Roll angle on gear 1 of pair `pair` (gear 1 tooth p with gear 2 tooth −p) at driver angle θ₁:
+    /// Roll angle on gear 1 at mid-face of pair `pair` (see [`GearPair::teeth_of`]) at driver angle θ₁:
     /// ξ₁ = tan α_w + θ₁ − p 2π/z₁. Zero driver angle: pair 0 at the pitch point.
     pub fn roll_1_rad(&self, driver_angle_rad: f64, pair: i64) -> f64 {
         self.working_pressure_angle_rad.tan() + driver_angle_rad - pair as f64 * self.pitch_1_rad()
+    }
+
+    /// Teeth of gear 1 and gear 2 that make pair p. A higher p comes later: on right flanks (gear 1 turns clockwise) gear
+    /// 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p.
+    pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
+        let pair = match self.flank {
+            FlankSide::Right => pair,
+            FlankSide::Left => -pair,
+        };
+        let wrap = |tooth: i64, teeth: usize| tooth.rem_euclid(teeth as i64) as usize;
+        [
+            wrap(pair, self.gear_1.teeth),
+            wrap(-pair, self.gear_2.teeth),
+        ]
     }
 
     /// Roll angle on gear 2 opposite to ξ₁: r_b2 ξ₂ = a sin α_w − r_b1 ξ₁.
@@ -224,14 +297,20 @@ impl GearPair {
         )
     }
 
-    /// Opening of the loaded flanks by misalignment at axial position `z_m`:
-    /// z (δ_inclination sin α_w + δ_deviation cos α_w) \[m\].
-    pub fn misalignment_gap_m(&self, z_m: f64) -> f64 {
+    /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and
+    /// distance `path_m` from the pitch point along the line of action \[m\]:
+    /// (z ∓ s tan β_b)(δ_inclination sin α_w + δ_deviation cos α_w), − on right flanks with a right-hand gear 1.
+    ///
+    /// Gear 2 tilts about the pitch point at mid-face. Spur flanks feel the displacement along the line of action only;
+    /// a helical flank also feels the axial one.
+    pub fn misalignment_gap_m(&self, z_m: f64, path_m: f64) -> f64 {
         let (s, c) = self.working_pressure_angle_rad.sin_cos();
-        z_m * (self.misalignment.inclination_rad * s + self.misalignment.deviation_rad * c)
+        let slope = self.misalignment.inclination_rad * s + self.misalignment.deviation_rad * c;
+        let axial = self.flank.mirror() * self.base_helix_angle_rad().tan();
+        (z_m - axial * path_m) * slope
     }
 
-    /// Pairs (numbers p) that are on the path of contact at a driver angle.
+    /// Pairs (numbers p) whose section at mid-face is on the path of contact at a driver angle.
     pub fn pairs_in_contact(&self, driver_angle_rad: f64) -> std::ops::RangeInclusive<i64> {
         let pitch = self.pitch_1_rad();
         let at_zero = self.roll_1_rad(driver_angle_rad, 0);

@@ -66,12 +66,13 @@ pub enum GeometryError {
     },
 }
 
-/// The transverse profile of a tooth centred on +x. Radii in metres, angles in radians.
+/// The transverse profile of a tooth centred on +x: of helical teeth the section at z = 0. Radii in metres, angles in
+/// radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothGeometry {
     /// Number of teeth.
     pub teeth: usize,
-    /// Reference radius m z / 2.
+    /// Reference radius m z / (2 cos β).
     pub reference_radius_m: f64,
     /// Base radius.
     pub base_radius_m: f64,
@@ -95,6 +96,8 @@ pub struct ToothGeometry {
     pub trochoid: Trochoid,
     /// Fillet parameter at the hand-over to the involute.
     pub fillet_end_m: f64,
+    /// Helix angle β on the reference cylinder, positive for a right hand; zero for spur teeth.
+    pub helix_angle_rad: f64,
 }
 
 impl ToothGeometry {
@@ -103,13 +106,15 @@ impl ToothGeometry {
     /// # Errors
     /// [`GeometryError`] when no tooth with these numbers exists; the reason carries the numbers.
     pub fn new(d: &ToothDefinition) -> Result<Self, GeometryError> {
-        let (sin, cos, tan) = (
-            d.pressure_angle_rad.sin(),
-            d.pressure_angle_rad.cos(),
-            d.pressure_angle_rad.tan(),
-        );
+        // Heights and the rack's own lengths are those of the normal section; lengths along the pitch line stretch by
+        // 1/cos β in the transverse section, and with them the tangent of the pressure angle.
+        let helix_cos = d.helix_angle_rad.cos();
+        let (sin_n, cos_n) = d.pressure_angle_rad.sin_cos();
+        let tan_n = d.pressure_angle_rad.tan();
+        let alpha = transverse_pressure_angle_rad(d);
+        let (sin, cos) = alpha.sin_cos();
         let m = d.module_m;
-        let reference = 0.5 * m * d.teeth as f64;
+        let reference = 0.5 * m * d.teeth as f64 / helix_cos;
         let base = reference * cos;
         let tip = d
             .tip_diameter_m
@@ -124,24 +129,25 @@ impl ToothGeometry {
         }
 
         let rho = d.rack_tip_radius * m;
-        let offset = 0.25 * PI * m - d.dedendum * m * tan - rho * (1.0 - sin) / cos;
+        let offset = 0.25 * PI * m - d.dedendum * m * tan_n - rho * (1.0 - sin_n) / cos_n;
         if offset < -1e-12 * m {
             return Err(GeometryError::RackTipTooNarrow {
                 rack_tip_radius: d.rack_tip_radius,
                 excess_mm: -offset * 1e3,
-                allowed: (0.25 * PI - d.dedendum * tan) * cos / (1.0 - sin),
+                allowed: (0.25 * PI - d.dedendum * tan_n) * cos_n / (1.0 - sin_n),
             });
         }
         let trochoid = Trochoid {
             reference_radius_m: reference,
             centre_depth_m: Trochoid::regular_depth_m(depth - rho, m),
-            centre_offset_m: offset.max(0.0) + 0.5 * d.thickness_allowance_m,
+            centre_offset_m: offset.max(0.0) / helix_cos + 0.5 * d.thickness_allowance_m,
             tip_radius_m: rho,
+            helix_cos,
             space_angle_rad: -PI / d.teeth as f64,
         };
-        let thickness = m * (FRAC_PI_2 + 2.0 * d.profile_shift * tan) - d.thickness_allowance_m;
-        let base_half_angle =
-            0.5 * thickness / reference + involute::involute_function(d.pressure_angle_rad);
+        let thickness =
+            m * (FRAC_PI_2 + 2.0 * d.profile_shift * tan_n) / helix_cos - d.thickness_allowance_m;
+        let base_half_angle = 0.5 * thickness / reference + involute::involute_function(alpha);
         let tip_roll = involute::roll_angle_rad(tip, base);
         let mut tooth = Self {
             teeth: d.teeth,
@@ -157,6 +163,7 @@ impl ToothGeometry {
             undercut: false,
             trochoid,
             fillet_end_m: 0.0,
+            helix_angle_rad: d.helix_angle_rad,
         };
         let tip_half_angle = tooth.half_angle_rad(tip_roll);
         if tip_half_angle <= 0.0 || tip <= base {
@@ -171,13 +178,13 @@ impl ToothGeometry {
             form_radius_mm: involute::radius_m(form_roll, base) * 1e3,
             tip_radius_mm: tip * 1e3,
             needed_profile_shift: d.dedendum
-                - d.rack_tip_radius * (1.0 - sin)
-                - 0.5 * d.teeth as f64 * sin * sin,
+                - d.rack_tip_radius * (1.0 - sin_n)
+                - 0.5 * d.teeth as f64 / helix_cos * sin * sin,
         };
-        let form_roll = (reference * sin - (trochoid.centre_depth_m / sin + rho)) / base;
+        let form_roll = (reference * sin - (trochoid.centre_depth_m + rho * sin_n) / sin) / base;
         if form_roll >= 0.0 {
             tooth.form_roll_rad = form_roll;
-            tooth.fillet_end_m = trochoid.centre_depth_m / tan;
+            tooth.fillet_end_m = trochoid.centre_depth_m / tan_n;
         } else {
             tooth.undercut = true;
             tooth.fillet_end_m = tooth
@@ -209,6 +216,48 @@ impl ToothGeometry {
             }
         }
         Ok(tooth)
+    }
+
+    /// Turn of the section per metre of z \[rad/m\]: tan β/r = tan β_b/r_b, positive for a right hand.
+    pub fn twist_rad_per_m(&self) -> f64 {
+        self.helix_angle_rad.tan() / self.reference_radius_m
+    }
+
+    /// Helix angle β_b on the base cylinder \[rad\], positive for a right hand: tan β_b = tan β cos α_t, which is the same
+    /// as sin β_b = sin β cos α_n.
+    pub fn base_helix_angle_rad(&self) -> f64 {
+        (self.base_radius_m * self.twist_rad_per_m()).atan()
+    }
+
+    /// Overlap ratio ε_β = b tan β_b/p_bt = b sin β/(π m_n) over a width b: pitches that a tooth twists through.
+    pub fn overlap_ratio(&self, face_width_m: f64) -> f64 {
+        face_width_m * self.twist_rad_per_m().abs() * self.teeth as f64 / std::f64::consts::TAU
+    }
+
+    /// Number of teeth of the spur gear that a helical tooth resembles in its normal section:
+    /// z_n = z/(cos²β_b cos β).
+    pub fn virtual_teeth(&self) -> f64 {
+        self.teeth as f64 / (self.base_helix_angle_rad().cos().powi(2) * self.helix_angle_rad.cos())
+    }
+
+    /// Hand of the helix in words, `none` for spur teeth.
+    pub fn hand(&self) -> &'static str {
+        if self.helix_angle_rad > 0.0 {
+            "right"
+        } else if self.helix_angle_rad < 0.0 {
+            "left"
+        } else {
+            "none"
+        }
+    }
+
+    /// Unit normal of a helical flank in the section at z = 0, into the material: the transverse normal n_t times cos β_b
+    /// and −sin β_b along +z on right flanks, +sin β_b on left ones. On the helicoid ∂P/∂z = (tan β_b e_t + e_z) besides a
+    /// part along the profile, with e_t = n_t on the right and −n_t on the left flank. Turn it with its section.
+    pub fn flank_normal(&self, side: FlankSide, roll_rad: f64) -> [f64; 3] {
+        let ([x, y], _) = self.flank_frame(side, roll_rad);
+        let (sin, cos) = self.base_helix_angle_rad().sin_cos();
+        [cos * x, cos * y, -side.mirror() * sin]
     }
 
     /// Half the angle that the tooth covers at a roll angle: ψ = ψ_b − (ξ − atan ξ).
@@ -285,5 +334,14 @@ impl ToothGeometry {
             previous = Some((t, value));
         }
         None
+    }
+}
+
+/// Pressure angle in the transverse section \[rad\]: tan α_t = tan α_n/cos β.
+pub fn transverse_pressure_angle_rad(d: &ToothDefinition) -> f64 {
+    if d.helix_angle_rad == 0.0 {
+        d.pressure_angle_rad
+    } else {
+        (d.pressure_angle_rad.tan() / d.helix_angle_rad.cos()).atan()
     }
 }

@@ -4,7 +4,9 @@
 //! the opposite side. Both are graded towards the load, so that no mesher is needed and every column begins at a
 //! node of the exact outline. Coons' patch between the four edges:
 //!
-//!     X(s, t) = (1−t) R(s) + t L(s) + (1−s) B(t) + s T(t) − (corners, bilinear)
+//! ```text
+//! X(s, t) = (1−t) R(s) + t L(s) + (1−s) B(t) + s T(t) − (corners, bilinear)
+//! ```
 //!
 //! with R the right and L the left outline, B the cut as the gear's own mesh has it, T the tip land.
 

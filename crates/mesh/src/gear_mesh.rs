@@ -5,6 +5,7 @@ use crate::layers::Layers;
 use crate::python::PythonEnvironment;
 use crate::quality::{self, QualityReport};
 use crate::section::Section;
+use crate::twist::Twist;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
 
@@ -21,6 +22,8 @@ pub struct GearMesh {
     pub section: Section,
     /// Layers.
     pub layers: Layers,
+    /// How the sections turn along the axis; `section` is the one at z = 0.
+    pub twist: Twist,
     /// Quality.
     pub quality: QualityReport,
     node_of: Vec<u32>,
@@ -36,7 +39,7 @@ pub struct OutlineFace {
     pub hex: u32,
     /// Arc lengths of start and end, from the centre of the tooth space of the side asked for \[m\].
     pub arc_m: [f64; 2],
-    /// Axial range \[m\].
+    /// Axial range \[m\]. The face of a helical tooth is turned from z = 0 by [`GearMesh::twist`].
     pub z_m: [f64; 2],
 }
 
@@ -49,21 +52,28 @@ impl GearMesh {
         Self::extruded(
             Section::new(gear, python)?,
             Layers::new(gear),
+            Twist::new(gear),
             gear.mesh.min_scaled_jacobian,
         )
     }
 
-    /// The same cross-section in one layer, web and rim alike: for problems of plane strain.
+    /// The same cross-section in one layer, web and rim alike, not twisted: for problems of plane strain.
     ///
     /// # Errors
     /// None in fact: the quads were accepted before. [`MeshError::Quality`] for a section of no worth at all.
     pub fn single_layer(&self, width_m: f64) -> Result<Self, MeshError> {
-        Self::extruded(self.section.clone(), Layers::single(width_m), 0.0)
+        Self::extruded(
+            self.section.clone(),
+            Layers::single(width_m),
+            Twist::default(),
+            0.0,
+        )
     }
 
     fn extruded(
         section: Section,
         layers: Layers,
+        twist: Twist,
         min_scaled_jacobian: f64,
     ) -> Result<Self, MeshError> {
         let (n_planes, n_layers) = (layers.planes_m.len(), layers.count());
@@ -85,7 +95,7 @@ impl GearMesh {
                 let slot = &mut node_of[n * n_planes + plane];
                 if *slot != NONE {
                     *slot = nodes.len() as u32;
-                    nodes.push([p[0], p[1], z]);
+                    nodes.push(twist.point_m(*p, z));
                 }
             }
         }
@@ -115,6 +125,7 @@ impl GearMesh {
             hexes,
             section,
             layers,
+            twist,
             quality,
             node_of,
             hex_of,

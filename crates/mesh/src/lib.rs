@@ -25,6 +25,7 @@ pub mod python;
 pub mod quality;
 pub mod section;
 pub mod tooth_cell;
+pub mod twist;
 
 pub use gear_mesh::GearMesh;
 

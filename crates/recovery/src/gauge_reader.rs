@@ -3,18 +3,20 @@
 use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
-/// Forces on one contact line of this gear.
+/// Force on one slice of this gear.
 #[derive(Debug, Clone, Copy)]
-pub struct LoadedLine<'a> {
+pub struct LoadedSlice {
     /// Tooth of this gear.
     pub tooth: usize,
+    /// Slice over the face width.
+    pub slice: usize,
     /// Roll angle on this gear \[rad\].
     pub roll_rad: f64,
-    /// Components along this flank's inward normal and towards the tip, over the forces: (1, 0) on a flank without
+    /// Components along this flank's inward normal and towards the tip, over the force: (1, 0) on a flank without
     /// friction, see [`gearmesh_contact::ContactLine::force_components`].
     pub components: [f64; 2],
-    /// Normal force of the contact, each slice \[N\].
-    pub forces_n: &'a [f64],
+    /// Normal force of the contact \[N\].
+    pub force_n: f64,
 }
 
 /// Strain by both methods, dimensionless, positive in tension.
@@ -82,24 +84,21 @@ impl GaugeReader {
         })
     }
 
-    /// Strain under the forces on all contact lines: a few dozen multiplications.
-    pub fn read<'a>(&self, lines: impl IntoIterator<Item = LoadedLine<'a>>) -> Strain {
+    /// Strain under the forces on all slices: a few dozen multiplications.
+    pub fn read(&self, slices: impl IntoIterator<Item = LoadedSlice>) -> Strain {
         let mut strain = Strain::default();
-        for line in lines {
-            let place = roll_place(&self.centroids_rad, line.roll_rad);
+        for loaded in slices.into_iter().filter(|s| s.force_n != 0.0) {
+            let place = roll_place(&self.centroids_rad, loaded.roll_rad);
             for (station, weight) in [
                 (place.station, 1.0 - place.share),
                 (place.station + 1, place.share),
             ] {
-                let first = (line.tooth * self.stations + station) * self.slices;
-                for (row, force) in self.rows[first..first + self.slices]
-                    .iter()
-                    .zip(line.forces_n)
-                {
-                    let [normal, tangential] = line.components;
-                    strain.method_1 += weight * force * normal * row[0];
-                    strain.method_2 += weight * force * (normal * row[1] + tangential * row[2]);
-                }
+                let first = (loaded.tooth * self.stations + station) * self.slices;
+                let row = &self.rows[first + loaded.slice];
+                let [normal, tangential] = loaded.components;
+                let force = weight * loaded.force_n;
+                strain.method_1 += force * normal * row[0];
+                strain.method_2 += force * (normal * row[1] + tangential * row[2]);
             }
         }
         strain
@@ -124,13 +123,19 @@ mod tests {
         let stations = model.grid.roll_angles_rad.len();
         let station = stations / 2;
         let roll_rad = centroids(&model.grid.roll_angles_rad)[station];
-        let line = LoadedLine {
-            tooth: gauge.tooth,
-            roll_rad,
-            components: [1.0, 0.0],
-            forces_n: &forces,
+        let loaded = |tooth: usize, components: [f64; 2]| {
+            forces
+                .iter()
+                .enumerate()
+                .map(move |(slice, &force_n)| LoadedSlice {
+                    tooth,
+                    slice,
+                    roll_rad,
+                    components,
+                    force_n,
+                })
         };
-        let strain = reader.read([line]);
+        let strain = reader.read(loaded(gauge.tooth, [1.0, 0.0]));
         let expected: f64 = forces
             .iter()
             .enumerate()
@@ -143,16 +148,10 @@ mod tests {
         assert!((strain.method_2 - strain.method_1 - expected).abs() < 1e-14 * scale);
         assert!(expected != 0.0);
 
-        let elsewhere = LoadedLine {
-            tooth: (gauge.tooth + 2) % model.teeth,
-            ..line
-        };
-        let far = reader.read([elsewhere]);
+        let elsewhere = (gauge.tooth + 2) % model.teeth;
+        let far = reader.read(loaded(elsewhere, [1.0, 0.0]));
         assert_eq!(far.method_1, far.method_2);
-        let rubbed = reader.read([LoadedLine {
-            components: [1.0, 0.3],
-            ..line
-        }]);
+        let rubbed = reader.read(loaded(gauge.tooth, [1.0, 0.3]));
         assert_eq!(
             rubbed.method_1, strain.method_1,
             "method 1 knows no friction"

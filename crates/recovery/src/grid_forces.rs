@@ -1,6 +1,6 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
-use crate::gauge_reader::LoadedLine;
+use crate::gauge_reader::LoadedSlice;
 use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
 use gearmesh_model::FlankGrid;
 
@@ -17,30 +17,28 @@ pub struct GridLoadForce {
     pub tangential_n: f64,
 }
 
-/// Spreads the forces of contact lines over the flank grid, with the same shares as the compliance: f = Φ F.
-pub fn grid_forces<'a>(
+/// Spreads the forces of slices over the flank grid, with the same shares as the compliance: f = Φ F.
+pub fn grid_forces(
     grid: &FlankGrid,
-    lines: impl IntoIterator<Item = LoadedLine<'a>>,
+    slices: impl IntoIterator<Item = LoadedSlice>,
 ) -> Vec<GridLoadForce> {
     let centroids = centroids(&grid.roll_angles_rad);
     let mut forces = Vec::new();
-    for line in lines {
-        let place = roll_place(&centroids, line.roll_rad);
+    for loaded in slices {
+        let place = roll_place(&centroids, loaded.roll_rad);
         for (station, weight) in [
             (place.station, 1.0 - place.share),
             (place.station + 1, place.share),
         ] {
-            for (slice, force) in line.forces_n.iter().enumerate() {
-                for (axial, share) in axial_shares(slice, grid.slices) {
-                    let on_load = weight * share * force;
-                    if on_load != 0.0 {
-                        forces.push(GridLoadForce {
-                            tooth: line.tooth,
-                            load: grid.load(station, axial),
-                            normal_n: on_load * line.components[0],
-                            tangential_n: on_load * line.components[1],
-                        });
-                    }
+            for (axial, share) in axial_shares(loaded.slice, grid.slices) {
+                let on_load = weight * share * loaded.force_n;
+                if on_load != 0.0 {
+                    forces.push(GridLoadForce {
+                        tooth: loaded.tooth,
+                        load: grid.load(station, axial),
+                        normal_n: on_load * loaded.components[0],
+                        tangential_n: on_load * loaded.components[1],
+                    });
                 }
             }
         }

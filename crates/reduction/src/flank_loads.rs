@@ -3,6 +3,10 @@
 //! Load (i, j) is the traction h_i(ξ) h_j(z) d(ξ), scaled to a total of one newton, on the flank surface; d is the
 //! inward normal, the profile tangent towards the tip, or +z. Consistent nodal loads: ∫ N_a h_i h_j d dA. The integral
 //! is split at the stations, so that a 3×3 Gauss rule in each piece is exact up to the curvature of the involute.
+//!
+//! Helical teeth: the section at z is turned by the mesh's twist, and the inward normal has an axial component,
+//! n = cos β_b n_t ∓ sin β_b e_z (− on right flanks of a right-hand gear). The profile tangent stays in the section. The
+//! flank's area grows by the same factor 1/cos β_b everywhere and drops out of the unit loads.
 
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
@@ -90,8 +94,10 @@ pub fn flank_loads(
         .iter()
         .map(|&xi| curve.arc_length_at_roll_m(xi))
         .collect();
-    let (sin, cos) = (TAU * tooth as f64 / gear.tooth.teeth as f64).sin_cos();
-    let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+    let tooth_angle = TAU * tooth as f64 / gear.tooth.teeth as f64;
+    let twist = mesh.twist.teeth_rad_per_m;
+    let (helix_sin, helix_cos) = (r_b * twist).atan().sin_cos();
+    let axial_part = -side.mirror() * helix_sin;
 
     let count = grid.len();
     let mut sums = vec![0.0; count];
@@ -111,10 +117,13 @@ pub fn flank_loads(
                 let arc = s[0] + gs * (s[1] - s[0]);
                 let roll = roll_at(arc);
                 let (normal, tangent) = profile.flank_frame(side, roll);
-                let (normal, tangent) = (turn(normal), turn(tangent));
                 let u = (arc - face.arc_m[0]) / (face.arc_m[1] - face.arc_m[0]);
                 for (gz, wz) in GAUSS {
                     let height = z[0] + gz * (z[1] - z[0]);
+                    let (sin, cos) = (tooth_angle + twist * height).sin_cos();
+                    let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+                    let (n_t, tangent) = (turn(normal), turn(tangent));
+                    let normal = [helix_cos * n_t[0], helix_cos * n_t[1], axial_part];
                     let v = (height - face.z_m[0]) / (face.z_m[1] - face.z_m[0]);
                     let shape = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
                     let area = ws * wz * (s[1] - s[0]) * (z[1] - z[0]);
@@ -138,6 +147,10 @@ pub fn flank_loads(
                                         value * normal[axis];
                                     *parts[load][1].entry(dof + axis).or_default() +=
                                         value * tangent[axis];
+                                }
+                                if axial_part != 0.0 {
+                                    *parts[load][0].entry(dof + 2).or_default() +=
+                                        value * axial_part;
                                 }
                                 *parts[load][2].entry(dof + 2).or_default() += value;
                             }

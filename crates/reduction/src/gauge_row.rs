@@ -82,11 +82,9 @@ fn face_row(
     let natural: [f64; 3] = std::array::from_fn(|i| {
         corners.iter().map(|&k| CORNERS[k][i]).sum::<f64>() / corners.len() as f64
     });
-    let (a, b) = (
-        mesh.nodes[face.nodes[0] as usize],
-        mesh.nodes[face.nodes[1] as usize],
-    );
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    // The profile's direction in the middle of the layer: the mean of the edges on both planes, which a helix turns.
+    let [a, b, c, d] = face.nodes.map(|n| mesh.nodes[n as usize]);
+    let (dx, dy) = (b[0] - a[0] + c[0] - d[0], b[1] - a[1] + c[1] - d[1]);
     let length = dx.hypot(dy);
     let t = [dx / length, dy / length];
     // Normal strain along t; order xx, yy, zz, xy, yz, xz with engineering shear.

@@ -125,10 +125,12 @@ pub fn reduce(
         lap("error estimate");
     }
     let curve = ProfileCurve::new(&gear.profile);
+    // Along a helical flank's normal the tooth is thinner by the cosine of the base helix.
+    let helix_cos = gear.profile.base_helix_angle_rad().cos();
     let opposite: Vec<f64> = grid
         .roll_angles_rad
         .iter()
-        .map(|&xi| curve.opposite_distance_m(xi))
+        .map(|&xi| helix_cos * curve.opposite_distance_m(xi))
         .collect();
     let reduced = ReducedGear {
         name: gear.name.clone(),

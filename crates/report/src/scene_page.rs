@@ -130,6 +130,9 @@ fn overview(r: &SceneResult) -> Section {
         .column("tangent N/µm", Align::Right)
         .column("p_H MPa", Align::Right)
         .column("K_Hbeta", Align::Right);
+    if r.has_axial_force() {
+        table = table.column("axial force gear 1 N", Align::Right);
+    }
     let block = r.pressure_pa.len() / r.torque_nm.len();
     for (k, torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
@@ -138,7 +141,7 @@ fn overview(r: &SceneResult) -> Section {
             .iter()
             .copied()
             .fold(0.0, f64::max);
-        table = table.row([
+        let mut row = vec![
             format!("{torque}"),
             format!("{:.3}", figure(mean(te))),
             format!("{:.3}", figure(peak_to_peak(te))),
@@ -146,7 +149,12 @@ fn overview(r: &SceneResult) -> Section {
             format!("{:.2}", average(&r.tangent_n_per_m)),
             format!("{:.0}", pressure * 1e-6),
             format!("{:.3}", r.k_h_beta[k]),
-        ]);
+        ];
+        if r.has_axial_force() {
+            let axial = mean(r.curve(&r.axial_force_1_n, k)).unwrap_or(f64::NAN);
+            row.push(format!("{axial:.1}"));
+        }
+        table = table.row(row);
     }
     section = section.push(table);
     for warning in &r.warnings {

@@ -53,6 +53,17 @@ impl Plan {
             pair.backlash_m() * 1e3,
             scene.flank.name()
         ));
+        if pair.is_helical() {
+            text.push(format!(
+                "helix      gear 1 {} hand, gear 2 {} hand, base helix angle {:.4} deg, contact ratio transverse {:.4} + overlap {:.4} = total {:.4}",
+                pair.gear_1.hand(),
+                pair.gear_2.hand(),
+                pair.base_helix_angle_rad().abs().to_degrees(),
+                pair.contact_ratio(),
+                pair.overlap_ratio(gear_1.face_width_m),
+                pair.total_contact_ratio(gear_1.face_width_m)
+            ));
+        }
         text.push(format!(
             "mesh       `hybrid`, path {}, local `{}`, {} slices, at most {unknowns} unknown forces",
             match scene.edge_radius_m {

@@ -6,7 +6,7 @@ use std::path::Path;
 /// Name and version of the result file.
 pub const RESULT_FORMAT: FileFormat = FileFormat {
     name: "gearmesh-result",
-    version: 1,
+    version: 2,
 };
 
 /// Strain of one gauge, `[torque][angle]`, dimensionless.
@@ -51,6 +51,8 @@ pub struct SceneResult {
     pub unloaded_m: Vec<f64>,
     /// Torque on gear 1 \[N·m\], `[T][A]`.
     pub torque_1_nm: Vec<f64>,
+    /// Axial force on gear 1 \[N\], positive along +z, `[T][A]`; gear 2 feels the opposite. Zero for spur gears.
+    pub axial_force_1_n: Vec<f64>,
     /// Secant mesh stiffness \[N/m\], `[T][A]`.
     pub secant_n_per_m: Vec<f64>,
     /// Tangent mesh stiffness \[N/m\], `[T][A]`.
@@ -92,6 +94,24 @@ impl SceneResult {
     /// One torque's part of a `[T][A]` array.
     pub fn curve<'a>(&self, values: &'a [f64], torque: usize) -> &'a [f64] {
         &values[torque * self.angles()..(torque + 1) * self.angles()]
+    }
+
+    /// Whether the gears push each other along the axis: helical teeth.
+    pub fn has_axial_force(&self) -> bool {
+        self.axial_force_1_n.iter().any(|force| *force != 0.0)
+    }
+
+    /// Sum of all slice forces at each position of a torque \[N\], `[A]`.
+    pub fn normal_force_n(&self, torque: usize) -> Vec<f64> {
+        (0..self.angles())
+            .map(|angle| self.position_forces(torque, angle).iter().sum())
+            .collect()
+    }
+
+    /// Slice forces of all lines at one position \[N\], `[L][S]`.
+    pub fn position_forces(&self, torque: usize, angle: usize) -> &[f64] {
+        let size = self.slots * self.slices;
+        &self.force_n[(torque * self.angles() + angle) * size..][..size]
     }
 
     /// Slice forces of one line \[N\].
@@ -152,6 +172,13 @@ impl SceneResult {
             &[t, a],
             "N m",
             "torque on gear 1",
+        );
+        put(
+            "axial_force_1_N",
+            &self.axial_force_1_n,
+            &[t, a],
+            "N",
+            "axial force on gear 1, positive along +z; gear 2 feels the opposite",
         );
         put(
             "stiffness_secant_N_per_m",
@@ -335,6 +362,7 @@ impl SceneResult {
             te_m: tree.take_f64(path, "te_m", &curves)?,
             unloaded_m: tree.take_f64(path, "te_unloaded_m", &[angles])?,
             torque_1_nm: tree.take_f64(path, "torque_1_Nm", &curves)?,
+            axial_force_1_n: tree.take_f64(path, "axial_force_1_N", &curves)?,
             secant_n_per_m: tree.take_f64(path, "stiffness_secant_N_per_m", &curves)?,
             tangent_n_per_m: tree.take_f64(path, "stiffness_tangent_N_per_m", &curves)?,
             slots,

@@ -6,11 +6,11 @@ use crate::scene_file::Scene;
 use crate::warnings::{Assumption, Warnings};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
-use gearmesh_contact::{ContactError, ContactLine, ContactLines, PathExtension, StaticContact};
+use gearmesh_contact::{ContactError, ContactLines, ContactSlice, PathExtension, StaticContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
-use gearmesh_recovery::{GaugeReader, LoadedLine};
+use gearmesh_recovery::{GaugeReader, LoadedSlice};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -92,13 +92,19 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         scene.centre_distance_m,
         scene.misalignment,
     )
-    .map_err(|e| scene.document.error("pair", e))?;
+    .map_err(|e| scene.document.error("pair", e))?
+    .on_flanks(scene.flank);
+    if pair.is_helical() && scene.edge_radius_m.is_some() {
+        let problem = "found \"extended\" with helical gears, whose tip edges are not modelled; allowed is \"line-of-action\"";
+        return Err(scene.document.error("mesh.path", problem).into());
+    }
     let extension = scene
         .edge_radius_m
         .map(|radius| PathExtension::new(&pair, radius));
     let lines = ContactLines {
         pair,
         extension,
+        face_width_m: gear_1.tooth.face_width_m,
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
     };
@@ -151,26 +157,45 @@ impl LoadedScene {
             .collect()
     }
 
-    /// A contact line with its slice forces as gear 1 or gear 2 bears it.
-    pub fn loaded_line<'a>(
-        &self,
-        gear: usize,
-        line: &ContactLine,
-        forces_n: &'a [f64],
-    ) -> LoadedLine<'a> {
-        let (tooth, roll_rad) = if gear == 1 {
-            (line.tooth_1, line.roll_1_rad)
-        } else {
-            (line.tooth_2, line.roll_2_rad)
-        };
-        let friction = self.scene.contact.friction;
-        let ratio = friction.map_or(0.0, |f| f.ratio(line.path_m));
-        LoadedLine {
-            tooth,
-            roll_rad,
-            components: line.force_components(gear - 1, ratio),
-            forces_n,
+    /// The slices that touch or may touch at a driver angle.
+    pub fn slices_at(&self, driver_angle_rad: f64) -> Vec<ContactSlice> {
+        let model = &self.models[0];
+        let centres: Vec<f64> = model.grid.z_m.iter().skip(1).step_by(2).copied().collect();
+        let width = model.face_width_m / model.grid.slices as f64;
+        let mut lines = Vec::new();
+        self.lines.at(driver_angle_rad, &mut lines);
+        let mut slices = Vec::new();
+        for line in lines.iter().enumerate() {
+            self.lines.push_slices(line, &centres, width, &mut slices);
         }
+        slices
+    }
+
+    /// Slices with their forces `[line][slice]` as gear 1 or gear 2 bears them.
+    pub fn loaded_slices<'a>(
+        &'a self,
+        gear: usize,
+        slices: &'a [ContactSlice],
+        forces_n: &'a [f64],
+    ) -> impl Iterator<Item = LoadedSlice> + 'a {
+        let count = self.models[0].grid.slices;
+        slices.iter().map(move |slice| {
+            let line = &slice.section;
+            let (tooth, roll_rad) = if gear == 1 {
+                (line.tooth_1, line.roll_1_rad)
+            } else {
+                (line.tooth_2, line.roll_2_rad)
+            };
+            let friction = self.scene.contact.friction;
+            let ratio = friction.map_or(0.0, |f| f.ratio(line.path_m));
+            LoadedSlice {
+                tooth,
+                slice: slice.slice,
+                roll_rad,
+                components: line.force_components(gear - 1, ratio),
+                force_n: forces_n[slice.line * count + slice.slice],
+            }
+        })
     }
 
     /// A contact problem of this scene.
@@ -182,7 +207,6 @@ impl LoadedScene {
             self.lines.clone(),
             &self.models[0],
             &self.models[1],
-            flank_of(self.scene.flank),
             self.scene.contact,
         )
     }
@@ -193,6 +217,7 @@ struct TorqueCurves {
     te: Vec<f64>,
     unloaded: Vec<f64>,
     torque_1: Vec<f64>,
+    axial_1: Vec<f64>,
     secant: Vec<f64>,
     tangent: Vec<f64>,
     force: Vec<f64>,
@@ -273,6 +298,7 @@ pub fn run(
             .map(|c| c.unloaded.clone())
             .unwrap_or_default(),
         torque_1_nm: flatten(|c| &c.torque_1),
+        axial_force_1_n: flatten(|c| &c.axial_1),
         secant_n_per_m: flatten(|c| &c.secant),
         tangent_n_per_m: flatten(|c| &c.tangent),
         slots,
@@ -304,7 +330,6 @@ fn solve_torque(
 ) -> Result<TorqueCurves, RunError> {
     let mut contact = loaded.contact()?;
     let slices = contact.slices();
-    let width = contact.slice_width_m();
     let base_2 = loaded.lines.pair.gear_2.base_radius_m;
     let base_pitch = loaded.lines.pair.pitch_1_rad() * loaded.lines.pair.gear_1.base_radius_m;
     let distances = loaded.models.each_ref().map(|m| {
@@ -320,6 +345,7 @@ fn solve_torque(
         te: Vec::with_capacity(n),
         unloaded: Vec::with_capacity(n),
         torque_1: Vec::with_capacity(n),
+        axial_1: Vec::with_capacity(n),
         secant: Vec::with_capacity(n),
         tangent: Vec::with_capacity(n),
         force: vec![0.0; n * slots * slices],
@@ -337,6 +363,7 @@ fn solve_torque(
         c.te.push(state.transmission_error_m);
         c.unloaded.push(state.unloaded_m);
         c.torque_1.push(state.torque_1_nm);
+        c.axial_1.push(state.axial_force_1_n);
         c.secant.push(stiffness.secant_n_per_m);
         c.tangent.push(stiffness.tangent_n_per_m);
         c.iterations += state.info.iterations as u32;
@@ -348,19 +375,21 @@ fn solve_torque(
         let first = k * slots * slices;
         c.force[first..first + forces.len()].copy_from_slice(forces);
         let mut heaviest = (0.0, 1.0);
-        for (slot, line) in contact.active_lines().iter().enumerate() {
-            let on_line = &forces[slot * slices..(slot + 1) * slices];
-            let sum: f64 = on_line.iter().sum();
+        for on_line in contact.active_slices().chunk_by(|a, b| a.line == b.line) {
+            let force = |s: &ContactSlice| contact.force_n(s);
+            let sum: f64 = on_line.iter().map(force).sum();
             if sum > heaviest.0 {
-                let largest = on_line.iter().copied().fold(0.0, f64::max);
-                heaviest = (sum, largest * slices as f64 / sum);
+                // Largest over mean line load; a slice partly on the path counts with its share.
+                let length: f64 = on_line.iter().map(|s| s.share).sum();
+                let largest = on_line.iter().map(force).fold(0.0, f64::max);
+                heaviest = (sum, largest * length / sum);
             }
-            for (slice, force) in on_line.iter().enumerate() {
-                let (half_width, pressure) = contact.hertz(line, force / width);
-                c.pressure[first + slot * slices + slice] = pressure;
-                worst[0] = worst[0].max(half_width / least_distance);
-                worst[1] = worst[1].max(pressure / young);
-            }
+        }
+        for slice in contact.active_slices() {
+            let (half_width, pressure) = contact.hertz(slice, contact.force_n(slice));
+            c.pressure[first + slice.line * slices + slice.slice] = pressure;
+            worst[0] = worst[0].max(half_width / least_distance);
+            worst[1] = worst[1].max(pressure / young);
         }
         c.k_h_beta = c.k_h_beta.max(heaviest.1);
         worst[2] = worst[2].max((state.unloaded_m - state.transmission_error_m) / base_pitch);
@@ -386,12 +415,11 @@ pub fn strain(
     gauges: &[(usize, usize)],
 ) -> Result<Vec<StrainSeries>, RunError> {
     let flank = flank_of(loaded.scene.flank);
-    let mut lines_at = Vec::with_capacity(result.angles());
-    for &angle in &result.angle_rad {
-        let mut lines = Vec::new();
-        loaded.lines.at(angle, &mut lines);
-        lines_at.push(lines);
-    }
+    let slices_at: Vec<Vec<ContactSlice>> = result
+        .angle_rad
+        .iter()
+        .map(|&angle| loaded.slices_at(angle))
+        .collect();
     gauges
         .par_iter()
         .map(|&(gear, index)| {
@@ -401,10 +429,8 @@ pub fn strain(
             let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
-                    let on_angle = |(slot, line)| {
-                        loaded.loaded_line(gear, line, result.forces(torque, angle, slot))
-                    };
-                    reader.read(lines_at[angle].iter().enumerate().map(on_angle))
+                    let forces = result.position_forces(torque, angle);
+                    reader.read(loaded.loaded_slices(gear, &slices_at[angle], forces))
                 })
                 .collect();
             Ok(StrainSeries {

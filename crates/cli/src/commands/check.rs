@@ -57,6 +57,19 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             p.root_radius_m * 1e3,
             if p.undercut { "; undercut" } else { "" }
         ));
+        if p.helix_angle_rad != 0.0 {
+            let width = gear.tooth.face_width_m;
+            console::data(format!(
+                "helix: {} hand, {:.4} deg at the reference circle, {:.4} deg at the base circle; transverse module {:.5} mm, transverse pressure angle {:.4} deg, overlap ratio over the face width {:.4}, virtual teeth {:.2}",
+                p.hand(),
+                p.helix_angle_rad.abs().to_degrees(),
+                p.base_helix_angle_rad().abs().to_degrees(),
+                2e3 * p.reference_radius_m / p.teeth as f64,
+                (p.base_radius_m / p.reference_radius_m).acos().to_degrees(),
+                p.overlap_ratio(width),
+                p.virtual_teeth()
+            ));
+        }
         if gear.blank.openings.is_some() && gear.sectors() == 1 {
             console::warning(
                 "the openings do not divide the teeth: the body does not repeat, and every tooth is solved",

@@ -71,6 +71,20 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
             f64::from(result.iterations[k]) / result.angles() as f64
         ));
     }
+    if result.has_axial_force() {
+        lines.push(format!(
+            "{:>10} {:>22} {:>24}",
+            "torque N m", "axial force gear 1 N", "axial over normal force"
+        ));
+        for (k, torque) in result.torque_nm.iter().enumerate() {
+            let axial = fourier(result.curve(&result.axial_force_1_n, k), 0).0;
+            let normal = fourier(&result.normal_force_n(k), 0).0;
+            lines.push(format!(
+                "{torque:>10.1} {axial:>22.3} {:>24.6}",
+                axial / normal
+            ));
+        }
+    }
     lines.push(format!(
         "contact {:.3} s ({:.1} us a position), strain {:.3} s",
         result.seconds[0],
@@ -95,11 +109,13 @@ fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
             let (te_mean, te_range) = transmission_error(result, k)?;
             let curve = result.curve(&result.tangent_n_per_m, k);
             let (mean, harmonics) = mesh_harmonics(curve, result.pitches, 5);
+            let (axial, _) = fourier(result.curve(&result.axial_force_1_n, k), 0);
             Ok(json!({
                 "torque_Nm": result.torque_nm[k], "te_mean_m": te_mean, "te_peak_to_peak_m": te_range,
                 "tangent_stiffness_mean_N_per_m": mean,
                 "secant_stiffness_mean_N_per_m": fourier(result.curve(&result.secant_n_per_m, k), 0).0,
                 "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
+                "axial_force_1_mean_N": axial,
                 "k_h_beta": result.k_h_beta[k], "torque_balance": result.torque_balance[k],
                 "residual": result.residual[k], "iterations": result.iterations[k],
             }))

@@ -21,6 +21,7 @@ pub fn tooth(teeth: usize, profile_shift: f64, tip_chamfer_m: f64) -> ToothDefin
         thickness_allowance_m: 0.1e-3,
         tip_chamfer_m,
         face_width_m: 20e-3,
+        helix_angle_rad: 0.0,
     }
 }
 
@@ -46,6 +47,7 @@ pub fn extended(pair: GearPair, edge_radius_m: f64) -> ContactLines {
         microgeometry_1: Microgeometry::default(),
         microgeometry_2: Microgeometry::default(),
         extension,
+        face_width_m: 20e-3,
     }
 }
 
@@ -103,7 +105,7 @@ pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> 
 pub fn contact(lines: &ContactLines, options: ContactOptions, slices: usize) -> StaticContact {
     let models =
         [&lines.pair.gear_1, &lines.pair.gear_2].map(|gear| made_up_gear(gear, 20e-3, slices));
-    StaticContact::new(lines.clone(), &models[0], &models[1], Flank::Right, options).unwrap()
+    StaticContact::new(lines.clone(), &models[0], &models[1], options).unwrap()
 }
 
 /// Frictionless, with the local term.

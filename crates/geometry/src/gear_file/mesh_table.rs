@@ -47,6 +47,12 @@ impl MeshTable {
                 "plane strain has one layer and does not use it; remove it or set plane_strain = false",
             ));
         }
+        if self.plane_strain && tooth.helix_angle_rad != 0.0 {
+            return Err(keys.error(
+                "plane_strain",
+                "plane strain knows straight teeth only; set tooth.helix_angle_deg = 0 or plane_strain = false",
+            ));
+        }
         if self.plane_strain && blank.web.is_some() {
             return Err(keys.error(
                 "plane_strain",

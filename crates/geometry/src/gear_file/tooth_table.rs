@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToothTable {
-    teeth: usize,
+    teeth: i64,
     module_mm: f64,
     #[serde(default = "default_pressure_angle")]
     pressure_angle_deg: f64,
@@ -27,6 +27,17 @@ pub(super) struct ToothTable {
     #[serde(default)]
     tip_chamfer_mm: f64,
     face_width_mm: f64,
+    #[serde(default)]
+    helix_angle_deg: f64,
+    hand: Option<Hand>,
+}
+
+/// Hand of a helix: the teeth of a right-hand gear with an upright axis rise to the right.
+#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum Hand {
+    Right,
+    Left,
 }
 
 fn default_pressure_angle() -> f64 {
@@ -43,6 +54,15 @@ impl ToothTable {
     /// The teeth, in SI units. Whether they can exist together is [`crate::ToothGeometry`]'s to say.
     pub(super) fn check(self, document: &InputDocument) -> Result<ToothDefinition, InputError> {
         let keys = TableKeys::new(document, "tooth");
+        if self.teeth < 0 {
+            return Err(keys.error(
+                "teeth",
+                format!(
+                    "found {}: a negative number of teeth stands for an internal gear, and internal gears are not supported; allowed is 5 to 1000",
+                    self.teeth
+                ),
+            ));
+        }
         keys.require(
             "teeth",
             self.teeth as f64,
@@ -91,7 +111,9 @@ impl ToothTable {
             self.tip_chamfer_mm >= 0.0,
             "0 or more",
         )?;
-        let thickness = 0.5 * PI * self.module_mm;
+        let helix_angle_rad = self.check_helix(&keys)?;
+        // Half the transverse pitch.
+        let thickness = 0.5 * PI * self.module_mm / helix_angle_rad.cos();
         keys.require(
             "thickness_allowance_mm",
             self.thickness_allowance_mm,
@@ -105,7 +127,7 @@ impl ToothTable {
             ));
         }
         Ok(ToothDefinition {
-            teeth: self.teeth,
+            teeth: self.teeth as usize,
             module_m: self.module_mm * MM,
             pressure_angle_rad: self.pressure_angle_deg.to_radians(),
             profile_shift: self.profile_shift,
@@ -116,6 +138,30 @@ impl ToothTable {
             thickness_allowance_m: self.thickness_allowance_mm * MM,
             tip_chamfer_m: self.tip_chamfer_mm * MM,
             face_width_m: self.face_width_mm * MM,
+            helix_angle_rad,
         })
+    }
+
+    /// The signed helix angle \[rad\], positive for a right hand.
+    fn check_helix(&self, keys: &TableKeys) -> Result<f64, InputError> {
+        keys.require(
+            "helix_angle_deg",
+            self.helix_angle_deg,
+            (0.0..45.0).contains(&self.helix_angle_deg),
+            "0 to below 45; the sense of the helix is set by hand",
+        )?;
+        match (self.helix_angle_deg == 0.0, self.hand) {
+            (true, None) => Ok(0.0),
+            (true, Some(_)) => Err(keys.error(
+                "hand",
+                "is not used with helix_angle_deg = 0; leave it out or give the helix angle",
+            )),
+            (false, None) => Err(keys.error(
+                "helix_angle_deg",
+                "needs hand = \"right\" or \"left\"; the gears of a pair have opposite hands",
+            )),
+            (false, Some(Hand::Right)) => Ok(self.helix_angle_deg.to_radians()),
+            (false, Some(Hand::Left)) => Ok(-self.helix_angle_deg.to_radians()),
+        }
     }
 }
