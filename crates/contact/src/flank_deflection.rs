@@ -68,7 +68,7 @@ pub fn flank_deflection(
             let body = ContactBody {
                 youngs_modulus_pa: gear.young_pa,
                 poisson_ratio: gear.poisson,
-                depth_m: compliance.local_depth_m(roll),
+                depth_m: compliance.local_depth_m(roll, 1.0),
             };
             body.weber_banaschek_m(load.line_load_n_per_m, load.half_width_m)
         }

@@ -197,13 +197,18 @@ impl SliceCompliance {
 
     /// Depth h \[m\] of the local logarithm at a roll angle: effective where the model is calibrated, else the distance
     /// to the opposite side.
-    pub fn local_depth_m(&self, roll_rad: f64) -> f64 {
+    ///
+    /// A slice that touches over a share of its width only (helical teeth, at the ends of the path) has the line load
+    /// q = F/(share b_s), but its hats still spread F over the whole slice: the calibration then adds
+    /// q (c₀ − share w_h − k ln(a/a₀)). With the share the force goes to zero, as it must.
+    pub fn local_depth_m(&self, roll_rad: f64, share: f64) -> f64 {
         let place = self.place(roll_rad);
         let Some(field) = &self.near_field else {
             return self.opposite_distance_m(place);
         };
         effective_depth_m(
-            field.contact_at(roll_rad, self.base_radius_m) - mesh_at(field, self.stations, place),
+            field.contact_at(roll_rad, self.base_radius_m)
+                - share * mesh_at(field, self.stations, place),
             field.half_width_m,
             self.material(),
         )

@@ -256,7 +256,7 @@ impl StaticContact {
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
-                depth_m: compliance.local_depth_m(roll),
+                depth_m: compliance.local_depth_m(roll, slice.share),
             }
         };
         LineContact {
@@ -437,6 +437,13 @@ impl StaticContact {
             }
         }
         symmetrise(c, n);
+        if self.options.local == LocalContact::None {
+            // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
+            // compliance grows instead.
+            for (i, slice) in self.touching.iter().enumerate() {
+                c[i * n + i] /= slice.share;
+            }
+        }
     }
 }
 

@@ -52,7 +52,17 @@ fn angles(lines: &ContactLines, points: usize) -> Vec<f64> {
 }
 
 fn curve(lines: &ContactLines, torque: f64, slices: usize, points: usize) -> Vec<f64> {
-    let mut contact = contact(lines, FRICTIONLESS, slices);
+    curve_with(lines, FRICTIONLESS, torque, slices, points)
+}
+
+fn curve_with(
+    lines: &ContactLines,
+    options: ContactOptions,
+    torque: f64,
+    slices: usize,
+    points: usize,
+) -> Vec<f64> {
+    let mut contact = contact(lines, options, slices);
     angles(lines, points)
         .iter()
         .map(|&a| {
@@ -210,8 +220,15 @@ fn the_transmission_error_of_helical_teeth_is_continuous() {
     let steps = |lines: &ContactLines, points| largest_step(&curve(lines, 200.0, 5, points));
     let spur = (steps(&spur, 50), steps(&spur, 800));
     assert!(spur.1 > 0.8 * spur.0, "{spur:?}");
-    let helical = (steps(&helical, 50), steps(&helical, 800));
-    assert!(helical.1 < 0.2 * helical.0, "{helical:?}");
+    for local in [LocalContact::WeberBanaschek, LocalContact::None] {
+        let options = ContactOptions {
+            local,
+            friction: None,
+        };
+        let steps = |points| largest_step(&curve_with(&helical, options, 200.0, 5, points));
+        let (coarse, fine) = (steps(50), steps(800));
+        assert!(fine < 0.2 * coarse, "{local:?}: {coarse} {fine}");
+    }
 }
 
 /// With an overlap ratio of one the length of all contact lines together hardly varies, and with it the deflection.
