@@ -1,10 +1,11 @@
-//! The project's own commands: `cargo xtask test` and `cargo xtask demo`.
+//! The project's own commands: `cargo xtask test`, `cargo xtask demo` and `cargo xtask bench`.
 //!
-//! Both begin with the same preparation ([`prepare::prepare`]), so that either works on a clean clone: the Python
+//! All begin with the same preparation ([`prepare::prepare`]), so that each works on a clean clone: the Python
 //! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.
 //! A machine needs rustup, a C compiler and Python 3.10 to 3.13 with venv; whatever is missing is named together
 //! with the one line that installs it.
 
+mod bench;
 mod console;
 mod error;
 mod machine;
@@ -21,14 +22,18 @@ use error::XtaskError;
 use workspace::Workspace;
 
 const HELP: &str = "\
-The project's own commands. Both make what they need first (.venv, gmsh's shared libraries, the Python module).
+The project's own commands. All make what they need first (.venv, gmsh's shared libraries, the Python module).
 
 Usage: cargo xtask <COMMAND>
 
   test [--fast]   everything that CI runs: formatting, lints, documentation, Rust tests, Python tests
                   --fast   leaves out the tests marked #[ignore], which take minutes
   demo [ARGS]     gear pair A from definition to report, into out/demo; ARGS go to `gearmesh demo`
-  prepare         only makes what the two others need
+  bench offline [--quick] [--program PATH]
+                  time and memory of the offline stage beside other programs, into docs/benchmarks/offline.md
+                  --quick     the two smallest meshes only, into out/offline-quick.md
+                  --program   measures this program, with the Python in GEARMESH_PYTHON, and builds nothing
+  prepare         only makes what the others need
   help            this text
 
 Exit code: 0 done, 1 the work failed, 2 the command line is wrong; `demo` ends with the code of `gearmesh demo`.";
@@ -56,6 +61,7 @@ fn main() -> ExitCode {
 enum Command {
     Test(steps::Extent),
     Demo(Vec<String>),
+    BenchOffline(bench::Options),
     Prepare,
     Help,
 }
@@ -71,16 +77,35 @@ impl Command {
             ("demo", rest) => Ok(Self::Demo(rest.iter().map(|&arg| arg.to_owned()).collect())),
             ("test", []) => Ok(Self::Test(steps::Extent::Full)),
             ("test", ["--fast"]) => Ok(Self::Test(steps::Extent::Fast)),
+            ("bench", ["offline", rest @ ..]) => bench_options(rest).map(Self::BenchOffline),
             ("prepare", []) => Ok(Self::Prepare),
-            ("help" | "--help" | "-h", _) | ("test" | "prepare", ["--help" | "-h"]) => {
+            ("help" | "--help" | "-h", _) | ("test" | "prepare" | "bench", ["--help" | "-h"]) => {
                 Ok(Self::Help)
             }
             ("test" | "prepare", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
+            ("bench", _) => Err("`bench` needs what to measure: `bench offline`".into()),
             (other, _) => Err(format!("unknown command `{other}`")),
         }
     }
+}
+
+/// Reads what follows `bench offline`.
+fn bench_options(arguments: &[&str]) -> Result<bench::Options, String> {
+    let mut options = bench::Options::default();
+    let mut rest = arguments.iter();
+    while let Some(&argument) = rest.next() {
+        match argument {
+            "--quick" => options.quick = true,
+            "--program" => {
+                let path = rest.next().ok_or("`--program` needs a path")?;
+                options.program = Some(path.into());
+            }
+            other => return Err(format!("unknown argument `{other}` of `bench offline`")),
+        }
+    }
+    Ok(options)
 }
 
 fn run(command: Command) -> Result<ExitCode, XtaskError> {
@@ -89,11 +114,14 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         return Ok(ExitCode::SUCCESS);
     }
     let workspace = Workspace::find()?;
+    if let Command::BenchOffline(options) = &command {
+        return bench::offline(&workspace, options);
+    }
     let venv = prepare::prepare(&workspace)?;
     match command {
         Command::Test(extent) => steps::test(&workspace, &venv, extent),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
-        Command::Prepare | Command::Help => Ok(ExitCode::SUCCESS),
+        Command::Prepare | Command::Help | Command::BenchOffline(_) => Ok(ExitCode::SUCCESS),
     }
 }
 
@@ -121,6 +149,30 @@ mod tests {
                 "-o".into(),
                 "x".into()
             ]))
+        );
+    }
+
+    #[test]
+    fn the_benchmark_takes_its_options_in_any_order() {
+        let options = bench::Options {
+            quick: true,
+            program: Some("x/gearmesh".into()),
+        };
+        assert_eq!(
+            parse("bench offline --program x/gearmesh --quick"),
+            Ok(Command::BenchOffline(options))
+        );
+        assert_eq!(
+            parse("bench offline"),
+            Ok(Command::BenchOffline(bench::Options::default()))
+        );
+        assert_eq!(
+            parse("bench offline --program"),
+            Err("`--program` needs a path".into())
+        );
+        assert_eq!(
+            parse("bench online"),
+            Err("`bench` needs what to measure: `bench offline`".into())
         );
     }
 
