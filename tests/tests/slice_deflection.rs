@@ -131,7 +131,7 @@ fn sliced(gear: &GearDefinition, mesh: &GearMesh, loaded: usize) -> Vec<f64> {
     compliance.add_block((0, place), (0, place), 1.0, &mut c, 0, n);
     let k = 2.0 * (1.0 - POISSON * POISSON) / (std::f64::consts::PI * YOUNG);
     let own = k
-        * ((2.0 * compliance.local_depth_m(roll) / HALF_WIDTH_M).ln()
+        * ((2.0 * compliance.local_depth_m(roll, 1.0) / HALF_WIDTH_M).ln()
             - POISSON / (2.0 * (1.0 - POISSON)))
         / compliance.slice_width_m();
     (0..n)
