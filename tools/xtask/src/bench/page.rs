@@ -80,7 +80,8 @@ pub fn page(host: &Host, program: &str, solver: &str, sizes: &[MeshSize]) -> Str
         - **ours, symmetry**: `gearmesh reduce --no-error-estimate`, all loads of all teeth.\n\
         - **ours, off**: the same with `symmetry = \"off\"`, one factorisation of the whole gear and the loads of one tooth. That \
         it needs no other tooth's loads is repetition again; a program that knows nothing of it solves all.\n\
-        - **scikit-fem**: its assembly of trilinear hexahedra, as many couplings as ours, and the solver named above.\n\
+        - **scikit-fem**: its assembly of trilinear hexahedra, as many couplings as ours, and the solver named above (Pardiso: \
+        symmetric positive definite, no iterative refinement, 64 loads at a time as ours).\n\
         - **CalculiX**: one static step, one load, with its default solver; it tells no stages. C3D8I has incompatible modes \
         as ours, but keeps them as unknowns of the whole system; C3D8 has the nodes' unknowns only.\n\n\
         *256 loads*: assembly, factorisation and the solution for 256 loads, from the loads that were solved. *All loads*: the \
