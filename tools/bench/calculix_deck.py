@@ -1,6 +1,7 @@
-"""A CalculiX deck with one static step and one load: calculix_deck.py MESH.vtu OUT.inp.
+"""A CalculiX deck with one static step and one load: calculix_deck.py MESH.vtu OUT.inp ELEMENT.
 
-C3D8I is CalculiX's hexahedron with incompatible modes, the kind of the project's default element. Units m, N, Pa.
+The element is C3D8I, CalculiX's hexahedron with incompatible modes, the kind of the project's default element, or C3D8,
+which has no unknowns but the nodes'. Units m, N, Pa.
 """
 
 import sys
@@ -16,7 +17,7 @@ def main() -> None:
         deck.write("*NODE, NSET=ALL\n")
         numbers = np.arange(1, len(gear.points) + 1)
         np.savetxt(deck, np.column_stack([numbers, gear.points]), fmt="%d, %.12e, %.12e, %.12e")
-        deck.write("*ELEMENT, TYPE=C3D8I, ELSET=BODY\n")
+        deck.write(f"*ELEMENT, TYPE={sys.argv[3]}, ELSET=BODY\n")
         numbers = np.arange(1, len(gear.hexahedra) + 1)
         np.savetxt(deck, np.column_stack([numbers, gear.hexahedra + 1]), fmt="%d", delimiter=", ")
         deck.write("*NSET, NSET=BORE\n")

@@ -44,7 +44,7 @@ impl Figures {
     /// All loads of all teeth \[s\], without the mesh. Where nothing is scaled, whatever else the program does counts.
     fn all_loads_s(&self, all_loads: f64) -> Option<f64> {
         if self.complete {
-            return Some(self.wall_s - self.stages.map_or(0.0, |stages| stages.mesh_s));
+            return Some(self.wall_s - self.stages.and_then(|s| s.mesh_s).unwrap_or(0.0));
         }
         self.scaled_s(all_loads)
     }
@@ -53,6 +53,8 @@ impl Figures {
 /// The cases on one mesh; the first is what the others are compared with.
 #[derive(Debug, Clone)]
 pub struct MeshSize {
+    /// Factors on the default element lengths: in the cross-section, along the axis.
+    pub lengths: [f64; 2],
     /// Degrees of freedom, bore included; or why there is no mesh.
     pub dofs: Result<u64, String>,
     /// Unit loads on both flanks of all teeth.
@@ -72,32 +74,37 @@ pub fn page(host: &Host, program: &str, solver: &str, sizes: &[MeshSize]) -> Str
         host.cpu, host.cores, host.memory, host.system, host.date, host.commit
     );
     page.push_str(
-        "Gear 2 (`fe_models/gear2.toml`), both flanks loaded, the last size is the default mesh. Each case is one process on all \
+        "Gear 2 (`fe_models/gear2.toml`), both flanks loaded. Each case is one process on all \
         cores; memory is the largest resident set of it or a child. *Rest* is what is in no other stage: start, reading files, \
         and, of ours, near field, gauges, checks and the model file.\n\n\
         - **ours, symmetry**: `gearmesh reduce --no-error-estimate`, all loads of all teeth.\n\
         - **ours, off**: the same with `symmetry = \"off\"`, one factorisation of the whole gear and the loads of one tooth. That \
         it needs no other tooth's loads is repetition again; a program that knows nothing of it solves all.\n\
-        - **scikit-fem**: its assembly of trilinear hexahedra, as many couplings as ours, and the solver named above.\n\
-        - **CalculiX**: C3D8I, incompatible modes as ours but kept as unknowns of the whole system; one static step, one load. \
-        It tells no stages.\n\n\
+        - **scikit-fem**: its assembly of trilinear hexahedra, as many couplings as ours, and the solver named above (Pardiso: \
+        symmetric positive definite, no iterative refinement, 64 loads at a time as ours).\n\
+        - **CalculiX**: one static step, one load, with its default solver; it tells no stages. C3D8I has incompatible modes \
+        as ours, but keeps them as unknowns of the whole system; C3D8 has the nodes' unknowns only.\n\n\
         *256 loads*: assembly, factorisation and the solution for 256 loads, from the loads that were solved. *All loads*: the \
         same for both flanks of all teeth, scaled by the number of loads; of ours with symmetry the whole run less the mesh, \
         nothing scaled. *Ratio*: to ours with symmetry, all loads, without the mesh.\n",
     );
     for size in sizes {
+        let [section, axis] = size.lengths;
+        let lengths = format!(
+            "Default element lengths times {section} in the cross-section and {axis} along the axis."
+        );
         match &size.dofs {
             Ok(dofs) => {
                 let _ = write!(
                     page,
-                    "\n## {} degrees of freedom, {} loads in all\n\n{}",
+                    "\n## {} degrees of freedom, {} loads in all\n\n{lengths}\n\n{}",
                     thousands(*dofs),
                     size.all_loads,
                     table(size)
                 );
             }
             Err(reason) => {
-                let _ = write!(page, "\n## No mesh\n\n{}\n", cell(reason));
+                let _ = write!(page, "\n## No mesh\n\n{lengths} {}\n", cell(reason));
             }
         }
     }
@@ -143,11 +150,11 @@ fn cells(figures: &Figures, all_loads: f64, reference_s: Option<f64>) -> Vec<Str
     let stage = |of: fn(&Stages) -> f64| seconds(figures.stages.as_ref().map(of));
     let rest_s = figures
         .stages
-        .map(|s| figures.wall_s - s.mesh_s - s.assembly_s - s.factor_s - s.solve_s);
+        .map(|s| figures.wall_s - s.mesh_s.unwrap_or(0.0) - s.assembly_s - s.factor_s - s.solve_s);
     let all_loads_s = figures.all_loads_s(all_loads);
     let ratio = all_loads_s.zip(reference_s).map(|(all, ours)| all / ours);
     vec![
-        stage(|s| s.mesh_s),
+        seconds(figures.stages.and_then(|s| s.mesh_s)),
         stage(|s| s.assembly_s),
         stage(|s| s.factor_s),
         stage(|s| s.solve_s),
@@ -202,13 +209,14 @@ mod tests {
         };
         let stages = |mesh_s, solve_s| {
             Some(Stages {
-                mesh_s,
+                mesh_s: Some(mesh_s),
                 assembly_s: 1.0,
                 factor_s: 9.0,
                 solve_s,
             })
         };
         MeshSize {
+            lengths: [1.0, 1.0],
             dofs: Ok(758_043),
             all_loads: 1000.0,
             rows: vec![
@@ -269,6 +277,7 @@ mod tests {
             commit: "abc, clean tree".into(),
         };
         let failed = MeshSize {
+            lengths: [3.2, 5.0],
             dofs: Err("exit code 2: no gmsh".into()),
             all_loads: 1.0,
             rows: Vec::new(),
@@ -279,7 +288,7 @@ mod tests {
             "| commit | abc, clean tree |",
             "| direct solver of scikit-fem | Pardiso |",
             "## 758 043 degrees of freedom, 1000 loads in all",
-            "## No mesh\n\nexit code 2: no gmsh",
+            "## No mesh\n\nDefault element lengths times 3.2 in the cross-section and 5 along the axis. exit code 2: no gmsh",
         ] {
             assert!(page.contains(part), "{part}\n{page}");
         }
