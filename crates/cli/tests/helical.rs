@@ -1,0 +1,114 @@
+//! A small helical pair through the whole program: check, reduce, plan, run, recover, both hands.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::{
+    Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, succeeds,
+};
+use gearmesh_scene::SceneResult;
+use serde_json::Value;
+use std::path::PathBuf;
+
+const TORQUE_NM: f64 = 40.0;
+
+fn gear(text: &str, hand: &str) -> String {
+    let helix = format!("profile_shift = 0.1\nhelix_angle_deg = 22.0\nhand = \"{hand}\"");
+    let text = changed(text, "profile_shift = 0.1", &helix);
+    changed(&text, "slices = 2", "slices = 4")
+}
+
+fn scene(further: &str) -> String {
+    format!(
+        "title = \"helical\"
+[pair]
+gear_1 = \"gear1.h5\"
+gear_2 = \"gear2.h5\"
+centre_distance_mm = 58.9
+[run]
+torques_Nm = [{TORQUE_NM}]
+pitches = 1
+points_per_pitch = 12
+[gauges]
+gear_2 = [\"tension\"]
+[mesh]
+model = \"hybrid\"
+{further}
+"
+    )
+}
+
+/// A pair whose gear 1 has the given hand, reduced, planned and run.
+fn ran(hand_1: &str, hand_2: &str) -> (Desk, PathBuf, Value, String) {
+    let desk = Desk::new();
+    for (name, text, hand) in [("gear1", SOLID, hand_1), ("gear2", THIN, hand_2)] {
+        let file = desk.file(&format!("{name}.toml"), gear(text, hand));
+        let check = succeeds(&["check", argument(&file)]).stdout;
+        assert!(
+            check.contains(&format!("{hand} hand, 22.0000 deg")),
+            "{check}"
+        );
+        let model = desk.path(&format!("{name}.h5"));
+        succeeds(&["reduce", argument(&file), "-o", argument(&model)]);
+    }
+    let file = desk.file("scene.toml", scene(""));
+    let plan = succeeds(&["plan", argument(&file)]).stdout;
+    let result = desk.path("result.h5");
+    let figures = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]).json();
+    (desk, result, figures, plan)
+}
+
+#[test]
+fn both_hands_run_through_the_whole_chain() {
+    let (desk, result, figures, plan) = ran("right", "left");
+    assert!(
+        plan.contains("gear 1 right hand, gear 2 left hand") && plan.contains("total"),
+        "{plan}"
+    );
+    let row = &figures["rows"][0];
+    assert!(number(&row["torque_balance"]) < 1e-10);
+    // T/r_b tan β_b, from the definition alone; a right-hand driver on right flanks is pushed to −z.
+    let (beta, alpha_n) = (22f64.to_radians(), 20f64.to_radians());
+    let alpha_t = (alpha_n.tan() / beta.cos()).atan();
+    let base_radius_m = 0.5 * 3e-3 / beta.cos() * 18.0 * alpha_t.cos();
+    let axial = -TORQUE_NM / base_radius_m * (beta.sin() * alpha_n.cos()).asin().tan();
+    let found = number(&row["axial_force_1_mean_N"]);
+    assert!((found / axial - 1.0).abs() < 1e-9, "{found} {axial}");
+
+    // Turned over, both gears change hands: the same curves and strains, the axial force the other way.
+    let (other_desk, other, _, _) = ran("left", "right");
+    let (a, b) = (
+        SceneResult::read(&result).unwrap(),
+        SceneResult::read(&other).unwrap(),
+    );
+    let scale = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    assert!(largest_difference(&a.te_m, &b.te_m) < 1e-9 * scale(&a.te_m));
+    let mirrored: Vec<f64> = b.axial_force_1_n.iter().map(|f| -f).collect();
+    assert!(largest_difference(&a.axial_force_1_n, &mirrored) < 1e-9 * axial.abs());
+    for (s, t) in [
+        (&a.strain[0].method_1, &b.strain[0].method_1),
+        (&a.strain[0].method_2, &b.strain[0].method_2),
+    ] {
+        assert!(scale(s) > 1e-6);
+        assert!(largest_difference(s, t) < 1e-7 * scale(s));
+    }
+
+    // Strain is read again from the file, slice by slice.
+    let strain = desk.path("strain.h5");
+    succeeds(&["recover", argument(&result), "-o", argument(&strain)]);
+    let again = SceneResult::read(&strain).unwrap();
+    let same = again.strain.iter().find(|s| s.name == "tension").unwrap();
+    assert_eq!(same.method_2, a.strain[0].method_2);
+    drop(other_desk);
+
+    let extended = desk.file("extended.toml", scene("path = \"extended\""));
+    let unwanted = desk.path("unwanted.h5");
+    let answer = gearmesh(&["run", argument(&extended), "-o", argument(&unwanted)]);
+    refused(&answer, 2, &["mesh.path", "helical", "line-of-action"]);
+
+    // Two gears of one hand do not run together.
+    let twins = changed(&scene(""), "gear2.h5", "gear1.h5");
+    let twins = desk.file("twins.toml", changed(&twins, "[\"tension\"]", "[]"));
+    let answer = gearmesh(&["plan", argument(&twins)]);
+    refused(&answer, 2, &["opposite hand"]);
+}
