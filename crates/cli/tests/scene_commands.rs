@@ -9,7 +9,7 @@
 mod common;
 
 use common::{
-    Desk, THIN, argument, changed, gearmesh, largest_difference, number, refused, run_scene,
+    Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, run_scene,
     succeeds, workshop,
 };
 use gearmesh_scene::{SceneResult, StrainSeries};
@@ -56,6 +56,30 @@ fn plan_counts_what_run_computes() {
     assert_eq!(result.angles() * result.torque_nm.len(), 48);
     assert_eq!(result.slots * result.slices, 4);
     assert_eq!(result.strain.len(), 1);
+}
+
+/// Elements three millimetres wide cannot tell slices of three quarters of a millimetre apart; the calibrated term must
+/// leave the contact problem solvable, and the transmission error that of wide slices.
+#[test]
+fn slices_narrower_than_elements_change_little() {
+    let mean_te = |slices: usize| {
+        let desk = Desk::new();
+        for (name, text) in [("gear1", SOLID), ("gear2", THIN)] {
+            let text = changed(text, "slices = 2", &format!("slices = {slices}"));
+            let file = desk.file(&format!("{name}.toml"), text);
+            let model = desk.path(&format!("{name}.h5"));
+            let words = ["reduce", argument(&file), "-o", argument(&model)];
+            succeeds(&[words.as_slice(), &["--no-error-estimate"]].concat());
+        }
+        let scene = changed(&workshop().scene(""), "local = \"weber-banaschek\"", "");
+        let scene = changed(&scene, argument(&workshop().solid), "gear1.h5");
+        let scene = changed(&scene, argument(&workshop().thin), "gear2.h5");
+        let (scene, result) = (desk.file("scene.toml", scene), desk.path("result.h5"));
+        let answer = succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
+        number(&answer.json()["rows"][1]["te_mean_m"])
+    };
+    let (wide, narrow) = (mean_te(4), mean_te(16));
+    assert!((narrow / wide - 1.0).abs() < 0.01, "{wide} {narrow}");
 }
 
 #[test]

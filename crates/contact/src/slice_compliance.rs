@@ -143,7 +143,8 @@ impl SliceCompliance {
                     let missing = field.contact_at(roll, gear.base_radius_m)
                         - mesh_at(field, stations, place);
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
-                    neighbour_term(k, missing, field.half_width_m, sizes)
+                    let term = neighbour_term(k, missing, field.half_width_m, sizes);
+                    term.min(largest_neighbour_term(&blocks, (stations, slices), place))
                 })
                 .collect()
         });
@@ -315,6 +316,40 @@ impl SliceCompliance {
             + a.place.share * response_of(row(a.place.station + 1))
             + self.spread_between(a, b)
     }
+}
+
+/// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x
+/// = (1, −1) on two and (1, −2, 1) on three slices side by side, L the graph Laplacian of the row of slices, in whose shape the
+/// term enters. Reached where slices are narrower than the elements across the width, which cannot tell them apart.
+fn largest_neighbour_term(
+    blocks: &[f64],
+    (stations, slices): (usize, usize),
+    place: RollPlace,
+) -> f64 {
+    let shares = [
+        (place.station, 1.0 - place.share),
+        (place.station + 1, place.share),
+    ];
+    let size = stations * slices;
+    let c = |i: usize, j: usize| -> f64 {
+        let parts = shares.iter().flat_map(|a| shares.map(|b| (*a, b)));
+        parts
+            .map(|((a, wa), (b, wb))| wa * wb * blocks[(a * slices + i) * size + b * slices + j])
+            .sum()
+    };
+    let mut least = f64::INFINITY;
+    for x in [[1.0, -1.0].as_slice(), &[1.0, -2.0, 1.0]] {
+        let outer = x[0] * x[0] + x[x.len() - 1] * x[x.len() - 1];
+        let steps: f64 = x.windows(2).map(|p| (p[1] - p[0]) * (p[1] - p[0])).sum();
+        for first in 0..(slices + 1).saturating_sub(x.len()) {
+            let terms = (0..x.len()).flat_map(|i| (0..x.len()).map(move |j| (i, j)));
+            let energy: f64 = terms
+                .map(|(i, j)| x[i] * x[j] * c(first + i, first + j))
+                .sum();
+            least = least.min(energy / (steps + outer));
+        }
+    }
+    0.5 * least.max(0.0)
 }
 
 /// w_h = Φᵀ W Φ at a roll place \[m²/N\].
