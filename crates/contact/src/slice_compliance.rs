@@ -7,7 +7,7 @@
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
-use crate::slice_spread::neighbour_term;
+use crate::slice_spread::NeighbourTerm;
 use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
@@ -106,31 +106,43 @@ impl SliceCompliance {
         let size = stations * slices;
         let own = gear.teeth_per_sector();
         let mut blocks = Vec::with_capacity(own * gear.teeth * size * size);
+        // Loads and shares of each (station, slice).
+        let axial: Vec<Vec<(usize, f64)>> = (0..size)
+            .map(|k| {
+                axial_shares(k % slices, slices)
+                    .map(|(i, share)| (grid.load(k / slices, i), share))
+                    .collect()
+            })
+            .collect();
+        let mut loaded = vec![0.0; loads];
         for tooth in 0..own {
             for other in 0..gear.teeth {
                 let block = match local.part() {
                     CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
                     CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank).into(),
                 };
-                for a in 0..size {
-                    for b in 0..size {
-                        let mut sum = 0.0;
-                        for (i, p) in axial_shares(a % slices, slices) {
-                            let l = grid.load(a / slices, i);
-                            for (j, q) in axial_shares(b % slices, slices) {
-                                let m = grid.load(b / slices, j);
-                                sum += p * q * block[l * loads + m];
-                            }
+                for row in &axial {
+                    // First the loads, then the responses: each entry of the block is used a few times only.
+                    loaded.fill(0.0);
+                    for &(l, share) in row {
+                        for (sum, c) in loaded.iter_mut().zip(&block[l * loads..][..loads]) {
+                            *sum += share * c;
                         }
-                        blocks.push(sum);
                     }
+                    let condensed = |column: &Vec<(usize, f64)>| -> f64 {
+                        column.iter().map(|&(m, share)| share * loaded[m]).sum()
+                    };
+                    blocks.extend(axial.iter().map(condensed));
                 }
             }
         }
         let slice_width_m = gear.face_width_m / slices as f64;
         let centroids_rad = centroids(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
-        let spread = near_field.as_ref().map_or(Vec::new(), |field| {
+        // A single slice has no neighbours.
+        let neighboured = near_field.as_ref().filter(|_| slices > 1);
+        let spread = neighboured.map_or(Vec::new(), |field| {
+            let neighbours = NeighbourTerm::new();
             let opposite_m = gear.opposite_distances_m(flank);
             // Hats are stiffer at a station than between two, where the load is shared.
             (0..2 * stations - 1)
@@ -143,7 +155,7 @@ impl SliceCompliance {
                     let missing = field.contact_at(roll, gear.base_radius_m)
                         - mesh_at(field, stations, place);
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
-                    let term = neighbour_term(k, missing, field.half_width_m, sizes);
+                    let term = neighbours.at(k, missing, field.half_width_m, sizes);
                     term.min(largest_neighbour_term(&blocks, (stations, slices), place))
                 })
                 .collect()

@@ -30,25 +30,49 @@ const CELLS: usize = 48;
 /// compliance stays positive. Reached only where slices are narrower than the hats' near field.
 const LARGEST_SHARE: f64 = 1.0 / 6.0;
 
-/// e \[m/N\] for slices of `width_m`, from k \[m²/N\], c₀ − w_h \[m²/N\] at a₀ \[m\], and the tooth's depth h \[m\].
-pub fn neighbour_term(
-    k_m2_per_n: f64,
-    missing_m2_per_n: f64,
-    half_width_m: f64,
-    (depth_m, width_m): (f64, f64),
-) -> f64 {
-    let smeared = |half_width_m: f64| 4.0 * half_width_m / (3.0 * PI);
-    let narrow = smeared(half_width_m);
-    let wide = smeared(half_width_m * (missing_m2_per_n / k_m2_per_n).exp());
-    let first = SLICES / 2 - 1;
-    let end = 0.5 * depth_m / width_m;
-    let product =
-        |f: &[f64], g: &[f64], r: f64| smeared_product(f, g, r) - smeared_product(f, g, end);
-    let true_term = product(&uniform(first), &uniform(first + 1), narrow / width_m);
-    let hat_term = product(&hats(first), &hats(first + 1), wide / width_m);
-    let term = 0.5 * k_m2_per_n / width_m * (true_term - hat_term);
-    let largest = LARGEST_SHARE * missing_m2_per_n.max(0.0) / width_m;
-    term.clamp(-largest, largest)
+/// How much of two neighbouring slices' densities lie at each distance, and with it the term between them.
+pub struct NeighbourTerm {
+    uniform: Vec<f64>,
+    hats: Vec<f64>,
+}
+
+impl Default for NeighbourTerm {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl NeighbourTerm {
+    /// The overlaps, which depend on neither width nor material.
+    pub fn new() -> Self {
+        let first = SLICES / 2 - 1;
+        Self {
+            uniform: overlaps(&uniform(first), &uniform(first + 1)),
+            hats: overlaps(&hats(first), &hats(first + 1)),
+        }
+    }
+
+    /// e \[m/N\] for slices of `width_m`, from k \[m²/N\], c₀ − w_h \[m²/N\] at a₀ \[m\], and the tooth's depth h \[m\].
+    pub fn at(
+        &self,
+        k_m2_per_n: f64,
+        missing_m2_per_n: f64,
+        half_width_m: f64,
+        (depth_m, width_m): (f64, f64),
+    ) -> f64 {
+        let smeared = |half_width_m: f64| 4.0 * half_width_m / (3.0 * PI);
+        let narrow = smeared(half_width_m);
+        let wide = smeared(half_width_m * (missing_m2_per_n / k_m2_per_n).exp());
+        let end = 0.5 * depth_m / width_m;
+        let product = |overlaps: &[f64], r: f64| {
+            smeared_product(overlaps, r) - smeared_product(overlaps, end)
+        };
+        let true_term = product(&self.uniform, narrow / width_m);
+        let hat_term = product(&self.hats, wide / width_m);
+        let term = 0.5 * k_m2_per_n / width_m * (true_term - hat_term);
+        let largest = LARGEST_SHARE * missing_m2_per_n.max(0.0) / width_m;
+        term.clamp(-largest, largest)
+    }
 }
 
 /// Density of a slice's unit force in each cell, slices one unit wide.
@@ -74,22 +98,29 @@ fn hats(slice: usize) -> Vec<f64> {
         .collect()
 }
 
-/// ∫∫ f(z) g(z′) / √((z − z′)² + r²) dz dz′, each cell of g integrated exactly.
-fn smeared_product(f: &[f64], g: &[f64], r: f64) -> f64 {
-    let size = 1.0 / CELLS as f64;
-    let primitive = |z: f64| (z / r).asinh();
-    // The kernel depends on the distance only: first the products at each distance.
+/// Σ f_i g_j over all cells at each distance j − i, from −(n − 1) to n − 1.
+fn overlaps(f: &[f64], g: &[f64]) -> Vec<f64> {
     let n = f.len() as isize;
     (1 - n..n)
         .map(|apart| {
-            let overlap: f64 = (0..n)
+            (0..n)
                 .filter(|i| (0..n).contains(&(i + apart)))
                 .map(|i| f[i as usize] * g[(i + apart) as usize])
-                .sum();
-            let z = apart as f64 * size;
-            overlap * (primitive(z + 0.5 * size) - primitive(z - 0.5 * size)) * size
+                .sum()
         })
-        .sum()
+        .collect()
+}
+
+/// ∫∫ f(z) g(z′) / √((z − z′)² + r²) dz dz′ from the overlaps of f and g, each cell of g integrated exactly.
+fn smeared_product(overlaps: &[f64], r: f64) -> f64 {
+    let size = 1.0 / CELLS as f64;
+    let primitive = |z: f64| (z / r).asinh();
+    let middle = (overlaps.len() / 2) as f64;
+    let at_distance = overlaps.iter().enumerate().map(|(k, overlap)| {
+        let z = (k as f64 - middle) * size;
+        overlap * (primitive(z + 0.5 * size) - primitive(z - 0.5 * size)) * size
+    });
+    at_distance.sum()
 }
 
 #[cfg(test)]
@@ -102,7 +133,7 @@ mod tests {
         for r in [0.02, 0.1, 0.5] {
             let second = |z: f64| z * (z / r).asinh() - z.hypot(r);
             let exact = second(2.0) - 2.0 * second(1.0) + second(0.0);
-            let found = smeared_product(&uniform(2), &uniform(3), r);
+            let found = smeared_product(&overlaps(&uniform(2), &uniform(3)), r);
             assert!((found / exact - 1.0).abs() < 2e-3, "{r}: {found} {exact}");
         }
     }
@@ -112,7 +143,8 @@ mod tests {
     #[test]
     fn the_term_grows_as_slices_get_narrow() {
         let (k, missing, a0) = (2.8e-12, 6e-12, 1e-4);
-        let share = |width: f64| neighbour_term(k, missing, a0, (3e-3, width)) * width / missing;
+        let term = NeighbourTerm::new();
+        let share = |width: f64| term.at(k, missing, a0, (3e-3, width)) * width / missing;
         // What the hats of neighbours overlap, times their near field over the right one.
         let overlap: f64 = (hats(2).iter().zip(hats(3)))
             .map(|(f, g)| f * g)

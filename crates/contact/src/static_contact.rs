@@ -110,7 +110,7 @@ pub struct ContactState {
 }
 
 /// Contact of two reduced gears, with all memory it needs.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StaticContact {
     lines: ContactLines,
     compliance_1: SliceCompliance,

@@ -244,11 +244,12 @@ pub fn run(
     let clock = Instant::now();
     let slots = loaded.lines.most_pairs();
     let done = std::sync::atomic::AtomicUsize::new(0);
+    let contact = loaded.contact()?;
     let curves: Vec<TorqueCurves> = scene
         .torques_nm
         .par_iter()
         .map(|&torque| {
-            let curves = solve_torque(loaded, &angles, slots, torque)?;
+            let curves = solve_torque(loaded, contact.clone(), &angles, slots, torque)?;
             let finished = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             progress(finished, scene.torques_nm.len());
             Ok(curves)
@@ -324,11 +325,11 @@ pub fn run(
 
 fn solve_torque(
     loaded: &LoadedScene,
+    mut contact: StaticContact,
     angles: &[f64],
     slots: usize,
     torque: f64,
 ) -> Result<TorqueCurves, RunError> {
-    let mut contact = loaded.contact()?;
     let slices = contact.slices();
     let base_2 = loaded.lines.pair.gear_2.base_radius_m;
     let base_pitch = loaded.lines.pair.pitch_1_rad() * loaded.lines.pair.gear_1.base_radius_m;
