@@ -122,6 +122,8 @@ pub struct StaticContact {
     placed: Vec<[PlacedSlice; 2]>,
     forces: Vec<f64>,
     c: Vec<f64>,
+    /// Hertz contact of each touching slice, and the edge where it is one.
+    hertz: Vec<(LineContact, Option<EdgeContact>)>,
     local: Vec<LocalLaw>,
     separation: Vec<f64>,
     closing: Vec<f64>,
@@ -183,6 +185,7 @@ impl StaticContact {
             placed: Vec::with_capacity(capacity),
             forces: Vec::with_capacity(capacity),
             c: vec![0.0; capacity * capacity],
+            hertz: Vec::with_capacity(capacity),
             local: Vec::with_capacity(capacity),
             separation: Vec::with_capacity(capacity),
             closing: Vec::with_capacity(capacity),
@@ -227,12 +230,14 @@ impl StaticContact {
         self.work.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of a slice under a normal force; q is the
-    /// force over the slice's length along the contact line. At a tip edge those of the Hertz contact that gives way as the
-    /// edge does.
-    pub fn hertz(&self, slice: &ContactSlice, force_n: f64) -> (f64, f64) {
-        let contact = self.line_contact(slice);
-        let edge = self.edge(&slice.section, &contact);
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the active slice with this number under a
+    /// normal force; q is the force over the slice's length along the contact line. At a tip edge those of the Hertz
+    /// contact that gives way as the edge does.
+    ///
+    /// # Panics
+    /// If there is no such slice.
+    pub fn hertz(&self, active_slice: usize, force_n: f64) -> (f64, f64) {
+        let (contact, edge) = self.hertz[active_slice];
         let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
         let a = contact.half_width_m(force_n) * share;
         if a > 0.0 {
@@ -302,31 +307,39 @@ impl StaticContact {
             Drive::TransmissionError(_) => 0.0,
         };
         let floor = FLOOR_FRACTION * scale_force.max(1.0);
+        self.hertz.clear();
         self.local.clear();
         self.separation.clear();
         self.closing.clear();
         self.lever_1.clear();
         self.lever_2.clear();
-        let mut last: Option<(usize, LocalLaw)> = None;
+        let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
         for slice in &self.touching {
             let line = &slice.section;
-            let law = match last {
+            let (hertz, law) = match last {
                 // The slices of a spur line are all alike.
-                Some((number, law)) if number == slice.line && !self.lines.pair.is_helical() => law,
+                Some((number, hertz, law))
+                    if number == slice.line && !self.lines.pair.is_helical() =>
+                {
+                    (hertz, law)
+                }
                 _ => {
                     let contact = self.line_contact(slice);
-                    (self.options.local)
+                    let edge = self.edge(line, &contact);
+                    let law = (self.options.local)
                         .law(&contact, floor)
                         .map_err(|cause| ContactError::LocalLaw {
                             angle_deg: driver_angle_rad.to_degrees(),
                             cause,
                         })?
-                        .with_edge(self.edge(line, &contact))
+                        .with_edge(edge);
+                    ((contact, edge), law)
                 }
             };
-            last = Some((slice.line, law));
+            last = Some((slice.line, hertz, law));
             let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
             let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
+            self.hertz.push(hertz);
             self.local.push(law);
             self.separation
                 .push(self.lines.separation_m(line, slice.z_m));

@@ -386,8 +386,8 @@ fn solve_torque(
                 heaviest = (sum, largest * length / sum);
             }
         }
-        for slice in contact.active_slices() {
-            let (half_width, pressure) = contact.hertz(slice, contact.force_n(slice));
+        for (number, slice) in contact.active_slices().iter().enumerate() {
+            let (half_width, pressure) = contact.hertz(number, contact.force_n(slice));
             c.pressure[first + slice.line * slices + slice.slice] = pressure;
             worst[0] = worst[0].max(half_width / least_distance);
             worst[1] = worst[1].max(pressure / young);
@@ -415,6 +415,9 @@ pub fn strain(
     result: &SceneResult,
     gauges: &[(usize, usize)],
 ) -> Result<Vec<StrainSeries>, RunError> {
+    if gauges.is_empty() {
+        return Ok(Vec::new());
+    }
     let flank = flank_of(loaded.scene.flank);
     let slices_at: Vec<Vec<ContactSlice>> = result
         .angle_rad
