@@ -3,10 +3,10 @@
 use crate::part::Part;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
 use gearmesh_fe::{
-    CylindricalFrames, DofMap, FeError, FeModel, StaticCondensation, StiffnessMatrix,
-    assemble_stiffness,
+    CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
+    assemble_mass, assemble_stiffness,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
@@ -32,6 +32,10 @@ pub struct SectorSubstructure {
     mesh_nodes: Vec<u32>,
     /// Sector node of each shared node of each of its teeth.
     tooth_nodes: Vec<Vec<usize>>,
+    /// Elements of the body alone.
+    body_elements: Vec<u32>,
+    /// The cuts R and L.
+    cuts: [Vec<usize>; 2],
     /// Stiffness of the body alone and its nodes among those of the sector.
     body_stiffness: StiffnessMatrix,
     body_nodes: Vec<usize>,
@@ -95,18 +99,13 @@ impl SectorSubstructure {
             })
             .collect();
 
-        let held: Vec<usize> = (0..body.nodes.len())
-            .filter(|&i| fixed[body.nodes[i] as usize])
-            .collect();
-        let dofs = DofMap::with_fixed_nodes(body.nodes.len(), &held)?;
+        let dofs = free_dofs(&body, fixed)?;
         let mut body_stiffness = assemble_stiffness(&body.model, &dofs)?;
-        let free = || body.nodes.iter().filter(|&&n| !fixed[n as usize]);
-        CylindricalFrames::new(free().map(|&n| mesh.nodes[n as usize]))
-            .turn_stiffness(&mut body_stiffness);
-        let body_nodes: Vec<usize> = free().filter_map(|&n| place(n)).collect();
+        frames(&body, mesh, fixed).turn_stiffness(&mut body_stiffness);
+        let body_nodes: Vec<usize> = free_nodes(&body, fixed).filter_map(place).collect();
 
-        let kept: Vec<usize> = if sectors == 1 {
-            Vec::new()
+        let cuts = if sectors == 1 {
+            [Vec::new(), Vec::new()]
         } else {
             let cut = |sector: usize| {
                 let cell = &section.cell_nodes[(first_tooth + sector * own) % teeth];
@@ -118,8 +117,7 @@ impl SectorSubstructure {
                     .filter_map(place)
                     .collect::<Vec<_>>()
             };
-            let (right, left) = (cut(0), cut(1));
-            right.into_iter().chain(left).collect()
+            [cut(0), cut(1)]
         };
         let stiffness = assemble(
             nodes.len(),
@@ -128,7 +126,7 @@ impl SectorSubstructure {
             tooth,
             &tooth_nodes,
         )?;
-        let condensation = StaticCondensation::new(stiffness, &kept)?;
+        let condensation = StaticCondensation::new(stiffness, &cuts.concat())?;
         Ok(Self {
             sectors,
             own,
@@ -136,6 +134,8 @@ impl SectorSubstructure {
             nodes,
             mesh_nodes,
             tooth_nodes,
+            body_elements: elements,
+            cuts,
             body_stiffness,
             body_nodes,
             condensation,
@@ -145,6 +145,39 @@ impl SectorSubstructure {
     /// The condensation.
     pub fn condensation(&self) -> &StaticCondensation {
         &self.condensation
+    }
+
+    /// Nodes of the cuts R (before its first tooth) and L (its image, behind the last one); none in a single sector.
+    pub fn cuts(&self) -> &[Vec<usize>; 2] {
+        &self.cuts
+    }
+
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of [`SectorSubstructure::body_nodes`].
+    pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
+        self.body_stiffness.as_ref()
+    }
+
+    /// Sector nodes of hub, web and rim.
+    pub fn body_nodes(&self) -> &[usize] {
+        &self.body_nodes
+    }
+
+    /// Mass (kg) as [`SectorSubstructure::body_stiffness`].
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn body_mass(
+        &self,
+        mesh: &GearMesh,
+        model: &FeModel,
+        fixed: &[bool],
+        density_kg_per_m3: f64,
+    ) -> Result<SparseMatrix, FeError> {
+        let body = Part::new(model, &self.body_elements)?;
+        let dofs = free_dofs(&body, fixed)?;
+        let mut mass = assemble_mass(&body.model, &dofs, density_kg_per_m3)?;
+        frames(&body, mesh, fixed).turn_stiffness(&mut mass);
+        Ok(mass)
     }
 
     /// Sector of a tooth and its number there.
@@ -209,6 +242,23 @@ impl SectorSubstructure {
             })
             .reduce(zero, |a, b| a + b)
     }
+}
+
+/// Nodes of the whole mesh in a part that are not held.
+fn free_nodes<'a>(body: &'a Part, fixed: &'a [bool]) -> impl Iterator<Item = u32> + 'a {
+    let nodes = body.nodes.iter().copied();
+    nodes.filter(|&n| !fixed[n as usize])
+}
+
+fn free_dofs(body: &Part, fixed: &[bool]) -> Result<DofMap, FeError> {
+    let held: Vec<usize> = (0..body.nodes.len())
+        .filter(|&i| fixed[body.nodes[i] as usize])
+        .collect();
+    DofMap::with_fixed_nodes(body.nodes.len(), &held)
+}
+
+fn frames(body: &Part, mesh: &GearMesh, fixed: &[bool]) -> CylindricalFrames {
+    CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes[n as usize]))
 }
 
 /// Lower triangle of the sector's stiffness: the body's own and one dense block per tooth.

@@ -2,6 +2,7 @@
 
 use crate::flank_loads::SparseVector;
 use gearmesh_mesh::GearMesh;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -35,6 +36,14 @@ pub fn on_tooth(mesh: &GearMesh, vector: &SparseVector, tooth: usize) -> SparseV
         }
     }
     summed(turned)
+}
+
+/// Vectors given on the cell of tooth 0, on every tooth: `[tooth][vector]`.
+pub fn on_all_teeth(mesh: &GearMesh, vectors: &[&SparseVector]) -> Vec<SparseVector> {
+    (0..mesh.section.cell_nodes.len())
+        .into_par_iter()
+        .flat_map_iter(|t| vectors.iter().map(move |v| on_tooth(mesh, v, t)))
+        .collect()
 }
 
 /// Entries sorted by degree of freedom, those of the same one added.
