@@ -14,7 +14,9 @@ use gearmesh_fe::{
     FeError, ModeProblem, ModeSettings, NaturalModes, WantedModes, assemble_mass, search_modes,
 };
 use gearmesh_geometry::ModeRange;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Frequencies squared closer than this, relative, belong together: a count does not part them.
 const SAME: f64 = 1e-6;
@@ -158,54 +160,63 @@ fn by_harmonics(
     progress: &dyn Progress,
 ) -> Result<(Vec<Found>, usize), FeError> {
     let harmonics = mass.harmonics();
-    let mut solves = 0;
-    let mut search = |k: usize, wanted: WantedModes| {
+    let (done, solves) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let passes = match range {
+        ModeRange::Count(_) => 2,
+        ModeRange::UpToHz(_) => 1,
+    };
+    let finished = |modes: Vec<Found>| {
+        let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.advance(count, passes * harmonics);
+        modes
+    };
+    let search = |k: usize, wanted: WantedModes| {
         let settings = ModeSettings {
             wanted,
             block: BLOCK,
             ..ModeSettings::new(1)
         };
         let modes = search_modes(&mass.harmonic(k), &settings)?;
-        solves += modes.solves;
+        solves.fetch_add(modes.solves, Ordering::Relaxed);
         Ok::<_, FeError>(found(&modes, k))
     };
-    let (bound, total) = match range {
-        ModeRange::UpToHz(hz) => (up_to(hz), harmonics),
+    let all: Vec<Vec<Found>> = match range {
+        ModeRange::UpToHz(hz) => (0..harmonics)
+            .into_par_iter()
+            .map(|k| search(k, up_to(hz)).map(finished))
+            .collect::<Result<_, _>>()?,
         ModeRange::Count(count) => {
             let members = |k: usize| mass.harmonic(k).multiplicity();
             let round: usize = (0..harmonics).map(members).sum();
-            let mut first: Vec<Vec<Found>> = Vec::with_capacity(harmonics);
-            for k in 0..harmonics {
-                let lowest = (members(k) * count.div_ceil(round)).min(mass.harmonic(k).size());
-                first.push(search(k, WantedModes::Lowest(lowest))?);
-                progress.advance(k + 1, 2 * harmonics);
-            }
-            let mut squares: Vec<f64> = first
-                .iter()
-                .flatten()
-                .map(|mode| mode.omega_squared)
-                .collect();
+            let lowest: Vec<Vec<Found>> = (0..harmonics)
+                .into_par_iter()
+                .map(|k| {
+                    let some = members(k) * count.div_ceil(round);
+                    let some = WantedModes::Lowest(some.min(mass.harmonic(k).size()));
+                    search(k, some).map(finished)
+                })
+                .collect::<Result<_, _>>()?;
+            let squares = lowest.iter().flatten().map(|mode| mode.omega_squared);
+            let mut squares: Vec<f64> = squares.collect();
             squares.sort_by(f64::total_cmp);
+            // As many modes as wanted lie below this.
             let bound = squares[count.min(squares.len()) - 1] * (1.0 + SAME);
-            let mut all = Vec::new();
-            for (k, modes) in first.into_iter().enumerate() {
-                let beyond = modes.last().is_some_and(|m| m.omega_squared > bound);
-                all.extend(if beyond {
-                    modes
-                } else {
-                    search(k, WantedModes::UpTo(bound))?
-                });
-                progress.advance(harmonics + k + 1, 2 * harmonics);
-            }
-            return Ok((all, solves));
+            lowest
+                .into_par_iter()
+                .enumerate()
+                .map(|(k, modes)| {
+                    let beyond = modes.last().is_some_and(|m| m.omega_squared > bound);
+                    let modes = if beyond {
+                        Ok(modes)
+                    } else {
+                        search(k, WantedModes::UpTo(bound))
+                    };
+                    modes.map(finished)
+                })
+                .collect::<Result<_, _>>()?
         }
     };
-    let mut all = Vec::new();
-    for k in 0..harmonics {
-        all.extend(search(k, bound)?);
-        progress.advance(k + 1, total);
-    }
-    Ok((all, solves))
+    Ok((all.into_iter().flatten().collect(), solves.into_inner()))
 }
 
 /// The field of a harmonic's shape in the whole gear.

@@ -31,7 +31,7 @@ density_kg_per_m3 = 7850.0
 flank_mm = 1.5
 fillet_mm = 0.6
 body_mm = 4.0
-axial_mm = 4.0
+axial_mm = 6.0
 [reduction]
 roll_stations = 3
 slices = 1
@@ -96,7 +96,7 @@ fn groups(modes: &GearModes, readings: &[Vec<f64>]) -> Vec<Mat<f64>> {
 
 /// Both ways find the same modes; the nodal diameters are those of the harmonics.
 fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
-    let count = 16;
+    let count = 8;
     let (cyclic_gear, whole_gear) = (gear(blank, "", ""), gear(blank, "symmetry = \"off\"", ""));
     let (cyclic_body, whole_body) = (body(&cyclic_gear), body(&whole_gear));
     let (cyclic, there) = modes(&cyclic_gear, &cyclic_body, ModeRange::Count(count));
@@ -107,7 +107,9 @@ fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
         let hz = (a.frequency_hz(), b.frequency_hz());
         assert!((hz.0 / hz.1 - 1.0).abs() < 1e-9, "{hz:?}");
         assert_eq!(a.nodal_diameters, b.nodal_diameters, "{hz:?}");
-        assert!(a.relative_residual < 1e-7 && b.relative_residual < 1e-7);
+        // What is left of higher modes, 1e-10 in the mass norm, counts here with their ω²: up to 1e4 times as much.
+        let residuals = [a.relative_residual, b.relative_residual];
+        assert!(residuals.iter().all(|r| *r < 1e-6), "{hz:?} {residuals:?}");
         for (x, y) in a.direction_shares.iter().zip(b.direction_shares) {
             assert!((x - y).abs() < 1e-6, "{a:?} {b:?}");
         }
@@ -298,10 +300,10 @@ fn residual_flexibility(model: &ReducedGear) -> Mat<f64> {
 
 #[test]
 fn the_residual_flexibility_is_positive_and_shrinks_with_each_mode() {
-    let (_, full, _) = reduced(THIN_RIM, "[modes]\ncount = 40\n");
+    let (_, full, _) = reduced(THIN_RIM, "[modes]\ncount = 20\n");
     let mut last: Option<Mat<f64>> = None;
     let total = full.modes.as_ref().unwrap().count();
-    for count in [1, 4, 15, total] {
+    for count in [1, 4, 12, total] {
         let mut model = full.clone();
         let basis = model.modes.as_mut().unwrap();
         let (flank, gauges) = (basis.flank.len() / total, basis.gauges.len() / total);
@@ -384,7 +386,7 @@ fn free_craig_bampton(model: &ReducedGear, count: usize) -> Vec<f64> {
 
 #[test]
 fn the_free_gear_on_its_reference_point_comes_back_from_the_basis() {
-    let tables = format!("{ON_A_POINT}[modes]\ncount = 90\n");
+    let tables = format!("{ON_A_POINT}[modes]\ncount = 48\n");
     let (_, model, body) = reduced(&format!("{THIN_RIM}{SLOTS}"), &tables);
     let elastic = 6;
     let exact = free_gear(&body, elastic);
@@ -392,7 +394,7 @@ fn the_free_gear_on_its_reference_point_comes_back_from_the_basis() {
         assert_eq!(square.abs() < 1e-6 * exact[6], k < 6, "{exact:?}");
     }
     let mut errors: Vec<Vec<f64>> = Vec::new();
-    for count in [12, 36, 90] {
+    for count in [6, 18, 48] {
         let found = free_craig_bampton(&model, count);
         assert!(
             found[..6].iter().all(|w| w.abs() < 1e-6 * exact[6]),
@@ -405,9 +407,14 @@ fn the_free_gear_on_its_reference_point_comes_back_from_the_basis() {
         // A subspace: from above, and never farther away with more modes.
         assert!(errors.iter().all(|e| e[k] > -1e-9), "{errors:?}");
         assert!(errors[1][k] <= errors[0][k] + 1e-12 && errors[2][k] <= errors[1][k] + 1e-12);
-        assert!(errors[2][k] < 1e-3, "{errors:?}");
+        assert!(errors[2][k] < 5e-3, "{errors:?}");
     }
-    assert!(errors[0].iter().any(|e| *e > 1e-6), "{errors:?}");
+    // Six modes know the lowest ones only; 48 bring the worst of the first six from beyond recognition to 0.4 %, the pair
+    // that the hub's inertia changes least to 1e-6.
+    assert!(
+        errors[0][5] > 0.1 && errors[2][0] < 1e-5 && errors[2][3] < 1e-5,
+        "{errors:?}"
+    );
 }
 
 #[test]

@@ -12,7 +12,12 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
     let mesh = GearMesh::new(&gear, &offline::python()?)
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
-    offline::export_mesh(&gear, &mesh, None, &arguments.output)?;
+    offline::export_mesh(
+        &gear,
+        &mesh,
+        offline::MeshFields::default(),
+        &arguments.output,
+    )?;
     let quality = mesh.quality;
     if arguments.json {
         console::json(&json!({
