@@ -3,6 +3,7 @@
 //! | step | file |
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
+//! | integration over a part of an element face | `face_overlap.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
 //! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
@@ -23,6 +24,7 @@ pub mod contact_problem;
 pub mod cyclic_body;
 mod cyclic_response;
 pub mod error_estimate;
+pub mod face_overlap;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
