@@ -4,14 +4,13 @@ use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use gearmesh_geometry::GearDefinition;
-use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
+use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
 use gearmesh_scene::{LoadedScene, SceneResult};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The Python that has gmsh and meshio.
@@ -65,14 +64,18 @@ pub fn export_mesh(
     fields: MeshFields,
     output: &Path,
 ) -> Result<(), Failure> {
-    let data = MeshData {
+    let mut data = MeshData {
         points: mesh.nodes.clone(),
-        hexes: mesh.hexes.clone(),
-        mid_edges: Vec::new(),
         point_sets: mesh.node_sets(gear),
         point_fields: fields.point,
         cell_fields: fields.cell,
+        ..MeshData::default()
     };
+    let connectivity = mesh.elements.connectivity();
+    match mesh.elements.shape() {
+        ElementShape::Hex8 => data.hexes = connectivity.as_chunks().0.to_vec(),
+        ElementShape::Hex20 => data.set_hexes_of_20(connectivity.as_chunks().0),
+    }
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");

@@ -207,6 +207,8 @@ pub enum ElementKind {
     Hex8,
     /// Eight nodes with incompatible bending modes.
     Hex8Incompatible,
+    /// Twenty nodes, quadratic, with curved edges.
+    Hex20,
 }
 
 /// Element sizes and the quality that the mesh must reach.

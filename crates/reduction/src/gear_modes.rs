@@ -226,26 +226,20 @@ fn full_field(
     problem: &HarmonicProblem<'_>,
     shape: &[f64],
 ) -> Vec<f64> {
-    let mesh = &gear.mesh;
-    let mut field = vec![0.0; 3 * mesh.nodes.len()];
+    let mut field = vec![0.0; 3 * gear.mesh.nodes.len()];
     let scale = problem.scale();
-    let mut put = |node: Option<u32>, values: &[f64], i: usize| {
-        if let Some(node) = node {
+    let mut put = |nodes: &[u32], values: &[f64]| {
+        for (&node, part) in nodes.iter().zip(values.chunks_exact(3)) {
             let node = node as usize;
-            let part = [values[3 * i], values[3 * i + 1], values[3 * i + 2]].map(|v| scale * v);
+            let part = [scale * part[0], scale * part[1], scale * part[2]];
             field[3 * node..3 * node + 3].copy_from_slice(&body.frames.to_cartesian(node, part));
         }
     };
     for sector in 0..body.sector.sectors {
-        let (nodes, teeth) = problem.in_sector(shape, sector);
-        for i in 0..body.sector.node_count() {
-            put(body.sector.node(mesh, &body.tooth, sector, i), &nodes, i);
-        }
-        for (a, values) in teeth.iter().enumerate() {
-            let tooth = body.sector.tooth(sector, a);
-            for i in 0..body.tooth.node_count() {
-                put(body.tooth.node(mesh, tooth, i), values, i);
-            }
+        let (of_sector, of_teeth) = problem.in_sector(shape, sector);
+        put(body.sector.nodes(sector), &of_sector);
+        for (a, values) in of_teeth.iter().enumerate() {
+            put(body.tooth.nodes(body.sector.tooth(sector, a)), values);
         }
     }
     field

