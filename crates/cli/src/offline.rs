@@ -11,6 +11,7 @@ use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
 use gearmesh_scene::{LoadedScene, SceneResult};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The Python that has gmsh and meshio.
