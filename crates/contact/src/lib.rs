@@ -12,6 +12,7 @@
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
+//! | how wide and under which pressure do two cylinders touch | [`hertz`] | `hertz.rs` |
 //! | the complementarity problem itself, which knows no gear | [`nlcp`] | `nlcp.rs` |
 //!
 //! Cost of a static position with five slices and one or two pairs: some microseconds, without allocation.
@@ -20,6 +21,7 @@
 pub mod contact_lines;
 pub mod contact_slices;
 pub mod flank_deflection;
+pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
