@@ -75,7 +75,7 @@ fn deviations(definition: impl Fn(usize) -> ToothDefinition) -> [f64; 3] {
     ]
 }
 
-/// The table goes back to layouts on paper with an addendum of 0.3 circular pitches; with that addendum, a dedendum of 1.25 and a rack tip
+/// The table seems to go back to layouts on paper with an addendum of 0.3 circular pitches (an inference); with that addendum, a dedendum of 1.25 and a rack tip
 /// radius of 0.3 modules ours lies within −4.2 and +2.9 %, +0.4 % in the mean. The addendum of one module of today has the load higher:
 /// −8.2 to −1.1 %. The fillet matters below 30 teeth: 0.1 modules of tip radius are worth 3 to 4 %.
 #[test]
