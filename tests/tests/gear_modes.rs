@@ -22,7 +22,7 @@ fn gear() -> GearDefinition {
 
 /// Harmonics of one sector of 57 against all degrees of freedom at once, by other elements and another solver: 1e-8.
 #[test]
-#[ignore = "a direct solution by SciPy, half a minute"]
+#[ignore = "a direct solution by SciPy, two minutes"]
 fn frequencies_of_gear_2_are_those_of_scikit_fem() {
     let python = PythonEnvironment::find().unwrap();
     let gear = gear();
