@@ -2,7 +2,7 @@
 //!
 //! With M = LLᵀ, the rows of B̂ = B L⁻ᵀ are comparable whatever their units. Redundant equations are found by orthogonalising the
 //! rows one after the other in the order of the joints (twice, so that rounding does not hide a dependence): a row of which
-//! less than [`DEPENDENT`] is left follows from those before it. The order makes the answer repeatable and lets an earlier joint keep its equations,
+//! less than 1e-8 is left follows from those before it. The order makes the answer repeatable and lets an earlier joint keep its equations,
 //! which a QR with free choice of pivots would not. Dropped equations are watched, not solved.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -157,7 +157,7 @@ pub(crate) fn analyse(system: &mut System) -> Result<(), DynamicsError> {
     }
     let all: Vec<usize> = (0..system.equations()).collect();
     let (worst, violation) = largest(&equations.violation, &all);
-    if !(violation < CONSISTENT) {
+    if violation.is_nan() || violation >= CONSISTENT {
         return Err(contradiction(
             system,
             &metric,
@@ -281,7 +281,7 @@ pub(crate) fn project_velocity(
         .velocity
         .iter()
         .fold(1.0_f64, |most, v| most.max(v.abs()));
-    if !(violation < CONSISTENT * scale) {
+    if violation.is_nan() || violation >= CONSISTENT * scale {
         return Err(contradiction(
             system,
             &metric,

@@ -320,7 +320,7 @@ impl Integrator {
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
             let correction = delta.abs().max((inverse * push).abs());
             let ratio = correction / (tolerance * size[kind] + self.floor[kind]);
-            if !(ratio <= worst) {
+            if ratio.is_nan() || ratio > worst {
                 (worst, place) = (ratio, dof);
             }
             above = above.max(correction / self.floor[kind]);
