@@ -14,12 +14,12 @@ use serde_json::Value;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 6] = [
-    "contact", "dynamics", "recovery", "signal", "scene", "report",
+const ONLINE: [&str; 7] = [
+    "contact", "dynamics", "recovery", "signal", "rating", "scene", "report",
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 15] = [
     ("geometry", &[]),
     ("mesh", &["geometry"]),
     ("fe", &[]),
@@ -29,6 +29,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("dynamics", &[]),
     ("recovery", &["model", "contact"]),
     ("signal", &[]),
+    ("rating", &["geometry", "contact"]),
     (
         "scene",
         &["geometry", "model", "contact", "recovery", "signal"],
