@@ -7,10 +7,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// Share of a row of B̂ below which it counts as dependent on the rows before it. Rounding leaves about 1e-15, well-built
 /// mechanisms have more than 1e-3.
