@@ -160,7 +160,7 @@ fn modes_are_sorted_paired_and_drawn() {
 
     // The model file holds what [modes] and [hub] ask for.
     let tables = "[modes]\ncount = 3\n[hub]\nsupport = \"reference-point\"\n";
-    let gear = desk.file("both.toml", &format!("{with_density}\n{tables}"));
+    let gear = desk.file("both.toml", format!("{with_density}\n{tables}"));
     let model = desk.path("model.h5");
     let arguments = [
         "reduce",
@@ -189,7 +189,7 @@ fn modes_that_cannot_be_found_are_refused() {
     };
     refused(&[], "--count, --up-to-Hz, or [modes]");
     refused(&["--count", "0"], "--count: found 0");
-    refused(&["--up-to-Hz", "-3"], "--up-to-Hz");
+    refused(&["--up-to-Hz=-3"], "--up-to-Hz: found -3");
     refused(&["--count", "3"], "material.density_kg_per_m3");
     refused(&["--count", "3", "--up-to-Hz", "10"], "cannot be used with");
 }
