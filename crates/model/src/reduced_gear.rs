@@ -107,8 +107,32 @@ pub struct ReductionChecks {
     pub symmetry: f64,
     /// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖.
     pub pattern_identity: f64,
-    /// Further checks by name, for example the residual of the solution.
+    /// Further checks by name, for example the residual of the solution; and what is known of the mesh's error.
     pub further: Vec<(String, f64)>,
+}
+
+impl ReductionChecks {
+    /// Name among the further checks of the mesh's estimated relative error in the deflection `steps` teeth counter-clockwise
+    /// of the loaded tooth of `teeth`, under a load over the whole width in the middle of the flank. Of the loaded tooth
+    /// that of the patterns, C_g, and of others C_hub.
+    pub fn deflection_error_name(steps: usize, teeth: usize) -> String {
+        let steps = steps % teeth;
+        if steps == 0 {
+            "mesh error of the deflection, loaded tooth".to_owned()
+        } else if 2 * steps > teeth {
+            format!("mesh error of the deflection, tooth -{}", teeth - steps)
+        } else {
+            format!("mesh error of the deflection, tooth +{steps}")
+        }
+    }
+
+    /// The estimate under that name, where the reduction made one: it does so for the loaded tooth, the two next to it on
+    /// either side, and the opposite one.
+    pub fn deflection_error(&self, steps: usize, teeth: usize) -> Option<f64> {
+        let name = Self::deflection_error_name(steps, teeth);
+        let found = self.further.iter().find(|(known, _)| *known == name);
+        found.map(|(_, error)| *error)
+    }
 }
 
 /// A reduced gear body: linear compliance of all flanks, gauges, and where they come from.
@@ -343,6 +367,19 @@ mod tests {
             gear.c_g_block(4, Flank::Left, 3, Flank::Left),
             Cow::Borrowed(_)
         ));
+    }
+
+    #[test]
+    fn errors_are_found_by_the_teeth_between() {
+        let name = |steps| ReductionChecks::deflection_error_name(steps, 7);
+        assert!(name(3).ends_with("tooth +3") && name(4).ends_with("tooth -3"));
+        assert_eq!(name(7), name(0));
+        let checks = ReductionChecks {
+            further: vec![("residual".into(), 1e-13), (name(6), 0.02)],
+            ..ReductionChecks::default()
+        };
+        assert_eq!(checks.deflection_error(6, 7), Some(0.02));
+        assert_eq!(checks.deflection_error(1, 7), None);
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Discretisation error of the reduced compliance and of the gauges, from a second, coarser mesh.
+//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from a second,
+//! coarser mesh.
 //!
 //! With all element lengths larger by s and an error of order p, the fine value's error is about
 //! |fine − coarse| / (s^p − 1). Compliance converges with p = 2, and so does the strain at element centres between which
@@ -19,10 +20,23 @@ const COARSENING: f64 = 1.5;
 
 /// Estimated relative errors.
 pub struct ErrorEstimate {
-    /// Of the compliance under a load over the whole width in the middle of the flank, C_g, own tooth.
-    pub compliance: f64,
+    /// Of the deflection under a load over the whole width in the middle of tooth 0's flank, at the same place of other
+    /// teeth: how many teeth counter-clockwise, and the error. C_g on the loaded tooth, C_hub elsewhere.
+    pub deflections: Vec<(usize, f64)>,
     /// Of each gauge's reading for loads on its own tooth.
     pub gauges: Vec<f64>,
+}
+
+/// Teeth, counter-clockwise from the loaded one, at which the deflection's error is estimated: that itself, the next two on
+/// either side, the opposite one.
+pub fn estimated_teeth(teeth: usize) -> Vec<usize> {
+    let mut steps = Vec::new();
+    for step in [0, 1, teeth - 1, 2, teeth - 2, teeth / 2] {
+        if !steps.contains(&step) {
+            steps.push(step);
+        }
+    }
+    steps
 }
 
 /// The same gear with coarser elements.
@@ -104,21 +118,32 @@ pub fn estimate(
     let all = body.readings(&rows, &normals, &Silent);
     // Normal loads of a row's own tooth; the line load stands on tooth 0.
     let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
-    let hub: f64 = weights
-        .iter()
-        .map(|&(load, share)| share * own(0, 0)[load])
-        .sum();
     let readings: Vec<&[f64]> = gear
         .gauges
         .iter()
         .enumerate()
         .map(|(k, gauge)| own(k + 1, gauge.tooth))
         .collect();
-    let coarse_compliance = hub - compliance_of(&weights, |l, m| w[m * count + l]);
-    let fine_compliance = compliance_of(&weights, |l, m| {
-        c_hub[l * count + m] - c_tooth[l * count + m]
-    });
+    // Rows of C_hub are [tooth][flank of the response][load][response]; those of the first flank are asked for.
     let flanks = gear.reduction.flanks.len();
+    let block = |tooth: usize| &c_hub[tooth * flanks * count * count..][..count * count];
+    let deflections = estimated_teeth(gear.tooth.teeth)
+        .into_iter()
+        .map(|tooth| {
+            let mut fine = compliance_of(&weights, |l, m| block(tooth)[l * count + m]);
+            let mut coarse: f64 = (weights.iter())
+                .map(|&(load, share)| share * own(0, tooth)[load])
+                .sum();
+            if tooth == 0 {
+                fine -= compliance_of(&weights, |l, m| c_tooth[l * count + m]);
+                coarse -= compliance_of(&weights, |l, m| w[m * count + l]);
+            }
+            (
+                tooth,
+                (coarse / fine - 1.0).abs() / (COARSENING * COARSENING - 1.0),
+            )
+        })
+        .collect();
     // What a gauge reads under loads over the whole width, station by station.
     let by_station = |reading: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..grid.roll_angles_rad.len())
@@ -143,8 +168,7 @@ pub fn estimate(
         })
         .collect();
     Ok(ErrorEstimate {
-        compliance: (fine_compliance / coarse_compliance - 1.0).abs()
-            / (COARSENING * COARSENING - 1.0),
+        deflections,
         gauges: gauge_errors,
     })
 }

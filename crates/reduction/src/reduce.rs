@@ -115,10 +115,13 @@ pub fn reduce(
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     if options.estimate_error {
         let ErrorEstimate {
-            compliance,
+            deflections,
             gauges: errors,
         } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
-        further.push(("compliance error estimate".to_string(), compliance));
+        further.extend(deflections.into_iter().map(|(steps, error)| {
+            let name = ReductionChecks::deflection_error_name(steps, teeth);
+            (name, error)
+        }));
         for (gauge, error) in gauges.iter_mut().zip(errors) {
             gauge.error_estimate_relative = error;
         }

@@ -65,6 +65,9 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
             flank_deflection(&model, &load, at_tooth, local).map_err(Failure::input)?,
         ));
     }
+    // Made for a load on tooth 0; on others the body below may differ.
+    let steps = at_tooth + model.teeth - a.tooth;
+    let mesh_error = model.checks.deflection_error(steps, model.teeth);
     if a.json {
         let list: Vec<_> = rows
             .iter()
@@ -75,12 +78,16 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
             })
             .collect();
         console::json(
-            &json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "rows": list}),
+            &json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "mesh_error_relative": mesh_error,
+                    "rows": list}),
         );
         return Ok(());
     }
+    let mesh_error = mesh_error.map_or(String::new(), |error| {
+        format!("; mesh error about {:.2} %", 100.0 * error)
+    });
     console::data(format!(
-        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}",
+        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}{mesh_error}",
         model.name, a.tooth
     ));
     let slices: Vec<String> = (0..model.grid.slices)
