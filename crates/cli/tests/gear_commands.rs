@@ -153,16 +153,9 @@ fn reduce_prints_the_figures_of_its_checks() {
             figures["nodes"].as_u64().unwrap(),
         );
         assert!(dofs < 3 * nodes && dofs > 2 * nodes, "{figures}");
-        for tooth in [
-            "loaded tooth",
-            "tooth +1",
-            "tooth -1",
-            "tooth +2",
-            "tooth -2",
-            "tooth +9",
-        ] {
-            let name = format!("mesh error of the deflection, {tooth}");
-            let error = number(&figures["further"][&name]);
+        for teeth in ["loaded tooth", "other teeth"] {
+            let error =
+                number(&figures["further"][format!("mesh error of the deflection, {teeth}")]);
             assert!(error > 0.0 && error < 0.1, "{figures}");
         }
     }
@@ -270,21 +263,16 @@ fn compliance_at_another_tooth_is_smaller_and_has_no_local_part() {
     assert!(local > 0.0);
     let (ahead, local_ahead, error_ahead) = total_at("3");
     let (behind, ..) = total_at("1");
-    let (opposite, _, error_opposite) = total_at("11");
-    // What the reduction said of the mesh, by the teeth between; nothing where it did not look.
+    let (opposite, ..) = total_at("11");
+    // What the reduction said of the mesh.
     let stated = &workshop().figures[1]["further"];
-    for (error, tooth) in [
-        (error, "loaded tooth"),
-        (error_ahead, "tooth +1"),
-        (error_opposite, "tooth +9"),
-    ] {
-        assert_eq!(
-            error,
-            stated[format!("mesh error of the deflection, {tooth}")].as_f64()
+    for (error, teeth) in [(error, "loaded tooth"), (error_ahead, "other teeth")] {
+        let name = format!("mesh error of the deflection, {teeth}");
+        assert!(
+            error.is_some() && error == stated[name].as_f64(),
+            "{error:?}"
         );
-        assert!(error.is_some());
     }
-    assert_eq!(total_at("7").2, None);
     assert_eq!(local_ahead, 0.0);
     assert!(
         opposite < ahead && ahead < loaded && opposite > 0.0,

@@ -2,8 +2,8 @@
 //!
 //! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`axial_shares`]) make it
 //! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the two
-//! nearest stations share the force so that its first moment is kept; the outermost hats are halves, their centroid
-//! lies a third of a spacing inside, and the shares are taken with respect to centroids. C = Φᵀ C_grid Φ as a whole.
+//! nearest stations share the force so that its moment is kept: the shares are linear in arc length between the hats'
+//! centres of force ([`centroids`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
@@ -150,8 +150,8 @@ impl SliceCompliance {
                     let station = (half / 2).min(stations - 2);
                     let share = 0.5 * half as f64 - station as f64;
                     let place = RollPlace { station, share };
-                    let roll =
-                        (1.0 - share) * centroids_rad[station] + share * centroids_rad[station + 1];
+                    let squares = [station, station + 1].map(|s| centroids_rad[s].powi(2));
+                    let roll = ((1.0 - share) * squares[0] + share * squares[1]).sqrt();
                     let missing = field.contact_at(roll, gear.base_radius_m)
                         - mesh_at(field, stations, place);
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
@@ -388,16 +388,38 @@ fn near_field_of(gear: &ReducedGear, flank_index: usize) -> Result<NearField, Re
     Ok(field)
 }
 
-/// Centroids of the hats in roll angle.
+/// Roll angle ξ̄ of each hat's centre of force on the flank, where the arc length r_b ξ²/2 is its mean over the hat:
+///
+/// ```text
+/// ξ̄² = ∫ h ξ² · ξ dξ / ∫ h ξ dξ          (dA = r_b ξ dξ dz)
+/// ```
+///
+/// It lies beyond the station, by the hat's variance: ξ̄² = ξ_i² + w²/2 between stations w apart.
 pub fn centroids(stations: &[f64]) -> Vec<f64> {
     let last = stations.len() - 1;
-    let mut centroids = stations.to_vec();
-    centroids[0] += (stations[1] - stations[0]) / 3.0;
-    centroids[last] -= (stations[last] - stations[last - 1]) / 3.0;
-    centroids
+    // Gauss' rule with three points is exact up to the fifth power.
+    let points = [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)];
+    (0..=last)
+        .map(|i| {
+            let (mut force, mut moment) = (0.0, 0.0);
+            for end in [i.checked_sub(1), (i < last).then_some(i + 1)] {
+                let Some(end) = end else { continue };
+                let (at, to) = (stations[i], stations[end]);
+                for (place, weight) in points {
+                    let share = 0.5 * (1.0 + place);
+                    let xi = at + share * (to - at);
+                    let load = weight * (to - at).abs() * (1.0 - share) * xi;
+                    force += load;
+                    moment += load * xi * xi;
+                }
+            }
+            (moment / force).sqrt()
+        })
+        .collect()
 }
 
-/// Where a roll angle lies between hats' centroids.
+/// Where a roll angle lies between the hats' centres of force: shares that keep force and moment about any point of the
+/// flank's line, linear in arc length.
 pub fn roll_place(centroids_rad: &[f64], roll_rad: f64) -> RollPlace {
     let above = centroids_rad
         .partition_point(|xi| *xi <= roll_rad)
@@ -405,7 +427,7 @@ pub fn roll_place(centroids_rad: &[f64], roll_rad: f64) -> RollPlace {
     let (low, high) = (centroids_rad[above - 1], centroids_rad[above]);
     RollPlace {
         station: above - 1,
-        share: (roll_rad - low) / (high - low),
+        share: (roll_rad * roll_rad - low * low) / (high * high - low * low),
     }
 }
 
@@ -421,6 +443,25 @@ mod tests {
             density[station] += share * if face { 4.0 } else { 2.0 };
         }
         density
+    }
+
+    /// Between stations ξ̄² = ξ² + w²/2, exactly; and a shared load has its centre where it is asked for.
+    #[test]
+    fn loads_stand_where_they_are_asked_for() {
+        let (first, w) = (0.15, 0.04);
+        let stations: Vec<f64> = (0..6).map(|k| first + w * f64::from(k)).collect();
+        let centres = centroids(&stations);
+        for i in 1..5 {
+            let expected = stations[i] * stations[i] + 0.5 * w * w;
+            assert!((centres[i] * centres[i] - expected).abs() < 1e-15);
+        }
+        assert!(centres[0] > first + w / 3.0 && centres[5] < stations[5]);
+        for roll in [0.2_f64, 0.25, 0.3] {
+            let place = roll_place(&centres, roll);
+            let square = (1.0 - place.share) * centres[place.station].powi(2)
+                + place.share * centres[place.station + 1].powi(2);
+            assert!((square - roll * roll).abs() < 1e-15);
+        }
     }
 
     #[test]

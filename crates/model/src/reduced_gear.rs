@@ -112,26 +112,16 @@ pub struct ReductionChecks {
 }
 
 impl ReductionChecks {
-    /// Name among the further checks of the mesh's estimated relative error in the deflection `steps` teeth counter-clockwise
-    /// of the loaded tooth of `teeth`, under a load over the whole width in the middle of the flank. Of the loaded tooth
-    /// that of the patterns, C_g, and of others C_hub.
-    pub fn deflection_error_name(steps: usize, teeth: usize) -> String {
-        let steps = steps % teeth;
-        if steps == 0 {
-            "mesh error of the deflection, loaded tooth".to_owned()
-        } else if 2 * steps > teeth {
-            format!("mesh error of the deflection, tooth -{}", teeth - steps)
-        } else {
-            format!("mesh error of the deflection, tooth +{steps}")
-        }
-    }
+    /// Name among the further checks of the mesh's estimated relative error in the deflection of the loaded tooth without its
+    /// near field, C_g, under a load over the whole width in the middle of the flank.
+    pub const LOADED_TOOTH_ERROR: &str = "mesh error of the deflection, loaded tooth";
+    /// The same of other teeth, C_hub: the largest at the next two on either side and the opposite one.
+    pub const OTHER_TEETH_ERROR: &str = "mesh error of the deflection, other teeth";
 
-    /// The estimate under that name, where the reduction made one: it does so for the loaded tooth, the two next to it on
-    /// either side, and the opposite one.
-    pub fn deflection_error(&self, steps: usize, teeth: usize) -> Option<f64> {
-        let name = Self::deflection_error_name(steps, teeth);
-        let found = self.further.iter().find(|(known, _)| *known == name);
-        found.map(|(_, error)| *error)
+    /// A further check by its name.
+    pub fn further(&self, name: &str) -> Option<f64> {
+        let found = self.further.iter().find(|(known, _)| known == name);
+        found.map(|(_, value)| *value)
     }
 }
 
@@ -367,19 +357,6 @@ mod tests {
             gear.c_g_block(4, Flank::Left, 3, Flank::Left),
             Cow::Borrowed(_)
         ));
-    }
-
-    #[test]
-    fn errors_are_found_by_the_teeth_between() {
-        let name = |steps| ReductionChecks::deflection_error_name(steps, 7);
-        assert!(name(3).ends_with("tooth +3") && name(4).ends_with("tooth -3"));
-        assert_eq!(name(7), name(0));
-        let checks = ReductionChecks {
-            further: vec![("residual".into(), 1e-13), (name(6), 0.02)],
-            ..ReductionChecks::default()
-        };
-        assert_eq!(checks.deflection_error(6, 7), Some(0.02));
-        assert_eq!(checks.deflection_error(1, 7), None);
     }
 
     #[test]

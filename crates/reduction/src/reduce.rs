@@ -115,13 +115,16 @@ pub fn reduce(
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     if options.estimate_error {
         let ErrorEstimate {
-            deflections,
+            loaded_tooth,
+            other_teeth,
             gauges: errors,
         } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
-        further.extend(deflections.into_iter().map(|(steps, error)| {
-            let name = ReductionChecks::deflection_error_name(steps, teeth);
-            (name, error)
-        }));
+        for (name, error) in [
+            (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
+            (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
+        ] {
+            further.push((name.to_string(), error));
+        }
         for (gauge, error) in gauges.iter_mut().zip(errors) {
             gauge.error_estimate_relative = error;
         }

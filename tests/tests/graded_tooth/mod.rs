@@ -1,5 +1,5 @@
-//! One tooth held at its cut under a Hertz pressure over parts of its width: a mesh of quadratic hexahedra, graded to the contact
-//! in all directions. What the sliced compliance is compared with.
+//! The tooth-only submodel (cut and opposite side held) under a Hertz pressure over parts of its width: a mesh of quadratic
+//! hexahedra, graded to the contact in all directions. What is not tooth-only, C_g, is smooth and added.
 
 use gearmesh_fe::{
     DofMap, EDGE_CORNERS, Factor, FeModel, HexElement, Material, QuadraticMesh, assemble_stiffness,
@@ -21,7 +21,7 @@ pub struct Contact {
 
 /// Deflection of the contact line per newton, `[loaded part][part]` \[m/N\], means over a tenth of the width each.
 pub struct GradedTooth {
-    compliance: Vec<f64>,
+    pub compliance: Vec<f64>,
     pub dofs: usize,
 }
 
@@ -66,7 +66,7 @@ impl GradedTooth {
                 smallest_m: factor * a / 3.0,
                 plateau_m: 1.2 * a,
                 growth: factor * 0.25,
-                largest_m: factor * 0.7e-3,
+                largest_m: factor * 0.4e-3,
             },
         );
         let width_m = gear.tooth.face_width_m;
@@ -84,15 +84,17 @@ impl GradedTooth {
                 })
             })
             .collect();
-        // The first row of nodes of each plane is the cut.
-        let mut held: Vec<usize> = (0..planes.len())
-            .flat_map(|plane| (0..columns).map(move |n| plane * count + n))
-            .collect();
+        let mut in_section = vec![false; count];
+        for &n in &section.held {
+            in_section[n] = true;
+        }
+        let is_held = |node: usize| in_section[node % count];
+        let mut held: Vec<usize> = (0..nodes.len()).filter(|&n| is_held(n)).collect();
         let mut next = nodes.len();
         let quadratic = QuadraticMesh::new(nodes, &hexes, |edge, ends| {
             let [(low, plane), (high, other)] =
                 edge.map(|n| (n as usize % count, n as usize / count));
-            if low < columns && high < columns {
+            if is_held(low) && is_held(high) {
                 held.push(next);
             }
             next += 1;

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::involute;
-use gearmesh_model::{Flank, read_reduced_gear};
+use gearmesh_model::{Flank, ReductionChecks, read_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
@@ -66,8 +66,11 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
         ));
     }
     // Made for a load on tooth 0; on others the body below may differ.
-    let steps = at_tooth + model.teeth - a.tooth;
-    let mesh_error = model.checks.deflection_error(steps, model.teeth);
+    let mesh_error = model.checks.further(if at_tooth == a.tooth {
+        ReductionChecks::LOADED_TOOTH_ERROR
+    } else {
+        ReductionChecks::OTHER_TEETH_ERROR
+    });
     if a.json {
         let list: Vec<_> = rows
             .iter()
