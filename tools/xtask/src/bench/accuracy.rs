@@ -25,10 +25,12 @@ use crate::workspace::Workspace;
 
 /// Elements by the name that a gear file gives them.
 const ELEMENTS: [&str; 3] = ["hex8", "hex8-incompatible", "hex20"];
-/// Element lengths on the flank \[mm\]; all others are in the default's proportion to it, but for the module's fillet.
+/// Element lengths on the flank \[mm\]; all others are in the default's proportion to it.
 const FLANK_MM: [f64; 5] = [1.5, 1.2, 0.8, 0.55, 0.4];
+/// The finest in three dimensions \[mm\].
+const FINEST_WHOLE_MM: f64 = 0.55;
 /// Flank element lengths \[mm\] of the two meshes from which the reference in three dimensions is extrapolated.
-const REFERENCE_MM: [f64; 2] = [0.45, 0.3];
+const REFERENCE_MM: [f64; 2] = [0.6, 0.45];
 const REFERENCE_ELEMENT: &str = "hex8-incompatible";
 /// Order of the error in a deflection, against the element length.
 const ORDER: i32 = 2;
@@ -58,7 +60,11 @@ pub fn accuracy_cost(workspace: &Workspace, options: &Options) -> Result<ExitCod
     let mut cases = Vec::new();
     for space in [Space::PlaneStrain, Space::Whole] {
         for element in ELEMENTS {
-            for &flank_mm in sizes {
+            let finest_mm = match space {
+                Space::PlaneStrain => 0.0,
+                Space::Whole => FINEST_WHOLE_MM,
+            };
+            for &flank_mm in sizes.iter().filter(|length| **length >= finest_mm) {
                 let outcome = study.case(space, element, flank_mm, reference.of(space));
                 match &outcome {
                     Ok(found) => say(&format!(
