@@ -30,7 +30,7 @@ const FLANK_MM: [f64; 5] = [1.5, 1.2, 0.8, 0.55, 0.4];
 /// The finest in three dimensions \[mm\].
 const FINEST_WHOLE_MM: f64 = 0.55;
 /// Flank element lengths \[mm\] of the two meshes from which the reference in three dimensions is extrapolated.
-const REFERENCE_MM: [f64; 2] = [0.6, 0.45];
+const REFERENCE_MM: [f64; 2] = [0.75, 0.5];
 const REFERENCE_ELEMENT: &str = "hex8-incompatible";
 /// Order of the error in a deflection, against the element length.
 const ORDER: i32 = 2;
@@ -143,7 +143,7 @@ fn gear_text(space: Space, element: &str, flank_mm: f64) -> String {
 
 fn scene_text(model: &str, local: &str) -> String {
     format!(
-        "title = \"accuracy\"\n[pair]\ngear_1 = \"{model}\"\ngear_2 = \"{model}\"\ncentre_distance_mm = 150.0\n\
+        "title = \"accuracy\"\n[pair]\ngear_1 = \"{model}\"\ngear_2 = \"{model}\"\ncentre_distance_mm = 150.05\n\
          [mesh]\nmodel = \"hybrid\"\nlocal = \"{local}\"\n\
          [run]\ntorques_Nm = [170.0, 340.0]\npitches = 4\npoints_per_pitch = 60\n"
     )
