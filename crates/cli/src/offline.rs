@@ -4,8 +4,8 @@ use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use gearmesh_geometry::GearDefinition;
-use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
+use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
@@ -30,40 +30,52 @@ pub fn reduced(
     Ok(outcome?)
 }
 
-/// Writes a mesh with its sets, and a field where given, in the format that the extension names.
+/// Fields of a mesh file by name.
+#[derive(Debug, Default)]
+pub struct MeshFields {
+    /// On nodes.
+    pub point: BTreeMap<String, MeshField>,
+    /// In elements.
+    pub cell: BTreeMap<String, MeshField>,
+}
+
+impl From<&Field> for MeshFields {
+    fn from(field: &Field) -> Self {
+        let displacement = MeshField {
+            components: 3,
+            values: field.displacement_m.iter().flatten().copied().collect(),
+            unit: "m".into(),
+        };
+        let von_mises = MeshField {
+            components: 1,
+            values: field.von_mises_pa.clone(),
+            unit: "Pa".into(),
+        };
+        Self {
+            point: BTreeMap::from([("displacement_m".into(), displacement)]),
+            cell: BTreeMap::from([("von_mises_Pa".into(), von_mises)]),
+        }
+    }
+}
+
+/// Writes a mesh with its sets and fields in the format that the extension names.
 pub fn export_mesh(
     gear: &GearDefinition,
     mesh: &GearMesh,
-    field: Option<&Field>,
+    fields: MeshFields,
     output: &Path,
 ) -> Result<(), Failure> {
-    let scalar = |values: Vec<f64>, unit: &str| MeshField {
-        components: 1,
-        values,
-        unit: unit.into(),
-    };
     let mut data = MeshData {
         points: mesh.nodes.clone(),
-        hexes: mesh.hexes.clone(),
-        mid_edges: Vec::new(),
         point_sets: mesh.node_sets(gear),
-        point_fields: BTreeMap::new(),
-        cell_fields: BTreeMap::new(),
+        point_fields: fields.point,
+        cell_fields: fields.cell,
+        ..MeshData::default()
     };
-    if let Some(field) = field {
-        let displacement = field.displacement_m.iter().flatten().copied().collect();
-        data.point_fields.insert(
-            "displacement_m".into(),
-            MeshField {
-                components: 3,
-                values: displacement,
-                unit: "m".into(),
-            },
-        );
-        data.cell_fields.insert(
-            "von_mises_Pa".into(),
-            scalar(field.von_mises_pa.clone(), "Pa"),
-        );
+    let connectivity = mesh.elements.connectivity();
+    match mesh.elements.shape() {
+        ElementShape::Hex8 => data.hexes = connectivity.as_chunks().0.to_vec(),
+        ElementShape::Hex20 => data.set_hexes_of_20(connectivity.as_chunks().0),
     }
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);

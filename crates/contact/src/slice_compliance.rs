@@ -1,12 +1,12 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
 //! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`axial_shares`]) make it
-//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the two
-//! nearest stations share the force so that its moment is kept: the shares are linear in arc length between the hats'
-//! centres of force ([`centroids`]). C = Φᵀ C_grid Φ as a whole.
+//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the nearest
+//! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
+use crate::roll_shares::{RollHats, RollPlace};
 use crate::slice_spread::NeighbourTerm;
 use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
@@ -18,8 +18,7 @@ pub struct SliceCompliance {
     teeth_per_sector: usize,
     slices: usize,
     stations: usize,
-    /// Roll angles of the hats' centroids.
-    centroids_rad: Vec<f64>,
+    hats: RollHats,
     opposite_distance_m: Vec<f64>,
     /// `[tooth in sector][response tooth][(station, slice) of load][(station, slice) of response]`.
     blocks: Vec<f64>,
@@ -33,15 +32,6 @@ pub struct SliceCompliance {
     poisson: f64,
     slice_width_m: f64,
     z_m: Vec<f64>,
-}
-
-/// A place between two roll stations: the lower one and the share of the upper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RollPlace {
-    /// Lower station.
-    pub station: usize,
-    /// Share of the station above it; may lie a little outside 0 to 1 beyond the outermost centroids.
-    pub share: f64,
 }
 
 /// A slice on a tooth and the place of its contact along the profile.
@@ -137,7 +127,7 @@ impl SliceCompliance {
             }
         }
         let slice_width_m = gear.face_width_m / slices as f64;
-        let centroids_rad = centroids(&grid.roll_angles_rad);
+        let hats = RollHats::new(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);
@@ -149,9 +139,9 @@ impl SliceCompliance {
                 .map(|half| {
                     let station = (half / 2).min(stations - 2);
                     let share = 0.5 * half as f64 - station as f64;
-                    let place = RollPlace { station, share };
-                    let squares = [station, station + 1].map(|s| centroids_rad[s].powi(2));
-                    let roll = ((1.0 - share) * squares[0] + share * squares[1]).sqrt();
+                    let c = hats.centroids_rad();
+                    let roll = (1.0 - share) * c[station] + share * c[station + 1];
+                    let place = hats.place(roll);
                     let missing = field.contact_at(roll, gear.base_radius_m)
                         - mesh_at(field, stations, place);
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
@@ -165,7 +155,7 @@ impl SliceCompliance {
             teeth_per_sector: own,
             slices,
             stations,
-            centroids_rad,
+            hats,
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
             near_field,
@@ -205,7 +195,7 @@ impl SliceCompliance {
 
     /// Where a roll angle lies between the stations.
     pub fn place(&self, roll_rad: f64) -> RollPlace {
-        roll_place(&self.centroids_rad, roll_rad)
+        self.hats.place(roll_rad)
     }
 
     /// Depth h \[m\] of the local logarithm at a roll angle: effective where the model is calibrated, else the distance
@@ -251,14 +241,8 @@ impl SliceCompliance {
         let block = tooth * self.teeth + response;
         let table = &self.blocks[block * size * size..(block + 1) * size * size];
         let n = self.slices;
-        for (sa, wa) in [
-            (place_a.station, 1.0 - place_a.share),
-            (place_a.station + 1, place_a.share),
-        ] {
-            for (sb, wb) in [
-                (place_b.station, 1.0 - place_b.share),
-                (place_b.station + 1, place_b.share),
-            ] {
+        for (sa, wa) in place_a.shares() {
+            for (sb, wb) in place_b.shares() {
                 let weight = factor * wa * wb;
                 for i in 0..n {
                     let row = &table[(sa * n + i) * size + sb * n..][..n];
@@ -320,12 +304,16 @@ impl SliceCompliance {
         let block = tooth * self.teeth + response;
         let table = &self.blocks[block * size * size..(block + 1) * size * size];
         let row = |station: usize| &table[(station * self.slices + a.slice) * size..][..size];
-        let column = b.place.station * self.slices + b.slice;
-        let response_of = |row: &[f64]| {
-            (1.0 - b.place.share) * row[column] + b.place.share * row[column + self.slices]
+        let response_of = |row: &[f64]| -> f64 {
+            let shares = b.place.shares();
+            shares
+                .map(|(station, share)| share * row[station * self.slices + b.slice])
+                .sum()
         };
-        (1.0 - a.place.share) * response_of(row(a.place.station))
-            + a.place.share * response_of(row(a.place.station + 1))
+        let shares = a.place.shares();
+        shares
+            .map(|(station, share)| share * response_of(row(station)))
+            .sum::<f64>()
             + self.spread_between(a, b)
     }
 }
@@ -338,13 +326,11 @@ fn largest_neighbour_term(
     (stations, slices): (usize, usize),
     place: RollPlace,
 ) -> f64 {
-    let shares = [
-        (place.station, 1.0 - place.share),
-        (place.station + 1, place.share),
-    ];
     let size = stations * slices;
     let c = |i: usize, j: usize| -> f64 {
-        let parts = shares.iter().flat_map(|a| shares.map(|b| (*a, b)));
+        let parts = place
+            .shares()
+            .flat_map(|a| place.shares().map(move |b| (a, b)));
         parts
             .map(|((a, wa), (b, wb))| wa * wb * blocks[(a * slices + i) * size + b * slices + j])
             .sum()
@@ -366,13 +352,9 @@ fn largest_neighbour_term(
 
 /// w_h = Φᵀ W Φ at a roll place \[m²/N\].
 fn mesh_at(field: &NearField, stations: usize, place: RollPlace) -> f64 {
-    let shares = [
-        (place.station, 1.0 - place.share),
-        (place.station + 1, place.share),
-    ];
     let mut sum = 0.0;
-    for (a, wa) in shares {
-        for (b, wb) in shares {
+    for (a, wa) in place.shares() {
+        for (b, wb) in place.shares() {
             sum += wa * wb * field.mesh_m2_per_n[a * stations + b];
         }
     }
@@ -388,49 +370,6 @@ fn near_field_of(gear: &ReducedGear, flank_index: usize) -> Result<NearField, Re
     Ok(field)
 }
 
-/// Roll angle ξ̄ of each hat's centre of force on the flank, where the arc length r_b ξ²/2 is its mean over the hat:
-///
-/// ```text
-/// ξ̄² = ∫ h ξ² · ξ dξ / ∫ h ξ dξ          (dA = r_b ξ dξ dz)
-/// ```
-///
-/// It lies beyond the station, by the hat's variance: ξ̄² = ξ_i² + w²/2 between stations w apart.
-pub fn centroids(stations: &[f64]) -> Vec<f64> {
-    let last = stations.len() - 1;
-    // Gauss' rule with three points is exact up to the fifth power.
-    let points = [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)];
-    (0..=last)
-        .map(|i| {
-            let (mut force, mut moment) = (0.0, 0.0);
-            for end in [i.checked_sub(1), (i < last).then_some(i + 1)] {
-                let Some(end) = end else { continue };
-                let (at, to) = (stations[i], stations[end]);
-                for (place, weight) in points {
-                    let share = 0.5 * (1.0 + place);
-                    let xi = at + share * (to - at);
-                    let load = weight * (to - at).abs() * (1.0 - share) * xi;
-                    force += load;
-                    moment += load * xi * xi;
-                }
-            }
-            (moment / force).sqrt()
-        })
-        .collect()
-}
-
-/// Where a roll angle lies between the hats' centres of force: shares that keep force and moment about any point of the
-/// flank's line, linear in arc length.
-pub fn roll_place(centroids_rad: &[f64], roll_rad: f64) -> RollPlace {
-    let above = centroids_rad
-        .partition_point(|xi| *xi <= roll_rad)
-        .clamp(1, centroids_rad.len() - 1);
-    let (low, high) = (centroids_rad[above - 1], centroids_rad[above]);
-    RollPlace {
-        station: above - 1,
-        share: (roll_rad * roll_rad - low * low) / (high * high - low * low),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -443,25 +382,6 @@ mod tests {
             density[station] += share * if face { 4.0 } else { 2.0 };
         }
         density
-    }
-
-    /// Between stations ξ̄² = ξ² + w²/2, exactly; and a shared load has its centre where it is asked for.
-    #[test]
-    fn loads_stand_where_they_are_asked_for() {
-        let (first, w) = (0.15, 0.04);
-        let stations: Vec<f64> = (0..6).map(|k| first + w * f64::from(k)).collect();
-        let centres = centroids(&stations);
-        for i in 1..5 {
-            let expected = stations[i] * stations[i] + 0.5 * w * w;
-            assert!((centres[i] * centres[i] - expected).abs() < 1e-15);
-        }
-        assert!(centres[0] > first + w / 3.0 && centres[5] < stations[5]);
-        for roll in [0.2_f64, 0.25, 0.3] {
-            let place = roll_place(&centres, roll);
-            let square = (1.0 - place.share) * centres[place.station].powi(2)
-                + place.share * centres[place.station + 1].powi(2);
-            assert!((square - roll * roll).abs() < 1e-15);
-        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::element::{HexElement, StrainOperator};
 use crate::element_matrix::ElementMatrix;
-use crate::error::{ElementError, FeError};
+use crate::error::FeError;
 use crate::material::Material;
 
 /// Nodes, hexahedra, one material, one element formulation. Valid by construction.
@@ -24,9 +24,7 @@ impl FeModel {
     /// twenty nodes the edges), `[u32; 8]` or `[u32; 20]` as the element demands.
     ///
     /// # Errors
-    /// [`FeError::NodesPerElement`], [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
-    /// [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and [`FeError::Element`] naming the first
-    /// element whose Jacobian is not positive at all Gauss points, nodes and the centre.
+    /// [`FeError::NodesPerElement`] and those of [`FeModel::from_connectivity`].
     pub fn new<const N: usize>(
         nodes: Vec<[f64; 3]>,
         hexes: Vec<[u32; N]>,
@@ -40,14 +38,38 @@ impl FeModel {
                 expected: element.node_count(),
             });
         }
-        if hexes.is_empty() {
+        Self::from_connectivity(nodes, hexes.into_flattened(), material, element)
+    }
+
+    /// Checks and keeps a mesh whose node indices stand one element after the other in a flat list.
+    ///
+    /// # Errors
+    /// [`FeError::SizeMismatch`] when the list does not hold whole elements, [`FeError::NoElements`], [`FeError::TooLarge`],
+    /// [`FeError::CoordinateNotFinite`], [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and
+    /// [`FeError::Element`] naming the first element whose Jacobian is not positive at all Gauss points, nodes and the centre.
+    pub fn from_connectivity(
+        nodes: Vec<[f64; 3]>,
+        connectivity: Vec<u32>,
+        material: Material,
+        element: HexElement,
+    ) -> Result<Self, FeError> {
+        if connectivity.is_empty() {
             return Err(FeError::NoElements { nodes: nodes.len() });
         }
+        let per_element = element.node_count();
+        if !connectivity.len().is_multiple_of(per_element) {
+            return Err(FeError::SizeMismatch {
+                what: "the connectivity",
+                found: connectivity.len(),
+                expected: connectivity.len().next_multiple_of(per_element),
+            });
+        }
+        let element_count = connectivity.len() / per_element;
         // METIS counts in 32 bits; a third of that leaves room for three degrees of freedom per node.
         let allowed = i32::MAX as usize / 3;
-        if nodes.len().max(hexes.len()) > allowed {
+        if nodes.len().max(element_count) > allowed {
             return Err(FeError::TooLarge {
-                found: nodes.len().max(hexes.len()),
+                found: nodes.len().max(element_count),
                 allowed,
             });
         }
@@ -60,8 +82,8 @@ impl FeModel {
             }
         }
         let mut used = vec![false; nodes.len()];
-        for (element, hex) in hexes.iter().enumerate() {
-            for &node in hex {
+        for (element, own) in connectivity.chunks_exact(per_element).enumerate() {
+            for &node in own {
                 match used.get_mut(node as usize) {
                     Some(flag) => *flag = true,
                     None => {
@@ -79,7 +101,7 @@ impl FeModel {
         }
         let model = Self {
             nodes,
-            connectivity: hexes.into_flattened(),
+            connectivity,
             material,
             element,
         };
@@ -258,13 +280,18 @@ impl FeModel {
     /// # Errors
     /// [`FeError::Element`]; not for a model that was accepted.
     pub fn volume(&self) -> Result<f64, FeError> {
-        (0..self.element_count())
-            .map(|element| {
-                self.element
-                    .volume(&self.gather(element))
-                    .map_err(|source: ElementError| FeError::Element { element, source })
-            })
-            .sum()
+        let elements = 0..self.element_count();
+        elements.map(|element| self.element_volume(element)).sum()
+    }
+
+    /// Volume (m³) of an element.
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
+    pub fn element_volume(&self, element: usize) -> Result<f64, FeError> {
+        self.element
+            .volume(&self.element_coordinates(element)?)
+            .map_err(|source| FeError::Element { element, source })
     }
 
     fn check_element(&self, element: usize) -> Result<(), FeError> {

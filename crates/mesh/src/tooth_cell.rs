@@ -12,6 +12,8 @@
 //! The cut does not run along the root circle: the fillet is tangent to it there, and elements between the two
 //! would have a zero angle (docs/decisions/0002-submodel-cut.md).
 
+use crate::elements::ElementShape;
+use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition};
 use std::f64::consts::PI;
@@ -31,19 +33,23 @@ pub struct ToothCell {
     pub nodes: Vec<[f64; 2]>,
     /// Node numbers, counter-clockwise.
     pub quads: Vec<[usize; 4]>,
+    /// Nodes in the middle of each quad's sides; empty where elements are linear.
+    pub mid_sides: Vec<[usize; 4]>,
     /// True for quads of the tooth-only submodel.
     pub above_cut: Vec<bool>,
     /// Nodes of the outline, from the right tooth space over the tip to the left one.
     pub outline: Vec<usize>,
     /// Arc length of those nodes from the right tooth space \[m\].
     pub outline_arc_m: Vec<f64>,
+    /// Nodes in the middle of the pieces of the outline; empty where elements are linear.
+    pub outline_mid_sides: Vec<usize>,
     /// Quad behind each piece of the outline.
     pub outline_quads: Vec<usize>,
-    /// Nodes of the cut, from the right to the left outline.
+    /// Nodes of the cut, from the right to the left outline, those in the middle of sides between the others.
     pub cut: Vec<usize>,
-    /// Nodes of the ring's inner circle, counter-clockwise.
+    /// Nodes of the ring's inner circle, counter-clockwise, likewise.
     pub bottom: Vec<usize>,
-    /// Nodes of the right edge, outwards to inwards.
+    /// Nodes of the right edge, outwards to inwards, likewise.
     pub right_side: Vec<usize>,
     /// Nodes of the left edge, outwards to inwards.
     pub left_side: Vec<usize>,
@@ -149,6 +155,7 @@ pub struct ToothCellProblem {
     bottom: Vec<usize>,
     right_side: Vec<usize>,
     left_side: Vec<usize>,
+    curved: CurvedSides,
 }
 
 impl ToothCellProblem {
@@ -379,7 +386,17 @@ impl ToothCellProblem {
             .collect();
         right_arcs.extend(left_arcs);
         let side = joined(&[&at_space, &right_down]);
+        let bottom = joined(&[&bottom_half, &reversed(&m(&bottom_half))]);
+        let mut curved = CurvedSides::default();
+        for (nodes, arcs) in outline_all.windows(2).zip(right_arcs.windows(2)) {
+            let arc = 0.5 * (arcs[0] + arcs[1]);
+            let [x, y] = curve.point_at(arc.min(2.0 * half_length - arc));
+            let y = if arc > half_length { -y } else { y };
+            curved.insert(nodes[0], nodes[1], [x, y]);
+        }
+        curved.insert_arcs(&bottom, false, |n| [points.0[n][0], points.0[n][1]]);
         Self {
+            curved,
             outline_arc_m: right_arcs,
             outline: outline_all,
             cut: joined(&[
@@ -388,7 +405,7 @@ impl ToothCellProblem {
                 &reversed(&m(&cut_half)),
                 &reversed(&m(&at_cut)),
             ]),
-            bottom: joined(&[&bottom_half, &reversed(&m(&bottom_half))]),
+            bottom,
             left_side: m(&side),
             right_side: side,
             problem: PlaneProblem {
@@ -405,8 +422,8 @@ impl ToothCellProblem {
         self.bottom.len() - 1
     }
 
-    /// Puts the mesher's quads to the blocks.
-    pub fn finish(self, mesh: PlaneMesh) -> ToothCell {
+    /// Puts the mesher's quads to the blocks, with nodes in the middle of their sides for quadratic elements.
+    pub fn finish(self, mut mesh: PlaneMesh, shape: ElementShape) -> ToothCell {
         let above_cut = mesh
             .owners
             .iter()
@@ -422,17 +439,29 @@ impl ToothCellProblem {
                     .unwrap_or(0)
             })
             .collect();
+        let middles = match shape {
+            ElementShape::Hex8 => None,
+            ElementShape::Hex20 => Some(MidSides::add(&mut mesh, &self.curved)),
+        };
+        let chain = |corners: Vec<usize>| match &middles {
+            None => corners,
+            Some(middles) => middles.interleaved(&corners, false),
+        };
         ToothCell {
+            outline_mid_sides: middles
+                .as_ref()
+                .map_or_else(Vec::new, |middles| middles.along(&self.outline)),
+            cut: chain(self.cut),
+            bottom: chain(self.bottom),
+            right_side: chain(self.right_side),
+            left_side: chain(self.left_side),
             nodes: mesh.nodes,
             quads: mesh.quads,
+            mid_sides: mesh.mid_sides,
             above_cut,
             outline: self.outline,
             outline_arc_m: self.outline_arc_m,
             outline_quads,
-            cut: self.cut,
-            bottom: self.bottom,
-            right_side: self.right_side,
-            left_side: self.left_side,
         }
     }
 }

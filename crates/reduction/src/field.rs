@@ -69,7 +69,7 @@ pub fn fields(
     displacements
         .into_iter()
         .map(|u| {
-            let von_mises_pa = (0..body.mesh.hexes.len())
+            let von_mises_pa = (0..body.mesh.elements.len())
                 .map(|e| {
                     let strain = body.model.strain(e, [0.0; 3], &u)?;
                     Ok(von_mises(&body.model.material().stress(&strain)))

@@ -150,9 +150,9 @@ pub fn mesh_compliance(
     // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
     let width_m = gear.mesh.flank_m;
     let layer = mesh.single_layer(width_m)?;
-    let plane = FeModel::new(
+    let plane = FeModel::from_connectivity(
         layer.nodes.clone(),
-        layer.hexes.clone(),
+        layer.elements.connectivity().to_vec(),
         *model.material(),
         model.element(),
     )?;

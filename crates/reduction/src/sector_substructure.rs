@@ -1,12 +1,13 @@
 //! One sector: its part of hub, web and rim with the condensed teeth on it, condensed to its two cuts.
 
+use crate::Progress;
 use crate::part::Part;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
 use gearmesh_fe::{
-    CylindricalFrames, DofMap, FeError, FeModel, StaticCondensation, StiffnessMatrix,
-    assemble_stiffness,
+    CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
+    assemble_mass, assemble_stiffness,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
@@ -16,8 +17,8 @@ use rayon::prelude::*;
 enum SectorNode {
     /// A node that a tooth shares with its surroundings: number of the tooth in the sector, number of the node.
     Tooth(usize, usize),
-    /// A node of the body sector and its plane.
-    Body(usize, usize),
+    /// A node of hub, web or rim: number in [`GearMesh::body_nodes`].
+    Body(usize),
 }
 
 /// The sector and its condensation, in cylindrical components.
@@ -27,11 +28,14 @@ pub struct SectorSubstructure {
     /// Teeth of a sector.
     pub own: usize,
     first_tooth: usize,
-    nodes: Vec<SectorNode>,
-    /// Nodes of the whole mesh in sector 0, ascending.
-    mesh_nodes: Vec<u32>,
+    /// Nodes of the whole mesh of each sector: the images of those of sector 0, which ascend.
+    images: Vec<Vec<u32>>,
     /// Sector node of each shared node of each of its teeth.
     tooth_nodes: Vec<Vec<usize>>,
+    /// Elements of the body alone.
+    body_elements: Vec<u32>,
+    /// The cuts R and L.
+    cuts: [Vec<usize>; 2],
     /// Stiffness of the body alone and its nodes among those of the sector.
     body_stiffness: StiffnessMatrix,
     body_nodes: Vec<usize>,
@@ -48,94 +52,86 @@ impl SectorSubstructure {
         model: &FeModel,
         fixed: &[bool],
         tooth: &ToothSubstructure,
+        progress: &dyn Progress,
     ) -> Result<Self, FeError> {
-        let section = &mesh.section;
-        let sectors = section.body_quads.len();
-        let teeth = section.cell_nodes.len();
+        let (sectors, teeth) = (mesh.sectors(), mesh.teeth());
         let own = teeth / sectors;
-        let first_tooth = section.first_tooth;
-        let planes = 0..mesh.layers.planes_m.len();
+        let first_tooth = mesh.first_tooth();
 
         let mut listed: Vec<(u32, SectorNode)> = Vec::new();
         for a in 0..own {
-            listed.extend((0..tooth.boundary_count()).filter_map(|b| {
-                let node = tooth.boundary_node(mesh, (first_tooth + a) % teeth, b)?;
-                Some((node, SectorNode::Tooth(a, b)))
+            listed.extend((0..tooth.boundary_count()).map(|b| {
+                let node = tooth.boundary_node((first_tooth + a) % teeth, b);
+                (node, SectorNode::Tooth(a, b))
             }));
         }
-        for (local, &n) in section.body_nodes[0].iter().enumerate() {
-            for plane in planes.clone() {
-                if let Some(node) = mesh.node(n, plane) {
-                    listed.push((node, SectorNode::Body(local, plane)));
-                }
-            }
-        }
+        let body_nodes = mesh.body_nodes(0).into_iter().enumerate();
+        listed.extend(body_nodes.map(|(i, node)| (node, SectorNode::Body(i))));
         // Stable: where several names fit, that of the first tooth is kept.
         listed.sort_by_key(|(node, _)| *node);
         listed.dedup_by_key(|(node, _)| *node);
-        // The cross-section holds ring nodes of body and teeth; those of the ring outside the web belong to teeth only.
         listed.retain(|(node, _)| !fixed[*node as usize]);
-        let elements: Vec<u32> = section.body_quads[0]
-            .clone()
-            .flat_map(|q| (0..mesh.layers.count()).filter_map(move |layer| mesh.hex(q, layer)))
-            .collect();
-        let body = Part::new(model, &elements)?;
+        let body_elements = mesh.body_elements(0);
+        let body = Part::new(model, &body_elements)?;
+        // Where the ring is outside the web its nodes belong to teeth only.
         listed.retain(|(node, name)| {
             matches!(name, SectorNode::Tooth(..)) || body.place(*node).is_some()
         });
-        let (mesh_nodes, nodes): (Vec<u32>, Vec<SectorNode>) = listed.into_iter().unzip();
-        let place = |node: u32| mesh_nodes.binary_search(&node).ok();
-        let tooth_nodes: Vec<Vec<usize>> = (0..own)
-            .map(|a| {
-                (0..tooth.boundary_count())
-                    .filter_map(|b| {
-                        place(tooth.boundary_node(mesh, (first_tooth + a) % teeth, b)?)
+        let images: Vec<Vec<u32>> = (0..sectors)
+            .map(|sector| {
+                let in_body = mesh.body_nodes(sector);
+                let names = listed.iter().map(|(_, name)| *name);
+                names
+                    .map(|name| match name {
+                        SectorNode::Tooth(a, b) => {
+                            tooth.boundary_node((first_tooth + sector * own + a) % teeth, b)
+                        }
+                        SectorNode::Body(i) => in_body[i],
                     })
                     .collect()
             })
             .collect();
-
-        let held: Vec<usize> = (0..body.nodes.len())
-            .filter(|&i| fixed[body.nodes[i] as usize])
+        let place = |node: u32| images[0].binary_search(&node).ok();
+        let tooth_nodes: Vec<Vec<usize>> = (0..own)
+            .map(|a| {
+                (0..tooth.boundary_count())
+                    .filter_map(|b| place(tooth.boundary_node((first_tooth + a) % teeth, b)))
+                    .collect()
+            })
             .collect();
-        let dofs = DofMap::with_fixed_nodes(body.nodes.len(), &held)?;
-        let mut body_stiffness = assemble_stiffness(&body.model, &dofs)?;
-        let free = || body.nodes.iter().filter(|&&n| !fixed[n as usize]);
-        CylindricalFrames::new(free().map(|&n| mesh.nodes[n as usize]))
-            .turn_stiffness(&mut body_stiffness);
-        let body_nodes: Vec<usize> = free().filter_map(|&n| place(n)).collect();
 
-        let kept: Vec<usize> = if sectors == 1 {
-            Vec::new()
+        let dofs = free_dofs(&body, fixed)?;
+        let mut body_stiffness = assemble_stiffness(&body.model, &dofs)?;
+        frames(&body, mesh, fixed).turn_stiffness(&mut body_stiffness);
+        let body_nodes: Vec<usize> = free_nodes(&body, fixed).filter_map(place).collect();
+
+        let cuts = if sectors == 1 {
+            [Vec::new(), Vec::new()]
         } else {
-            let cut = |sector: usize| {
-                let cell = &section.cell_nodes[(first_tooth + sector * own) % teeth];
-                let cell = section.cell.right_side.iter().map(|&c| cell[c]);
-                let body = &section.body_nodes[sector];
-                let body = section.body_right_side.iter().map(|&c| body[c]);
-                cell.chain(body)
-                    .flat_map(|n| planes.clone().filter_map(move |plane| mesh.node(n, plane)))
-                    .filter_map(place)
-                    .collect::<Vec<_>>()
-            };
-            let (right, left) = (cut(0), cut(1));
-            right.into_iter().chain(left).collect()
+            [0, 1].map(|sector| {
+                let nodes = mesh.cut_nodes(sector).into_iter();
+                nodes.filter_map(place).collect::<Vec<_>>()
+            })
         };
         let stiffness = assemble(
-            nodes.len(),
+            images[0].len(),
             &body_stiffness,
             &body_nodes,
             tooth,
             &tooth_nodes,
         )?;
-        let condensation = StaticCondensation::new(stiffness, &kept)?;
+        let kept = cuts.concat();
+        let condensation = StaticCondensation::announced(stiffness, &kept, |symbolic| {
+            progress.expect(symbolic.expected_seconds())
+        })?;
         Ok(Self {
             sectors,
             own,
             first_tooth,
-            nodes,
-            mesh_nodes,
+            images,
             tooth_nodes,
+            body_elements,
+            cuts,
             body_stiffness,
             body_nodes,
             condensation,
@@ -145,6 +141,39 @@ impl SectorSubstructure {
     /// The condensation.
     pub fn condensation(&self) -> &StaticCondensation {
         &self.condensation
+    }
+
+    /// Nodes of the cuts R (before its first tooth) and L (its image, behind the last one); none in a single sector.
+    pub fn cuts(&self) -> &[Vec<usize>; 2] {
+        &self.cuts
+    }
+
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of [`SectorSubstructure::body_nodes`].
+    pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
+        self.body_stiffness.as_ref()
+    }
+
+    /// Sector nodes of hub, web and rim.
+    pub fn body_nodes(&self) -> &[usize] {
+        &self.body_nodes
+    }
+
+    /// Mass (kg) as [`SectorSubstructure::body_stiffness`].
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn body_mass(
+        &self,
+        mesh: &GearMesh,
+        model: &FeModel,
+        fixed: &[bool],
+        density_kg_per_m3: f64,
+    ) -> Result<SparseMatrix, FeError> {
+        let body = Part::new(model, &self.body_elements)?;
+        let dofs = free_dofs(&body, fixed)?;
+        let mut mass = assemble_mass(&body.model, &dofs, density_kg_per_m3)?;
+        frames(&body, mesh, fixed).turn_stiffness(&mut mass);
+        Ok(mass)
     }
 
     /// Sector of a tooth and its number there.
@@ -159,56 +188,50 @@ impl SectorSubstructure {
         (self.first_tooth + sector * self.own + a) % (self.sectors * self.own)
     }
 
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        self.images[0].len()
+    }
+
     /// Sector nodes of what the a-th tooth shares with its surroundings.
     pub fn tooth_nodes(&self, a: usize) -> &[usize] {
         &self.tooth_nodes[a]
     }
 
-    /// Number of nodes.
-    pub fn node_count(&self) -> usize {
-        self.nodes.len()
-    }
-
-    /// Node of the whole mesh of the i-th sector node, in a sector.
-    pub fn node(
-        &self,
-        mesh: &GearMesh,
-        tooth: &ToothSubstructure,
-        sector: usize,
-        i: usize,
-    ) -> Option<u32> {
-        if sector == 0 {
-            return Some(self.mesh_nodes[i]);
-        }
-        match self.nodes[i] {
-            SectorNode::Tooth(a, b) => tooth.boundary_node(mesh, self.tooth(sector, a), b),
-            SectorNode::Body(local, plane) => {
-                mesh.node(mesh.section.body_nodes[sector][local], plane)
-            }
-        }
+    /// Nodes of the whole mesh of the sector's nodes, in a sector.
+    pub fn nodes(&self, sector: usize) -> &[u32] {
+        &self.images[sector]
     }
 
     /// Σ over all sectors of XᵀKX of hub, web and rim without the tooth cells.
-    pub fn energy_products(
-        &self,
-        mesh: &GearMesh,
-        tooth: &ToothSubstructure,
-        frames: &CylindricalFrames,
-        fields: &[Vec<f64>],
-    ) -> Mat<f64> {
+    pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
         let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
-        (0..self.sectors)
-            .into_par_iter()
-            .map(|sector| {
-                let nodes = self
-                    .body_nodes
-                    .iter()
-                    .map(|&i| self.node(mesh, tooth, sector, i));
-                let x = gather(frames, nodes, fields);
+        self.images
+            .par_iter()
+            .map(|image| {
+                let nodes: Vec<u32> = self.body_nodes.iter().map(|&i| image[i]).collect();
+                let x = gather(frames, &nodes, fields);
                 x.transpose() * (self.body_stiffness.as_ref() * &x)
             })
             .reduce(zero, |a, b| a + b)
     }
+}
+
+/// Nodes of the whole mesh in a part that are not held.
+fn free_nodes<'a>(body: &'a Part, fixed: &'a [bool]) -> impl Iterator<Item = u32> + 'a {
+    let nodes = body.nodes.iter().copied();
+    nodes.filter(|&n| !fixed[n as usize])
+}
+
+fn free_dofs(body: &Part, fixed: &[bool]) -> Result<DofMap, FeError> {
+    let held: Vec<usize> = (0..body.nodes.len())
+        .filter(|&i| fixed[body.nodes[i] as usize])
+        .collect();
+    DofMap::with_fixed_nodes(body.nodes.len(), &held)
+}
+
+fn frames(body: &Part, mesh: &GearMesh, fixed: &[bool]) -> CylindricalFrames {
+    CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes[n as usize]))
 }
 
 /// Lower triangle of the sector's stiffness: the body's own and one dense block per tooth.

@@ -66,8 +66,7 @@ impl ToothSubmodel {
         loads: &[GridLoad],
         deformation: Deformation,
     ) -> Result<Self, ReductionError> {
-        let hexes = mesh.tooth_hexes(0);
-        let Part { nodes, model: part } = Part::new(model, &hexes)?;
+        let Part { nodes, model: part } = Part::new(model, &mesh.tooth_elements(0))?;
         let supports: Vec<usize> = mesh
             .tooth_supports(0, side)
             .into_iter()

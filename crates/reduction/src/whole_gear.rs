@@ -2,14 +2,15 @@
 
 use crate::Progress;
 use crate::flank_loads::{SparseVector, dot};
-use crate::tooth_vectors::on_tooth;
+use crate::tooth_vectors::on_all_teeth;
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Factor, FeError, FeModel, NodeGraph, StiffnessMatrix,
-    assemble_stiffness_with_graph,
+    DofMap, DofOrdering, Factor, FeError, FeModel, ModeSettings, NaturalModes, NodeGraph,
+    SparseMatrix, StiffnessMatrix, SymbolicFactor, assemble_stiffness_with_graph, natural_modes,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Columns that are solved together.
@@ -40,7 +41,9 @@ impl WholeGear {
         progress.stage("factoring");
         let clock = Instant::now();
         let ordering = DofOrdering::nested_dissection(&graph, dofs)?;
-        let factor = Factor::new(&stiffness, ordering)?;
+        let symbolic = SymbolicFactor::new(&stiffness, ordering)?;
+        progress.expect(symbolic.expected_seconds());
+        let factor = Factor::from_symbolic(Arc::new(symbolic), &stiffness)?;
         stage_seconds.push(("factor".into(), clock.elapsed().as_secs_f64()));
         Ok(Self { stiffness, factor })
     }
@@ -83,16 +86,24 @@ impl WholeGear {
         vectors: &[&SparseVector],
         progress: &dyn Progress,
     ) -> Vec<Vec<f64>> {
-        let teeth = mesh.section.cell_nodes.len();
-        let everywhere: Vec<SparseVector> = (0..teeth)
-            .into_par_iter()
-            .flat_map_iter(|t| vectors.iter().map(move |v| on_tooth(mesh, v, t)))
-            .collect();
+        let everywhere = on_all_teeth(mesh, vectors);
         let mut readings = Vec::with_capacity(rows.len());
         self.solve_each(dofs, rows, progress, |_, u| {
             readings.push(everywhere.par_iter().map(|v| dot(v, u)).collect());
         });
         readings
+    }
+
+    /// The lowest natural modes for a mass matrix over the free degrees of freedom.
+    ///
+    /// # Errors
+    /// As [`natural_modes`].
+    pub fn natural_modes(
+        &self,
+        mass: &SparseMatrix,
+        settings: &ModeSettings,
+    ) -> Result<NaturalModes, FeError> {
+        natural_modes(&self.stiffness, mass, &self.factor, settings)
     }
 
     /// XᵀKX for full fields that are zero where the body is held.

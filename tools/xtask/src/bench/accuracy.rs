@@ -95,6 +95,8 @@ pub fn accuracy_cost(workspace: &Workspace, options: &Options) -> Result<ExitCod
     } else {
         "accuracy-cost"
     };
+    fs::create_dir_all(&folder)
+        .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
     let picture = folder.join(format!("{name}.svg"));
     study
         .plot(&cases, &picture)
