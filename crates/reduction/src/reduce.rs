@@ -126,10 +126,16 @@ pub fn reduce(
     further.extend(dynamics.checks);
     if options.estimate_error {
         let ErrorEstimate {
-            compliance,
+            loaded_tooth,
+            other_teeth,
             gauges: errors,
         } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
-        further.push(("compliance error estimate".to_string(), compliance));
+        for (name, error) in [
+            (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
+            (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
+        ] {
+            further.push((name.to_string(), error));
+        }
         for (gauge, error) in gauges.iter_mut().zip(errors) {
             gauge.error_estimate_relative = error;
         }
