@@ -11,8 +11,8 @@ use std::io::Write;
 use std::time::Instant;
 
 use gearmesh_fe::{
-    DofMap, Factor, HexElement, Material, ModeSettings, StructuredMesh, arc_middle,
-    assemble_mass, assemble_stiffness, natural_modes,
+    DofMap, Factor, HexElement, Material, ModeSettings, StructuredMesh, arc_middle, assemble_mass,
+    assemble_stiffness, natural_modes,
 };
 
 const BORE_M: f64 = 0.025;
