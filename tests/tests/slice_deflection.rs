@@ -14,6 +14,7 @@ use gearmesh_mesh::contact_section::{ContactGrading, ContactSection};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{Flank, Provenance, ReducedGear, ReductionChecks};
 use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
+use gearmesh_reduction::gear_body::model_of;
 use gearmesh_reduction::near_field::calibrate;
 
 const YOUNG: f64 = 206e9;
@@ -39,41 +40,13 @@ fn material() -> Material {
 fn sliced(gear: &GearDefinition, mesh: &GearMesh, loaded: usize) -> Vec<f64> {
     let grid = flank_grid(gear);
     let loads = flank_loads(gear, mesh, &grid, 0, FlankSide::Right);
-    let all = FeModel::new(
-        mesh.nodes.clone(),
-        mesh.hexes.clone(),
-        material(),
-        HexElement::Hex8Incompatible,
-    )
-    .unwrap();
+    let all = model_of(gear, mesh).unwrap();
     let near_field = calibrate(gear, mesh, &all, &grid).unwrap();
 
     // The tooth alone, its cut held.
-    let hexes = mesh.tooth_hexes(0);
-    let mut nodes: Vec<u32> = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    let (nodes, tooth) = all.part(&mesh.tooth_elements(0)).unwrap();
     let local = |n: u32| nodes.binary_search(&n).unwrap();
-    let tooth = FeModel::new(
-        nodes.iter().map(|&n| mesh.nodes[n as usize]).collect(),
-        hexes
-            .iter()
-            .map(|&h| mesh.hexes[h as usize].map(|n| local(n) as u32))
-            .collect(),
-        material(),
-        HexElement::Hex8Incompatible,
-    )
-    .unwrap();
-    let cell = &mesh.section.cell;
-    let held: Vec<usize> = cell
-        .cut
-        .iter()
-        .flat_map(|&n| {
-            (0..mesh.layers.planes_m.len())
-                .map(move |plane| mesh.node(mesh.section.cell_nodes[0][n], plane).unwrap())
-        })
-        .map(local)
-        .collect();
+    let held: Vec<usize> = mesh.tooth_cut(0).into_iter().map(local).collect();
     let dofs = DofMap::with_fixed_nodes(tooth.node_count(), &held).unwrap();
     let factor =
         Factor::of_model(&tooth, &dofs, &assemble_stiffness(&tooth, &dofs).unwrap()).unwrap();

@@ -4,14 +4,13 @@ use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use gearmesh_geometry::GearDefinition;
-use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
-use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
+use gearmesh_mesh::{ElementShape, GearMesh};
+use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
 use gearmesh_scene::{LoadedScene, SceneResult};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The Python that has gmsh and meshio.
@@ -44,12 +43,15 @@ pub fn export_mesh(
     };
     let mut data = MeshData {
         points: mesh.nodes.clone(),
-        hexes: mesh.hexes.clone(),
-        mid_edges: Vec::new(),
         point_sets: mesh.node_sets(gear),
-        point_fields: BTreeMap::new(),
-        cell_fields: BTreeMap::new(),
+        ..MeshData::default()
     };
+    let kind = match mesh.elements.shape() {
+        ElementShape::Hex8 => CellKind::Hex8,
+        ElementShape::Hex20 => CellKind::Hex20,
+    };
+    data.cells
+        .insert(kind, mesh.elements.connectivity().to_vec());
     if let Some(field) = field {
         let displacement = field.displacement_m.iter().flatten().copied().collect();
         data.point_fields.insert(

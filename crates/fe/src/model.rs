@@ -59,15 +59,24 @@ impl FeModel {
                 expected: element.node_count(),
             });
         }
-        let nodes_of = elements.into_flattened();
-        Self::from_blocks(
-            nodes,
-            vec![ElementBlock {
-                element,
-                nodes: nodes_of,
-            }],
-            material,
-        )
+        Self::from_connectivity(nodes, elements.into_flattened(), material, element)
+    }
+
+    /// As [`FeModel::new`], with the node indices of all elements one after another.
+    ///
+    /// # Errors
+    /// As [`FeModel::from_blocks`].
+    pub fn from_connectivity(
+        nodes: Vec<[f64; 3]>,
+        connectivity: Vec<u32>,
+        material: Material,
+        element: HexElement,
+    ) -> Result<Self, FeError> {
+        let block = ElementBlock {
+            element,
+            nodes: connectivity,
+        };
+        Self::from_blocks(nodes, vec![block], material)
     }
 
     /// Checks and keeps a mesh of one or several kinds of elements; empty blocks are left out. Elements that share a face

@@ -164,10 +164,15 @@ struct Expected {
 
 fn expected(element: HexElement) -> Expected {
     match element {
-        HexElement::Hex8 | HexElement::Hex8Incompatible | HexElement::Wedge6 => Expected {
+        HexElement::Hex8 | HexElement::Hex8Incompatible => Expected {
             energy_order: 1,
             l2_order: 2,
             elements_per_side: &[[4, 8], [8, 16]],
+        },
+        HexElement::Wedge6 => Expected {
+            energy_order: 1,
+            l2_order: 2,
+            elements_per_side: &[[8, 16]],
         },
         HexElement::Hex20 => Expected {
             energy_order: 2,

@@ -2,6 +2,7 @@
 
 use crate::microgeometry::Microgeometry;
 use crate::tooth::ToothGeometry;
+use std::path::PathBuf;
 
 /// Hand of a flank: the right flank faces clockwise seen from +z.
 #[derive(
@@ -80,6 +81,51 @@ pub struct Blank {
     pub web: Option<Web>,
     /// Openings through the web (or through the whole solid disc).
     pub openings: Option<Openings>,
+    /// Where the whole gear, teeth included, was meshed elsewhere; web and openings are not known then.
+    pub meshed: Option<MeshedBody>,
+}
+
+/// A gear that was meshed elsewhere.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshedBody {
+    /// The mesh file, any format that meshio reads.
+    pub file: PathBuf,
+    /// Unit of its coordinates.
+    pub length_unit: LengthUnit,
+    /// Name of the set of nodes or elements on the bore.
+    pub bore_set: String,
+    /// Names of the sets on the flanks, `{tooth}` and `{side}` standing for the tooth's number and `right` or `left`.
+    pub flank_sets: String,
+}
+
+impl MeshedBody {
+    /// Name of the set on a flank.
+    pub fn flank_set(&self, tooth: usize, side: FlankSide) -> String {
+        self.flank_sets
+            .replace("{tooth}", &tooth.to_string())
+            .replace("{side}", side.name())
+    }
+}
+
+/// Unit of the coordinates in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+pub enum LengthUnit {
+    /// Metres.
+    #[serde(rename = "m")]
+    Metre,
+    /// Millimetres.
+    #[serde(rename = "mm")]
+    Millimetre,
+}
+
+impl LengthUnit {
+    /// Name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Metre => "m",
+            Self::Millimetre => "mm",
+        }
+    }
 }
 
 /// Hub and web of a thin-rimmed blank.
@@ -185,6 +231,8 @@ pub enum ElementKind {
     Hex8,
     /// Eight nodes with incompatible bending modes.
     Hex8Incompatible,
+    /// Twenty nodes, quadratic, with curved edges.
+    Hex20,
 }
 
 /// Element sizes and the quality that the mesh must reach.
@@ -284,9 +332,14 @@ pub struct GearDefinition {
 }
 
 impl GearDefinition {
-    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth.
+    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth;
+    /// one for a gear that was meshed elsewhere.
     pub fn sectors(&self) -> usize {
         let z = self.tooth.teeth;
+        // Nothing is known of how a mesh from elsewhere repeats.
+        if self.blank.meshed.is_some() {
+            return 1;
+        }
         self.blank
             .openings
             .map_or(z, |o| greatest_common_divisor(z, o.count()))

@@ -1,7 +1,8 @@
 //! Hub, web and rim of one repeating sector below the teeth, with its openings.
 
 use crate::MeshError;
-use crate::plane_mesher::{PlaneProblem, Region};
+use crate::mid_sides::{CurvedSides, MidSides};
+use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use crate::tooth_cell::{Pieces, graded, ring_radius_m};
 use gearmesh_geometry::{GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -26,6 +27,28 @@ pub struct BodyProblem {
     pub bore: Vec<usize>,
     /// First tooth of the sector.
     pub first_tooth: usize,
+    /// True where the sector is the whole body, closed in itself.
+    closed: bool,
+    curved: CurvedSides,
+}
+
+impl BodyProblem {
+    /// Puts nodes in the middle of the sides of the body's mesh, those of ring, edges and bore between the others.
+    pub fn make_quadratic(&mut self, mesh: &mut PlaneMesh) {
+        let middles = MidSides::add(mesh, &self.curved);
+        for side in [&mut self.right_side, &mut self.left_side] {
+            // The side of the edge next to the ring: at the ring's first or last node.
+            let ring = [self.ring[0], self.ring[self.ring.len() - 1]];
+            let Some(first) = side.first() else { continue };
+            let outer = ring
+                .into_iter()
+                .find(|&r| !middles.along(&[r, *first]).is_empty());
+            let chain: Vec<usize> = outer.into_iter().chain(side.iter().copied()).collect();
+            *side = middles.interleaved(&chain, false).split_off(1);
+        }
+        self.ring = middles.interleaved(&self.ring, self.closed);
+        self.bore = middles.interleaved(&self.bore, self.closed);
+    }
 }
 
 /// The first tooth of a sector such that the cut before it keeps clear of all openings.
@@ -120,6 +143,7 @@ pub fn body_problem(
                 .collect()
         })
         .collect();
+    let mut curved = CurvedSides::default();
     let mut right_side = Vec::new();
     let mut left_side = Vec::new();
     let mut regions = Vec::new();
@@ -160,13 +184,20 @@ pub fn body_problem(
                 let first = ((start - openings.phase_rad()) / repeat).ceil() as i64;
                 for k in 0..(openings.count() / sectors) as i64 {
                     let centre = openings.phase_rad() + repeat * (first + k) as f64;
+                    // Every other point is the middle of a side.
                     let outline = opening_outline(&openings, gear.mesh.body_m);
-                    loops.push(
-                        outline
-                            .iter()
-                            .map(|&(r, phi)| add(r, centre + phi))
-                            .collect(),
-                    );
+                    let (corners, middles): (Vec<_>, Vec<_>) = outline
+                        .as_chunks()
+                        .0
+                        .iter()
+                        .map(|&[(r, phi), middle]| (add(r, centre + phi), middle))
+                        .unzip();
+                    for (k, (r, phi)) in middles.into_iter().enumerate() {
+                        let (sin, cos) = (centre + phi).sin_cos();
+                        let next = corners[(k + 1) % corners.len()];
+                        curved.insert(corners[k], next, [r * cos, r * sin]);
+                    }
+                    loops.push(corners);
                 }
             }
         }
@@ -176,6 +207,9 @@ pub fn body_problem(
         });
         web_region.push(levels[i].1);
     }
+    for circle in &circles {
+        curved.insert_arcs(circle, closed, |n| [points[n][0], points[n][1]]);
+    }
     Ok(BodyProblem {
         web_region,
         ring: circles[0].clone(),
@@ -183,6 +217,8 @@ pub fn body_problem(
         left_side,
         bore: circles[circles.len() - 1].clone(),
         first_tooth,
+        closed,
+        curved,
         problem: PlaneProblem {
             name: "body".into(),
             points,
@@ -192,12 +228,14 @@ pub fn body_problem(
     })
 }
 
-/// Outline of an opening as (radius, polar angle from its centre), a multiple of four points.
+/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the middle of
+/// the side after it.
 fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
     match openings {
         Openings::Holes(h) => {
-            let n = ((TAU * h.radius_m / body_m.min(0.35 * h.radius_m)).ceil() as usize)
-                .next_multiple_of(4);
+            let n = 2
+                * ((TAU * h.radius_m / body_m.min(0.35 * h.radius_m)).ceil() as usize)
+                    .next_multiple_of(4);
             (0..n)
                 .map(|k| {
                     let a = TAU * k as f64 / n as f64;
@@ -216,7 +254,8 @@ fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
     (x.hypot(y), y.atan2(x))
 }
 
-/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
+/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ... Sides
+/// are about `size` long; their middles stand between the nodes.
 fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,
@@ -226,8 +265,9 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     );
     let outer_centre = half - (c / (r_out - c)).asin();
     let inner_centre = half - (c / (r_in + c)).asin();
+    let sides = |length: f64, least: usize| ((length / size).ceil() as usize).max(least);
     let corner = |radius: f64, angle: f64, from: f64, to: f64| -> Vec<(f64, f64)> {
-        let n = ((c * (to - from).abs() / size).ceil() as usize).max(3);
+        let n = 2 * sides(c * (to - from).abs(), 3);
         (0..=n)
             .map(|k| {
                 let a = angle + from + (to - from) * k as f64 / n as f64;
@@ -240,7 +280,7 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     };
     // Upper half (positive angles): outer arc from the middle, corner, edge, corner, inner arc to the middle.
     let mut upper: Vec<(f64, f64)> = Vec::new();
-    let n_outer = ((r_out * outer_centre / size).ceil() as usize).max(1);
+    let n_outer = 2 * sides(r_out * outer_centre, 1);
     upper.extend((0..n_outer).map(|k| (r_out, outer_centre * k as f64 / n_outer as f64)));
     let edge_turn = FRAC_PI_2 + half - outer_centre;
     upper.extend(corner(r_out - c, outer_centre, 0.0, edge_turn));
@@ -248,7 +288,7 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
         ((r_out - c).powi(2) - c * c).sqrt(),
         ((r_in + c).powi(2) - c * c).sqrt(),
     );
-    let n_edge = (((from - to).max(0.0) / size).ceil() as usize).max(1);
+    let n_edge = 2 * sides((from - to).max(0.0), 1);
     upper.extend((1..n_edge).map(|k| (from + (to - from) * k as f64 / n_edge as f64, half)));
     let inner_turn = FRAC_PI_2 + half - inner_centre;
     upper.extend(corner(
@@ -257,9 +297,10 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
         inner_turn,
         std::f64::consts::PI,
     ));
-    // The whole outline has twice as many pieces as this half; an even half makes it a multiple of four.
-    let mut n_inner = ((r_in * inner_centre / size).ceil() as usize).max(1);
-    n_inner += (upper.len() - 1 + n_inner) % 2;
+    // The whole outline has twice as many sides as this half; an even half makes it a multiple of four.
+    let mut inner_sides = sides(r_in * inner_centre, 1);
+    inner_sides += ((upper.len() - 1) / 2 + inner_sides) % 2;
+    let n_inner = 2 * inner_sides;
     upper.extend((1..=n_inner).map(|k| (r_in, inner_centre * (1.0 - k as f64 / n_inner as f64))));
     let lower: Vec<(f64, f64)> = upper[1..upper.len() - 1]
         .iter()

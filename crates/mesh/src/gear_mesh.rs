@@ -1,6 +1,11 @@
-//! Nodes and hexahedra of the whole gear, with the sets that the reduction needs.
+//! Nodes and elements of the whole gear, with the sets that the reduction needs.
+//!
+//! A quadratic mesh has the same section and layers; the section then has nodes in the middle of its edges too, and
+//! between two planes there is a level of nodes half way up, above the quads' corners only.
 
 use crate::MeshError;
+use crate::elements::{ElementList, ElementShape};
+use crate::face::{FaceShape, OutlineFace};
 use crate::layers::Layers;
 use crate::python::PythonEnvironment;
 use crate::quality::{self, QualityReport};
@@ -8,6 +13,7 @@ use crate::section::Section;
 use crate::twist::Twist;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 const NONE: u32 = u32::MAX;
 
@@ -16,8 +22,8 @@ const NONE: u32 = u32::MAX;
 pub struct GearMesh {
     /// \[x, y, z\] \[m\].
     pub nodes: Vec<[f64; 3]>,
-    /// Node numbers in VTK order.
-    pub hexes: Vec<[u32; 8]>,
+    /// Elements.
+    pub elements: ElementList,
     /// Cross-section.
     pub section: Section,
     /// Layers.
@@ -26,21 +32,12 @@ pub struct GearMesh {
     pub twist: Twist,
     /// Quality.
     pub quality: QualityReport,
+    /// Heights of the nodes \[m\]: the planes between the layers and, with quadratic elements, the middles of the layers.
+    levels_m: Vec<f64>,
+    /// Node by section node and level.
     node_of: Vec<u32>,
-    hex_of: Vec<u32>,
-}
-
-/// A face of a tooth's outline: one piece of the outline in one layer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OutlineFace {
-    /// Nodes: (start, lower plane), (end, lower), (end, upper), (start, upper).
-    pub nodes: [u32; 4],
-    /// Element behind the face.
-    pub hex: u32,
-    /// Arc lengths of start and end, from the centre of the tooth space of the side asked for \[m\].
-    pub arc_m: [f64; 2],
-    /// Axial range \[m\]. The face of a helical tooth is turned from z = 0 by [`GearMesh::twist`].
-    pub z_m: [f64; 2],
+    /// Element by section quad and layer.
+    element_of: Vec<u32>,
 }
 
 impl GearMesh {
@@ -76,40 +73,62 @@ impl GearMesh {
         twist: Twist,
         min_scaled_jacobian: f64,
     ) -> Result<Self, MeshError> {
-        let (n_planes, n_layers) = (layers.planes_m.len(), layers.count());
+        let shape = section.element_shape();
+        let levels_m = match shape {
+            ElementShape::Hex8 => layers.planes_m.clone(),
+            ElementShape::Hex20 => layers.planes_and_middles_m(),
+        };
+        let (n_levels, n_layers) = (levels_m.len(), layers.count());
         let in_layer =
             |quad: usize, layer: usize| !section.web_only[quad] || layers.web.contains(&layer);
+        // Section node and level of the nodes of a quad's element, VTK order.
+        let places = |quad: usize, layer: usize| -> Vec<(usize, usize)> {
+            let corners = section.quads[quad];
+            let at = |nodes: [usize; 4], level: usize| nodes.map(|n| (n, level));
+            match section.mid_sides.get(quad) {
+                None => [at(corners, layer), at(corners, layer + 1)].concat(),
+                Some(&middles) => {
+                    let (low, high) = (2 * layer, 2 * layer + 2);
+                    [
+                        at(corners, low),
+                        at(corners, high),
+                        at(middles, low),
+                        at(middles, high),
+                        at(corners, low + 1),
+                    ]
+                    .concat()
+                }
+            }
+        };
 
-        let mut node_of = vec![NONE; section.nodes.len() * n_planes];
-        for (q, quad) in section.quads.iter().enumerate() {
-            for layer in (0..n_layers).filter(|&l| in_layer(q, l)) {
-                for &n in quad {
-                    node_of[n * n_planes + layer] = 0;
-                    node_of[n * n_planes + layer + 1] = 0;
+        let mut node_of = vec![NONE; section.nodes.len() * n_levels];
+        let mut element_of = vec![NONE; section.quads.len() * n_layers];
+        for quad in 0..section.quads.len() {
+            for layer in (0..n_layers).filter(|&l| in_layer(quad, l)) {
+                for (n, level) in places(quad, layer) {
+                    node_of[n * n_levels + level] = 0;
                 }
             }
         }
         let mut nodes = Vec::new();
         for (n, p) in section.nodes.iter().enumerate() {
-            for (plane, &z) in layers.planes_m.iter().enumerate() {
-                let slot = &mut node_of[n * n_planes + plane];
+            for (level, &z) in levels_m.iter().enumerate() {
+                let slot = &mut node_of[n * n_levels + level];
                 if *slot != NONE {
                     *slot = nodes.len() as u32;
                     nodes.push(twist.point_m(*p, z));
                 }
             }
         }
-        let mut hex_of = vec![NONE; section.quads.len() * n_layers];
-        let mut hexes = Vec::new();
-        for (q, quad) in section.quads.iter().enumerate() {
-            for layer in (0..n_layers).filter(|&l| in_layer(q, l)) {
-                hex_of[q * n_layers + layer] = hexes.len() as u32;
-                hexes.push(std::array::from_fn(|i| {
-                    node_of[quad[i % 4] * n_planes + layer + i / 4]
-                }));
+        let mut elements = ElementList::new(shape);
+        for quad in 0..section.quads.len() {
+            for layer in (0..n_layers).filter(|&l| in_layer(quad, l)) {
+                let places = places(quad, layer).into_iter();
+                element_of[quad * n_layers + layer] =
+                    elements.push(places.map(|(n, level)| node_of[n * n_levels + level]));
             }
         }
-        let quality = quality::report(&nodes, &hexes);
+        let quality = quality::report(&nodes, &elements);
         if quality.smallest < min_scaled_jacobian {
             let [x, y, z] = quality.worst_m.map(|v| v * 1e3);
             return Err(MeshError::Quality {
@@ -122,45 +141,111 @@ impl GearMesh {
         }
         Ok(Self {
             nodes,
-            hexes,
+            elements,
             section,
             layers,
             twist,
             quality,
+            levels_m,
             node_of,
-            hex_of,
+            element_of,
         })
     }
 
-    /// Node of the cross-section node `n` on `plane`, where it exists.
-    pub fn node(&self, n: usize, plane: usize) -> Option<u32> {
-        Some(self.node_of[n * self.layers.planes_m.len() + plane]).filter(|&id| id != NONE)
+    /// Node of the cross-section node `n` on a level, where it exists. Levels are the planes between the layers; with
+    /// quadratic elements the even ones are, and the odd ones lie half way between.
+    pub fn node(&self, n: usize, level: usize) -> Option<u32> {
+        Some(self.node_of[n * self.levels_m.len() + level]).filter(|&id| id != NONE)
     }
 
     /// Element of the cross-section quad `quad` in `layer`, where it exists.
-    pub fn hex(&self, quad: usize, layer: usize) -> Option<u32> {
-        Some(self.hex_of[quad * self.layers.count() + layer]).filter(|&id| id != NONE)
+    pub fn element(&self, quad: usize, layer: usize) -> Option<u32> {
+        Some(self.element_of[quad * self.layers.count() + layer]).filter(|&id| id != NONE)
+    }
+
+    /// Nodes above and below some nodes of the cross-section: those of the first, from −z to +z, then those of the second, ...
+    fn columns(&self, section_nodes: impl IntoIterator<Item = usize>) -> Vec<u32> {
+        let levels = 0..self.levels_m.len();
+        section_nodes
+            .into_iter()
+            .flat_map(|n| levels.clone().filter_map(move |level| self.node(n, level)))
+            .collect()
+    }
+
+    /// Elements of some quads of the cross-section in all layers.
+    fn elements_of(&self, quads: impl IntoIterator<Item = usize>) -> Vec<u32> {
+        let layers = 0..self.layers.count();
+        quads
+            .into_iter()
+            .flat_map(|q| {
+                layers
+                    .clone()
+                    .filter_map(move |layer| self.element(q, layer))
+            })
+            .collect()
     }
 
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
-        let planes = 0..self.layers.planes_m.len();
-        self.section
-            .bore
-            .iter()
-            .flat_map(|&n| planes.clone().filter_map(move |p| self.node(n, p)))
-            .collect()
+        self.columns(self.section.bore.iter().copied())
     }
 
-    /// Nodes of one tooth on its outline pieces `range` (numbers along [`crate::tooth_cell::ToothCell::outline`]).
-    fn outline_nodes(&self, tooth: usize, range: std::ops::RangeInclusive<usize>) -> Vec<u32> {
-        let planes = 0..self.layers.planes_m.len();
-        range
-            .flat_map(|i| {
-                let n = self.section.cell_nodes[tooth][self.section.cell.outline[i]];
-                planes.clone().filter_map(move |p| self.node(n, p))
-            })
-            .collect()
+    /// Number of teeth.
+    pub fn teeth(&self) -> usize {
+        self.section.cell_nodes.len()
+    }
+
+    /// Number of repeating sectors.
+    pub fn sectors(&self) -> usize {
+        self.section.body_quads.len()
+    }
+
+    /// First tooth of sector 0; sector s begins teeth/sectors teeth further on for each sector.
+    pub fn first_tooth(&self) -> usize {
+        self.section.first_tooth
+    }
+
+    /// Nodes of a tooth with the ring below it, the i-th of each tooth the image of the i-th of tooth 0.
+    pub fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
+        self.columns(self.section.cell_nodes[tooth].iter().copied())
+    }
+
+    /// Elements of a tooth with the ring below it.
+    pub fn cell_elements(&self, tooth: usize) -> Vec<u32> {
+        let first = self.section.cell_first_quad[tooth];
+        self.elements_of(first..first + self.section.cell.quads.len())
+    }
+
+    /// Nodes of a sector's part of hub, web and rim, with what it shares with the teeth, the i-th of each sector the image of
+    /// the i-th of sector 0. Outside the web's layers the shared ones are the teeth's alone.
+    pub fn body_nodes(&self, sector: usize) -> Vec<u32> {
+        self.columns(self.section.body_nodes[sector].iter().copied())
+    }
+
+    /// Elements of a sector's part of hub, web and rim.
+    pub fn body_elements(&self, sector: usize) -> Vec<u32> {
+        self.elements_of(self.section.body_quads[sector].clone())
+    }
+
+    /// Nodes of the cut before the first tooth of a sector, the i-th of each sector the image of the i-th of sector 0.
+    pub fn cut_nodes(&self, sector: usize) -> Vec<u32> {
+        let (teeth, sectors) = (self.teeth(), self.sectors());
+        let cell =
+            &self.section.cell_nodes[(self.first_tooth() + sector * teeth / sectors) % teeth];
+        let body = &self.section.body_nodes[sector];
+        let in_cell = self.section.cell.right_side.iter().map(|&c| cell[c]);
+        let in_body = self.section.body_right_side.iter().map(|&c| body[c]);
+        self.columns(in_cell.chain(in_body))
+    }
+
+    /// Nodes of one tooth on its outline between two of the outline's corners (numbers along
+    /// [`crate::tooth_cell::ToothCell::outline`]).
+    fn outline_nodes(&self, tooth: usize, range: RangeInclusive<usize>) -> Vec<u32> {
+        let cell = &self.section.cell;
+        let map = &self.section.cell_nodes[tooth];
+        let (first, last) = (*range.start(), *range.end());
+        let middles = cell.outline_mid_sides.iter().take(last).skip(first);
+        self.columns(cell.outline[range].iter().chain(middles).map(|&c| map[c]))
     }
 
     /// Faces of one side of a tooth between two arc lengths (from the centre of that side's tooth space), including
@@ -173,6 +258,7 @@ impl GearMesh {
     ) -> Vec<OutlineFace> {
         let cell = &self.section.cell;
         let total = cell.outline_arc_m[cell.outline_arc_m.len() - 1];
+        let map = &self.section.cell_nodes[tooth];
         let mut faces = Vec::new();
         for i in 0..cell.outline_quads.len() {
             // On the left side arc length runs the other way, start and end change places.
@@ -188,22 +274,45 @@ impl GearMesh {
             if arcs[1] <= arc_m[0] || arcs[0] >= arc_m[1] {
                 continue;
             }
-            let map = &self.section.cell_nodes[tooth];
             let (a, b) = (map[cell.outline[start]], map[cell.outline[end]]);
             let quad = self.section.cell_first_quad[tooth] + cell.outline_quads[i];
+            // Section node, arc length and level of each node of the face.
+            let middle = cell.outline_mid_sides.get(i).map(|&c| map[c]);
             for layer in 0..self.layers.count() {
-                let hex = self.hex_of[quad * self.layers.count() + layer];
-                let corner = |n: usize, plane: usize| self.node(n, plane).unwrap_or(NONE);
+                let Some(element) = self.element(quad, layer) else {
+                    continue;
+                };
+                let step = if middle.is_some() { 2 } else { 1 };
+                let (low, high) = (step * layer, step * (layer + 1));
+                let mut places = vec![
+                    (a, arcs[0], low),
+                    (b, arcs[1], low),
+                    (b, arcs[1], high),
+                    (a, arcs[0], high),
+                ];
+                if let Some(m) = middle {
+                    let arc = 0.5 * (arcs[0] + arcs[1]);
+                    places.extend([
+                        (m, arc, low),
+                        (b, arcs[1], low + 1),
+                        (m, arc, high),
+                        (a, arcs[0], low + 1),
+                    ]);
+                }
                 faces.push(OutlineFace {
-                    nodes: [
-                        corner(a, layer),
-                        corner(b, layer),
-                        corner(b, layer + 1),
-                        corner(a, layer + 1),
-                    ],
-                    hex,
-                    arc_m: arcs,
-                    z_m: [self.layers.planes_m[layer], self.layers.planes_m[layer + 1]],
+                    shape: match middle {
+                        None => FaceShape::Quad4,
+                        Some(_) => FaceShape::Quad8,
+                    },
+                    nodes: places
+                        .iter()
+                        .filter_map(|&(n, _, level)| self.node(n, level))
+                        .collect(),
+                    element,
+                    places_m: places
+                        .iter()
+                        .map(|&(_, arc, level)| [arc, self.levels_m[level]])
+                        .collect(),
                 });
             }
         }
@@ -211,30 +320,24 @@ impl GearMesh {
     }
 
     /// Elements of the tooth-only submodel: the tooth above the cut.
-    pub fn tooth_hexes(&self, tooth: usize) -> Vec<u32> {
+    pub fn tooth_elements(&self, tooth: usize) -> Vec<u32> {
         let cell = &self.section.cell;
         let first = self.section.cell_first_quad[tooth];
-        (0..cell.quads.len())
-            .filter(|&q| cell.above_cut[q])
-            .flat_map(|q| (0..self.layers.count()).map(move |layer| (first + q, layer)))
-            .map(|(q, layer)| self.hex_of[q * self.layers.count() + layer])
-            .filter(|&h| h != NONE)
-            .collect()
+        let above = (0..cell.quads.len()).filter(|&q| cell.above_cut[q]);
+        self.elements_of(above.map(|q| first + q))
+    }
+
+    /// Nodes of the cut below a tooth's submodel.
+    pub fn tooth_cut(&self, tooth: usize) -> Vec<u32> {
+        let map = &self.section.cell_nodes[tooth];
+        self.columns(self.section.cell.cut.iter().map(|&c| map[c]))
     }
 
     /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut, and the opposite side of the tooth
     /// above it (fillet and flank up to the tip corner).
     pub fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32> {
         let cell = &self.section.cell;
-        let planes = 0..self.layers.planes_m.len();
-        let mut nodes: Vec<u32> = cell
-            .cut
-            .iter()
-            .flat_map(|&local| {
-                let n = self.section.cell_nodes[tooth][local];
-                planes.clone().filter_map(move |p| self.node(n, p))
-            })
-            .collect();
+        let mut nodes = self.tooth_cut(tooth);
         let last = cell.outline.len() - 1;
         let tip = self.tip_corner_index();
         let cut = cell

@@ -17,6 +17,14 @@ impl Layers {
         self.planes_m.len() - 1
     }
 
+    /// The planes and, between each two of them, the middle of the layer.
+    pub fn planes_and_middles_m(&self) -> Vec<f64> {
+        let pairs = self.planes_m.windows(2);
+        let mut levels: Vec<f64> = pairs.flat_map(|z| [z[0], 0.5 * (z[0] + z[1])]).collect();
+        levels.extend(self.planes_m.last());
+        levels
+    }
+
     /// A single layer of the given width about mid-face, which the web fills too.
     pub fn single(width_m: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! From a gear definition to hexahedra: one tooth cell and one body sector of the cross-section are meshed in quads
+//! From a gear definition to hexahedra of eight or twenty nodes: one tooth cell and one body sector of the cross-section are meshed in quads
 //! by gmsh, copied round the axis and layered along it.
 //!
 //! | step | type | file |
@@ -8,8 +8,10 @@
 //! | one tooth: blocks that follow its outline | [`tooth_cell::ToothCell`] | `tooth_cell.rs` |
 //! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
+//! | middles of sides, on the true curve | [`mid_sides`] | `mid_sides.rs` |
 //! | layers along the axis | [`layers`] | `layers.rs` |
-//! | nodes, hexahedra and sets | [`GearMesh`] | `gear_mesh.rs` |
+//! | element lists, faces on the outline | [`ElementList`], [`OutlineFace`] | `elements.rs`, `face.rs` |
+//! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
 //!
@@ -18,8 +20,11 @@
 
 pub mod body;
 pub mod contact_section;
+pub mod elements;
+pub mod face;
 pub mod gear_mesh;
 pub mod layers;
+pub mod mid_sides;
 pub mod plane_mesher;
 pub mod python;
 pub mod quality;
@@ -27,7 +32,10 @@ pub mod section;
 pub mod tooth_cell;
 pub mod twist;
 
+pub use elements::{ElementList, ElementShape};
+pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
+pub use tooth_cell::CutLine;
 
 /// Why no mesh could be made.
 #[derive(Debug, thiserror::Error)]

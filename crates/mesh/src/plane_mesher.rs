@@ -49,6 +49,9 @@ pub struct PlaneMesh {
     pub nodes: Vec<[f64; 2]>,
     /// Node numbers, counter-clockwise.
     pub quads: Vec<[usize; 4]>,
+    /// Nodes in the middle of each quad's sides (side k from corner k to k + 1); none until
+    /// [`crate::mid_sides::MidSides::add`] has put them there.
+    pub mid_sides: Vec<[usize; 4]>,
     /// Region of each quad.
     pub owners: Vec<usize>,
 }
@@ -94,6 +97,7 @@ pub fn mesh_plane(
             Ok(PlaneMesh {
                 nodes,
                 quads,
+                mid_sides: Vec::new(),
                 owners: answer.owners,
             })
         })

@@ -1,6 +1,9 @@
 //! Scaled Jacobian of hexahedra: the smallest, over the eight corners, of the Jacobian determinant divided by the
-//! product of the three edge lengths. 1 for a brick, 0 where a corner collapses, negative where it is inverted.
+//! product of the three edge lengths. 1 for a brick, 0 where a corner collapses, negative where it is inverted. The edges of a
+//! twenty-node hexahedron are parabolas; at its corners their tangents take the place of the edges.
 //! Source: Knupp, *Achieving finite element mesh quality via optimization of the Jacobian matrix norm* (2000).
+
+use crate::elements::ElementList;
 
 /// What the quality of a mesh comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +28,39 @@ const CORNERS: [[usize; 4]; 8] = [
     [7, 6, 4, 3],
 ];
 
-/// Scaled Jacobian of one hexahedron (VTK node order).
-pub fn scaled_jacobian(corners: &[[f64; 3]; 8]) -> f64 {
+/// The corners at the ends of each edge; edge k of a twenty-node hexahedron has node 8 + k in its middle.
+const EDGES: [[usize; 2]; 12] = [
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+/// Scaled Jacobian of one hexahedron from the coordinates of its eight or twenty nodes (VTK order).
+pub fn scaled_jacobian(nodes: &[[f64; 3]]) -> f64 {
+    // Direction of the edge from corner `from` to corner `to`, at `from`.
+    let edge = |from: usize, to: usize| -> [f64; 3] {
+        let middle = EDGES
+            .iter()
+            .position(|e| e.contains(&from) && e.contains(&to))
+            .and_then(|k| nodes.get(8 + k));
+        std::array::from_fn(|i| match middle {
+            Some(m) => 4.0 * m[i] - 3.0 * nodes[from][i] - nodes[to][i],
+            None => nodes[to][i] - nodes[from][i],
+        })
+    };
     CORNERS
         .iter()
         .map(|&[o, a, b, c]| {
-            let edge =
-                |k: usize| std::array::from_fn::<f64, 3, _>(|i| corners[k][i] - corners[o][i]);
-            let (u, v, w) = (edge(a), edge(b), edge(c));
+            let (u, v, w) = (edge(o, a), edge(o, b), edge(o, c));
             let det = u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
                 + u[2] * (v[0] * w[1] - v[1] * w[0]);
             let length = |e: [f64; 3]| e.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -42,20 +70,24 @@ pub fn scaled_jacobian(corners: &[[f64; 3]; 8]) -> f64 {
 }
 
 /// Quality of a mesh.
-pub fn report(nodes: &[[f64; 3]], hexes: &[[u32; 8]]) -> QualityReport {
+pub fn report(nodes: &[[f64; 3]], elements: &ElementList) -> QualityReport {
     let mut result = QualityReport {
         smallest: f64::INFINITY,
         mean: 0.0,
         worst_m: [0.0; 3],
     };
-    for hex in hexes {
-        let corners = hex.map(|n| nodes[n as usize]);
-        let q = scaled_jacobian(&corners);
-        result.mean += q / hexes.len() as f64;
+    let corners = elements.shape().corner_count();
+    let mut coordinates = Vec::new();
+    for element in elements.iter() {
+        coordinates.clear();
+        coordinates.extend(element.iter().map(|&n| nodes[n as usize]));
+        let q = scaled_jacobian(&coordinates);
+        result.mean += q / elements.len() as f64;
         if q < result.smallest {
             result.smallest = q;
-            result.worst_m =
-                std::array::from_fn(|i| corners.iter().map(|c| c[i]).sum::<f64>() / 8.0);
+            result.worst_m = std::array::from_fn(|i| {
+                coordinates[..corners].iter().map(|c| c[i]).sum::<f64>() / corners as f64
+            });
         }
     }
     result
@@ -94,5 +126,16 @@ mod tests {
             corner[0] += corner[1];
         }
         assert!((scaled_jacobian(&b) - 0.5f64.sqrt()).abs() < 1e-14);
+    }
+    /// A mid-edge node moved a quarter of the edge's length off it turns the edge's ends by 45 degrees.
+    #[test]
+    fn a_bent_edge_turns_its_corners() {
+        let mut nodes = brick().to_vec();
+        for [a, b] in EDGES {
+            nodes.push(std::array::from_fn(|i| 0.5 * (nodes[a][i] + nodes[b][i])));
+        }
+        assert!((scaled_jacobian(&nodes) - 1.0).abs() < 1e-14);
+        nodes[8][1] -= 0.5;
+        assert!((scaled_jacobian(&nodes) - 0.5f64.sqrt()).abs() < 1e-14);
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::MeshError;
 use crate::body::body_problem;
+use crate::elements::ElementShape;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
 use crate::tooth_cell::{ToothCell, ToothCellProblem};
@@ -16,6 +17,8 @@ pub struct Section {
     pub nodes: Vec<[f64; 2]>,
     /// Node numbers, counter-clockwise.
     pub quads: Vec<[usize; 4]>,
+    /// Nodes in the middle of each quad's sides (side k from corner k to k + 1); empty where elements are linear.
+    pub mid_sides: Vec<[usize; 4]>,
     /// True for quads that exist only in the web's layers.
     pub web_only: Vec<bool>,
     /// Nodes of the bore.
@@ -43,6 +46,15 @@ fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
 }
 
 impl Section {
+    /// Shape of the elements above its quads.
+    pub const fn element_shape(&self) -> ElementShape {
+        if self.mid_sides.is_empty() {
+            ElementShape::Hex8
+        } else {
+            ElementShape::Hex20
+        }
+    }
+
     /// Meshes one tooth and one sector of the body and copies them.
     ///
     /// # Errors
@@ -52,19 +64,23 @@ impl Section {
         let sectors = gear.sectors();
         let teeth_per_sector = teeth / sectors;
         let cell_problem = ToothCellProblem::new(gear);
-        let ring_per_tooth = cell_problem.ring_pieces();
-        let body = body_problem(gear, ring_per_tooth)?;
+        let mut body = body_problem(gear, cell_problem.ring_pieces())?;
+        let shape = ElementShape::of(gear.mesh.element);
         let mut meshes = mesh_plane(
             python,
             &[cell_problem.problem.clone(), body.problem.clone()],
         )?
         .into_iter();
-        let (Some(cell_mesh), Some(body_mesh)) = (meshes.next(), meshes.next()) else {
+        let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
             return Err(
                 crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes").into(),
             );
         };
-        let cell = cell_problem.finish(cell_mesh);
+        let cell = cell_problem.finish(cell_mesh, shape);
+        if shape == ElementShape::Hex20 {
+            body.make_quadratic(&mut body_mesh);
+        }
+        let ring_per_tooth = cell.bottom.len() - 1;
 
         let mut nodes: Vec<[f64; 2]> = Vec::new();
         // Teeth: the left edge of each is the right edge of the next.
@@ -107,17 +123,20 @@ impl Section {
 
         let mut quads =
             Vec::with_capacity(teeth * cell.quads.len() + sectors * body_mesh.quads.len());
+        let mut mid_sides = Vec::new();
         let mut web_only = Vec::with_capacity(quads.capacity());
         let mut cell_first_quad = Vec::with_capacity(teeth);
         for map in &cell_nodes {
             cell_first_quad.push(quads.len());
             quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
+            mid_sides.extend(cell.mid_sides.iter().map(|m| m.map(|n| map[n])));
             web_only.extend(std::iter::repeat_n(false, cell.quads.len()));
         }
         let mut body_quads = Vec::with_capacity(sectors);
         for map in &body_nodes {
             body_quads.push(quads.len()..quads.len() + body_mesh.quads.len());
             quads.extend(body_mesh.quads.iter().map(|q| q.map(|n| map[n])));
+            mid_sides.extend(body_mesh.mid_sides.iter().map(|m| m.map(|n| map[n])));
             web_only.extend(
                 body_mesh
                     .owners
@@ -134,6 +153,7 @@ impl Section {
         Ok(Self {
             nodes,
             quads,
+            mid_sides,
             web_only,
             bore,
             cell,

@@ -12,6 +12,8 @@
 //! The cut does not run along the root circle: the fillet is tangent to it there, and elements between the two
 //! would have a zero angle (docs/decisions/0002-submodel-cut.md).
 
+use crate::elements::ElementShape;
+use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition};
 use std::f64::consts::PI;
@@ -31,22 +33,83 @@ pub struct ToothCell {
     pub nodes: Vec<[f64; 2]>,
     /// Node numbers, counter-clockwise.
     pub quads: Vec<[usize; 4]>,
+    /// Nodes in the middle of each quad's sides; empty where elements are linear.
+    pub mid_sides: Vec<[usize; 4]>,
     /// True for quads of the tooth-only submodel.
     pub above_cut: Vec<bool>,
     /// Nodes of the outline, from the right tooth space over the tip to the left one.
     pub outline: Vec<usize>,
     /// Arc length of those nodes from the right tooth space \[m\].
     pub outline_arc_m: Vec<f64>,
+    /// Nodes in the middle of the pieces of the outline; empty where elements are linear.
+    pub outline_mid_sides: Vec<usize>,
     /// Quad behind each piece of the outline.
     pub outline_quads: Vec<usize>,
-    /// Nodes of the cut, from the right to the left outline.
+    /// Nodes of the cut, from the right to the left outline, those in the middle of sides between the others.
     pub cut: Vec<usize>,
-    /// Nodes of the ring's inner circle, counter-clockwise.
+    /// Nodes of the ring's inner circle, counter-clockwise, likewise.
     pub bottom: Vec<usize>,
-    /// Nodes of the right edge, outwards to inwards.
+    /// Nodes of the right edge, outwards to inwards, likewise.
     pub right_side: Vec<usize>,
     /// Nodes of the left edge, outwards to inwards.
     pub left_side: Vec<usize>,
+}
+
+/// The cut below the tooth-only submodel, a broken line from the right to the left outline of a tooth centred on +x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutLine {
+    /// \[x, y\] \[m\].
+    pub points_m: Vec<[f64; 2]>,
+    /// Arc length of its ends from the centre of the tooth space on their side \[m\].
+    pub arc_m: f64,
+}
+
+impl CutLine {
+    /// Where the tooth of a definition is cut, by its element lengths along the outline; needs no mesh.
+    pub fn new(gear: &GearDefinition) -> Self {
+        let problem = ToothCellProblem::new(gear);
+        let point = |n: usize| [problem.problem.points[n][0], problem.problem.points[n][1]];
+        Self {
+            points_m: problem.cut.iter().map(|&n| point(n)).collect(),
+            arc_m: arc_at(
+                &problem.outline,
+                &problem.outline_arc_m,
+                problem.cut.first(),
+            ),
+        }
+    }
+
+    /// Whether a point of the section \[x, y\] \[m\] lies below the cut, on it, or no more than `margin_m` above it, radially; so
+    /// do all points beside it.
+    pub fn is_below(&self, [x, y]: [f64; 2], margin_m: f64) -> bool {
+        // The line runs counter-clockwise; the ray from the axis through the point meets the piece whose ends lie on its sides.
+        let side = |p: [f64; 2]| p[0] * y - p[1] * x;
+        let radius = self.points_m.windows(2).find_map(|ends| {
+            let [a, b] = [ends[0], ends[1]];
+            let (from, to) = (side(a), side(b));
+            (from >= 0.0 && to <= 0.0 && from > to).then(|| {
+                let share = from / (from - to);
+                (a[0] + share * (b[0] - a[0])).hypot(a[1] + share * (b[1] - a[1]))
+            })
+        });
+        radius.is_none_or(|radius| x.hypot(y) <= radius + margin_m)
+    }
+}
+
+/// Arc length of a node of the outline.
+fn arc_at(outline: &[usize], arcs_m: &[f64], node: Option<&usize>) -> f64 {
+    let place = outline.iter().position(|n| Some(n) == node);
+    arcs_m[place.unwrap_or(0)]
+}
+
+impl ToothCell {
+    /// The cut.
+    pub fn cut_line(&self) -> CutLine {
+        CutLine {
+            points_m: self.cut.iter().map(|&n| self.nodes[n]).collect(),
+            arc_m: arc_at(&self.outline, &self.outline_arc_m, self.cut.first()),
+        }
+    }
 }
 
 /// Radius of the circle below which the body begins \[m\]: the rim's inner circle where the rim is thin, otherwise
@@ -149,6 +212,7 @@ pub struct ToothCellProblem {
     bottom: Vec<usize>,
     right_side: Vec<usize>,
     left_side: Vec<usize>,
+    curved: CurvedSides,
 }
 
 impl ToothCellProblem {
@@ -379,7 +443,17 @@ impl ToothCellProblem {
             .collect();
         right_arcs.extend(left_arcs);
         let side = joined(&[&at_space, &right_down]);
+        let bottom = joined(&[&bottom_half, &reversed(&m(&bottom_half))]);
+        let mut curved = CurvedSides::default();
+        for (nodes, arcs) in outline_all.windows(2).zip(right_arcs.windows(2)) {
+            let arc = 0.5 * (arcs[0] + arcs[1]);
+            let [x, y] = curve.point_at(arc.min(2.0 * half_length - arc));
+            let y = if arc > half_length { -y } else { y };
+            curved.insert(nodes[0], nodes[1], [x, y]);
+        }
+        curved.insert_arcs(&bottom, false, |n| [points.0[n][0], points.0[n][1]]);
         Self {
+            curved,
             outline_arc_m: right_arcs,
             outline: outline_all,
             cut: joined(&[
@@ -388,7 +462,7 @@ impl ToothCellProblem {
                 &reversed(&m(&cut_half)),
                 &reversed(&m(&at_cut)),
             ]),
-            bottom: joined(&[&bottom_half, &reversed(&m(&bottom_half))]),
+            bottom,
             left_side: m(&side),
             right_side: side,
             problem: PlaneProblem {
@@ -405,8 +479,8 @@ impl ToothCellProblem {
         self.bottom.len() - 1
     }
 
-    /// Puts the mesher's quads to the blocks.
-    pub fn finish(self, mesh: PlaneMesh) -> ToothCell {
+    /// Puts the mesher's quads to the blocks, with nodes in the middle of their sides for quadratic elements.
+    pub fn finish(self, mut mesh: PlaneMesh, shape: ElementShape) -> ToothCell {
         let above_cut = mesh
             .owners
             .iter()
@@ -422,17 +496,29 @@ impl ToothCellProblem {
                     .unwrap_or(0)
             })
             .collect();
+        let middles = match shape {
+            ElementShape::Hex8 => None,
+            ElementShape::Hex20 => Some(MidSides::add(&mut mesh, &self.curved)),
+        };
+        let chain = |corners: Vec<usize>| match &middles {
+            None => corners,
+            Some(middles) => middles.interleaved(&corners, false),
+        };
         ToothCell {
+            outline_mid_sides: middles
+                .as_ref()
+                .map_or_else(Vec::new, |middles| middles.along(&self.outline)),
+            cut: chain(self.cut),
+            bottom: chain(self.bottom),
+            right_side: chain(self.right_side),
+            left_side: chain(self.left_side),
             nodes: mesh.nodes,
             quads: mesh.quads,
+            mid_sides: mesh.mid_sides,
             above_cut,
             outline: self.outline,
             outline_arc_m: self.outline_arc_m,
             outline_quads,
-            cut: self.cut,
-            bottom: self.bottom,
-            right_side: self.right_side,
-            left_side: self.left_side,
         }
     }
 }

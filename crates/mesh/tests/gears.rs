@@ -28,8 +28,8 @@ fn mesh(text: &str) -> (GearDefinition, GearMesh) {
 fn volume(mesh: &GearMesh) -> f64 {
     // Prisms on plane quads: exact.
     let mut sum = 0.0;
-    for hex in &mesh.hexes {
-        let p = hex.map(|n| mesh.nodes[n as usize]);
+    for hex in mesh.elements.iter() {
+        let p: Vec<[f64; 3]> = hex.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let area = 0.5
             * ((p[2][0] - p[0][0]) * (p[3][1] - p[1][1])
                 - (p[3][0] - p[1][0]) * (p[2][1] - p[0][1]));
@@ -57,7 +57,7 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
         "{}: {} nodes, {} elements, quality {:?}",
         gear.name,
         mesh.nodes.len(),
-        mesh.hexes.len(),
+        mesh.elements.len(),
         mesh.quality
     );
     let expected = volume_m3(&gear);
@@ -69,9 +69,9 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
     assert!(mesh.quality.smallest > 0.2);
     // Every node is used, every interior face is shared by exactly two elements.
     let mut used = vec![false; mesh.nodes.len()];
-    mesh.hexes
+    mesh.elements
+        .connectivity()
         .iter()
-        .flatten()
         .for_each(|&n| used[n as usize] = true);
     assert!(used.iter().all(|u| *u));
     // No two nodes at the same place: sectors are joined, not only side by side.
@@ -110,14 +110,14 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
             assert!(flank.iter().all(|n| !supports.contains(n)));
             let opposite = &sets[&format!("tooth{tooth}_{}_flank", side.opposite().name())];
             assert!(opposite.iter().all(|n| supports.contains(n)));
-            assert!(!mesh.tooth_hexes(tooth).is_empty());
+            assert!(!mesh.tooth_elements(tooth).is_empty());
         }
     }
     let total: f64 = mesh
         .outline_faces(1, FlankSide::Left, [0.0, f64::INFINITY])
         .iter()
-        .filter(|f| f.z_m[0] == mesh.layers.planes_m[0])
-        .map(|f| f.arc_m[1] - f.arc_m[0])
+        .filter(|f| f.range_m(1)[0] == mesh.layers.planes_m[0])
+        .map(|f| f.range_m(0)[1] - f.range_m(0)[0])
         .sum();
     assert!((total - 2.0 * ProfileCurve::new(&gear.profile).length_m()).abs() < 1e-12);
 }

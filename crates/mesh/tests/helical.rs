@@ -67,8 +67,8 @@ fn volume(mesh: &GearMesh) -> f64 {
         [-1.0, 1.0, 1.0],
     ];
     let mut sum = 0.0;
-    for hex in &mesh.hexes {
-        let p = hex.map(|n| mesh.nodes[n as usize]);
+    for hex in mesh.elements.iter() {
+        let p: Vec<[f64; 3]> = hex.iter().map(|&n| mesh.nodes[n as usize]).collect();
         for (x, wx) in gauss {
             for (y, wy) in gauss {
                 for (z, wz) in gauss {
@@ -129,10 +129,7 @@ fn flanks_are_helicoids_and_hands_are_mirror_images() {
     for (mesh, hand) in [(&right, 1.0), (&left, -1.0)] {
         for tooth in [0, 5] {
             for face in mesh.outline_faces(tooth, FlankSide::Right, [0.0, curve.length_m()]) {
-                for (node, arc, z) in [
-                    (face.nodes[0], face.arc_m[0], face.z_m[0]),
-                    (face.nodes[2], face.arc_m[1], face.z_m[1]),
-                ] {
+                for (&node, &[arc, z]) in face.nodes.iter().zip(&face.places_m) {
                     if arc > curve.length_m() {
                         continue;
                     }

@@ -69,17 +69,13 @@ impl CyclicBody {
         lap("harmonics");
         let mut places = vec![Place::Fixed; mesh.nodes.len()];
         for s in 0..sector.sectors {
-            for i in 0..sector.node_count() {
-                if let Some(node) = sector.node(mesh, &tooth, s, i) {
-                    places[node as usize] = Place::Sector(s as u32, i as u32);
-                }
+            for (i, &node) in sector.nodes(s).iter().enumerate() {
+                places[node as usize] = Place::Sector(s as u32, i as u32);
             }
         }
-        for t in 0..mesh.section.cell_nodes.len() {
-            for i in 0..tooth.node_count() {
-                if let Some(node) = tooth.node(mesh, t, i) {
-                    places[node as usize] = Place::Tooth(t as u32, i as u32);
-                }
+        for t in 0..mesh.teeth() {
+            for (i, &node) in tooth.nodes(t).iter().enumerate() {
+                places[node as usize] = Place::Tooth(t as u32, i as u32);
             }
         }
         Ok(Self {
@@ -174,10 +170,8 @@ impl CyclicBody {
     }
 
     /// XᵀKX for full Cartesian fields that are zero where the body is held: the sum over all parts.
-    pub fn energy_products(&self, mesh: &GearMesh, fields: &[Vec<f64>]) -> Mat<f64> {
-        self.tooth.energy_products(mesh, &self.frames, fields)
-            + self
-                .sector
-                .energy_products(mesh, &self.tooth, &self.frames, fields)
+    pub fn energy_products(&self, fields: &[Vec<f64>]) -> Mat<f64> {
+        self.tooth.energy_products(&self.frames, fields)
+            + self.sector.energy_products(&self.frames, fields)
     }
 }

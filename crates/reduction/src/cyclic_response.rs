@@ -6,7 +6,6 @@ use crate::flank_loads::SparseVector;
 use crate::tooth_substructure::add_turned;
 use faer::{Mat, MatRef};
 use gearmesh_fe::CondensedLoads;
-use gearmesh_mesh::GearMesh;
 use std::collections::BTreeMap;
 
 /// Full fields that are made together.
@@ -60,13 +59,12 @@ impl CyclicBody {
     /// K⁻¹ p for loads anywhere, as full Cartesian fields, handed to `each` one by one.
     pub fn solve_each(
         &self,
-        mesh: &GearMesh,
         loads: &[&SparseVector],
         progress: &dyn Progress,
         mut each: impl FnMut(usize, &[f64]),
     ) {
         for (batch, cases) in loads.chunks(FIELDS).enumerate() {
-            let fields = self.fields(mesh, cases);
+            let fields = self.fields(cases);
             for (case, field) in fields.iter().enumerate() {
                 each(batch * FIELDS + case, field);
             }
@@ -157,9 +155,9 @@ impl CyclicBody {
         }
     }
 
-    fn fields(&self, mesh: &GearMesh, cases: &[&SparseVector]) -> Vec<Vec<f64>> {
+    fn fields(&self, cases: &[&SparseVector]) -> Vec<Vec<f64>> {
         let response = self.respond(cases);
-        let mut fields = vec![vec![0.0; 3 * mesh.nodes.len()]; cases.len()];
+        let mut fields = vec![vec![0.0; 3 * self.places.len()]; cases.len()];
         let mut put = |node: u32, i: usize, u: MatRef<'_, f64>| {
             for (case, field) in fields.iter_mut().enumerate() {
                 let part = [u[(3 * i, case)], u[(3 * i + 1, case)], u[(3 * i + 2, case)]];
@@ -168,10 +166,8 @@ impl CyclicBody {
             }
         };
         for sector in 0..self.sector.sectors {
-            for i in 0..self.sector.node_count() {
-                if let Some(node) = self.sector.node(mesh, &self.tooth, sector, i) {
-                    put(node, i, response.sector(sector));
-                }
+            for (i, &node) in self.sector.nodes(sector).iter().enumerate() {
+                put(node, i, response.sector(sector));
             }
         }
         let (n, teeth) = (cases.len(), self.sector.own * self.sector.sectors);
@@ -193,10 +189,8 @@ impl CyclicBody {
             .condensation()
             .expand(feet.as_ref(), Some(interior.as_ref()));
         for t in 0..teeth {
-            for i in 0..self.tooth.node_count() {
-                if let Some(node) = self.tooth.node(mesh, t, i) {
-                    put(node, i, inside.as_ref().subcols(t * n, n));
-                }
+            for (i, &node) in self.tooth.nodes(t).iter().enumerate() {
+                put(node, i, inside.as_ref().subcols(t * n, n));
             }
         }
         fields

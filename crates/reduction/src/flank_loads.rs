@@ -1,15 +1,17 @@
 //! Unit loads on a flank, spread by hat functions over a grid of roll stations and axial stations.
 //!
 //! Load (i, j) is the traction h_i(ξ) h_j(z) d(ξ), scaled to a total of one newton, on the flank surface; d is the
-//! inward normal, the profile tangent towards the tip, or +z. Consistent nodal loads: ∫ N_a h_i h_j d dA. The integral
-//! is split at the stations, so that a 3×3 Gauss rule in each piece is exact up to the curvature of the involute.
+//! inward normal, the profile tangent towards the tip, or +z. Consistent nodal loads: ∫ N_a h_i h_j d dA with the shape
+//! functions of the element faces. The integral is split at the stations, so that in each piece Gauss's rule is exact up to
+//! the curvature of the involute.
 //!
 //! Helical teeth: the section at z is turned by the mesh's twist, and the inward normal has an axial component,
 //! n = cos β_b n_t ∓ sin β_b e_z (− on right flanks of a right-hand gear). The profile tangent stays in the section. The
 //! flank's area grows by the same factor 1/cos β_b everywhere and drops out of the unit loads.
 
+use crate::face_overlap::overlap_points;
+use crate::toothed_mesh::ToothedMesh;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
-use gearmesh_mesh::GearMesh;
 use gearmesh_model::FlankGrid;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -27,13 +29,6 @@ pub struct GridLoad {
     /// Along +z.
     pub axial: SparseVector,
 }
-
-/// Nodes (0, ½, 1) and weights of Gauss's three-point rule on \[0, 1\].
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 
 /// The flank grid of a gear: roll stations evenly from the form circle to the end of the flank, axial stations at
 /// the edges and middles of the slices.
@@ -54,31 +49,15 @@ pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
     }
 }
 
-/// Value at `x` of the hat function of station `i`.
-fn hat(stations: &[f64], i: usize, x: f64) -> f64 {
-    if i > 0 && x <= stations[i] {
-        ((x - stations[i - 1]) / (stations[i] - stations[i - 1])).max(0.0)
-    } else if i + 1 < stations.len() && x >= stations[i] {
-        ((stations[i + 1] - x) / (stations[i + 1] - stations[i])).max(0.0)
-    } else if x == stations[i] {
-        1.0
-    } else {
-        0.0
-    }
-}
-
-/// `from`, the stations strictly between, `to`.
-fn pieces(stations: &[f64], from: f64, to: f64) -> Vec<f64> {
-    let mut cuts = vec![from];
-    cuts.extend(stations.iter().copied().filter(|s| *s > from && *s < to));
-    cuts.push(to);
-    cuts
+/// Numbers i of the intervals between stations i and i + 1 that overlap a range.
+fn overlapping(stations: &[f64], range: [f64; 2]) -> impl Iterator<Item = usize> {
+    (0..stations.len() - 1).filter(move |&i| stations[i] < range[1] && stations[i + 1] > range[0])
 }
 
 /// All unit loads on one flank of one tooth, numbered as [`FlankGrid::load`].
 pub fn flank_loads(
     gear: &GearDefinition,
-    mesh: &GearMesh,
+    mesh: &impl ToothedMesh,
     grid: &FlankGrid,
     tooth: usize,
     side: FlankSide,
@@ -95,7 +74,7 @@ pub fn flank_loads(
         .map(|&xi| curve.arc_length_at_roll_m(xi))
         .collect();
     let tooth_angle = TAU * tooth as f64 / gear.tooth.teeth as f64;
-    let twist = mesh.twist.teeth_rad_per_m;
+    let twist = mesh.twist_rad_per_m();
     let (helix_sin, helix_cos) = (r_b * twist).atan().sin_cos();
     let axial_part = -side.mirror() * helix_sin;
 
@@ -103,58 +82,47 @@ pub fn flank_loads(
     let mut sums = vec![0.0; count];
     let mut parts: Vec<[BTreeMap<usize, f64>; 3]> = vec![Default::default(); count];
     for face in mesh.outline_faces(tooth, side, [start, end]) {
-        let arcs = pieces(
-            &station_arcs,
-            face.arc_m[0].max(start),
-            face.arc_m[1].min(end),
-        );
-        let heights = pieces(&grid.z_m, face.z_m[0], face.z_m[1]);
-        for (s, z) in arcs
-            .windows(2)
-            .flat_map(|s| heights.windows(2).map(move |z| (s, z)))
-        {
-            for (gs, ws) in GAUSS {
-                let arc = s[0] + gs * (s[1] - s[0]);
+        let (arc_range, z_range) = (face.range_m(0), face.range_m(1));
+        let cells = overlapping(&station_arcs, arc_range)
+            .flat_map(|i| overlapping(&grid.z_m, z_range).map(move |j| (i, j)));
+        for (i, j) in cells {
+            let [xi, z] = [&grid.roll_angles_rad, &grid.z_m];
+            let points = overlap_points(
+                &face,
+                [station_arcs[i], station_arcs[i + 1]],
+                [z[j], z[j + 1]],
+            );
+            for point in points {
+                let [arc, height] = point.place_m;
                 let roll = roll_at(arc);
                 let (normal, tangent) = profile.flank_frame(side, roll);
-                let u = (arc - face.arc_m[0]) / (face.arc_m[1] - face.arc_m[0]);
-                for (gz, wz) in GAUSS {
-                    let height = z[0] + gz * (z[1] - z[0]);
-                    let (sin, cos) = (tooth_angle + twist * height).sin_cos();
-                    let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-                    let (n_t, tangent) = (turn(normal), turn(tangent));
-                    let normal = [helix_cos * n_t[0], helix_cos * n_t[1], axial_part];
-                    let v = (height - face.z_m[0]) / (face.z_m[1] - face.z_m[0]);
-                    let shape = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
-                    let area = ws * wz * (s[1] - s[0]) * (z[1] - z[0]);
-                    for i in 0..grid.roll_angles_rad.len() {
-                        let h_i = hat(&grid.roll_angles_rad, i, roll);
-                        if h_i == 0.0 {
-                            continue;
+                let (sin, cos) = (tooth_angle + twist * height).sin_cos();
+                let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+                let (n_t, tangent) = (turn(normal), turn(tangent));
+                let normal = [helix_cos * n_t[0], helix_cos * n_t[1], axial_part];
+                let shapes = face.shape.shapes(point.natural);
+                let along = (roll - xi[i]) / (xi[i + 1] - xi[i]);
+                let across = (height - z[j]) / (z[j + 1] - z[j]);
+                // In a cell of the grid four hats are not zero.
+                for (load, hat) in [
+                    (grid.load(i, j), (1.0 - along) * (1.0 - across)),
+                    (grid.load(i, j + 1), (1.0 - along) * across),
+                    (grid.load(i + 1, j), along * (1.0 - across)),
+                    (grid.load(i + 1, j + 1), along * across),
+                ] {
+                    let weight = point.area_m2 * hat;
+                    sums[load] += weight;
+                    for (node, shape) in face.nodes.iter().zip(&shapes) {
+                        let dof = 3 * *node as usize;
+                        let value = weight * shape[0];
+                        for axis in 0..2 {
+                            *parts[load][0].entry(dof + axis).or_default() += value * normal[axis];
+                            *parts[load][1].entry(dof + axis).or_default() += value * tangent[axis];
                         }
-                        for j in 0..grid.z_m.len() {
-                            let weight = area * h_i * hat(&grid.z_m, j, height);
-                            if weight == 0.0 {
-                                continue;
-                            }
-                            let load = grid.load(i, j);
-                            sums[load] += weight;
-                            for (node, n) in face.nodes.iter().zip(shape) {
-                                let dof = 3 * *node as usize;
-                                let value = weight * n;
-                                for axis in 0..2 {
-                                    *parts[load][0].entry(dof + axis).or_default() +=
-                                        value * normal[axis];
-                                    *parts[load][1].entry(dof + axis).or_default() +=
-                                        value * tangent[axis];
-                                }
-                                if axial_part != 0.0 {
-                                    *parts[load][0].entry(dof + 2).or_default() +=
-                                        value * axial_part;
-                                }
-                                *parts[load][2].entry(dof + 2).or_default() += value;
-                            }
+                        if axial_part != 0.0 {
+                            *parts[load][0].entry(dof + 2).or_default() += value * axial_part;
                         }
+                        *parts[load][2].entry(dof + 2).or_default() += value;
                     }
                 }
             }

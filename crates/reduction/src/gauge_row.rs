@@ -1,18 +1,31 @@
 //! A strain gauge as one row of nodal weights: ε = gᵀd.
 //!
-//! In each layer of elements the strain is taken at the centres of the faces along the profile, from the element behind
-//! the face, and rotated to the direction of the face's edge (seed 004, 4.4). Between the centres it is taken as
-//! linear, and the mean over the gauge's length is that of this broken line: the strain of a linear element is most
-//! accurate at its centre, and a gauge that covers a part of a face should not read its centre. Layers are averaged
-//! with the width that gauge and layer have in common.
+//! The strain of a surface point is that of the element behind it, rotated to the direction of the profile (seed 004, 4.4).
+//!
+//! *Quadratic elements*: its mean over what the faces have in common with the gauge.
+//!
+//! *Linear elements*: their strain is accurate at the centres of the faces only. In each layer of elements it is taken there
+//! and as linear between the centres; the mean over the gauge's length is that of this broken line, since a gauge that
+//! covers a part of a face should not read its centre. Layers are averaged with the width that gauge and layer have in common.
 
 use crate::ReductionError;
+use crate::face_overlap::overlap_points;
 use crate::flank_loads::SparseVector;
-use gearmesh_fe::{CORNERS, FeModel};
+use crate::toothed_mesh::ToothedMesh;
+use gearmesh_fe::FeModel;
 use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve};
-use gearmesh_mesh::GearMesh;
-use gearmesh_mesh::gear_mesh::OutlineFace;
+use gearmesh_mesh::OutlineFace;
 use std::collections::BTreeMap;
+
+/// Layers whose edges differ by less are one \[m\].
+const SAME_LAYER_M: f64 = 1e-9;
+
+/// A point of a face and its share of the gauge's area.
+struct Reading<'a> {
+    face: &'a OutlineFace,
+    natural: [f64; 2],
+    area_m2: f64,
+}
 
 /// The row of a gauge, placed on `tooth` instead of its own tooth.
 ///
@@ -20,7 +33,7 @@ use std::collections::BTreeMap;
 /// [`ReductionError::EmptyGauge`] when no face lies under it.
 pub fn gauge_row(
     gear: &GearDefinition,
-    mesh: &GearMesh,
+    mesh: &impl ToothedMesh,
     model: &FeModel,
     gauge: &GaugeDefinition,
     tooth: usize,
@@ -35,63 +48,104 @@ pub fn gauge_row(
         gauge.z_m - 0.5 * gauge.width_m,
         gauge.z_m + 0.5 * gauge.width_m,
     ];
-    let overlap = |a: [f64; 2], b: [f64; 2]| (a[1].min(b[1]) - a[0].max(b[0])).max(0.0);
     let faces = mesh.outline_faces(tooth, gauge.side, [0.0, curve.flank_end_m()]);
-    let mut layers: Vec<[f64; 2]> = faces
-        .iter()
-        .map(|f| f.z_m)
-        .filter(|&z| overlap(z, across) > 0.0)
-        .collect();
-    layers.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    layers.dedup();
-    let mut row: BTreeMap<usize, f64> = BTreeMap::new();
-    let mut area = 0.0;
-    for layer in layers {
-        let mut strip: Vec<&OutlineFace> = faces.iter().filter(|f| f.z_m == layer).collect();
-        strip.sort_by(|a, b| a.arc_m[0].total_cmp(&b.arc_m[0]));
-        let centres: Vec<f64> = strip
-            .iter()
-            .map(|f| 0.5 * (f.arc_m[0] + f.arc_m[1]))
-            .collect();
-        let shares = broken_line_integral(&centres, along);
-        let width = overlap(layer, across);
-        for (face, share) in strip.iter().zip(shares).filter(|(_, share)| *share != 0.0) {
-            area += width * share;
-            for (dof, value) in face_row(mesh, model, face)? {
-                *row.entry(dof).or_default() += width * share * value;
-            }
-        }
-    }
+    let readings = if faces.iter().any(|face| face.shape.is_quadratic()) {
+        everywhere(&faces, along, across)
+    } else {
+        between_centres(&faces, along, across)
+    };
+    let area: f64 = readings.iter().map(|r| r.area_m2).sum();
     if area == 0.0 {
         return Err(empty());
     }
-    Ok(row
-        .into_iter()
-        .map(|(dof, value)| (dof, value / area))
-        .collect())
+    let mut row: BTreeMap<usize, f64> = BTreeMap::new();
+    for reading in readings {
+        for (dof, value) in strain_row(model, reading.face, reading.natural)? {
+            *row.entry(dof).or_default() += reading.area_m2 / area * value;
+        }
+    }
+    Ok(row.into_iter().collect())
 }
 
-/// Strain along the profile at the centre of a face, as weights of the nodal displacements.
-fn face_row(
-    mesh: &GearMesh,
+/// Integration points all over the gauge.
+fn everywhere(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
+    faces
+        .iter()
+        .flat_map(|face| {
+            let points = overlap_points(face, along, across).into_iter();
+            points.map(move |point| Reading {
+                face,
+                natural: point.natural,
+                area_m2: point.area_m2,
+            })
+        })
+        .collect()
+}
+
+/// Centres of faces, weighted by the integral of the broken line between them.
+fn between_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> Vec<Reading<'_>> {
+    let overlap = |a: [f64; 2], b: [f64; 2]| (a[1].min(b[1]) - a[0].max(b[0])).max(0.0);
+    let same = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < SAME_LAYER_M);
+    let mut layers: Vec<[f64; 2]> = faces
+        .iter()
+        .map(|face| face.range_m(1))
+        .filter(|&z| overlap(z, across) > 0.0)
+        .collect();
+    layers.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    layers.dedup_by(|a, b| same(*a, *b));
+    let mut readings = Vec::new();
+    for layer in layers {
+        let centre = |face: &OutlineFace| face.place_m(face.shape.centre())[0][0];
+        let mut strip: Vec<(f64, &OutlineFace)> = faces
+            .iter()
+            .filter(|face| same(face.range_m(1), layer))
+            .map(|face| (centre(face), face))
+            .collect();
+        strip.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let centres: Vec<f64> = strip.iter().map(|(centre, _)| *centre).collect();
+        let shares = broken_line_integral(&centres, along);
+        let width = overlap(layer, across);
+        let covered = strip.iter().zip(shares).filter(|(_, share)| *share != 0.0);
+        readings.extend(covered.map(|((_, face), share)| Reading {
+            face,
+            natural: face.shape.centre(),
+            area_m2: width * share,
+        }));
+    }
+    readings
+}
+
+/// Strain along the profile at a point of a face, as weights of the nodal displacements.
+fn strain_row(
     model: &FeModel,
     face: &OutlineFace,
+    natural: [f64; 2],
 ) -> Result<SparseVector, ReductionError> {
-    let hex = mesh.hexes[face.hex as usize];
-    let corners: Vec<usize> = (0..8).filter(|&k| face.nodes.contains(&hex[k])).collect();
-    let natural: [f64; 3] = std::array::from_fn(|i| {
-        corners.iter().map(|&k| CORNERS[k][i]).sum::<f64>() / corners.len() as f64
-    });
-    // The profile's direction in the middle of the layer: the mean of the edges on both planes, which a helix turns.
-    let [a, b, c, d] = face.nodes.map(|n| mesh.nodes[n as usize]);
-    let (dx, dy) = (b[0] - a[0] + c[0] - d[0], b[1] - a[1] + c[1] - d[1]);
-    let length = dx.hypot(dy);
-    let t = [dx / length, dy / length];
+    let element = model.element_nodes(face.element as usize);
+    let in_element = model.element_of(face.element as usize).natural_nodes();
+    let shapes = face.shape.shapes(natural);
+    let [_, d_xi, d_eta] = face.place_m(natural);
+    let det = d_xi[0] * d_eta[1] - d_xi[1] * d_eta[0];
+    // The point in the element's natural coordinates, and the profile's direction: ∂x/∂(arc length) at constant z.
+    let (mut inside, mut t) = ([0.0; 3], [0.0; 2]);
+    for (&node, [n, n_xi, n_eta]) in face.nodes.iter().zip(shapes) {
+        let along = (n_xi * d_eta[1] - n_eta * d_xi[1]) / det;
+        for (axis, sum) in t.iter_mut().enumerate() {
+            *sum += along * model.nodes()[node as usize][axis];
+        }
+        if let Some(k) = element.iter().position(|&other| other == node) {
+            for (sum, coordinate) in inside.iter_mut().zip(in_element[k]) {
+                *sum += n * coordinate;
+            }
+        }
+    }
+    let length = t[0].hypot(t[1]);
+    let t = [t[0] / length, t[1] / length];
     // Normal strain along t; order xx, yy, zz, xy, yz, xz with engineering shear.
     let rotation = [t[0] * t[0], t[1] * t[1], 0.0, t[0] * t[1], 0.0, 0.0];
-    let operator = model.strain_operator(face.hex as usize, natural)?;
+    let operator = model.strain_operator(face.element as usize, inside)?;
     let weight = |column: usize| (0..6).map(|i| rotation[i] * operator[i][column]).sum();
-    Ok(hex
+    Ok(element
         .iter()
         .enumerate()
         .flat_map(|(k, &node)| (0..3).map(move |axis| (3 * node as usize + axis, 3 * k + axis)))

@@ -38,7 +38,21 @@ pub fn element_of(kind: ElementKind) -> HexElement {
     match kind {
         ElementKind::Hex8 => HexElement::Hex8,
         ElementKind::Hex8Incompatible => HexElement::Hex8Incompatible,
+        ElementKind::Hex20 => HexElement::Hex20,
     }
+}
+
+/// The finite element model of a gear's mesh.
+///
+/// # Errors
+/// [`ReductionError::Fe`] when an element is too distorted to be used, or the material is none.
+pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, ReductionError> {
+    Ok(FeModel::from_connectivity(
+        mesh.nodes.clone(),
+        mesh.elements.connectivity().to_vec(),
+        Material::new(gear.material.young_pa, gear.material.poisson)?,
+        element_of(gear.mesh.element),
+    )?)
 }
 
 impl GearBody {
@@ -56,13 +70,7 @@ impl GearBody {
         let mesh = GearMesh::new(gear, python)?;
         let mut stage_seconds = vec![("mesh".to_string(), clock.elapsed().as_secs_f64())];
         let clock = Instant::now();
-        let material = Material::new(gear.material.young_pa, gear.material.poisson)?;
-        let model = FeModel::new(
-            mesh.nodes.clone(),
-            mesh.hexes.clone(),
-            material,
-            element_of(gear.mesh.element),
-        )?;
+        let model = model_of(gear, &mesh)?;
         let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
         let deformation = Deformation::of(gear);
         let dofs = deformation.dofs(model.node_count(), &bore)?;
@@ -161,7 +169,7 @@ impl GearBody {
         self.count(loads.len());
         match &self.solver {
             Solver::Whole(whole) => whole.solve_each(&self.dofs, loads, progress, each),
-            Solver::Cyclic(body) => body.solve_each(&self.mesh, loads, progress, each),
+            Solver::Cyclic(body) => body.solve_each(loads, progress, each),
         }
     }
 
@@ -169,7 +177,7 @@ impl GearBody {
     pub fn energy_products(&self, fields: &[Vec<f64>]) -> Mat<f64> {
         match &self.solver {
             Solver::Whole(whole) => whole.energy_products(&self.dofs, fields),
-            Solver::Cyclic(body) => body.energy_products(&self.mesh, fields),
+            Solver::Cyclic(body) => body.energy_products(fields),
         }
     }
 }

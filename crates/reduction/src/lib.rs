@@ -3,6 +3,7 @@
 //! | step | file |
 //! | --- | --- |
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
+//! | integration over a part of an element face | `face_overlap.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
 //! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
@@ -12,6 +13,8 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
+//! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs`, `imported_error.rs` |
+//! | what all of them ask of a mesh | `toothed_mesh.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
 //! | the whole displacement and stress field | `field.rs` |
 //!
@@ -23,10 +26,14 @@ pub mod contact_problem;
 pub mod cyclic_body;
 mod cyclic_response;
 pub mod error_estimate;
+pub mod face_overlap;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
 pub mod gear_body;
+pub mod import;
+pub mod imported_error;
+pub mod imported_mesh;
 pub mod near_field;
 mod part;
 pub mod reduce;
@@ -34,9 +41,11 @@ pub mod sector_substructure;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
 pub mod tooth_vectors;
+pub mod toothed_mesh;
 pub mod whole_gear;
 
 pub use gear_body::GearBody;
+pub use import::{read_body, reduce_imported};
 pub use reduce::{ReductionOptions, reduce};
 
 use gearmesh_geometry::FlankSide;
@@ -51,6 +60,9 @@ pub enum ReductionError {
     /// The finite element model is not sound.
     #[error(transparent)]
     Fe(#[from] gearmesh_fe::FeError),
+    /// A mesh from elsewhere is not the gear's.
+    #[error(transparent)]
+    Imported(#[from] imported_error::ImportedMeshError),
     /// A gauge covers no element face.
     #[error(
         "gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm"

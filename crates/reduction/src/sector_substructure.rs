@@ -16,8 +16,8 @@ use rayon::prelude::*;
 enum SectorNode {
     /// A node that a tooth shares with its surroundings: number of the tooth in the sector, number of the node.
     Tooth(usize, usize),
-    /// A node of the body sector and its plane.
-    Body(usize, usize),
+    /// A node of hub, web or rim: number in [`GearMesh::body_nodes`].
+    Body(usize),
 }
 
 /// The sector and its condensation, in cylindrical components.
@@ -27,9 +27,8 @@ pub struct SectorSubstructure {
     /// Teeth of a sector.
     pub own: usize,
     first_tooth: usize,
-    nodes: Vec<SectorNode>,
-    /// Nodes of the whole mesh in sector 0, ascending.
-    mesh_nodes: Vec<u32>,
+    /// Nodes of the whole mesh of each sector: the images of those of sector 0, which ascend.
+    images: Vec<Vec<u32>>,
     /// Sector node of each shared node of each of its teeth.
     tooth_nodes: Vec<Vec<usize>>,
     /// Stiffness of the body alone and its nodes among those of the sector.
@@ -49,48 +48,47 @@ impl SectorSubstructure {
         fixed: &[bool],
         tooth: &ToothSubstructure,
     ) -> Result<Self, FeError> {
-        let section = &mesh.section;
-        let sectors = section.body_quads.len();
-        let teeth = section.cell_nodes.len();
+        let (sectors, teeth) = (mesh.sectors(), mesh.teeth());
         let own = teeth / sectors;
-        let first_tooth = section.first_tooth;
-        let planes = 0..mesh.layers.planes_m.len();
+        let first_tooth = mesh.first_tooth();
 
         let mut listed: Vec<(u32, SectorNode)> = Vec::new();
         for a in 0..own {
-            listed.extend((0..tooth.boundary_count()).filter_map(|b| {
-                let node = tooth.boundary_node(mesh, (first_tooth + a) % teeth, b)?;
-                Some((node, SectorNode::Tooth(a, b)))
+            listed.extend((0..tooth.boundary_count()).map(|b| {
+                let node = tooth.boundary_node((first_tooth + a) % teeth, b);
+                (node, SectorNode::Tooth(a, b))
             }));
         }
-        for (local, &n) in section.body_nodes[0].iter().enumerate() {
-            for plane in planes.clone() {
-                if let Some(node) = mesh.node(n, plane) {
-                    listed.push((node, SectorNode::Body(local, plane)));
-                }
-            }
-        }
+        let body_nodes = mesh.body_nodes(0).into_iter().enumerate();
+        listed.extend(body_nodes.map(|(i, node)| (node, SectorNode::Body(i))));
         // Stable: where several names fit, that of the first tooth is kept.
         listed.sort_by_key(|(node, _)| *node);
         listed.dedup_by_key(|(node, _)| *node);
-        // The cross-section holds ring nodes of body and teeth; those of the ring outside the web belong to teeth only.
         listed.retain(|(node, _)| !fixed[*node as usize]);
-        let elements: Vec<u32> = section.body_quads[0]
-            .clone()
-            .flat_map(|q| (0..mesh.layers.count()).filter_map(move |layer| mesh.hex(q, layer)))
-            .collect();
-        let body = Part::new(model, &elements)?;
+        let body = Part::new(model, &mesh.body_elements(0))?;
+        // Where the ring is outside the web its nodes belong to teeth only.
         listed.retain(|(node, name)| {
             matches!(name, SectorNode::Tooth(..)) || body.place(*node).is_some()
         });
-        let (mesh_nodes, nodes): (Vec<u32>, Vec<SectorNode>) = listed.into_iter().unzip();
-        let place = |node: u32| mesh_nodes.binary_search(&node).ok();
+        let images: Vec<Vec<u32>> = (0..sectors)
+            .map(|sector| {
+                let in_body = mesh.body_nodes(sector);
+                let names = listed.iter().map(|(_, name)| *name);
+                names
+                    .map(|name| match name {
+                        SectorNode::Tooth(a, b) => {
+                            tooth.boundary_node((first_tooth + sector * own + a) % teeth, b)
+                        }
+                        SectorNode::Body(i) => in_body[i],
+                    })
+                    .collect()
+            })
+            .collect();
+        let place = |node: u32| images[0].binary_search(&node).ok();
         let tooth_nodes: Vec<Vec<usize>> = (0..own)
             .map(|a| {
                 (0..tooth.boundary_count())
-                    .filter_map(|b| {
-                        place(tooth.boundary_node(mesh, (first_tooth + a) % teeth, b)?)
-                    })
+                    .filter_map(|b| place(tooth.boundary_node((first_tooth + a) % teeth, b)))
                     .collect()
             })
             .collect();
@@ -108,21 +106,11 @@ impl SectorSubstructure {
         let kept: Vec<usize> = if sectors == 1 {
             Vec::new()
         } else {
-            let cut = |sector: usize| {
-                let cell = &section.cell_nodes[(first_tooth + sector * own) % teeth];
-                let cell = section.cell.right_side.iter().map(|&c| cell[c]);
-                let body = &section.body_nodes[sector];
-                let body = section.body_right_side.iter().map(|&c| body[c]);
-                cell.chain(body)
-                    .flat_map(|n| planes.clone().filter_map(move |plane| mesh.node(n, plane)))
-                    .filter_map(place)
-                    .collect::<Vec<_>>()
-            };
-            let (right, left) = (cut(0), cut(1));
-            right.into_iter().chain(left).collect()
+            let [right, left] = [0, 1].map(|sector| mesh.cut_nodes(sector).into_iter());
+            right.chain(left).filter_map(place).collect()
         };
         let stiffness = assemble(
-            nodes.len(),
+            images[0].len(),
             &body_stiffness,
             &body_nodes,
             tooth,
@@ -133,8 +121,7 @@ impl SectorSubstructure {
             sectors,
             own,
             first_tooth,
-            nodes,
-            mesh_nodes,
+            images,
             tooth_nodes,
             body_stiffness,
             body_nodes,
@@ -154,57 +141,24 @@ impl SectorSubstructure {
         (from_first / self.own, from_first % self.own)
     }
 
-    /// Tooth of a sector.
-    pub fn tooth(&self, sector: usize, a: usize) -> usize {
-        (self.first_tooth + sector * self.own + a) % (self.sectors * self.own)
-    }
-
     /// Sector nodes of what the a-th tooth shares with its surroundings.
     pub fn tooth_nodes(&self, a: usize) -> &[usize] {
         &self.tooth_nodes[a]
     }
 
-    /// Number of nodes.
-    pub fn node_count(&self) -> usize {
-        self.nodes.len()
-    }
-
-    /// Node of the whole mesh of the i-th sector node, in a sector.
-    pub fn node(
-        &self,
-        mesh: &GearMesh,
-        tooth: &ToothSubstructure,
-        sector: usize,
-        i: usize,
-    ) -> Option<u32> {
-        if sector == 0 {
-            return Some(self.mesh_nodes[i]);
-        }
-        match self.nodes[i] {
-            SectorNode::Tooth(a, b) => tooth.boundary_node(mesh, self.tooth(sector, a), b),
-            SectorNode::Body(local, plane) => {
-                mesh.node(mesh.section.body_nodes[sector][local], plane)
-            }
-        }
+    /// Nodes of the whole mesh of the sector's nodes, in a sector.
+    pub fn nodes(&self, sector: usize) -> &[u32] {
+        &self.images[sector]
     }
 
     /// Σ over all sectors of XᵀKX of hub, web and rim without the tooth cells.
-    pub fn energy_products(
-        &self,
-        mesh: &GearMesh,
-        tooth: &ToothSubstructure,
-        frames: &CylindricalFrames,
-        fields: &[Vec<f64>],
-    ) -> Mat<f64> {
+    pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
         let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
-        (0..self.sectors)
-            .into_par_iter()
-            .map(|sector| {
-                let nodes = self
-                    .body_nodes
-                    .iter()
-                    .map(|&i| self.node(mesh, tooth, sector, i));
-                let x = gather(frames, nodes, fields);
+        self.images
+            .par_iter()
+            .map(|image| {
+                let nodes: Vec<u32> = self.body_nodes.iter().map(|&i| image[i]).collect();
+                let x = gather(frames, &nodes, fields);
                 x.transpose() * (self.body_stiffness.as_ref() * &x)
             })
             .reduce(zero, |a, b| a + b)

@@ -17,8 +17,8 @@ use rayon::prelude::*;
 pub struct ToothSubstructure {
     /// Cell of tooth 0 as nodes of the whole mesh, ascending.
     part: Vec<u32>,
-    /// Node of the cross-section's cell and plane of each of these nodes: the way to the other teeth.
-    places: Vec<(usize, usize)>,
+    /// Nodes of the whole mesh of each tooth: the images of those of tooth 0.
+    images: Vec<Vec<u32>>,
     /// Which of them are shared with elements outside the cell.
     boundary: Vec<usize>,
     /// Stiffness of the cell, nothing fixed.
@@ -32,21 +32,24 @@ impl ToothSubstructure {
     /// # Errors
     /// [`FeError`] when the factorisation fails.
     pub fn new(mesh: &GearMesh, model: &FeModel) -> Result<Self, FeError> {
-        let section = &mesh.section;
-        let planes = mesh.layers.planes_m.len();
-        let first = section.cell_first_quad[0];
-        let elements: Vec<u32> = (first..first + section.cell.quads.len())
-            .flat_map(|q| (0..mesh.layers.count()).filter_map(move |layer| mesh.hex(q, layer)))
-            .collect();
+        let elements = mesh.cell_elements(0);
         let part = Part::new(model, &elements)?;
-        let mut places = vec![(0, 0); part.nodes.len()];
-        for (c, &n) in section.cell_nodes[0].iter().enumerate() {
-            for plane in 0..planes {
-                if let Some(i) = mesh.node(n, plane).and_then(|node| part.place(node)) {
-                    places[i] = (c, plane);
+        let own: Vec<Option<usize>> = mesh
+            .cell_nodes(0)
+            .into_iter()
+            .map(|n| part.place(n))
+            .collect();
+        let images = (0..mesh.teeth())
+            .map(|tooth| {
+                let mut image = vec![0; part.nodes.len()];
+                for (i, node) in own.iter().zip(mesh.cell_nodes(tooth)) {
+                    if let &Some(i) = i {
+                        image[i] = node;
+                    }
                 }
-            }
-        }
+                image
+            })
+            .collect();
         let mut inside = vec![false; model.element_count()];
         for &e in &elements {
             inside[e as usize] = true;
@@ -66,7 +69,7 @@ impl ToothSubstructure {
         let condensation = StaticCondensation::new(stiffness.clone(), &boundary)?;
         Ok(Self {
             part: part.nodes,
-            places,
+            images,
             boundary,
             stiffness,
             condensation,
@@ -88,15 +91,14 @@ impl ToothSubstructure {
         self.boundary.len()
     }
 
-    /// Node of the whole mesh of the i-th cell node, on a tooth.
-    pub fn node(&self, mesh: &GearMesh, tooth: usize, i: usize) -> Option<u32> {
-        let (c, plane) = self.places[i];
-        mesh.node(mesh.section.cell_nodes[tooth][c], plane)
+    /// Nodes of the whole mesh of the cell's nodes, on a tooth.
+    pub fn nodes(&self, tooth: usize) -> &[u32] {
+        &self.images[tooth]
     }
 
     /// Node of the whole mesh of the b-th shared node, on a tooth.
-    pub fn boundary_node(&self, mesh: &GearMesh, tooth: usize, b: usize) -> Option<u32> {
-        self.node(mesh, tooth, self.boundary[b])
+    pub fn boundary_node(&self, tooth: usize, b: usize) -> u32 {
+        self.images[tooth][self.boundary[b]]
     }
 
     /// Vectors on tooth 0 carried to the shared nodes.
@@ -119,17 +121,11 @@ impl ToothSubstructure {
     }
 
     /// Σ over the given teeth of XᵀKX for fields over the whole mesh, in Cartesian components.
-    pub fn energy_products(
-        &self,
-        mesh: &GearMesh,
-        frames: &CylindricalFrames,
-        fields: &[Vec<f64>],
-    ) -> Mat<f64> {
+    pub fn energy_products(&self, frames: &CylindricalFrames, fields: &[Vec<f64>]) -> Mat<f64> {
         let zero = || Mat::<f64>::zeros(fields.len(), fields.len());
-        (0..mesh.section.cell_nodes.len())
-            .into_par_iter()
-            .map(|tooth| {
-                let nodes = (0..self.node_count()).map(|i| self.node(mesh, tooth, i));
+        self.images
+            .par_iter()
+            .map(|nodes| {
                 let x = gather(frames, nodes, fields);
                 x.transpose() * (self.stiffness.as_ref() * &x)
             })
@@ -158,15 +154,10 @@ pub(crate) fn add_turned(
 }
 
 /// Fields over the whole mesh at some nodes, in cylindrical components: 3·nodes × fields.
-pub(crate) fn gather(
-    frames: &CylindricalFrames,
-    nodes: impl Iterator<Item = Option<u32>>,
-    fields: &[Vec<f64>],
-) -> Mat<f64> {
-    let nodes: Vec<usize> = nodes.flatten().map(|n| n as usize).collect();
+pub(crate) fn gather(frames: &CylindricalFrames, nodes: &[u32], fields: &[Vec<f64>]) -> Mat<f64> {
     let mut x = Mat::zeros(3 * nodes.len(), fields.len());
     for (column, field) in fields.iter().enumerate() {
-        for (i, &node) in nodes.iter().enumerate() {
+        for (i, node) in nodes.iter().map(|&n| n as usize).enumerate() {
             let u = [field[3 * node], field[3 * node + 1], field[3 * node + 2]];
             for (axis, part) in frames.to_cylindrical(node, u).into_iter().enumerate() {
                 x[(3 * i + axis, column)] = part;

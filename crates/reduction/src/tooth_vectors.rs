@@ -2,7 +2,7 @@
 
 use crate::flank_loads::SparseVector;
 use gearmesh_mesh::GearMesh;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// A vector given on the cell of tooth 0, on `tooth`. Entries outside the cell are left out.
@@ -10,19 +10,13 @@ pub fn on_tooth(mesh: &GearMesh, vector: &SparseVector, tooth: usize) -> SparseV
     if tooth == 0 {
         return vector.clone();
     }
-    let cells = &mesh.section.cell_nodes;
-    let (sin, cos) = (TAU * tooth as f64 / cells.len() as f64).sin_cos();
-    let needed: HashMap<u32, ()> = vector.iter().map(|e| ((e.0 / 3) as u32, ())).collect();
-    let mut image: HashMap<usize, usize> = HashMap::with_capacity(needed.len());
-    for (&from, &to) in cells[0].iter().zip(&cells[tooth]) {
-        for plane in 0..mesh.layers.planes_m.len() {
-            if let (Some(a), Some(b)) = (mesh.node(from, plane), mesh.node(to, plane))
-                && needed.contains_key(&a)
-            {
-                image.insert(a as usize, b as usize);
-            }
-        }
-    }
+    let (sin, cos) = (TAU * tooth as f64 / mesh.teeth() as f64).sin_cos();
+    let needed: HashSet<u32> = vector.iter().map(|e| (e.0 / 3) as u32).collect();
+    let cells = mesh.cell_nodes(0).into_iter().zip(mesh.cell_nodes(tooth));
+    let image: HashMap<usize, usize> = cells
+        .filter(|(from, _)| needed.contains(from))
+        .map(|(from, to)| (from as usize, to as usize))
+        .collect();
     let mut turned: Vec<(usize, f64)> = Vec::with_capacity(2 * vector.len());
     for &(dof, value) in vector {
         let Some(&node) = image.get(&(dof / 3)) else {

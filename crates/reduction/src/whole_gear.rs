@@ -83,7 +83,7 @@ impl WholeGear {
         vectors: &[&SparseVector],
         progress: &dyn Progress,
     ) -> Vec<Vec<f64>> {
-        let teeth = mesh.section.cell_nodes.len();
+        let teeth = mesh.teeth();
         let everywhere: Vec<SparseVector> = (0..teeth)
             .into_par_iter()
             .flat_map_iter(|t| vectors.iter().map(move |v| on_tooth(mesh, v, t)))

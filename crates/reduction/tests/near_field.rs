@@ -1,14 +1,14 @@
 //! The calibration in plane strain: order of convergence, interpolation between the places, and the law of the load width.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-use gearmesh_fe::{FeModel, Material};
+use gearmesh_fe::FeModel;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::contact_problem::ContactProblem;
 use gearmesh_reduction::flank_loads::flank_grid;
-use gearmesh_reduction::gear_body::element_of;
+use gearmesh_reduction::gear_body::model_of;
 use gearmesh_reduction::near_field::{
     HALF_WIDTH_IN_MODULES, calibrate, extrapolated, grading, mesh_compliance,
 };
@@ -27,13 +27,7 @@ fn gear(mesh: &str) -> GearDefinition {
 
 fn meshed(gear: &GearDefinition) -> (GearMesh, FeModel) {
     let mesh = GearMesh::new(gear, &PythonEnvironment::find().unwrap()).unwrap();
-    let model = FeModel::new(
-        mesh.nodes.clone(),
-        mesh.hexes.clone(),
-        Material::new(YOUNG, POISSON).unwrap(),
-        element_of(gear.mesh.element),
-    )
-    .unwrap();
+    let model = model_of(gear, &mesh).unwrap();
     (mesh, model)
 }
 

@@ -116,19 +116,14 @@ fn the_pattern_identity_holds_across_teeth() {
         let angle = std::f64::consts::TAU * tooth as f64 / 18.0;
         let (s, c) = angle.sin_cos();
         let mut full = vec![0.0; n];
-        let cell = &body.mesh.section.cell_nodes;
-        for (from, to) in cell[0].iter().zip(&cell[tooth]) {
-            for plane in 0..body.mesh.layers.planes_m.len() {
-                let (a, b) = (
-                    body.mesh.node(*from, plane).unwrap() as usize,
-                    body.mesh.node(*to, plane).unwrap() as usize,
-                );
-                let [x, y, z] = [w[3 * a], w[3 * a + 1], w[3 * a + 2]];
-                if [x, y, z] != [0.0; 3] {
-                    full[3 * b] = c * x - s * y;
-                    full[3 * b + 1] = s * x + c * y;
-                    full[3 * b + 2] = z;
-                }
+        let mesh = &body.mesh;
+        for (a, b) in mesh.cell_nodes(0).into_iter().zip(mesh.cell_nodes(tooth)) {
+            let (a, b) = (a as usize, b as usize);
+            let [x, y, z] = [w[3 * a], w[3 * a + 1], w[3 * a + 2]];
+            if [x, y, z] != [0.0; 3] {
+                full[3 * b] = c * x - s * y;
+                full[3 * b + 1] = s * x + c * y;
+                full[3 * b + 2] = z;
             }
         }
         full

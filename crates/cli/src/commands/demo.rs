@@ -135,8 +135,8 @@ fn picture(
         .map(|quad| {
             let layers = 0..body.mesh.layers.count();
             layers
-                .filter_map(|layer| body.mesh.hex(quad, layer))
-                .map(|hex| field.von_mises_pa[hex as usize] * 1e-6)
+                .filter_map(|layer| body.mesh.element(quad, layer))
+                .map(|element| field.von_mises_pa[element as usize] * 1e-6)
                 .fold(0.0, f64::max)
         })
         .collect();

@@ -12,12 +12,14 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
     let mesh = GearMesh::new(&gear, &offline::python()?)
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
+    // Refused here too, where the finite element model would refuse an element.
+    gearmesh_reduction::gear_body::model_of(&gear, &mesh)?;
     offline::export_mesh(&gear, &mesh, None, &arguments.output)?;
     let quality = mesh.quality;
     if arguments.json {
         console::json(&json!({
             "nodes": mesh.nodes.len(),
-            "elements": mesh.hexes.len(),
+            "elements": mesh.elements.len(),
             "dofs": mesh.dofs(),
             "sectors": gear.sectors(),
             "scaled_jacobian_smallest": quality.smallest,
@@ -28,7 +30,7 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
             "{}: {} nodes, {} hexahedra, {} degrees of freedom, {} repeating sectors",
             gear.name,
             mesh.nodes.len(),
-            mesh.hexes.len(),
+            mesh.elements.len(),
             mesh.dofs(),
             gear.sectors()
         ));

@@ -2,10 +2,11 @@
 
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::definition::{Blank, ToothDefinition, Web};
+use crate::definition::{Blank, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
 use serde::Deserialize;
+use std::path::Path;
 
 /// The keys of `[blank]`.
 #[derive(Deserialize)]
@@ -19,6 +20,10 @@ pub(super) struct BlankTable {
     web_offset_mm: Option<f64>,
     slots: Option<SlotsTable>,
     holes: Option<HolesTable>,
+    file: Option<String>,
+    length_unit: Option<LengthUnit>,
+    bore_set: Option<String>,
+    flank_sets: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -26,6 +31,7 @@ pub(super) struct BlankTable {
 enum BlankKind {
     Solid,
     ThinRim,
+    Mesh,
 }
 
 /// What the teeth leave for the body.
@@ -54,11 +60,28 @@ impl BlankTable {
         self.check_bore(&keys, &room)?;
         let web = match self.kind {
             BlankKind::Solid => {
-                self.refuse_web_keys(&keys)?;
+                self.refuse_web_keys(&keys, "a solid blank")?;
                 None
             }
             BlankKind::ThinRim => Some(self.check_web(&keys, &room)?),
+            BlankKind::Mesh => {
+                self.refuse_web_keys(&keys, "a blank that was meshed elsewhere")?;
+                let meshed = self.check_meshed(document, &keys)?;
+                if tooth.helix_angle_rad != 0.0 {
+                    return Err(keys.error(
+                        "kind",
+                        "a mesh from elsewhere is read for spur gears only; set tooth.helix_angle_deg = 0 or choose another kind",
+                    ));
+                }
+                return Ok(Blank {
+                    bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
+                    web: None,
+                    openings: None,
+                    meshed: Some(meshed),
+                });
+            }
         };
+        self.refuse_mesh_keys(&keys)?;
         let (inner_mm, outer_mm) = web.map_or(
             (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
             |w| (w.hub_radius_m / MM, w.rim_inner_radius_m / MM),
@@ -73,6 +96,7 @@ impl BlankTable {
                 (inner_mm, outer_mm),
                 tooth.module_m,
             )?,
+            meshed: None,
         })
     }
 
@@ -89,7 +113,66 @@ impl BlankTable {
         )
     }
 
-    fn refuse_web_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+    /// Where the mesh is and how its sets are called; the names are those that `gearmesh mesh` gives unless told otherwise.
+    fn check_meshed(
+        &self,
+        document: &InputDocument,
+        keys: &TableKeys,
+    ) -> Result<MeshedBody, InputError> {
+        for (key, given) in [
+            ("slots", self.slots.is_some()),
+            ("holes", self.holes.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(
+                    key,
+                    "a blank that was meshed elsewhere has its openings in the mesh; remove it",
+                ));
+            }
+        }
+        let file = self.file.as_deref().ok_or_else(|| {
+            keys.error(
+                "file",
+                "missing; a blank of kind \"mesh\" needs the name of its mesh file",
+            )
+        })?;
+        let flank_sets = self
+            .flank_sets
+            .as_deref()
+            .unwrap_or("tooth{tooth}_{side}_flank");
+        for part in ["{tooth}", "{side}"] {
+            if !flank_sets.contains(part) {
+                return Err(keys.error(
+                    "flank_sets",
+                    format!("found \"{flank_sets}\"; {part} must stand in it, as in \"tooth{{tooth}}_{{side}}_flank\""),
+                ));
+            }
+        }
+        // Beside the gear file, unless it is an absolute path.
+        let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
+        Ok(MeshedBody {
+            file: folder.join(file),
+            length_unit: self.length_unit.unwrap_or(LengthUnit::Metre),
+            bore_set: self.bore_set.clone().unwrap_or_else(|| "bore".into()),
+            flank_sets: flank_sets.into(),
+        })
+    }
+
+    fn refuse_mesh_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+        for (key, given) in [
+            ("file", self.file.is_some()),
+            ("length_unit", self.length_unit.is_some()),
+            ("bore_set", self.bore_set.is_some()),
+            ("flank_sets", self.flank_sets.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(key, "only a blank of kind = \"mesh\" uses it; remove it"));
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse_web_keys(&self, keys: &TableKeys, blank: &str) -> Result<(), InputError> {
         for (key, value) in [
             ("hub_diameter_mm", self.hub_diameter_mm),
             ("rim_inner_diameter_mm", self.rim_inner_diameter_mm),
@@ -99,7 +182,7 @@ impl BlankTable {
             if value.is_some() {
                 return Err(keys.error(
                     key,
-                    "a solid blank does not use it; remove it or set kind = \"thin-rim\"",
+                    format!("{blank} does not use it; remove it or set kind = \"thin-rim\""),
                 ));
             }
         }
