@@ -148,7 +148,7 @@ fn graded(
     let section = ContactSection::new(
         &gear.profile,
         &curve,
-        &mesh.section.cell,
+        &mesh.section.cell.cut_line(),
         curve.arc_length_at_roll_m(roll),
         ContactGrading {
             smallest_m: factor * HALF_WIDTH_M / 6.0,

@@ -68,9 +68,12 @@ impl From<gearmesh_reduction::ReductionError> for Failure {
         use gearmesh_reduction::ReductionError;
         match error {
             ReductionError::EmptyGauge { .. }
-            | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => {
+            | ReductionError::Mesh(MeshError::NoCut { .. }
+                | MeshError::Quality { .. }
+                | MeshError::MeshedElsewhere { .. }) => {
                 Self::input(error)
             }
+            ReductionError::Imported(ref cause) if cause.is_input() => Self::input(error),
             _ => Self::work(error),
         }
     }

@@ -3,13 +3,13 @@
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
-use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::{GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
-use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
+use gearmesh_reduction::{GearBody, Progress, ReductionOptions, read_body, reduce, reduce_imported};
 use gearmesh_scene::{LoadedScene, SceneResult};
 use std::path::Path;
 
@@ -25,6 +25,17 @@ pub fn reduced(
 ) -> Result<(ReducedGear, GearBody), Failure> {
     let bar = StageBar::new(&gear.name);
     let outcome = reduce(gear, &python()?, ReductionOptions { estimate_error }, &bar);
+    bar.finish();
+    Ok(outcome?)
+}
+
+/// Reads, checks and reduces a gear that was meshed elsewhere.
+pub fn reduced_import(gear: &GearDefinition, body: &MeshedBody) -> Result<ReducedGear, Failure> {
+    let bar = StageBar::new(&gear.name);
+    bar.stage("reading the mesh");
+    let folder = Scratch::new(tempfile::tempdir().map_err(Failure::work)?.keep());
+    let mesh = read_body(body, &python()?, &folder.path().join("mesh.h5"));
+    let outcome = mesh.and_then(|mesh| reduce_imported(gear, body, mesh, &bar));
     bar.finish();
     Ok(outcome?)
 }

@@ -190,7 +190,7 @@ fn a_block_on_rollers_converges_with_twice_the_order_of_the_energy_norm() {
         let (sizes, order) = match element {
             HexElement::Hex8 | HexElement::Hex8Incompatible => ([6, 12], 2.0),
             HexElement::Wedge6 => ([8, 16], 2.0),
-            HexElement::Tet10 => ([5, 10], 4.0),
+            HexElement::Tet10 | HexElement::Wedge15 => ([5, 10], 4.0),
             _ => ([3, 6], 4.0),
         };
         let [coarse, fine] = sizes.map(errors);

@@ -46,6 +46,11 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
+        if let Some(body) = &gear.blank.meshed {
+            return Err(MeshError::MeshedElsewhere {
+                file: body.file.display().to_string(),
+            });
+        }
         Self::extruded(
             Section::new(gear, python)?,
             Layers::new(gear),

@@ -46,6 +46,15 @@ pub enum MeshError {
     /// gmsh failed or left triangles.
     #[error(transparent)]
     Plane(#[from] plane_mesher::PlaneMeshError),
+    /// The gear has a mesh already.
+    #[error(
+        "blank.kind = \"mesh\": {file} is the mesh of this gear, no other is made; `gearmesh reduce` checks and reduces it, fields and \
+         error estimates are not offered for it"
+    )]
+    MeshedElsewhere {
+        /// Its file.
+        file: String,
+    },
     /// Openings leave no place for the cut between two sectors.
     #[error(
         "no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"

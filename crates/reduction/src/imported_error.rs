@@ -131,9 +131,17 @@ pub enum ImportedMeshError {
     /// The exchange file could not be read.
     #[error("{0}")]
     Exchange(String),
-    /// Something that is not done for such a mesh.
-    #[error("blank.kind = \"mesh\": {0}")]
-    NotOffered(&'static str),
+}
+
+impl ImportedMeshError {
+    /// Whether the mesh file or the definition is at fault.
+    pub const fn is_input(&self) -> bool {
+        match self {
+            Self::Python(failure) => failure.input,
+            Self::Exchange(_) => false,
+            _ => true,
+        }
+    }
 }
 
 /// What the reader said.
