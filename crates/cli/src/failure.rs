@@ -68,11 +68,11 @@ impl From<gearmesh_reduction::ReductionError> for Failure {
         use gearmesh_reduction::ReductionError;
         match error {
             ReductionError::EmptyGauge { .. }
-            | ReductionError::Mesh(MeshError::NoCut { .. }
+            | ReductionError::Mesh(
+                MeshError::NoCut { .. }
                 | MeshError::Quality { .. }
-                | MeshError::MeshedElsewhere { .. }) => {
-                Self::input(error)
-            }
+                | MeshError::MeshedElsewhere { .. },
+            ) => Self::input(error),
             ReductionError::Imported(ref cause) if cause.is_input() => Self::input(error),
             _ => Self::work(error),
         }

@@ -9,7 +9,9 @@ use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
-use gearmesh_reduction::{GearBody, Progress, ReductionOptions, read_body, reduce, reduce_imported};
+use gearmesh_reduction::{
+    GearBody, Progress, ReductionOptions, read_body, reduce, reduce_imported,
+};
 use gearmesh_scene::{LoadedScene, SceneResult};
 use std::path::Path;
 
