@@ -1,9 +1,10 @@
 //! Printing: data to standard output, progress, warnings and errors to standard error.
 
 use gearmesh_reduction::Progress;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::io::{ErrorKind, Write};
 use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 /// A line of data. A reader that has seen enough (`| head`) ends the printing, not the work; any other loss of data
 /// ends the program with exit code 1.
@@ -69,7 +70,7 @@ impl Progress for StageBar {
         self.with(|bar| {
             bar.finish_and_clear();
             *bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
-            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+            bar.enable_steady_tick(Duration::from_millis(200));
         });
     }
 
@@ -84,6 +85,25 @@ impl Progress for StageBar {
                 }
             }
             bar.set_position(done as u64);
+        });
+    }
+
+    fn expect(&self, seconds: f64) {
+        if seconds < 1.0 {
+            return;
+        }
+        let end = Instant::now() + Duration::from_secs_f64(seconds);
+        let to_go = move |_: &ProgressState, text: &mut dyn std::fmt::Write| {
+            // Nobody can be told that a terminal's line cannot be written.
+            let _ = match end.checked_duration_since(Instant::now()) {
+                Some(left) => write!(text, "about {:#} to go", HumanDuration(left)),
+                None => write!(text, "a little longer than expected"),
+            };
+        };
+        self.with(|bar| {
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {to_go}") {
+                bar.set_style(style.with_key("to_go", to_go));
+            }
         });
     }
 }

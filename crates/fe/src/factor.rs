@@ -19,6 +19,7 @@ use rayon::prelude::*;
 use crate::assembly::StiffnessMatrix;
 use crate::constraints::DofMap;
 use crate::error::FeError;
+use crate::factor_time::expected_seconds;
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
 use crate::ordering::DofOrdering;
@@ -89,6 +90,16 @@ impl SymbolicFactor {
     /// Nonzeros of L, diagonal included.
     pub fn nnz_l(&self) -> usize {
         self.nnz_l
+    }
+
+    /// Multiplications and additions of the numeric factorisation.
+    pub fn flops(&self) -> f64 {
+        self.flops
+    }
+
+    /// Wall time (s) that the numeric factorisation will take on this machine, roughly; zero for small ones.
+    pub fn expected_seconds(&self) -> f64 {
+        expected_seconds(self.flops)
     }
 
     /// The order of elimination.

@@ -84,6 +84,7 @@ mod element;
 mod element_matrix;
 mod error;
 mod factor;
+mod factor_time;
 mod graph;
 mod half_solve;
 mod hex20;

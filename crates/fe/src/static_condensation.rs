@@ -19,9 +19,10 @@
 
 use crate::assembly::StiffnessMatrix;
 use crate::error::FeError;
-use crate::factor::{Factor, FactorInfo};
+use crate::factor::{Factor, FactorInfo, SymbolicFactor};
 use crate::ordering::DofOrdering;
 use faer::{ColMut, Mat, MatRef};
+use std::sync::Arc;
 
 /// A part condensed to its kept nodes.
 #[derive(Debug)]
@@ -74,7 +75,19 @@ impl StaticCondensation {
     /// # Errors
     /// [`FeError::NotPositiveDefinite`] when the interior can move with the kept nodes held; those of
     /// [`DofOrdering::interior_first`].
-    pub fn new(mut k: StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
+    pub fn new(k: StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
+        Self::announced(k, kept, |_| ())
+    }
+
+    /// As [`StaticCondensation::new`]; `before` is told what will be factorised, so that it can say how long that takes.
+    ///
+    /// # Errors
+    /// As [`StaticCondensation::new`].
+    pub fn announced(
+        mut k: StiffnessMatrix,
+        kept: &[usize],
+        before: impl FnOnce(&SymbolicFactor),
+    ) -> Result<Self, FeError> {
         let ordering = DofOrdering::interior_first(&k, kept)?;
         let diagonal: Vec<f64> = kept
             .iter()
@@ -88,7 +101,9 @@ impl StaticCondensation {
                 })
             })
             .collect();
-        let factor = Factor::new(&k, ordering)?;
+        let symbolic = SymbolicFactor::new(&k, ordering)?;
+        before(&symbolic);
+        let factor = Factor::from_symbolic(Arc::new(symbolic), &k)?;
         let interior = factor.size() - diagonal.len();
         let kept_factor = factor.trailing_block(interior);
         let mut stiffness = &kept_factor * kept_factor.transpose();

@@ -62,7 +62,7 @@ impl CyclicBody {
         let tooth = ToothSubstructure::new(mesh, model)?;
         lap("tooth factor");
         progress.stage("condensing a sector");
-        let sector = SectorSubstructure::new(mesh, model, fixed, &tooth)?;
+        let sector = SectorSubstructure::new(mesh, model, fixed, &tooth, progress)?;
         lap("sector factor");
         progress.stage("factoring harmonics");
         let interface = CyclicInterface::new(sector.condensation().stiffness(), sector.sectors)?;

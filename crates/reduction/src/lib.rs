@@ -91,6 +91,8 @@ pub trait Progress: Sync {
     fn stage(&self, name: &str);
     /// `done` of `total` pieces of the present stage are finished.
     fn advance(&self, done: usize, total: usize);
+    /// The present stage cannot count its pieces and will take about so many seconds from now; zero: not long.
+    fn expect(&self, seconds: f64);
 }
 
 /// Says nothing.
@@ -99,6 +101,7 @@ pub struct Silent;
 impl Progress for Silent {
     fn stage(&self, _name: &str) {}
     fn advance(&self, _done: usize, _total: usize) {}
+    fn expect(&self, _seconds: f64) {}
 }
 
 /// The model file's word for a side.

@@ -1,5 +1,6 @@
 //! One sector: its part of hub, web and rim with the condensed teeth on it, condensed to its two cuts.
 
+use crate::Progress;
 use crate::part::Part;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
@@ -47,6 +48,7 @@ impl SectorSubstructure {
         model: &FeModel,
         fixed: &[bool],
         tooth: &ToothSubstructure,
+        progress: &dyn Progress,
     ) -> Result<Self, FeError> {
         let (sectors, teeth) = (mesh.sectors(), mesh.teeth());
         let own = teeth / sectors;
@@ -116,7 +118,9 @@ impl SectorSubstructure {
             tooth,
             &tooth_nodes,
         )?;
-        let condensation = StaticCondensation::new(stiffness, &kept)?;
+        let condensation = StaticCondensation::announced(stiffness, &kept, |symbolic| {
+            progress.expect(symbolic.expected_seconds())
+        })?;
         Ok(Self {
             sectors,
             own,

@@ -5,11 +5,12 @@ use crate::flank_loads::{SparseVector, dot};
 use crate::tooth_vectors::on_tooth;
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Factor, FeError, FeModel, NodeGraph, StiffnessMatrix,
+    DofMap, DofOrdering, Factor, FeError, FeModel, NodeGraph, StiffnessMatrix, SymbolicFactor,
     assemble_stiffness_with_graph,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Columns that are solved together.
@@ -40,7 +41,9 @@ impl WholeGear {
         progress.stage("factoring");
         let clock = Instant::now();
         let ordering = DofOrdering::nested_dissection(&graph, dofs)?;
-        let factor = Factor::new(&stiffness, ordering)?;
+        let symbolic = SymbolicFactor::new(&stiffness, ordering)?;
+        progress.expect(symbolic.expected_seconds());
+        let factor = Factor::from_symbolic(Arc::new(symbolic), &stiffness)?;
         stage_seconds.push(("factor".into(), clock.elapsed().as_secs_f64()));
         Ok(Self { stiffness, factor })
     }
