@@ -79,10 +79,30 @@ pub struct Blank {
     pub bore_radius_m: f64,
     /// Hub, web and rim; `None` for a solid disc of full width.
     pub web: Option<Web>,
+    /// Faces of hub and web where they are no planes; `web` then describes the web at the rim.
+    pub contour: Option<Contour>,
     /// Openings through the web (or through the whole solid disc).
     pub openings: Option<Openings>,
     /// Where the whole gear, teeth included, was meshed elsewhere; web and openings are not known then.
     pub meshed: Option<MeshedBody>,
+}
+
+/// Axial contour of hub and web.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contour {
+    /// Back and front of the hub \[m\].
+    pub hub_z_m: [f64; 2],
+    /// Points from the hub to the rim, straight between them; at least two.
+    pub web: Vec<ContourPoint>,
+}
+
+/// Back and front of the web at one radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContourPoint {
+    /// Radius \[m\].
+    pub radius_m: f64,
+    /// Back and front \[m\].
+    pub z_m: [f64; 2],
 }
 
 /// A gear that was meshed elsewhere.

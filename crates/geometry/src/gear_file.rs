@@ -4,6 +4,7 @@
 //! for what the tables before it have settled, so the order in [`GearDefinition::from_document`] matters.
 
 mod blank_table;
+mod contour_table;
 mod gauge_table;
 mod material_table;
 mod mesh_table;

@@ -25,9 +25,9 @@ pub mod profile_curve;
 pub mod tooth;
 
 pub use definition::{
-    Blank, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes, LengthUnit, Material,
-    MeshSettings, MeshedBody, Openings, ReductionSettings, RootPosition, Slots, Symmetry,
-    ToothDefinition,
+    Blank, Contour, ContourPoint, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes,
+    LengthUnit, Material, MeshSettings, MeshedBody, Openings, ReductionSettings, RootPosition,
+    Slots, Symmetry, ToothDefinition,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

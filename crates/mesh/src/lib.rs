@@ -10,6 +10,7 @@
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
 //! | middles of sides, on the true curve | [`mid_sides`] | `mid_sides.rs` |
 //! | layers along the axis | [`layers`] | `layers.rs` |
+//! | their heights below the rim | [`heights`] | `heights.rs` |
 //! | element lists, faces on the outline | [`ElementList`], [`OutlineFace`] | `elements.rs`, `face.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
@@ -23,6 +24,7 @@ pub mod contact_section;
 pub mod elements;
 pub mod face;
 pub mod gear_mesh;
+pub mod heights;
 pub mod layers;
 pub mod mid_sides;
 pub mod plane_mesher;

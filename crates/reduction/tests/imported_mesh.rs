@@ -1,51 +1,25 @@
 //! A gear that was meshed elsewhere: the same numbers from our own mesh read back, agreement with a mesh of tetrahedra, and
 //! what is said when the mesh is not the gear.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod common;
+
+use common::{MESH, QUADRATIC, SOLID, difference, reduced};
 use gearmesh_fe::{QuadraticMesh, arc_middle, chord_middle};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{CellKind, MeshData, ReducedGear};
-use gearmesh_reduction::{ReductionError, ReductionOptions, Silent, reduce, reduce_imported};
+use gearmesh_reduction::{ReductionError, Silent, reduce_imported};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Agreement demanded of the same mesh made here and read back: rounding alone.
 const AGREEMENT: f64 = 1e-9;
 
-const SMALL: &str = r#"
-name = "small"
-[tooth]
-teeth = 18
-module_mm = 3.0
-profile_shift = 0.1
-face_width_mm = 12.0
-[blank]
-kind = "solid"
-bore_diameter_mm = 24.0
-[material]
-young_GPa = 210.0
-poisson = 0.3
-[reduction]
-roll_stations = 4
-slices = 2
-flanks = ["right", "left"]
-[[gauge]]
-name = "root"
-tooth = 3
-side = "left"
-length_mm = 0.9
-width_mm = 4.0
-[mesh]
-"#;
-
-const COARSE: &str = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 4.0\naxial_mm = 3.0\n";
-
 fn gear(mesh: &str) -> GearDefinition {
-    let document = InputDocument::new("small.toml", format!("{SMALL}{mesh}"));
-    GearDefinition::from_document(&document).unwrap()
+    common::gear(mesh, SOLID, 0.0)
 }
 
 fn meshed_elsewhere() -> MeshedBody {
@@ -79,31 +53,24 @@ fn imported(gear: &GearDefinition, mesh: MeshData) -> Result<ReducedGear, Reduct
 }
 
 fn own(gear: &GearDefinition) -> (ReducedGear, GearMesh) {
-    let python = PythonEnvironment::find().unwrap();
-    let options = ReductionOptions {
-        estimate_error: false,
-    };
-    let (model, body) = reduce(gear, &python, options, &Silent).unwrap();
+    let (model, body) = reduced(gear, false);
     (model, body.mesh)
-}
-
-/// Largest difference relative to the largest value.
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let largest = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max)
-        / largest
 }
 
 /// The same mesh, made here or read: the same C_hub for all pairs of teeth, C_tooth, near field and gauge rows.
 #[test]
 fn our_own_mesh_read_back_gives_the_same_numbers() {
-    let gear = gear(COARSE);
-    let (made, mesh) = own(&gear);
-    let read = imported(&gear, exported(&gear, &mesh)).unwrap();
+    the_same_numbers(&gear(MESH));
+}
+
+#[test]
+fn our_own_quadratic_mesh_read_back_gives_the_same_numbers() {
+    the_same_numbers(&gear(QUADRATIC));
+}
+
+fn the_same_numbers(gear: &GearDefinition) {
+    let (made, mesh) = own(gear);
+    let read = imported(gear, exported(gear, &mesh)).unwrap();
     assert_eq!((made.sectors, read.sectors), (18, 1));
     for (load, response) in [(0, 0), (0, 1), (5, 5), (5, 4), (17, 8)] {
         for &a in &made.flanks {
@@ -231,26 +198,35 @@ fn deflection(model: &ReducedGear) -> f64 {
     hub + near / model.face_width_m
 }
 
-/// Quadratic tetrahedra on the coarse mesh and hexahedra on finer ones come to the same deflection: the tetrahedra are as
-/// near to the finest hexahedra as the middle ones are.
+/// Quadratic tetrahedra on the coarse mesh and hexahedra on a finer one come to the same deflection.
 #[test]
+#[ignore = "a minute: every tooth of a mesh of tetrahedra is loaded (cargo xtask test runs it)"]
 fn tetrahedra_agree_with_hexahedra() {
-    let coarse = gear(COARSE);
+    let narrow = |mesh: &str| {
+        let text = gear(mesh)
+            .source
+            .replace("face_width_mm = 12.0", "face_width_mm = 6.0")
+            .replace("slices = 2", "slices = 1")
+            .replace("flanks = [\"right\", \"left\"]", "flanks = [\"right\"]");
+        GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
+    };
+    let coarse = narrow(MESH);
     let (hexahedra, mesh) = own(&coarse);
     let tetrahedra = imported(&coarse, in_tetrahedra(&coarse, &mesh)).unwrap();
     assert_eq!(tetrahedra.provenance.element, "tet10");
-    let fine = own(&gear(
-        "flank_mm = 0.6\nfillet_mm = 0.3\nbody_mm = 2.0\naxial_mm = 1.5\n",
+    let fine = own(&narrow(
+        "flank_mm = 0.6\nfillet_mm = 0.3\nbody_mm = 2.0\naxial_mm = 0.75\n",
     ))
     .0;
     let [coarse, tets, fine] = [&hexahedra, &tetrahedra, &fine].map(deflection);
-    let (hex_error, tet_error) = ((coarse / fine - 1.0).abs(), (tets / fine - 1.0).abs());
-    assert!(tet_error < 0.004, "{tet_error} {hex_error}");
-    assert!(hex_error < 0.02, "{hex_error}");
+    let (hex_error, tet_error) = (coarse / fine - 1.0, tets / fine - 1.0);
+    println!("tet10 {tet_error:.5}, hex8-incompatible on the same mesh {hex_error:.5}");
+    assert!(tet_error.abs() < 0.004, "{tet_error} {hex_error}");
+    assert!(hex_error.abs() < 0.02, "{hex_error}");
 }
 
 fn refusal(change: impl FnOnce(&mut GearDefinition, &mut MeshData)) -> String {
-    let mut gear = gear(COARSE);
+    let mut gear = gear(MESH);
     let python = PythonEnvironment::find().unwrap();
     let mesh = GearMesh::new(&gear, &python).unwrap();
     let mut data = exported(&gear, &mesh);
@@ -297,8 +273,8 @@ fn a_mesh_that_is_not_the_gear_is_explained() {
     said(
         &message,
         &[
-            "radius 12000.0000 mm",
-            "12.0000 mm",
+            "radius 10000.0000 mm",
+            "10.0000 mm",
             "6.0 um",
             "blank.length_unit",
         ],
@@ -343,8 +319,9 @@ fn a_mesh_that_is_not_the_gear_is_explained() {
     // Another profile shift.
     let message = refusal(|gear, _| {
         *gear = {
-            let text =
-                format!("{SMALL}{COARSE}").replace("profile_shift = 0.1", "profile_shift = 0.2");
+            let text = gear
+                .source
+                .replace("profile_shift = 0.1", "profile_shift = 0.2");
             GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
         }
     });
@@ -379,7 +356,7 @@ fn a_mesh_that_is_not_the_gear_is_explained() {
 /// One missing gauge face set is no matter: roots are found by where they are, on either side.
 #[test]
 fn root_sets_are_not_needed() {
-    let gear = gear(COARSE);
+    let gear = gear(MESH);
     let python = PythonEnvironment::find().unwrap();
     let mesh = GearMesh::new(&gear, &python).unwrap();
     let mut data = exported(&gear, &mesh);

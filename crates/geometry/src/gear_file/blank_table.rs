@@ -1,8 +1,9 @@
 //! `[blank]`: the body below the teeth.
 
+use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_kinks};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::definition::{Blank, LengthUnit, MeshedBody, ToothDefinition, Web};
+use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
 use serde::Deserialize;
@@ -18,6 +19,8 @@ pub(super) struct BlankTable {
     rim_inner_diameter_mm: Option<f64>,
     web_thickness_mm: Option<f64>,
     web_offset_mm: Option<f64>,
+    hub_z_mm: Option<[f64; 2]>,
+    web: Option<Vec<WebPointTable>>,
     slots: Option<SlotsTable>,
     holes: Option<HolesTable>,
     file: Option<String>,
@@ -31,6 +34,7 @@ pub(super) struct BlankTable {
 enum BlankKind {
     Solid,
     ThinRim,
+    Contour,
     Mesh,
 }
 
@@ -58,14 +62,22 @@ impl BlankTable {
             width_mm: tooth.face_width_m / MM,
         };
         self.check_bore(&keys, &room)?;
+        let mut contour = None;
         let web = match self.kind {
             BlankKind::Solid => {
                 self.refuse_web_keys(&keys, "a solid blank")?;
                 None
             }
             BlankKind::ThinRim => Some(self.check_web(&keys, &room)?),
+            BlankKind::Contour => {
+                self.refuse_web_keys(&keys, "a blank given by its contour")?;
+                let (given, web) = self.check_contour(&keys, &room)?;
+                contour = Some(given);
+                Some(web)
+            }
             BlankKind::Mesh => {
                 self.refuse_web_keys(&keys, "a blank that was meshed elsewhere")?;
+                self.refuse_contour_keys(&keys)?;
                 let meshed = self.check_meshed(document, &keys)?;
                 if tooth.helix_angle_rad != 0.0 {
                     return Err(keys.error(
@@ -76,26 +88,35 @@ impl BlankTable {
                 return Ok(Blank {
                     bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
                     web: None,
+                    contour: None,
                     openings: None,
                     meshed: Some(meshed),
                 });
             }
         };
         self.refuse_mesh_keys(&keys)?;
+        if contour.is_none() {
+            self.refuse_contour_keys(&keys)?;
+        }
         let (inner_mm, outer_mm) = web.map_or(
             (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
             |w| (w.hub_radius_m / MM, w.rim_inner_radius_m / MM),
         );
+        let openings = check_openings(
+            self.slots,
+            self.holes,
+            document,
+            (inner_mm, outer_mm),
+            tooth.module_m,
+        )?;
+        if let Some(contour) = &contour {
+            check_kinks(&keys, contour, openings.as_ref())?;
+        }
         Ok(Blank {
             bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
             web,
-            openings: check_openings(
-                self.slots,
-                self.holes,
-                document,
-                (inner_mm, outer_mm),
-                tooth.module_m,
-            )?,
+            contour,
+            openings,
             meshed: None,
         })
     }
@@ -156,6 +177,35 @@ impl BlankTable {
             bore_set: self.bore_set.clone().unwrap_or_else(|| "bore".into()),
             flank_sets: flank_sets.into(),
         })
+    }
+
+    fn check_contour(&self, keys: &TableKeys, room: &Room) -> Result<(Contour, Web), InputError> {
+        let hub_z_mm = self.hub_z_mm.ok_or_else(|| {
+            keys.error(
+                "hub_z_mm",
+                "missing; a contour needs [back, front] of its hub",
+            )
+        })?;
+        let room = ContourRoom {
+            bore_mm: self.bore_diameter_mm,
+            ring_mm: room.ring_diameter_mm,
+            width_mm: room.width_mm,
+        };
+        check_contour(keys, hub_z_mm, self.web.as_deref().unwrap_or(&[]), &room)
+    }
+
+    fn refuse_contour_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+        for (key, given) in [
+            ("hub_z_mm", self.hub_z_mm.is_some()),
+            ("web", self.web.is_some()),
+        ] {
+            if given {
+                return Err(
+                    keys.error(key, "only a blank of kind = \"contour\" uses it; remove it")
+                );
+            }
+        }
+        Ok(())
     }
 
     fn refuse_mesh_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
