@@ -242,7 +242,7 @@ impl Check<'_> {
     }
 
     /// All elements hang together.
-    fn parts(&self) -> Result<(), ImportedMeshError> {
+    fn parts(&self) -> Result<(), Box<ImportedMeshError>> {
         let mut parent: Vec<u32> = (0..self.mesh.points.len() as u32).collect();
         fn root(parent: &mut [u32], mut n: u32) -> u32 {
             while parent[n as usize] != n {
@@ -263,12 +263,12 @@ impl Check<'_> {
             *sizes.entry(root(&mut parent, n)).or_default() += 1;
         }
         match sizes.iter().min_by_key(|(_, size)| **size) {
-            Some((&node, &nodes)) if sizes.len() > 1 => Err(ImportedMeshError::Parts {
+            Some((&node, &nodes)) if sizes.len() > 1 => Err(Box::new(ImportedMeshError::Parts {
                 file: self.file(),
                 parts: sizes.len(),
                 nodes,
                 at_mm: self.at_mm(node),
-            }),
+            })),
             _ => Ok(()),
         }
     }
@@ -278,7 +278,7 @@ impl Check<'_> {
         set.filter(|nodes| !nodes.is_empty())
     }
 
-    fn missing(&self, wanted: String, more: usize, use_of: &'static str) -> ImportedMeshError {
+    fn missing(&self, wanted: String, more: usize, use_of: &'static str) -> Box<ImportedMeshError> {
         const SHOWN: usize = 8;
         let names = &self.mesh.point_sets;
         let mut found: Vec<String> = names
@@ -289,17 +289,17 @@ impl Check<'_> {
         if names.len() > SHOWN {
             found.push(format!("and {} more", names.len() - SHOWN));
         }
-        ImportedMeshError::SetMissing {
+        Box::new(ImportedMeshError::SetMissing {
             file: self.file(),
             wanted,
             more,
             use_of,
             found: found.join(", "),
-        }
+        })
     }
 
     /// Nodes of the bore, all on its cylinder.
-    fn bore(&self) -> Result<Vec<u32>, ImportedMeshError> {
+    fn bore(&self) -> Result<Vec<u32>, Box<ImportedMeshError>> {
         let name = &self.body.bore_set;
         let nodes = self
             .set(name)
@@ -315,15 +315,17 @@ impl Check<'_> {
             .copied()
             .max_by(|a, b| off(a).total_cmp(&off(b)));
         match worst {
-            Some(node) if off(&node) > self.tolerance_m() => Err(ImportedMeshError::Bore {
-                file: self.file(),
-                set: name.clone(),
-                node,
-                at_mm: self.at_mm(node),
-                found_mm: radius(node) * 1e3,
-                expected_mm: expected * 1e3,
-                allowed_um: self.tolerance_m() * 1e6,
-            }),
+            Some(node) if off(&node) > self.tolerance_m() => {
+                Err(Box::new(ImportedMeshError::Bore {
+                    file: self.file(),
+                    set: name.clone(),
+                    node,
+                    at_mm: self.at_mm(node),
+                    found_mm: radius(node) * 1e3,
+                    expected_mm: expected * 1e3,
+                    allowed_um: self.tolerance_m() * 1e6,
+                }))
+            }
             _ => Ok(nodes.to_vec()),
         }
     }
@@ -347,7 +349,7 @@ impl Check<'_> {
     }
 
     /// Names of the sets of the loaded flanks; all their nodes lie on them.
-    fn flanks(&self) -> Result<Vec<(usize, FlankSide, String)>, ImportedMeshError> {
+    fn flanks(&self) -> Result<Vec<(usize, FlankSide, String)>, Box<ImportedMeshError>> {
         let sides = &self.gear.reduction.flanks;
         let all: Vec<(usize, FlankSide, String)> = (0..self.gear.tooth.teeth)
             .flat_map(|tooth| sides.iter().map(move |&side| (tooth, side)))
@@ -367,7 +369,7 @@ impl Check<'_> {
             let nodes = self.set(name).unwrap_or(&[]).iter().copied();
             let worst = nodes.max_by(|a, b| off(a).total_cmp(&off(b)));
             if let Some(node) = worst.filter(|n| off(n) > self.tolerance_m()) {
-                return Err(ImportedMeshError::Flank {
+                return Err(Box::new(ImportedMeshError::Flank {
                     file: self.file(),
                     set: name.clone(),
                     node,
@@ -377,7 +379,7 @@ impl Check<'_> {
                     tooth: *tooth,
                     allowed_um: self.tolerance_m() * 1e6,
                     hint: self.hint(name, *tooth, *side),
-                });
+                }));
             }
         }
         Ok(all)
@@ -435,11 +437,13 @@ impl Check<'_> {
         };
         if !fits {
             let found: Vec<&str> = self.mesh.cells.keys().map(|kind| kind.name()).collect();
-            return Err(ReductionError::Imported(ImportedMeshError::Element {
-                file: self.file(),
-                element: crate::gear_body::element_of(named).name(),
-                found: found.join(" and "),
-            }));
+            return Err(ReductionError::Imported(Box::new(
+                ImportedMeshError::Element {
+                    file: self.file(),
+                    element: crate::gear_body::element_of(named).name(),
+                    found: found.join(" and "),
+                },
+            )));
         }
         let blocks = self.mesh.cells.iter().map(|(kind, nodes)| ElementBlock {
             element: match (kind, named) {
@@ -511,7 +515,7 @@ impl Check<'_> {
         &self,
         outlines: &[[Vec<OutlineFace>; 2]],
         flanks: &[(usize, FlankSide, String)],
-    ) -> Result<(), ImportedMeshError> {
+    ) -> Result<(), Box<ImportedMeshError>> {
         let profile = &self.gear.profile;
         let half = 0.5 * self.gear.tooth.face_width_m;
         let arcs = [self.curve.flank_start_m(), self.curve.flank_end_m()];
@@ -525,7 +529,7 @@ impl Check<'_> {
                 .sum();
             if covered < COVERAGE * whole {
                 let radius = |xi: f64| profile.base_radius_m * (1.0 + xi * xi).sqrt() * 1e3;
-                return Err(ImportedMeshError::Coverage {
+                return Err(Box::new(ImportedMeshError::Coverage {
                     file: self.file(),
                     set: name.clone(),
                     covered_percent: 100.0 * covered / whole,
@@ -534,7 +538,7 @@ impl Check<'_> {
                     from_mm: radius(profile.form_roll_rad),
                     to_mm: radius(profile.flank_end_roll_rad),
                     width_mm: 2e3 * half,
-                });
+                }));
             }
         }
         Ok(())

@@ -62,7 +62,7 @@ pub enum ReductionError {
     Fe(#[from] gearmesh_fe::FeError),
     /// A mesh from elsewhere is not the gear's.
     #[error(transparent)]
-    Imported(#[from] imported_error::ImportedMeshError),
+    Imported(#[from] Box<imported_error::ImportedMeshError>),
     /// A gauge covers no element face.
     #[error(
         "gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm"
@@ -83,6 +83,12 @@ pub enum ReductionError {
         /// What round-off explains.
         allowed: f64,
     },
+}
+
+impl From<imported_error::ImportedMeshError> for ReductionError {
+    fn from(error: imported_error::ImportedMeshError) -> Self {
+        Self::Imported(Box::new(error))
+    }
 }
 
 /// Where a long computation stands.
