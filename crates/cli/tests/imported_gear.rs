@@ -1,5 +1,10 @@
 //! A gear that was meshed elsewhere, on the command line: our own mesh written and read back, and what is refused.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    missing_docs
+)]
 
 mod common;
 
