@@ -92,6 +92,11 @@ fn what_a_mesh_from_elsewhere_does_not_use_is_refused() {
             &["{side} must stand in it", "tooth{tooth}_{side}_flank"],
         ),
         (
+            elsewhere("") + "[hub]\nsupport = \"reference-point\"\n",
+            "support = ",
+            &["reduced at rest with its bore fixed"],
+        ),
+        (
             elsewhere("length_unit = \"inch\""),
             "length_unit",
             &["`inch`", "`m`", "`mm`"],

@@ -6,14 +6,16 @@
 mod blank_table;
 mod contour_table;
 mod gauge_table;
+mod hub_table;
 mod material_table;
 mod mesh_table;
 mod microgeometry_table;
+mod modes_table;
 mod openings_table;
 mod reduction_table;
 mod tooth_table;
 
-use crate::definition::GearDefinition;
+use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
 use serde::Deserialize;
@@ -39,6 +41,9 @@ struct GearFile {
     mesh: mesh_table::MeshTable,
     #[serde(default)]
     reduction: reduction_table::ReductionTable,
+    modes: Option<modes_table::ModesTable>,
+    #[serde(default)]
+    hub: hub_table::HubTable,
     #[serde(default)]
     gauge: Vec<gauge_table::GaugeTable>,
 }
@@ -67,6 +72,29 @@ impl GearDefinition {
             .check(document, &profile, tooth.face_width_m)?;
         let mesh = file.mesh.check(document, &tooth, &blank)?;
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
+        let hub_support = file.hub.support();
+        if blank.meshed.is_some() {
+            for (key, given) in [
+                (
+                    "material.density_kg_per_m3",
+                    material.density_kg_per_m3.is_some(),
+                ),
+                ("modes", file.modes.is_some()),
+                ("hub.support", hub_support != HubSupport::Fixed),
+            ] {
+                if given {
+                    return Err(document.error(
+                        key,
+                        "blank.kind = \"mesh\" is reduced at rest with its bore fixed and does not use it; remove it",
+                    ));
+                }
+            }
+        }
+        let modes = file.modes;
+        let modes = modes
+            .map(|table| table.check(document, &material, mesh.plane_strain))
+            .transpose()?;
+        let hub = file.hub.check(document, &material, mesh.plane_strain)?;
         let gauges = gauge_table::check_all(file.gauge, document, &tooth, &profile)?;
         Ok(Self {
             name: file.name,
@@ -76,6 +104,8 @@ impl GearDefinition {
             microgeometry,
             mesh,
             reduction,
+            modes,
+            hub,
             gauges,
             profile,
             source: document.text.clone(),

@@ -26,8 +26,8 @@ pub mod tooth;
 
 pub use definition::{
     Blank, Contour, ContourPoint, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes,
-    LengthUnit, Material, MeshSettings, MeshedBody, Openings, ReductionSettings, RootPosition,
-    Slots, Symmetry, ToothDefinition,
+    HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
+    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

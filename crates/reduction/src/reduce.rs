@@ -1,5 +1,6 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
+use crate::dynamics::dynamics;
 use crate::error_estimate::{ErrorEstimate, estimate};
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
@@ -107,9 +108,19 @@ pub fn reduce(
     }
     lap("checks");
 
-    let mut gauges = gauges(gear, &body, &loads, &submodels, progress)?;
+    let gauge_rows: Vec<SparseVector> = gear
+        .gauges
+        .iter()
+        .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
+        .collect::<Result<_, _>>()?;
+    let mut gauges = gauges(gear, &body, &loads, &submodels, &gauge_rows, progress)?;
     lap("gauges");
+    let dynamics = dynamics(gear, &body, &loads, &gauge_rows, progress)?;
+    if dynamics.rigid_body.is_some() {
+        lap("mass and modes");
+    }
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
+    further.extend(dynamics.checks);
     if options.estimate_error {
         let ErrorEstimate {
             compliance,
@@ -121,6 +132,9 @@ pub fn reduce(
         }
         lap("error estimate");
     }
+    let mut effort = body.effort();
+    let mode_solves = dynamics.solves.map(|solves| solves as f64);
+    effort.extend(mode_solves.map(|solves| ("solves for natural modes".to_string(), solves)));
     let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
     let provenance = &mut reduced.provenance;
     provenance.element = element_names(&body.model);
@@ -128,12 +142,15 @@ pub fn reduce(
     provenance.elements = body.mesh.elements.len();
     provenance.dofs = body.dofs.free_count();
     provenance.stage_seconds = stage_seconds;
-    provenance.effort = body.effort();
+    provenance.effort = effort;
     reduced.checks = ReductionChecks {
         symmetry,
         pattern_identity,
         further,
     };
+    reduced.rigid_body = dynamics.rigid_body;
+    reduced.reference_point = dynamics.reference_point;
+    reduced.modes = dynamics.modes;
     Ok((reduced, body))
 }
 
@@ -182,6 +199,9 @@ pub(crate) fn assembled(
         c_tooth,
         near_field: Some(near_field),
         gauges,
+        rigid_body: None,
+        reference_point: None,
+        modes: None,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -332,17 +352,13 @@ fn gauges(
     body: &GearBody,
     loads: &[Vec<GridLoad>],
     submodels: &[ToothSubmodel],
+    rows: &[SparseVector],
     progress: &dyn Progress,
 ) -> Result<Vec<GaugeRows>, ReductionError> {
     if gear.gauges.is_empty() {
         return Ok(Vec::new());
     }
     progress.stage("solving gauges");
-    let rows: Vec<SparseVector> = gear
-        .gauges
-        .iter()
-        .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
-        .collect::<Result<_, _>>()?;
     let directions: Vec<&SparseVector> = loads
         .iter()
         .flatten()

@@ -228,6 +228,7 @@ fn strain_becomes_stress() {
     let steel = Material {
         young_pa: 210e9,
         poisson: 0.3,
+        density_kg_per_m3: None,
     };
     let strain = [1e-3, -5e-4];
     assert_eq!(

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 const STEEL: Material = Material {
     young_pa: 210e9,
     poisson: 0.3,
+    density_kg_per_m3: None,
 };
 
 /// Seed 004's pair: z 57/57, m 2.6 mm, a 150 mm.
@@ -70,7 +71,11 @@ fn what_is_no_contact_is_refused() {
         assert!(flank_pressure(&pair, roll, load, [STEEL; 2]).is_err());
     }
     for (young_pa, poisson) in [(0.0, 0.3), (2e11, 0.6), (f64::NAN, 0.3), (2e11, f64::NAN)] {
-        let bad = Material { young_pa, poisson };
+        let bad = Material {
+            young_pa,
+            poisson,
+            density_kg_per_m3: None,
+        };
         assert!(flank_pressure(&pair, roll, 1e5, [STEEL, bad]).is_err());
     }
 }
