@@ -160,7 +160,7 @@ fn modes_are_sorted_paired_and_drawn() {
 
     // The model file holds what [modes] and [hub] ask for.
     let tables = "[modes]\ncount = 3\n[hub]\nsupport = \"reference-point\"\n";
-    let gear = desk.file("both.toml", &format!("{with_density}\n{tables}"));
+    let gear = desk.file("both.toml", format!("{with_density}\n{tables}"));
     let model = desk.path("model.h5");
     let arguments = [
         "reduce",

@@ -85,7 +85,8 @@ fn the_same_numbers(gear: &GearDefinition) {
     }
     assert!(difference(&made.c_tooth, &read.c_tooth) < AGREEMENT);
     let [of_made, of_read] = [&made, &read].map(|m| m.near_field.as_ref().unwrap());
-    assert_eq!(of_made.contact_m2_per_n, of_read.contact_m2_per_n);
+    let fine = difference(&of_made.contact_m2_per_n, &of_read.contact_m2_per_n);
+    assert!(fine < AGREEMENT, "{fine:e}");
     let near = difference(&of_made.mesh_m2_per_n, &of_read.mesh_m2_per_n);
     assert!(near < AGREEMENT, "{near:e}");
     // The teeth have one mesh, turned.
