@@ -121,6 +121,14 @@ pub fn body_problem(
         } else {
             levels[0].1 = true;
         }
+        // Where the contour has a kink, nodes lie.
+        let kinks = gear.blank.contour.iter().flat_map(|contour| &contour.web);
+        let inner = kinks.map(|point| point.radius_m).rev();
+        levels.extend(
+            inner
+                .filter(|&r| r > web.hub_radius_m + 1e-9 && r < web.rim_inner_radius_m - 1e-9)
+                .map(|r| (r, true)),
+        );
         levels.push((web.hub_radius_m, false));
     }
     levels.push((gear.blank.bore_radius_m, false));

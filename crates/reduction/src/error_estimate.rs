@@ -50,7 +50,7 @@ fn coarsened(gear: &GearDefinition) -> GearDefinition {
 
 /// Weights of a load over the whole width at a roll station, per load of one flank: the axial hats overlap, each inner
 /// one carries its share of the width.
-fn line_load(grid: &FlankGrid, station: usize) -> Vec<(usize, f64)> {
+pub(crate) fn line_load(grid: &FlankGrid, station: usize) -> Vec<(usize, f64)> {
     let n = grid.z_m.len();
     (0..n)
         .map(|j| {

@@ -60,7 +60,7 @@ impl GradedTooth {
         let section = ContactSection::new(
             profile,
             &curve,
-            &mesh.section.cell,
+            &mesh.section.cell.cut_line(),
             curve.arc_length_at_roll_m(roll),
             ContactGrading {
                 smallest_m: factor * a / 3.0,
@@ -108,10 +108,10 @@ impl GradedTooth {
             chord_middle(ends)
         });
         let material = Material::new(gear.material.young_pa, gear.material.poisson).unwrap();
-        let faces = quadratic.hexes.clone();
+        let faces = quadratic.elements.clone();
         let model = FeModel::new(
             quadratic.nodes,
-            quadratic.hexes,
+            quadratic.elements,
             material,
             HexElement::Hex20,
         )
