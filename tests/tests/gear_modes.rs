@@ -4,8 +4,9 @@
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, ModeRange};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{MeshData, write_mesh};
+use gearmesh_model::{CellKind, MeshData, write_mesh};
 use gearmesh_reduction::{GearBody, Silent};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 const DENSITY: f64 = 7850.0;
@@ -38,7 +39,7 @@ fn frequencies_of_gear_2_are_those_of_scikit_fem() {
     let file = folder.join("gear.h5");
     let data = MeshData {
         points: body.mesh.nodes.clone(),
-        hexes: body.mesh.elements.connectivity().as_chunks().0.to_vec(),
+        cells: BTreeMap::from([(CellKind::Hex8, body.mesh.elements.connectivity().to_vec())]),
         point_sets: body.mesh.node_sets(&gear),
         ..MeshData::default()
     };

@@ -1,0 +1,290 @@
+//! The system: bodies, joints and force elements put together. Its equations are in `equations.rs`.
+
+use crate::body::{Body, BodyId, GROUND};
+use crate::builder::SystemBuilder;
+use crate::constraints::Redundancy;
+use crate::elements::{Channel, ForceElement, Loads, View};
+use crate::energy::Energy;
+use crate::inertia::Inertia;
+use crate::joint::Joint;
+use crate::state::{BodyMotion, Layout, State};
+
+/// A force element at its place in the system.
+pub(crate) struct Slot {
+    pub element: Box<dyn ForceElement>,
+    /// System degree of freedom of each local one; `None` on the ground.
+    pub places: Vec<Option<usize>>,
+    pub loads: Loads,
+    pub force_calls: u64,
+    pub tangent_calls: u64,
+}
+
+impl Slot {
+    pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
+        let places: Vec<Option<usize>> = element
+            .bodies()
+            .iter()
+            .flat_map(|&body| {
+                let start = layout.start(body);
+                (0..layout.size(body)).map(move |i| start.map(|start| start + i))
+            })
+            .collect();
+        Self {
+            element,
+            loads: Loads::new(places.len()),
+            places,
+            force_calls: 0,
+            tangent_calls: 0,
+        }
+    }
+}
+
+/// How often an element was asked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Calls {
+    /// Name of the element.
+    pub element: String,
+    /// Evaluations of its force.
+    pub force: u64,
+    /// Those among them with tangents.
+    pub tangents: u64,
+}
+
+/// Bodies, joints and force elements; made by [`SystemBuilder`].
+pub struct System {
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) inertias: Vec<Inertia>,
+    pub(crate) layout: Layout,
+    pub(crate) joints: Vec<Joint>,
+    pub(crate) slots: Vec<Slot>,
+    pub(crate) motions: Vec<BodyMotion>,
+    /// Joint equations that are solved; the others follow from them.
+    pub(crate) kept: Vec<usize>,
+    pub(crate) redundant: Vec<Redundancy>,
+    pub(crate) start: State,
+}
+
+impl System {
+    /// Begins a system.
+    #[must_use]
+    pub fn builder() -> SystemBuilder {
+        SystemBuilder::default()
+    }
+
+    /// Degrees of freedom of all bodies, joints not counted.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.layout.degrees_of_freedom()
+    }
+
+    /// Joint equations, redundant ones included.
+    #[must_use]
+    pub fn equations(&self) -> usize {
+        self.joints.iter().map(Joint::equations).sum()
+    }
+
+    /// Degrees of freedom that the joints leave.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        self.degrees_of_freedom() - self.kept.len()
+    }
+
+    /// Joints with equations that others imply already; solved all the same.
+    #[must_use]
+    pub fn redundant(&self) -> &[Redundancy] {
+        &self.redundant
+    }
+
+    /// Bodies, in the order of their numbers.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Where the numbers of each body stand.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The start: as the bodies state it, moved onto the joints.
+    #[must_use]
+    pub fn start(&self) -> &State {
+        &self.start
+    }
+
+    /// Names of the force elements.
+    pub fn elements(&self) -> impl Iterator<Item = &str> {
+        self.slots.iter().map(|slot| slot.element.name())
+    }
+
+    /// How often each element was asked so far.
+    #[must_use]
+    pub fn calls(&self) -> Vec<Calls> {
+        let calls = self.slots.iter().map(|slot| Calls {
+            element: slot.element.name().to_owned(),
+            force: slot.force_calls,
+            tangents: slot.tangent_calls,
+        });
+        calls.collect()
+    }
+
+    /// What [`Self::sample`] writes: the channels of each element with its name.
+    #[must_use]
+    pub fn channels(&self) -> Vec<(String, Channel)> {
+        let of = |slot: &Slot| {
+            let name = slot.element.name().to_owned();
+            let channels = slot.element.channels().into_iter();
+            channels
+                .map(|channel| (name.clone(), channel))
+                .collect::<Vec<_>>()
+        };
+        self.slots.iter().flat_map(of).collect()
+    }
+
+    /// Writes all channels at a motion, in the order of [`Self::channels`]. `counts` holds the number of channels of each element,
+    /// so that nothing is allocated here.
+    pub fn sample(&mut self, state: &State, counts: &[usize], out: &mut [f64]) {
+        self.refresh(state);
+        let view = view(&self.motions, &self.layout, state, 1.0);
+        let mut rest = out;
+        for (slot, &count) in self.slots.iter_mut().zip(counts) {
+            let (own, after) = rest.split_at_mut(count);
+            slot.element.sample(&view, own);
+            rest = after;
+        }
+    }
+
+    /// Takes the motion of a state into [`Self::motions`].
+    pub(crate) fn refresh(&mut self, state: &State) {
+        for (body, motion) in self.motions.iter_mut().enumerate() {
+            *motion = BodyMotion::of(state, &self.layout, body);
+        }
+    }
+
+    /// Angles and offsets of joints begin at this motion.
+    pub(crate) fn begin_joints(&mut self, state: &State) {
+        self.refresh(state);
+        let motions = &self.motions;
+        for joint in &mut self.joints {
+            joint.begin(state.time_s, &|body| motion_of(motions, body));
+        }
+    }
+
+    /// Internal states of joints and elements begin at this motion.
+    pub(crate) fn begin(&mut self, state: &State) {
+        self.begin_joints(state);
+        let view = view(&self.motions, &self.layout, state, 1.0);
+        for slot in &mut self.slots {
+            slot.element.begin(&view);
+        }
+    }
+
+    /// Internal states move on to an accepted motion.
+    pub(crate) fn commit(&mut self, state: &State) {
+        self.refresh(state);
+        let motions = &self.motions;
+        for joint in &mut self.joints {
+            joint.commit(&|body| motion_of(motions, body));
+        }
+        let view = view(&self.motions, &self.layout, state, 1.0);
+        for slot in &mut self.slots {
+            slot.element.commit(&view);
+        }
+    }
+
+    /// f̈ of every joint equation, and ḟ.
+    pub(crate) fn prescribed(
+        &self,
+        time_s: f64,
+    ) -> impl Iterator<Item = crate::time_function::Derivatives> + '_ {
+        self.joints
+            .iter()
+            .flat_map(move |joint| (0..joint.equations()).map(move |i| joint.prescribed(i, time_s)))
+    }
+
+    /// Energies and powers at an evaluated motion; powers of elements are those of their last evaluation.
+    pub(crate) fn energy(&self, state: &State, lambda: &[f64]) -> Energy {
+        let mut energy = Energy::default();
+        for (body, inertia) in self.inertias.iter().enumerate() {
+            let first = self.layout.modal_start(body);
+            let start = self.layout.start(BodyId(body)).unwrap_or_default();
+            let modes = self.layout.size(BodyId(body)) - 6;
+            let modal = &state.modal[first..first + modes];
+            let rates = &state.velocity[start + 6..start + 6 + modes];
+            energy.kinetic_j += inertia.kinetic_energy(&self.motions[body], modal, rates);
+            energy.potential_j += inertia.strain_energy(modal);
+            energy.dissipated_w += inertia.dissipated_power(rates);
+        }
+        for slot in &self.slots {
+            energy.potential_j += slot.loads.power.stored_j;
+            energy.dissipated_w += slot.loads.power.dissipated_w;
+            energy.supplied_w += slot.loads.power.supplied_w;
+        }
+        for (lambda, motion) in lambda.iter().zip(self.prescribed(state.time_s)) {
+            energy.supplied_w -= lambda * motion.rate;
+        }
+        energy
+    }
+
+    /// Size of the system \[m\]: the farthest body or joint, at least a millimetre. What rounding of places is compared with.
+    pub(crate) fn size_m(&self) -> f64 {
+        let places = self.start.positions_m.iter().map(|x| x.norm());
+        let markers = self.joints.iter().flat_map(|joint| joint.pairs().iter());
+        let arms = markers.flat_map(|pair| [pair.a.position_m.norm(), pair.b.position_m.norm()]);
+        places.chain(arms).fold(1e-3, f64::max)
+    }
+
+    /// Name of the joint that an equation belongs to.
+    pub(crate) fn joint_of(&self, equation: usize) -> &str {
+        let mut first = 0;
+        for joint in &self.joints {
+            first += joint.equations();
+            if equation < first {
+                return joint.name();
+            }
+        }
+        ""
+    }
+
+    /// Body and direction of a degree of freedom, in words.
+    pub(crate) fn describe(&self, dof: usize) -> String {
+        let (body, place) = self.layout.locate(dof);
+        let what = match place {
+            0..=2 => format!("translation along {}", ["x", "y", "z"][place]),
+            3..=5 => format!("rotation about its own {}", ["x", "y", "z"][place - 3]),
+            _ => format!("mode {}", place - 6),
+        };
+        format!("body `{}`, {what}", self.bodies[body].name)
+    }
+}
+
+pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> BodyMotion {
+    if body == GROUND {
+        BodyMotion::at_rest()
+    } else {
+        motions[body.0]
+    }
+}
+
+pub(crate) fn view<'a>(
+    motions: &'a [BodyMotion],
+    layout: &'a Layout,
+    state: &'a State,
+    load_factor: f64,
+) -> View<'a> {
+    View {
+        time_s: state.time_s,
+        load_factor,
+        motions,
+        modal: &state.modal,
+        velocity: &state.velocity,
+        layout,
+    }
+}
