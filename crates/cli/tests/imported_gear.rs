@@ -1,10 +1,5 @@
 //! A gear that was meshed elsewhere, on the command line: our own mesh written and read back, and what is refused.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::print_stdout,
-    missing_docs
-)]
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod common;
 
@@ -65,7 +60,6 @@ fn our_own_mesh_written_and_read_back_is_the_same_gear() {
                 "--json",
             ])
             .json();
-            println!("{at_tooth} {answer}");
             let row = &answer["rows"][0];
             number(&row["total_m"])
         });
