@@ -1,0 +1,219 @@
+//! The whole state of a run as plain arrays: a run that goes on from them gives the same bits as one that was never stopped.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::energy::EnergyBalance;
+use crate::error::DynamicsError;
+use crate::integrator::{Effort, Integrator, Point};
+use crate::scheme::{Params, Scheme};
+use crate::simulation::{RunInfo, Simulation};
+use crate::state::State;
+use crate::system::System;
+
+/// Arrays of a run. Each may be stored as it is; names say what they hold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Checkpoint {
+    /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (11).
+    pub scalars: Vec<f64>,
+    /// steps, rejected, unconverged, iterations, factorisations, evaluations.
+    pub counts: Vec<u64>,
+    /// x, y, z of every body \[m\].
+    pub positions_m: Vec<f64>,
+    /// w, i, j, k of every body.
+    pub quaternions: Vec<f64>,
+    /// Modal coordinates.
+    pub modal: Vec<f64>,
+    /// v, v̇, a and v̈, one after the other.
+    pub velocities: Vec<f64>,
+    /// λ
+    pub reactions: Vec<f64>,
+    /// Angles and offsets of joints, then the internal states of elements.
+    pub internal: Vec<f64>,
+    /// Factors of the iteration matrix and the scales of its joint rows.
+    pub factors: Vec<f64>,
+    /// Their permutation.
+    pub permutation: Vec<u64>,
+}
+
+impl Simulation {
+    /// The run as it stands.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint {
+        let (info, point) = (&self.info, &self.now);
+        let mut scalars = vec![
+            point.state.time_s,
+            self.step_s,
+            self.integrator.factored_step_s,
+            info.step_range_s.0,
+            info.step_range_s.1,
+            info.largest_violation,
+            info.largest_violation_rate,
+        ];
+        scalars.extend(info.energy.numbers());
+        let mut internal = Vec::new();
+        for joint in self.system.joints() {
+            joint.save(&mut internal);
+        }
+        for slot in &self.system.slots {
+            slot.element.save(&mut internal);
+        }
+        let (values, permutation, row_scale) = self.integrator.saddle.factors();
+        let vectors = [
+            &point.state.velocity,
+            &point.acceleration,
+            &point.algorithmic,
+            &point.jerk,
+        ];
+        Checkpoint {
+            scalars,
+            counts: vec![
+                info.steps,
+                info.rejected,
+                info.unconverged,
+                info.iterations,
+                info.factorisations,
+                info.evaluations,
+            ],
+            positions_m: point
+                .state
+                .positions_m
+                .iter()
+                .flat_map(|x| [x[0], x[1], x[2]])
+                .collect(),
+            quaternions: point
+                .state
+                .orientations
+                .iter()
+                .flat_map(|q| [q.w, q.i, q.j, q.k])
+                .collect(),
+            modal: point.state.modal.clone(),
+            velocities: vectors.into_iter().flatten().copied().collect(),
+            reactions: point.lambda.clone(),
+            internal,
+            factors: [values, row_scale].concat(),
+            permutation: permutation.iter().map(|&i| i as u64).collect(),
+        }
+    }
+
+    /// Goes on from a checkpoint with the system and the parameters that wrote it.
+    ///
+    /// # Errors
+    /// [`DynamicsError::Checkpoint`] if an array has another length than the system needs, [`DynamicsError::Parameter`].
+    pub fn resume(
+        mut system: System,
+        params: Params,
+        checkpoint: &Checkpoint,
+    ) -> Result<Self, DynamicsError> {
+        params.validate()?;
+        let start = system.start().clone();
+        system.begin(&start);
+        let mut integrator = Integrator::new(&system, Scheme::new(params.rho_infinity));
+        let (values, permutation, row_scale) = integrator.saddle.factors();
+        let sizes = (values.len(), permutation.len(), row_scale.len());
+        let (n, bodies) = (system.degrees_of_freedom(), system.bodies().len());
+        let mut saved = Vec::new();
+        for slot in &system.slots {
+            slot.element.save(&mut saved);
+        }
+        let of_joints: usize = system.joints().iter().map(crate::joint::Joint::saved).sum();
+        let c = checkpoint;
+        for (what, found, expected) in [
+            ("scalars", c.scalars.len(), 18),
+            ("counts", c.counts.len(), 6),
+            ("positions_m", c.positions_m.len(), 3 * bodies),
+            ("quaternions", c.quaternions.len(), 4 * bodies),
+            ("modal", c.modal.len(), start.modal.len()),
+            ("velocities", c.velocities.len(), 4 * n),
+            ("reactions", c.reactions.len(), system.equations()),
+            ("internal", c.internal.len(), of_joints + saved.len()),
+            ("factors", c.factors.len(), sizes.0 + sizes.2),
+            ("permutation", c.permutation.len(), sizes.1),
+        ] {
+            if found != expected {
+                return Err(DynamicsError::Checkpoint {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let permutation: Vec<usize> = c.permutation.iter().map(|&i| i as usize).collect();
+        let mut sorted = permutation.clone();
+        sorted.sort_unstable();
+        if sorted.iter().enumerate().any(|(place, &i)| place != i) {
+            return Err(DynamicsError::Checkpoint {
+                what: "permutation (distinct)",
+                found: sorted.len(),
+                expected: sizes.1,
+            });
+        }
+        integrator
+            .saddle
+            .restore(&c.factors[..sizes.0], &permutation, &c.factors[sizes.0..]);
+        integrator.factored_step_s = c.scalars[2];
+        integrator.effort = Effort::default();
+        restore_internal(&mut system, &c.internal);
+        let vector = |k: usize| c.velocities[k * n..(k + 1) * n].to_vec();
+        let quaternion =
+            |q: &[f64]| UnitQuaternion::new_unchecked(Quaternion::new(q[0], q[1], q[2], q[3]));
+        let now = Point {
+            state: State {
+                time_s: c.scalars[0],
+                positions_m: c
+                    .positions_m
+                    .chunks(3)
+                    .map(Vector3::from_column_slice)
+                    .collect(),
+                orientations: c.quaternions.chunks(4).map(quaternion).collect(),
+                modal: c.modal.clone(),
+                velocity: vector(0),
+            },
+            acceleration: vector(1),
+            algorithmic: vector(2),
+            jerk: vector(3),
+            lambda: c.reactions.clone(),
+        };
+        let mut energies = [0.0; 11];
+        energies.copy_from_slice(&c.scalars[7..18]);
+        Ok(Self {
+            other: now.clone(),
+            info: RunInfo {
+                steps: c.counts[0],
+                rejected: c.counts[1],
+                unconverged: c.counts[2],
+                iterations: c.counts[3],
+                factorisations: c.counts[4],
+                evaluations: c.counts[5],
+                step_range_s: (c.scalars[3], c.scalars[4]),
+                largest_violation: c.scalars[5],
+                largest_violation_rate: c.scalars[6],
+                energy: EnergyBalance::from_numbers(&energies),
+            },
+            system,
+            params,
+            integrator,
+            now,
+            step_s: c.scalars[1],
+        })
+    }
+}
+
+/// Hands stored numbers to joints and elements, in the order in which they were saved; the total length has been checked.
+fn restore_internal(system: &mut System, numbers: &[f64]) {
+    let mut rest = numbers;
+    let mut take = |count: usize| {
+        let (own, after) = rest.split_at(count);
+        rest = after;
+        own
+    };
+    for joint in &mut system.joints {
+        let own = take(joint.saved());
+        joint.restore(own);
+    }
+    let mut own = Vec::new();
+    for slot in &mut system.slots {
+        own.clear();
+        slot.element.save(&mut own);
+        slot.element.restore(take(own.len()));
+    }
+}

@@ -1,0 +1,122 @@
+//! LU factorisation of a dense matrix in place, with faer, without allocation after its making.
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
+use faer::{MatMut, MatRef, Par, Spec};
+
+/// A square matrix of fixed size, then its factors.
+pub(crate) struct DenseLu {
+    size: usize,
+    values: Vec<f64>,
+    forward: Vec<usize>,
+    backward: Vec<usize>,
+    memory: MemBuffer,
+}
+
+impl DenseLu {
+    pub(crate) fn new(size: usize) -> Self {
+        let for_factor =
+            factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, Spec::default());
+        let for_solve = solve::solve_in_place_scratch::<usize, f64>(size, 1, Par::Seq);
+        Self {
+            size,
+            values: vec![0.0; size * size],
+            forward: (0..size).collect(),
+            backward: (0..size).collect(),
+            memory: MemBuffer::new(StackReq::any_of(&[for_factor, for_solve])),
+        }
+    }
+
+    /// The matrix to be filled before [`Self::factor`], column after column.
+    pub(crate) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// Replaces the matrix by its factors; `false` if a pivot vanishes or is not finite.
+    pub(crate) fn factor(&mut self) -> bool {
+        if self.size == 0 {
+            return true;
+        }
+        factor::lu_in_place(
+            MatMut::from_column_major_slice_mut(&mut self.values, self.size, self.size),
+            &mut self.forward,
+            &mut self.backward,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        );
+        let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
+        for i in 0..self.size {
+            let pivot = self.values[i * self.size + i].abs();
+            if !pivot.is_finite() {
+                return false;
+            }
+            least = least.min(pivot);
+            largest = largest.max(pivot);
+        }
+        // The matrix is scaled: a pivot at the level of rounding is none.
+        least > 1e-15 * largest
+    }
+
+    /// Solves in place.
+    pub(crate) fn solve(&mut self, right_side: &mut [f64]) {
+        if self.size == 0 {
+            return;
+        }
+        let factors = MatRef::from_column_major_slice(&self.values, self.size, self.size);
+        solve::solve_in_place(
+            factors,
+            factors,
+            PermRef::new_checked(&self.forward, &self.backward, self.size),
+            MatMut::from_column_major_slice_mut(right_side, self.size, 1),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+    }
+
+    /// Factors and permutation, for a checkpoint.
+    pub(crate) fn factors(&self) -> (&[f64], &[usize]) {
+        (&self.values, &self.forward)
+    }
+
+    /// Goes on with stored factors; both arrays have the sizes that [`Self::factors`] gives.
+    pub(crate) fn restore(&mut self, values: &[f64], forward: &[usize]) {
+        self.values.copy_from_slice(values);
+        self.forward.copy_from_slice(forward);
+        for (place, &to) in forward.iter().enumerate() {
+            self.backward[to] = place;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_and_sees_a_singular_matrix() {
+        let size = 17;
+        let entry =
+            |i: usize, j: usize| ((3 * i + 7 * j) % 11) as f64 - if i == j { 20.0 } else { 0.0 };
+        let mut lu = DenseLu::new(size);
+        let fill = |lu: &mut DenseLu| {
+            for j in 0..size {
+                for i in 0..size {
+                    lu.values_mut()[j * size + i] = entry(i, j);
+                }
+            }
+        };
+        fill(&mut lu);
+        assert!(lu.factor());
+        let exact: Vec<f64> = (0..size).map(|i| i as f64 - 3.0).collect();
+        let mut x: Vec<f64> = (0..size)
+            .map(|i| (0..size).map(|j| entry(i, j) * exact[j]).sum())
+            .collect();
+        lu.solve(&mut x);
+        assert!(x.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-12));
+        fill(&mut lu);
+        lu.values_mut()[..size].fill(0.0);
+        assert!(!lu.factor());
+    }
+}

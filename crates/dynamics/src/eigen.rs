@@ -1,0 +1,240 @@
+//! Natural frequencies, damping and shapes of small motions about an operating point.
+//!
+//! With rotations δθ along **world** axes, δψ = Rᵀδθ and δΩ = Rᵀδθ̇, so that the linearised equations are of the second order also for
+//! spinning bodies, gyroscopic terms in Ĉ:
+//!
+//! ```text
+//! M̂ ÿ + Ĉ ẏ + K̂ y + B̂ᵀδλ = 0,  B̂ y = 0       M̂ = TᵀMT,  Ĉ = TᵀCT − M̂ W,  K̂ = TᵀKT,  B̂ = BT
+//! T = diag(I, Rᵀ, I),  W = diag(0, ω̃, 0)
+//! ```
+//!
+//! On a basis Z of the null space of B̂ with ZᵀM̂Z = I the eigenvalues are those of [0 I; −ZᵀK̂Z −ZᵀĈZ], or, where nothing damps or spins,
+//! −ω² those of the symmetric −ZᵀK̂Z. The equations are frozen at the given instant: exact at rest and for bodies that spin
+//! about an axis of symmetry; otherwise coefficients vary with the angle. Derivation: docs/theory/multibody.md.
+
+use faer::{Mat, Side};
+use nalgebra::{DMatrix, Matrix3};
+
+use crate::constraints::Metric;
+use crate::error::DynamicsError;
+use crate::matrix::Matrix;
+use crate::rotation::skew;
+use crate::state::State;
+use crate::system::{At, Detail, Equations, System};
+
+/// A damping matrix below this share of the frequencies, and an asymmetry of the stiffness below this share of it, is rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// One eigenvalue s = σ ± iω with its shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NaturalMode {
+    /// σ \[1/s\]: negative where the motion dies out.
+    pub growth_per_s: f64,
+    /// ω ≥ 0 of the damped vibration \[rad/s\]; 0 for motions that do not vibrate.
+    pub angular_frequency_rad_per_s: f64,
+    /// Complex amplitudes (real, imaginary) of all degrees of freedom: places and rotations along world axes, then modal
+    /// coordinates; the largest is 1 + 0i.
+    pub shape: Vec<[f64; 2]>,
+}
+
+impl NaturalMode {
+    /// Frequency of the damped vibration \[Hz\].
+    #[must_use]
+    pub fn frequency_hz(&self) -> f64 {
+        self.angular_frequency_rad_per_s / std::f64::consts::TAU
+    }
+
+    /// |s|: the frequency without damping \[rad/s\].
+    #[must_use]
+    pub fn natural_angular_frequency_rad_per_s(&self) -> f64 {
+        self.growth_per_s.hypot(self.angular_frequency_rad_per_s)
+    }
+
+    /// Damping ratio −σ/|s|; 0 for s = 0.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        let size = self.natural_angular_frequency_rad_per_s();
+        if size > 0.0 {
+            -self.growth_per_s / size
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Eigenvalues with ω ≥ 0 about a state, by rising |s|. Free motions come out as s ≈ 0.
+///
+/// # Errors
+/// [`DynamicsError::Eigen`], [`DynamicsError::Singular`] or the error of an element.
+pub fn natural_modes(
+    system: &mut System,
+    state: &State,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let accelerations = system.accelerations(state)?;
+    let mut equations = Equations::new(system);
+    let at = At {
+        state,
+        acceleration: &accelerations.acceleration,
+        lambda: &accelerations.lambda,
+        load_factor: 1.0,
+    };
+    system.evaluate(at, Detail::Tangents, &mut equations)?;
+    turn_to_world(system, state, &mut equations);
+    let basis = null_space(system, &equations, state.time_s)?;
+    let reduced = |matrix: &Matrix| {
+        let full = DMatrix::from_column_slice(matrix.rows(), matrix.columns(), matrix.values());
+        basis.tr_mul(&(full * &basis))
+    };
+    let stiffness = reduced(&equations.stiffness);
+    let damping = reduced(&equations.damping);
+    let scale = stiffness.amax().sqrt();
+    let asymmetry = (&stiffness - stiffness.transpose()).amax();
+    let mut modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
+        undamped(&stiffness, &basis)?
+    } else {
+        damped(&stiffness, &damping, scale, &basis)?
+    };
+    modes.sort_by(|a, b| {
+        a.natural_angular_frequency_rad_per_s()
+            .total_cmp(&b.natural_angular_frequency_rad_per_s())
+    });
+    Ok(modes)
+}
+
+/// M, C, K and B of the system become M̂, Ĉ, K̂ and B̂.
+fn turn_to_world(system: &System, state: &State, equations: &mut Equations) {
+    for (body, start) in system.layout.starts().enumerate() {
+        let turn = start + 3;
+        let to_body: Matrix3<f64> = state.orientations[body]
+            .to_rotation_matrix()
+            .matrix()
+            .transpose();
+        for matrix in [
+            &mut equations.mass,
+            &mut equations.damping,
+            &mut equations.stiffness,
+        ] {
+            matrix.turn_columns(turn, &to_body);
+            matrix.turn_rows(turn, &to_body);
+        }
+        equations.gradient.turn_rows(turn, &to_body);
+        let own = nalgebra::Vector3::from_column_slice(&state.velocity[turn..turn + 3]);
+        let spin = skew(&(to_body.transpose() * own));
+        for row in 0..equations.mass.rows() {
+            let m = [0, 1, 2].map(|k| equations.mass.get(row, turn + k));
+            for k in 0..3 {
+                let value: f64 = (0..3).map(|l| m[l] * spin[(l, k)]).sum();
+                equations.damping.add(row, turn + k, -value);
+            }
+        }
+    }
+}
+
+/// Z: motions that the joints allow, orthonormal in the mass matrix.
+fn null_space(
+    system: &System,
+    equations: &Equations,
+    time_s: f64,
+) -> Result<DMatrix<f64>, DynamicsError> {
+    let singular = || DynamicsError::Singular {
+        what: "the mass matrix",
+        time_s,
+    };
+    let metric = Metric::new(equations).ok_or_else(singular)?;
+    let n = equations.mass.rows();
+    let kept = &system.kept;
+    let rows = metric.rows();
+    let q = Mat::from_fn(n, kept.len(), |i, j| rows[(i, kept[j])])
+        .qr()
+        .compute_Q();
+    let mut basis = DMatrix::from_fn(n, n - kept.len(), |i, j| q[(i, kept.len() + j)]);
+    metric.scale_back(&mut basis);
+    Ok(basis)
+}
+
+fn shape(basis: &DMatrix<f64>, amplitude: impl Fn(usize) -> [f64; 2]) -> Vec<[f64; 2]> {
+    let mut shape = vec![[0.0; 2]; basis.nrows()];
+    for k in 0..basis.ncols() {
+        let [re, im] = amplitude(k);
+        for (place, z) in shape.iter_mut().zip(basis.column(k).iter()) {
+            place[0] += z * re;
+            place[1] += z * im;
+        }
+    }
+    let square = |a: &[f64; 2]| a[0] * a[0] + a[1] * a[1];
+    let largest =
+        shape.iter().copied().fold(
+            [0.0; 2],
+            |most, a| if square(&a) > square(&most) { a } else { most },
+        );
+    let size = square(&largest);
+    if size > 0.0 {
+        for a in &mut shape {
+            *a = [
+                (a[0] * largest[0] + a[1] * largest[1]) / size,
+                (a[1] * largest[0] - a[0] * largest[1]) / size,
+            ];
+        }
+    }
+    shape
+}
+
+fn undamped(
+    stiffness: &DMatrix<f64>,
+    basis: &DMatrix<f64>,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let size = stiffness.nrows();
+    let matrix = Mat::from_fn(size, size, |i, j| {
+        0.5 * (stiffness[(i, j)] + stiffness[(j, i)])
+    });
+    let found = matrix
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| DynamicsError::Eigen { size })?;
+    let (values, vectors) = (found.S().column_vector(), found.U());
+    let mut modes = Vec::with_capacity(size);
+    for j in 0..size {
+        let shape = shape(basis, |k| [vectors[(k, j)], 0.0]);
+        let square = values[j];
+        let mode = |growth_per_s, angular_frequency_rad_per_s| NaturalMode {
+            growth_per_s,
+            angular_frequency_rad_per_s,
+            shape: shape.clone(),
+        };
+        if square >= 0.0 {
+            modes.push(mode(0.0, square.sqrt()));
+        } else {
+            modes.push(mode((-square).sqrt(), 0.0));
+            modes.push(mode(-(-square).sqrt(), 0.0));
+        }
+    }
+    Ok(modes)
+}
+
+fn damped(
+    stiffness: &DMatrix<f64>,
+    damping: &DMatrix<f64>,
+    scale: f64,
+    basis: &DMatrix<f64>,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let size = stiffness.nrows();
+    // Velocities over a frequency, so that both halves of the matrix are of one size.
+    let scale = if scale > 0.0 { scale } else { 1.0 };
+    let matrix = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+        (true, true) => 0.0,
+        (true, false) => scale * f64::from(u8::from(i == j - size)),
+        (false, true) => -stiffness[(i - size, j)] / scale,
+        (false, false) => -damping[(i - size, j - size)],
+    });
+    let found = matrix
+        .eigen()
+        .map_err(|_| DynamicsError::Eigen { size: 2 * size })?;
+    let (values, vectors) = (found.S().column_vector(), found.U());
+    let modes = (0..2 * size)
+        .filter(|&j| values[j].im >= 0.0)
+        .map(|j| NaturalMode {
+            growth_per_s: values[j].re,
+            angular_frequency_rad_per_s: values[j].im,
+            shape: shape(basis, |k| [vectors[(k, j)].re, vectors[(k, j)].im]),
+        });
+    Ok(modes.collect())
+}

@@ -1,0 +1,234 @@
+//! Force elements: everything that pushes on bodies apart from joints and inertia.
+//!
+//! | element | file |
+//! | --- | --- |
+//! | the trait, for elements of other crates, too | this one |
+//! | weight | `gravity.rs` |
+//! | force or torque as a function of time | `applied_load.rs` |
+//! | what acts between two markers, as a 6-component law | `marker_element.rs` |
+//! | spring and damper along a line | `spring_damper.rs` |
+//! | torsion spring and damper, any number of turns | `torsion_spring.rs` |
+//! | bushing, 6×6 | `bushing.rs` |
+//! | linear bearing, spins freely | `linear_bearing.rs` |
+//! | Timoshenko beam | `beam.rs` |
+
+mod applied_load;
+mod beam;
+mod bushing;
+mod gravity;
+mod linear_bearing;
+mod marker_element;
+mod spring_damper;
+mod torsion_spring;
+
+pub use applied_load::{AppliedLoad, Axes, LoadKind};
+pub use beam::BeamSection;
+pub use bushing::Bushing;
+pub use gravity::Gravity;
+pub use linear_bearing::LinearBearing;
+pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad};
+pub use spring_damper::SpringDamper;
+pub use torsion_spring::TorsionSpring;
+
+use crate::body::{BodyId, GROUND};
+use crate::error::{DynamicsError, ElementFailure};
+use crate::matrix::Matrix;
+use crate::state::{BodyMotion, Layout};
+
+/// All that an element may look at: time, and the motion of its bodies.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Time \[s\].
+    pub time_s: f64,
+    /// Share of the external loads that acts, 0…1: below 1 only while a static equilibrium is approached. Elements that
+    /// stand for applied loads multiply by it.
+    pub load_factor: f64,
+    pub(crate) motions: &'a [BodyMotion],
+    pub(crate) modal: &'a [f64],
+    pub(crate) velocity: &'a [f64],
+    pub(crate) layout: &'a Layout,
+}
+
+impl View<'_> {
+    /// Rigid motion of a body; the ground's is at rest.
+    #[must_use]
+    pub fn body(&self, body: BodyId) -> BodyMotion {
+        if body == GROUND {
+            BodyMotion::at_rest()
+        } else {
+            self.motions[body.0]
+        }
+    }
+
+    /// Modal coordinates of a body \[√kg·m\]; none for rigid bodies and the ground.
+    #[must_use]
+    pub fn modal(&self, body: BodyId) -> &[f64] {
+        if body == GROUND {
+            return &[];
+        }
+        let start = self.layout.modal_start(body.0);
+        &self.modal[start..start + self.layout.size(body) - 6]
+    }
+
+    /// Rates of the modal coordinates.
+    #[must_use]
+    pub fn modal_rates(&self, body: BodyId) -> &[f64] {
+        match self.layout.start(body) {
+            None => &[],
+            Some(start) => &self.velocity[start + 6..start + self.layout.size(body)],
+        }
+    }
+}
+
+/// Energy and power of an element, for the energy balance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Power {
+    /// Energy stored \[J\].
+    pub stored_j: f64,
+    /// Power turned into heat \[W\], not negative.
+    pub dissipated_w: f64,
+    /// Power brought in from outside \[W\].
+    pub supplied_w: f64,
+}
+
+/// What an element returns: generalised force on its bodies, and tangents where wanted.
+///
+/// Local order: the degrees of freedom of the first body of [`ForceElement::bodies`], then of the second and so on; of each the
+/// force on the reference point (world axes \[N\]), the moment about it (body axes \[N·m\]) and the modal forces \[√kg·m/s²\]. The
+/// ground has six places, whose content is dropped. Tangents are ∂force/∂increments and ∂force/∂velocities, row: force.
+#[derive(Debug)]
+pub struct Loads {
+    pub(crate) force: Vec<f64>,
+    pub(crate) by_position: Matrix,
+    pub(crate) by_velocity: Matrix,
+    pub(crate) tangents: bool,
+    /// Energy and power at this motion; zero unless set.
+    pub power: Power,
+}
+
+impl Loads {
+    pub(crate) fn new(size: usize) -> Self {
+        Self {
+            force: vec![0.0; size],
+            by_position: Matrix::zeros(size, size),
+            by_velocity: Matrix::zeros(size, size),
+            tangents: false,
+            power: Power::default(),
+        }
+    }
+
+    pub(crate) fn begin(&mut self, tangents: bool) {
+        self.force.fill(0.0);
+        self.tangents = tangents;
+        self.power = Power::default();
+        if tangents {
+            self.by_position.clear();
+            self.by_velocity.clear();
+        }
+    }
+
+    /// Whether tangents are asked for; writing them otherwise is wasted time, but allowed.
+    #[must_use]
+    pub fn wants_tangents(&self) -> bool {
+        self.tangents
+    }
+
+    /// Adds to the force.
+    pub fn add_force(&mut self, first: usize, values: &[f64]) {
+        for (place, value) in self.force[first..].iter_mut().zip(values) {
+            *place += value;
+        }
+    }
+
+    /// Adds to ∂force/∂increments.
+    pub fn add_by_position(&mut self, row: usize, column: usize, value: f64) {
+        self.by_position.add(row, column, value);
+    }
+
+    /// Adds to ∂force/∂velocities.
+    pub fn add_by_velocity(&mut self, row: usize, column: usize, value: f64) {
+        self.by_velocity.add(row, column, value);
+    }
+
+    /// Adds a 3×3 block to ∂force/∂increments.
+    pub fn add_block_by_position(
+        &mut self,
+        row: usize,
+        column: usize,
+        block: &nalgebra::Matrix3<f64>,
+    ) {
+        self.by_position.add3(row, column, block);
+    }
+
+    /// Adds a 3×3 block to ∂force/∂velocities.
+    pub fn add_block_by_velocity(
+        &mut self,
+        row: usize,
+        column: usize,
+        block: &nalgebra::Matrix3<f64>,
+    ) {
+        self.by_velocity.add3(row, column, block);
+    }
+}
+
+/// A quantity that an element can report at every output time.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// Name with unit, as in a column head: `force_x_N`.
+    pub name: String,
+}
+
+/// A force that acts on some bodies.
+///
+/// `evaluate` must depend on the view and on what was kept by the last `commit` only: it is called many times a step, also for
+/// motions that are then given up.
+pub trait ForceElement: Send {
+    /// Name, used in every message.
+    fn name(&self) -> &str;
+
+    /// The bodies it acts on, in the order of the local degrees of freedom.
+    fn bodies(&self) -> &[BodyId];
+
+    /// Adds force, and tangents where [`Loads::wants_tangents`], at a motion.
+    ///
+    /// # Errors
+    /// Whatever keeps the element from giving its force; the step is then repeated with a shorter one or given up.
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure>;
+
+    /// Called once before the run, at its first motion: internal state begins here.
+    fn begin(&mut self, _view: &View<'_>) {}
+
+    /// Called at the end of every accepted step: internal state (turns, slip, warm starts) moves on here only.
+    fn commit(&mut self, _view: &View<'_>) {}
+
+    /// Appends the internal state, as plain numbers, always as many.
+    fn save(&self, _out: &mut Vec<f64>) {}
+
+    /// Takes what [`Self::save`] wrote.
+    fn restore(&mut self, _numbers: &[f64]) {}
+
+    /// What [`Self::sample`] writes.
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    /// Writes the values of [`Self::channels`] at a motion. Called for output only.
+    fn sample(&mut self, _view: &View<'_>, _out: &mut [f64]) {}
+}
+
+/// A parameter that must be finite and not negative.
+pub(crate) fn not_negative(
+    element: &str,
+    what: &'static str,
+    found: f64,
+) -> Result<f64, DynamicsError> {
+    if found >= 0.0 && found.is_finite() {
+        return Ok(found);
+    }
+    Err(DynamicsError::Value {
+        owner: format!("force element `{element}`"),
+        what,
+        found,
+        allowed: "zero or positive, and finite",
+    })
+}

@@ -1,0 +1,159 @@
+//! A force element between two markers: a law gives the load on B from the motion of B as seen in A.
+//!
+//! ```text
+//! load = (f, μ) on B in A axes,   Q = Jᵀ load
+//! ∂Q/∂increments = Jᵀ (L_x J + L_v J̇) + geometric tangent,   ∂Q/∂velocities = Jᵀ L_v J
+//! ```
+//!
+//! with L_x = ∂load/∂(u, rotation), L_v = ∂load/∂(u̇, ω) and J̇ the derivative of (u̇, ω) by the increments.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{Channel, ForceElement, Loads, Power, View};
+use crate::body::BodyId;
+use crate::error::ElementFailure;
+use crate::relative_motion::{MarkerPair, RelativeMotion};
+
+/// Load on B, A axes: force \[N\] in the point of B, moment \[N·m\].
+pub type PairLoad = SVector<f64, 6>;
+
+/// Derivatives of a [`PairLoad`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawTangent {
+    /// By (u, rotation of B against A, A axes).
+    pub by_position: SMatrix<f64, 6, 6>,
+    /// By (u̇, ω).
+    pub by_velocity: SMatrix<f64, 6, 6>,
+}
+
+/// A law between two markers.
+pub trait Law: Send {
+    /// Load on B and its energy.
+    fn load(&self, motion: &RelativeMotion) -> (PairLoad, Power);
+
+    /// Derivatives of the load.
+    fn tangent(&self, motion: &RelativeMotion) -> LawTangent;
+
+    /// Internal state begins at this motion.
+    fn begin(&mut self, _motion: &RelativeMotion) {}
+
+    /// Internal state moves on.
+    fn commit(&mut self, _motion: &RelativeMotion) {}
+
+    /// Appends the internal state.
+    fn save(&self, _out: &mut Vec<f64>) {}
+
+    /// Takes what [`Self::save`] wrote.
+    fn restore(&mut self, _numbers: &[f64]) {}
+}
+
+/// A law at its place. Channels: the load on B, A axes.
+#[derive(Debug, Clone)]
+pub struct MarkerElement<L> {
+    name: String,
+    pair: MarkerPair,
+    bodies: [BodyId; 2],
+    law: L,
+}
+
+impl<L: Law> MarkerElement<L> {
+    /// Puts a law between two markers.
+    #[must_use]
+    pub fn new(name: &str, pair: MarkerPair, law: L) -> Self {
+        Self {
+            name: name.to_owned(),
+            bodies: [pair.a.body, pair.b.body],
+            pair,
+            law,
+        }
+    }
+
+    fn motion(&self, view: &View<'_>) -> RelativeMotion {
+        self.pair
+            .motion(&view.body(self.bodies[0]), &view.body(self.bodies[1]))
+    }
+
+    /// Local place of a row or column of the pair: bodies with modes have more than six.
+    fn places(&self, view: &View<'_>) -> [usize; 2] {
+        [0, view.layout.size(self.bodies[0])]
+    }
+}
+
+impl<L: Law> ForceElement for MarkerElement<L> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let motion = self.motion(view);
+        let (load, power) = self.law.load(&motion);
+        loads.power = power;
+        let force = motion.generalised_force(&load);
+        let places = self.places(view);
+        for (half, place) in places.iter().enumerate() {
+            loads.add_force(*place, &force.as_slice()[6 * half..6 * half + 6]);
+        }
+        if loads.wants_tangents() {
+            let jacobian = motion.jacobian();
+            let law = self.law.tangent(&motion);
+            let along =
+                law.by_position * jacobian + law.by_velocity * motion.rate_jacobian(&jacobian);
+            let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
+            let by_velocity = jacobian.tr_mul(&(law.by_velocity * jacobian));
+            for column in 0..12 {
+                let to = places[column / 6] + column % 6;
+                for (half, place) in places.iter().enumerate() {
+                    for i in 0..6 {
+                        let from = (6 * half + i, column);
+                        loads.add_by_position(place + i, to, by_position[from]);
+                        loads.add_by_velocity(place + i, to, by_velocity[from]);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, view: &View<'_>) {
+        let motion = self.motion(view);
+        self.law.begin(&motion);
+    }
+
+    fn commit(&mut self, view: &View<'_>) {
+        let motion = self.motion(view);
+        self.law.commit(&motion);
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        self.law.save(out);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        self.law.restore(numbers);
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        let names = [
+            "force_x_N",
+            "force_y_N",
+            "force_z_N",
+            "moment_x_Nm",
+            "moment_y_Nm",
+            "moment_z_Nm",
+        ];
+        names
+            .map(|name| Channel {
+                name: name.to_owned(),
+            })
+            .to_vec()
+    }
+
+    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
+        let (load, _) = self.law.load(&self.motion(view));
+        out.copy_from_slice(load.as_slice());
+    }
+}

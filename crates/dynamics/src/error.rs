@@ -1,0 +1,213 @@
+//! What can go wrong in setting up or running a multibody system.
+
+use thiserror::Error;
+
+/// What a force element reports when it cannot give its force.
+pub type ElementFailure = Box<dyn std::error::Error + Send + Sync + 'static>;
+
+/// Error of this crate.
+#[derive(Debug, Error)]
+pub enum DynamicsError {
+    /// A STEP function does not go forward in time.
+    #[error(
+        "STEP runs from {start_s} s to {end_s} s: the end must come after the start, all numbers finite"
+    )]
+    Step {
+        /// Given start \[s\].
+        start_s: f64,
+        /// Given end \[s\].
+        end_s: f64,
+    },
+    /// A table cannot be interpolated.
+    #[error("table `{name}`, row {row} (time {time_s} s): {what}")]
+    Table {
+        /// Name of the table.
+        name: String,
+        /// Row, counted from 0.
+        row: usize,
+        /// Time in that row \[s\].
+        time_s: f64,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// A number that must be positive, or not negative, is not.
+    #[error("{owner}: {what} is {found}; it must be {allowed}")]
+    Value {
+        /// Body, joint or element.
+        owner: String,
+        /// Name of the number, with its unit.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// An inertia tensor that no body can have.
+    #[error(
+        "body `{body}`: {what}; principal moments of inertia are {principal_kg_m2:?} kg m², each must be positive and at most the \
+         sum of the other two"
+    )]
+    Inertia {
+        /// Name of the body.
+        body: String,
+        /// What is wrong.
+        what: &'static str,
+        /// Principal moments about the centre of mass, ascending.
+        principal_kg_m2: [f64; 3],
+    },
+    /// Arrays of one thing differ in length.
+    #[error("{owner}: {what} has {found} entries, {expected} are needed")]
+    Shape {
+        /// Body, element or array.
+        owner: String,
+        /// Name of the array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length needed.
+        expected: usize,
+    },
+    /// The modes of a body carry more inertia than the body has.
+    #[error(
+        "body `{body}`: the coupling of its modes to its rigid motion is too strong for its mass and inertia (the mass matrix is not \
+         positive definite): check that modes are scaled to unit modal mass and that coupling and inertia refer to one point"
+    )]
+    ModalCoupling {
+        /// Name of the body.
+        body: String,
+    },
+    /// Two things of one kind have the same name, or a name is empty.
+    #[error(
+        "the name `{name}` is empty or used twice: give every body, joint and force element its own"
+    )]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// Something names a body that is not in the system.
+    #[error("{owner} names body number {body}, the system has {count}: add the body first")]
+    UnknownBody {
+        /// Joint or element.
+        owner: String,
+        /// The number.
+        body: usize,
+        /// Bodies in the system.
+        count: usize,
+    },
+    /// A prescribed speed cannot be integrated in closed form.
+    #[error(
+        "joint `{joint}`: a speed that is a product of functions cannot be prescribed: prescribe the position, or use a table or a sum"
+    )]
+    SpeedOfProduct {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// Joints ask for positions that exclude each other.
+    #[error(
+        "joints {joints:?} contradict each other at t = {time_s} s: their equations cannot all hold, {violation:.3e} (m or rad) is left; \
+         correct their places or prescribed motions, or remove one"
+    )]
+    Contradiction {
+        /// Names of the joints, the one that cannot be met first.
+        joints: Vec<String>,
+        /// What is left of the equation \[m or rad\].
+        violation: f64,
+        /// When \[s\].
+        time_s: f64,
+    },
+    /// The matrix of a linear system is singular.
+    #[error(
+        "{what} is singular at t = {time_s} s: two joints act alike there, or a body has no inertia along a free direction"
+    )]
+    Singular {
+        /// Which matrix.
+        what: &'static str,
+        /// When \[s\].
+        time_s: f64,
+    },
+    /// A force element failed.
+    #[error("force element `{element}` failed at t = {time_s} s: {source}")]
+    Element {
+        /// Name of the element.
+        element: String,
+        /// When \[s\].
+        time_s: f64,
+        /// Its own error.
+        source: ElementFailure,
+    },
+    /// The step does not converge.
+    #[error(
+        "no convergence at t = {time_s} s with a step of {step_s:.3e} s: after {iterations} iterations the correction is {ratio:.2e} times \
+         the tolerance, largest in {largest}; {advice}"
+    )]
+    StepTooLarge {
+        /// Start of the step \[s\].
+        time_s: f64,
+        /// The step \[s\].
+        step_s: f64,
+        /// Newton iterations made.
+        iterations: usize,
+        /// Last correction over the tolerance.
+        ratio: f64,
+        /// Body and direction where the correction is largest.
+        largest: String,
+        /// What to do.
+        advice: &'static str,
+    },
+    /// A solver parameter is out of range.
+    #[error("solver: {what} is {found}; allowed is {allowed}")]
+    Parameter {
+        /// Name with unit.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A static load acts along a motion that nothing resists.
+    #[error(
+        "no static equilibrium: nothing resists {motion}, and {load:.3e} (N or N m) acts along it; hold it by a joint or a spring, or \
+         balance the load"
+    )]
+    Unbalanced {
+        /// The free motion: bodies and directions.
+        motion: String,
+        /// Generalised force along it.
+        load: f64,
+    },
+    /// The static equilibrium was not found.
+    #[error(
+        "static equilibrium not found: {iterations} iterations at load factor {load_factor}, correction {ratio:.2e} times the tolerance, \
+         largest in {largest}; start closer, use more load steps, or settle by a damped transient run"
+    )]
+    NoEquilibrium {
+        /// Iterations of the load step that failed.
+        iterations: usize,
+        /// Share of the loads applied.
+        load_factor: f64,
+        /// Last correction over the tolerance.
+        ratio: f64,
+        /// Body and direction where the correction is largest.
+        largest: String,
+    },
+    /// The eigenvalue solver failed.
+    #[error(
+        "the eigenvalues of the linearised system ({size} unknowns) were not found: the matrix has entries that are not finite, or the iteration stalled"
+    )]
+    Eigen {
+        /// Unknowns.
+        size: usize,
+    },
+    /// A checkpoint does not belong to the system.
+    #[error(
+        "the checkpoint does not fit the system: {what} has {found} entries, the system needs {expected}: resume with the scene that wrote it"
+    )]
+    Checkpoint {
+        /// Which array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length needed.
+        expected: usize,
+    },
+}

@@ -1,0 +1,356 @@
+//! One step of the Lie-group generalized-alpha scheme for index 3.
+//!
+//! Unknowns are the increment Δq and the reactions λ at the end of the step; a_{n+1}, v_{n+1} and v̇_{n+1} follow from Δq by the scheme.
+//! Newton's matrix, with T the derivative of the exponential (rotation.rs), multiplied by βh²:
+//!
+//! ```text
+//! [μ M + γh C + βh² K T   Bᵀ] [δΔq    ]      [βh² residual]
+//! [B T                    0 ] [βh² δλ ]  = − [violation   ]        μ = (1 − α_m)/(1 − α_f)
+//! ```
+//!
+//! The factors are kept from step to step and made anew, at the present iterate, when the step length has changed or corrections shrink
+//! too slowly.
+//!
+//! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
+
+use nalgebra::Vector3;
+
+use crate::error::DynamicsError;
+use crate::matrix::Matrix;
+use crate::rotation;
+use crate::saddle::Saddle;
+use crate::scheme::{Params, Scheme};
+use crate::state::State;
+use crate::system::{At, Detail, Equations, System};
+
+/// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
+const SLOW: f64 = 0.2;
+
+/// Where corrections no longer shrink, they are accepted up to this multiple of the tolerance's absolute floor: rounding.
+const STALLED: f64 = 100.0;
+
+/// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
+const ROUNDING: f64 = 1e-14;
+
+/// All that the scheme carries from step to step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Point {
+    pub state: State,
+    /// v̇
+    pub acceleration: Vec<f64>,
+    /// a, the scheme's own variable.
+    pub algorithmic: Vec<f64>,
+    /// v̈, by differences.
+    pub jerk: Vec<f64>,
+    pub lambda: Vec<f64>,
+}
+
+/// What a step needed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Effort {
+    pub iterations: u64,
+    pub factorisations: u64,
+    pub evaluations: u64,
+}
+
+/// Why a step was given up.
+#[derive(Debug)]
+pub(crate) enum StepFailure {
+    NoConvergence {
+        iterations: usize,
+        ratio: f64,
+        largest: usize,
+    },
+    Singular,
+    Element(DynamicsError),
+}
+
+/// Kind of a degree of freedom: tolerances go by kind.
+pub(crate) const KINDS: usize = 3;
+
+/// Scheme, work space and factors.
+pub(crate) struct Integrator {
+    pub scheme: Scheme,
+    pub equations: Equations,
+    pub saddle: Saddle,
+    /// Step length that the factors are for; not a number before the first.
+    pub factored_step_s: f64,
+    /// For the changes of step length, on the mass matrix itself.
+    projector: Saddle,
+    pub kinds: Vec<usize>,
+    floor: [f64; KINDS],
+    matrix: Matrix,
+    turned: Matrix,
+    increment: Vec<f64>,
+    delta: Vec<f64>,
+    mu: Vec<f64>,
+    right: Vec<f64>,
+    right_joints: Vec<f64>,
+    pub effort: Effort,
+}
+
+impl Integrator {
+    pub(crate) fn new(system: &System, scheme: Scheme) -> Self {
+        let (n, m) = (system.degrees_of_freedom(), system.equations());
+        let diagonal = system.mass_diagonal();
+        let kinds = (0..n).map(|dof| (system.layout.locate(dof).1 / 3).min(2));
+        let size = system.size_m();
+        let heaviest = system
+            .bodies
+            .iter()
+            .fold(0.0_f64, |most, body| most.max(body.mass_kg));
+        Self {
+            scheme,
+            equations: Equations::new(system),
+            saddle: Saddle::new(&diagonal, &system.kept),
+            factored_step_s: f64::NAN,
+            projector: Saddle::new(&diagonal, &system.kept),
+            kinds: kinds.collect(),
+            floor: [ROUNDING * size, ROUNDING, ROUNDING * size * heaviest.sqrt()],
+            matrix: Matrix::zeros(n, n),
+            turned: Matrix::zeros(n, m),
+            increment: vec![0.0; n],
+            delta: vec![0.0; n],
+            mu: vec![0.0; m],
+            right: vec![0.0; n],
+            right_joints: vec![0.0; m],
+            effort: Effort::default(),
+        }
+    }
+
+    /// Work space of the equations and the projector, for the start of a run.
+    pub(crate) fn for_start(&mut self) -> (&mut Equations, &mut Saddle) {
+        (&mut self.equations, &mut self.projector)
+    }
+
+    /// Tries a step from one point to another, whose content is overwritten.
+    pub(crate) fn attempt(
+        &mut self,
+        system: &mut System,
+        from: &Point,
+        to: &mut Point,
+        step_s: f64,
+        params: &Params,
+    ) -> Result<(), StepFailure> {
+        let h = step_s;
+        let (scheme, mass_factor) = (self.scheme, self.scheme.mass_factor());
+        let square = scheme.beta * h * h;
+        self.predict(system, from, to, h);
+        let mut stale = self.factored_step_s.to_bits() != h.to_bits();
+        let mut last = f64::INFINITY;
+        for iteration in 1..=params.most_iterations {
+            self.effort.iterations += 1;
+            let detail = if stale {
+                Detail::Tangents
+            } else {
+                Detail::Forces
+            };
+            self.evaluate(system, to, detail)
+                .map_err(StepFailure::Element)?;
+            let fresh = stale;
+            if stale {
+                self.factor(system, h)?;
+                stale = false;
+            }
+            for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
+                *right = -square * residual;
+            }
+            for (right, violation) in self.right_joints.iter_mut().zip(&self.equations.violation) {
+                *right = -violation;
+            }
+            self.saddle.solve(
+                &self.right,
+                &self.right_joints,
+                &mut self.delta,
+                &mut self.mu,
+            );
+            let (ratio, largest, above_floor) = self.measure(from, h, params.newton_tolerance);
+            if !ratio.is_finite() {
+                self.factored_step_s = f64::NAN;
+                return Err(StepFailure::NoConvergence {
+                    iterations: iteration,
+                    ratio,
+                    largest,
+                });
+            }
+            for (i, delta) in self.delta.iter().enumerate() {
+                self.increment[i] += delta;
+                to.state.velocity[i] += scheme.gamma / (h * scheme.beta) * delta;
+                to.acceleration[i] += mass_factor / square * delta;
+            }
+            for (lambda, mu) in to.lambda.iter_mut().zip(&self.mu) {
+                *lambda += mu / square;
+            }
+            to.state
+                .set_moved(&from.state, &self.increment, &system.layout);
+            let shrinks = ratio < SLOW * last;
+            if ratio <= 1.0 || (!shrinks && fresh && above_floor <= STALLED) {
+                self.finish(from, to, h);
+                return Ok(());
+            }
+            if !shrinks && iteration > 1 {
+                stale = true;
+            }
+            last = ratio;
+            if iteration == params.most_iterations {
+                self.factored_step_s = f64::NAN;
+                return Err(StepFailure::NoConvergence {
+                    iterations: iteration,
+                    ratio,
+                    largest,
+                });
+            }
+        }
+        Err(StepFailure::Singular)
+    }
+
+    /// First guess: v̇ and λ stay.
+    fn predict(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
+        let s = self.scheme;
+        to.lambda.copy_from_slice(&from.lambda);
+        to.acceleration.copy_from_slice(&from.acceleration);
+        for i in 0..self.increment.len() {
+            let old = from.algorithmic[i];
+            let new = (from.acceleration[i] - s.alpha_m * old) / (1.0 - s.alpha_m);
+            let velocity = from.state.velocity[i];
+            self.increment[i] = h * velocity + h * h * ((0.5 - s.beta) * old + s.beta * new);
+            to.state.velocity[i] = velocity + h * ((1.0 - s.gamma) * old + s.gamma * new);
+        }
+        to.state
+            .set_moved(&from.state, &self.increment, &system.layout);
+        to.state.time_s = from.state.time_s + h;
+    }
+
+    fn evaluate(
+        &mut self,
+        system: &mut System,
+        to: &Point,
+        detail: Detail,
+    ) -> Result<(), DynamicsError> {
+        self.effort.evaluations += 1;
+        let at = At {
+            state: &to.state,
+            acceleration: &to.acceleration,
+            lambda: &to.lambda,
+            load_factor: 1.0,
+        };
+        system.evaluate(at, detail, &mut self.equations)
+    }
+
+    /// Assembles and factorises Newton's matrix at the present iterate.
+    fn factor(&mut self, system: &System, h: f64) -> Result<(), StepFailure> {
+        let (s, equations) = (self.scheme, &mut self.equations);
+        self.turned.copy_from(&equations.gradient);
+        for start in system.layout.starts() {
+            let turn = start + 3;
+            let psi = Vector3::from_column_slice(&self.increment[turn..turn + 3]);
+            let t = rotation::tangent(&psi);
+            equations.stiffness.turn_columns(turn, &t);
+            self.turned.turn_rows(turn, &t);
+        }
+        let factors = [s.mass_factor(), s.gamma * h, s.beta * h * h];
+        self.matrix.set_combination(
+            factors,
+            [&equations.mass, &equations.damping, &equations.stiffness],
+        );
+        self.effort.factorisations += 1;
+        if !self
+            .saddle
+            .factor(&self.matrix, &equations.gradient, &self.turned)
+        {
+            self.factored_step_s = f64::NAN;
+            return Err(StepFailure::Singular);
+        }
+        self.factored_step_s = h;
+        Ok(())
+    }
+
+    /// Largest correction over its tolerance, where, and over the absolute floor alone.
+    fn measure(&self, from: &Point, h: f64, tolerance: f64) -> (f64, usize, f64) {
+        let mut size = [0.0_f64; KINDS];
+        for ((increment, velocity), &kind) in self
+            .increment
+            .iter()
+            .zip(&from.state.velocity)
+            .zip(&self.kinds)
+        {
+            size[kind] = size[kind].max(increment.abs()).max(h * velocity.abs());
+        }
+        let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
+        for (dof, (delta, &kind)) in self.delta.iter().zip(&self.kinds).enumerate() {
+            let ratio = delta.abs() / (tolerance * size[kind] + self.floor[kind]);
+            if ratio > worst || ratio.is_nan() {
+                worst = ratio;
+                place = dof;
+            }
+            above = above.max(delta.abs() / self.floor[kind]);
+        }
+        (worst, place, above)
+    }
+
+    fn finish(&self, from: &Point, to: &mut Point, h: f64) {
+        let s = self.scheme;
+        for i in 0..to.algorithmic.len() {
+            to.algorithmic[i] = ((1.0 - s.alpha_f) * to.acceleration[i]
+                + s.alpha_f * from.acceleration[i]
+                - s.alpha_m * from.algorithmic[i])
+                / (1.0 - s.alpha_m);
+            to.jerk[i] = (to.acceleration[i] - from.acceleration[i]) / h;
+        }
+    }
+
+    /// Fits a and v to another step length, `old_step_s` = 0 at the start of a run: a stands for v̇ at t + Δh, and v carries C h² v̈ in the
+    /// directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an order for some steps.
+    pub(crate) fn retune(
+        &mut self,
+        system: &mut System,
+        point: &mut Point,
+        old_step_s: f64,
+        step_s: f64,
+    ) -> Result<(), DynamicsError> {
+        for i in 0..point.algorithmic.len() {
+            let offset = if old_step_s > 0.0 {
+                (point.algorithmic[i] - point.acceleration[i]) * (step_s / old_step_s)
+            } else {
+                self.scheme.shift * step_s * point.jerk[i]
+            };
+            point.algorithmic[i] = point.acceleration[i] + offset;
+        }
+        if system.kept.is_empty() {
+            return Ok(());
+        }
+        let at = At {
+            state: &point.state,
+            acceleration: &point.acceleration,
+            lambda: &point.lambda,
+            load_factor: 1.0,
+        };
+        system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
+        let equations = &self.equations;
+        if !self
+            .projector
+            .factor(&equations.mass, &equations.gradient, &equations.gradient)
+        {
+            return Err(DynamicsError::Singular {
+                what: "the matrix of the joints",
+                time_s: point.state.time_s,
+            });
+        }
+        for (equation, right) in self.right_joints.iter_mut().enumerate() {
+            let row = equations.gradient.column(equation).iter();
+            *right = row.zip(&point.jerk).map(|(b, j)| b * j).sum();
+        }
+        self.right.fill(0.0);
+        self.projector.solve(
+            &self.right,
+            &self.right_joints,
+            &mut self.delta,
+            &mut self.mu,
+        );
+        let change = self.scheme.error_constant * (step_s * step_s - old_step_s * old_step_s);
+        for (velocity, normal) in point.state.velocity.iter_mut().zip(&self.delta) {
+            *velocity += change * normal;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,67 @@
+//! Multibody dynamics: bodies, joints and force elements in space, integrated by the Lie-group generalized-alpha scheme.
+//!
+//! | question | answer | file |
+//! | --- | --- | --- |
+//! | how is a system put together | [`SystemBuilder`] | `builder.rs` |
+//! | what is a body, rigid or with modes | [`Body`], [`Modes`] | `body.rs`, `inertia.rs` |
+//! | which motions do joints leave, prescribe or couple | [`Joint`], [`JointKind`], [`Motion`] | `joint.rs` |
+//! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs` |
+//! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
+//! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs` |
+//! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
+//! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `scheme.rs` |
+//! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
+//! | does the energy balance | [`EnergyBalance`] | `energy.rs` |
+//! | where does the system stand still | [`equilibrium`] | `statics.rs` |
+//! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs` |
+//!
+//! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
+//! reaction is at hand. Matrices are dense: meant for up to some hundred degrees of freedom. A step of two bodies on bearings takes
+//! some microseconds and allocates nothing. The theory is in docs/theory/multibody.md.
+
+pub mod body;
+pub mod builder;
+pub mod checkpoint;
+pub mod constraints;
+mod dense_lu;
+pub mod eigen;
+pub mod elements;
+pub mod energy;
+pub mod error;
+mod inertia;
+pub mod initial;
+mod integrator;
+pub mod joint;
+mod matrix;
+pub mod relative_angle;
+pub mod relative_motion;
+pub mod rotation;
+mod saddle;
+pub mod scheme;
+pub mod simulation;
+pub mod state;
+pub mod statics;
+pub mod system;
+pub mod table;
+#[cfg(test)]
+mod tangent_tests;
+pub mod time_function;
+
+pub use body::{Body, BodyId, GROUND, Modes};
+pub use builder::SystemBuilder;
+pub use checkpoint::Checkpoint;
+pub use constraints::Redundancy;
+pub use eigen::{NaturalMode, natural_modes};
+pub use elements::{Channel, ForceElement, Loads, Power, View};
+pub use energy::{Energy, EnergyBalance};
+pub use error::{DynamicsError, ElementFailure};
+pub use initial::Accelerations;
+pub use joint::{Joint, JointKind, Motion};
+pub use relative_motion::{Marker, MarkerPair, RelativeMotion};
+pub use scheme::{AdaptiveStep, Params, StepControl};
+pub use simulation::{Accepted, OutputGrid, RunInfo, Simulation};
+pub use state::{BodyMotion, Layout, State};
+pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium};
+pub use system::{Calls, System};
+pub use table::{Interpolation, Table};
+pub use time_function::{Derivatives, TimeFunction};

@@ -1,0 +1,227 @@
+//! Motion of one marker relative to another, its Jacobian, and forces that act between the two.
+//!
+//! A marker is a frame fixed in a body. With X, R position and rotation of a marker in the world,
+//!
+//! ```text
+//! u = R_Aᵀ (X_B − X_A)        Q = R_Aᵀ R_B        ω = Q ω_B − ω_A       all seen in A
+//! (u̇, ω) = J ν,   ν = (ẋ_a, Ω_a, ẋ_b, Ω_b)       J: 6 × 12
+//! ```
+//!
+//! A force f on B and a moment μ on B, both along A's axes and acting in the point of B, with the reaction on A's body, have the
+//! generalised force Jᵀ(f, μ). Its derivative for constant (f, μ) is the geometric tangent. Everything that acts between two
+//! markers, joint or force element, is built from these. Derivation: docs/theory/multibody.md.
+
+use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
+
+use crate::body::{BodyId, GROUND};
+use crate::rotation::skew;
+use crate::state::BodyMotion;
+
+/// A frame fixed in a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Marker {
+    /// The body.
+    pub body: BodyId,
+    /// Its origin from the body's reference point, body axes \[m\].
+    pub position_m: Vector3<f64>,
+    /// Body axes from marker axes.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+impl Marker {
+    /// A marker with the body's own axes.
+    #[must_use]
+    pub fn at(body: BodyId, position_m: [f64; 3]) -> Self {
+        Self {
+            body,
+            position_m: Vector3::from(position_m),
+            orientation: UnitQuaternion::identity(),
+        }
+    }
+
+    /// A marker of the world.
+    #[must_use]
+    pub fn ground(position_m: [f64; 3]) -> Self {
+        Self::at(GROUND, position_m)
+    }
+
+    /// The marker turned against the body's axes.
+    #[must_use]
+    pub fn oriented(mut self, orientation: UnitQuaternion<f64>) -> Self {
+        self.orientation = orientation;
+        self
+    }
+
+    /// The same place as this one with its z axis along a direction of the body; x and y are any that fit. A direction of
+    /// length zero leaves the axes as they are.
+    #[must_use]
+    pub fn along(mut self, z_axis: [f64; 3]) -> Self {
+        let direction = Vector3::from(z_axis);
+        self.orientation = UnitQuaternion::rotation_between(&Vector3::z(), &direction)
+            .unwrap_or_else(|| {
+                UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+            });
+        self
+    }
+}
+
+/// Two markers, A and B.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkerPair {
+    /// The frame in which the motion is seen.
+    pub a: Marker,
+    /// The marker whose motion is seen.
+    pub b: Marker,
+}
+
+/// 6×12 Jacobian: rows (u, rotation), columns (x, rotation) of body a, then of body b.
+pub type Jacobian = SMatrix<f64, 6, 12>;
+/// 12×12 tangent of a generalised force.
+pub type PairTangent = SMatrix<f64, 12, 12>;
+
+/// Motion of marker B as seen in marker A.
+#[derive(Debug, Clone, Copy)]
+pub struct RelativeMotion {
+    /// u \[m\].
+    pub displacement_m: Vector3<f64>,
+    /// Q: A axes from B axes.
+    pub rotation: Matrix3<f64>,
+    /// Q as a quaternion.
+    pub quaternion: UnitQuaternion<f64>,
+    /// u̇ \[m/s\].
+    pub velocity_m_per_s: Vector3<f64>,
+    /// ω, A axes \[rad/s\].
+    pub angular_velocity_rad_per_s: Vector3<f64>,
+    /// A marker axes from body a axes.
+    a_from_body: Matrix3<f64>,
+    /// A marker axes from world axes.
+    a_from_world: Matrix3<f64>,
+    /// A marker axes from body b axes.
+    a_from_b: Matrix3<f64>,
+    point_b: Vector3<f64>,
+    /// Point of B from body a's reference point, A axes.
+    arm: Vector3<f64>,
+    /// R_Aᵀ(V_B − V_A)
+    slip: Vector3<f64>,
+    omega_a: Vector3<f64>,
+    /// R_Aᵀ R_a (Ω_a × p_A) and R_Aᵀ R_b (Ω_b × p_B) need these.
+    spin_a: Vector3<f64>,
+    spin_b: Vector3<f64>,
+}
+
+impl MarkerPair {
+    /// The motion at given motions of both bodies.
+    #[must_use]
+    pub fn motion(&self, a: &BodyMotion, b: &BodyMotion) -> RelativeMotion {
+        let body_from_a = *self.a.orientation.to_rotation_matrix().matrix();
+        let body_from_b = *self.b.orientation.to_rotation_matrix().matrix();
+        let a_from_world = (a.rotation * body_from_a).transpose();
+        let (point_a, point_b) = (self.a.position_m, self.b.position_m);
+        let a_from_b = a_from_world * b.rotation;
+        let a_from_body = body_from_a.transpose();
+        let gap = b.position_m - a.position_m;
+        let arm = a_from_world * gap + a_from_b * point_b;
+        let displacement = arm - a_from_body * point_a;
+        let spin_a = a.angular_velocity_rad_per_s.cross(&point_a);
+        let spin_b = b.angular_velocity_rad_per_s.cross(&point_b);
+        let slip = a_from_world * (b.velocity_m_per_s - a.velocity_m_per_s) + a_from_b * spin_b
+            - a_from_body * spin_a;
+        let omega_a = a_from_body * a.angular_velocity_rad_per_s;
+        let quaternion =
+            (a.orientation * self.a.orientation).inverse() * (b.orientation * self.b.orientation);
+        RelativeMotion {
+            displacement_m: displacement,
+            rotation: a_from_b * body_from_b,
+            quaternion,
+            velocity_m_per_s: slip - omega_a.cross(&displacement),
+            angular_velocity_rad_per_s: a_from_b * b.angular_velocity_rad_per_s - omega_a,
+            a_from_body,
+            a_from_world,
+            a_from_b,
+            point_b,
+            arm,
+            slip,
+            omega_a,
+            spin_a,
+            spin_b,
+        }
+    }
+}
+
+impl RelativeMotion {
+    /// J: derivative of (u, rotation of B against A in A axes) by the increments of both bodies, and of (u̇, ω) by their velocities.
+    #[must_use]
+    pub fn jacobian(&self) -> Jacobian {
+        let mut j = Jacobian::zeros();
+        j.fixed_view_mut::<3, 3>(0, 0)
+            .copy_from(&(-self.a_from_world));
+        j.fixed_view_mut::<3, 3>(0, 3)
+            .copy_from(&(skew(&self.arm) * self.a_from_body));
+        j.fixed_view_mut::<3, 3>(0, 6).copy_from(&self.a_from_world);
+        j.fixed_view_mut::<3, 3>(0, 9)
+            .copy_from(&(-self.a_from_b * skew(&self.point_b)));
+        j.fixed_view_mut::<3, 3>(3, 3)
+            .copy_from(&(-self.a_from_body));
+        j.fixed_view_mut::<3, 3>(3, 9).copy_from(&self.a_from_b);
+        j
+    }
+
+    /// Derivative of (u̇, ω) by the configuration increments at constant velocities.
+    #[must_use]
+    pub fn rate_jacobian(&self, jacobian: &Jacobian) -> Jacobian {
+        let upper = jacobian.fixed_rows::<3>(0);
+        let lower = jacobian.fixed_rows::<3>(3);
+        let mut d = Jacobian::zeros();
+        let mut top = -skew(&self.omega_a) * upper;
+        let by_a = skew(&self.slip) * self.a_from_body + self.a_from_body * skew(&self.spin_a);
+        let by_b = self.a_from_b * skew(&self.spin_b);
+        let mut part = top.fixed_view_mut::<3, 3>(0, 3);
+        part += by_a;
+        let mut part = top.fixed_view_mut::<3, 3>(0, 9);
+        part -= by_b;
+        d.fixed_rows_mut::<3>(0).copy_from(&top);
+        let turning = self.angular_velocity_rad_per_s + self.omega_a;
+        d.fixed_rows_mut::<3>(3)
+            .copy_from(&(-skew(&turning) * lower));
+        d
+    }
+
+    /// Jᵀ (f, μ) without forming J.
+    #[must_use]
+    pub fn generalised_force(&self, load: &SVector<f64, 6>) -> SVector<f64, 12> {
+        let f = Vector3::new(load[0], load[1], load[2]);
+        let mu = Vector3::new(load[3], load[4], load[5]);
+        let world = self.a_from_world.transpose() * f;
+        let on_a = -(self.a_from_body.transpose() * (self.arm.cross(&f) + mu));
+        let on_b =
+            self.point_b.cross(&(self.a_from_b.transpose() * f)) + self.a_from_b.transpose() * mu;
+        let mut force = SVector::<f64, 12>::zeros();
+        force.fixed_rows_mut::<3>(0).copy_from(&(-world));
+        force.fixed_rows_mut::<3>(3).copy_from(&on_a);
+        force.fixed_rows_mut::<3>(6).copy_from(&world);
+        force.fixed_rows_mut::<3>(9).copy_from(&on_b);
+        force
+    }
+
+    /// ∂(Jᵀ load)/∂increments for a load (f, μ) that is constant in A axes.
+    #[must_use]
+    pub fn geometric_tangent(&self, jacobian: &Jacobian, load: &SVector<f64, 6>) -> PairTangent {
+        let f = skew(&Vector3::new(load[0], load[1], load[2]));
+        let mu = skew(&Vector3::new(load[3], load[4], load[5]));
+        let mut tangent = PairTangent::zeros();
+        // A's axes carry the force along: R_A (α × f), α = rotation of A.
+        let carried = self.a_from_world.transpose() * f * self.a_from_body;
+        tangent.fixed_view_mut::<3, 3>(0, 3).copy_from(&carried);
+        tangent.fixed_view_mut::<3, 3>(6, 3).copy_from(&(-carried));
+        // The arm from body a's reference point moves with u.
+        let arm = self.a_from_body.transpose() * f * jacobian.fixed_rows::<3>(0);
+        let mut rows = tangent.fixed_rows_mut::<3>(3);
+        rows += arm;
+        // Body b turns under the load.
+        let to_b = self.a_from_b.transpose();
+        let turned = (skew(&self.point_b) * to_b * f + to_b * mu) * jacobian.fixed_rows::<3>(3);
+        let mut rows = tangent.fixed_rows_mut::<3>(9);
+        rows += turned;
+        tangent
+    }
+}

@@ -1,0 +1,372 @@
+//! A transient run: consistent start, steps, error control, records.
+
+use std::ops::ControlFlow;
+
+use crate::constraints::{self, watch_dropped};
+use crate::energy::EnergyBalance;
+use crate::error::DynamicsError;
+use crate::initial;
+use crate::integrator::{Integrator, KINDS, Point, StepFailure};
+use crate::scheme::{AdaptiveStep, Params, Scheme, StepControl};
+use crate::state::State;
+use crate::system::System;
+
+/// What a run has needed and how exact it was.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RunInfo {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated because the estimated error was too large.
+    pub rejected: u64,
+    /// Steps repeated because Newton's iteration did not converge.
+    pub unconverged: u64,
+    /// Newton iterations.
+    pub iterations: u64,
+    /// Factorisations of the iteration matrix.
+    pub factorisations: u64,
+    /// Evaluations of the equations: calls of each active force element.
+    pub evaluations: u64,
+    /// Shortest and longest accepted step \[s\].
+    pub step_range_s: (f64, f64),
+    /// Largest violation of a joint equation (m or rad).
+    pub largest_violation: f64,
+    /// Largest violation of the rate of a joint equation (m/s or rad/s). Of the second order in the step: docs/theory/multibody.md.
+    pub largest_violation_rate: f64,
+    /// Energy balance.
+    pub energy: EnergyBalance,
+}
+
+/// An accepted step, as the caller of [`Simulation::run`] sees it.
+pub struct Accepted<'a> {
+    /// State at its start.
+    pub from: &'a State,
+    /// State at its end.
+    pub to: &'a State,
+    /// Reactions λ at its end, one for each joint equation.
+    pub lambda: &'a [f64],
+    /// v̇ at its end.
+    pub acceleration: &'a [f64],
+    /// Records up to its end.
+    pub info: &'a RunInfo,
+    /// The system, for [`System::sample`] and names.
+    pub system: &'a mut System,
+}
+
+impl Accepted<'_> {
+    /// Writes the state at a time within the step ([`State::interpolate`]).
+    pub fn interpolate(&self, time_s: f64, out: &mut State) {
+        out.interpolate(self.from, self.to, time_s, self.system.layout());
+    }
+}
+
+/// Times on a uniform grid, taken from steps as they come.
+#[derive(Debug, Clone)]
+pub struct OutputGrid {
+    interval_s: f64,
+    next: u64,
+    state: State,
+}
+
+impl OutputGrid {
+    /// Times 0, `interval_s`, 2 `interval_s`, …
+    #[must_use]
+    pub fn new(interval_s: f64, like: &State) -> Self {
+        Self {
+            interval_s,
+            next: 0,
+            state: like.clone(),
+        }
+    }
+
+    /// Begins with the first grid time not before `time_s`.
+    #[must_use]
+    pub fn from_time(mut self, time_s: f64) -> Self {
+        self.next = (time_s / self.interval_s - 1e-9).ceil().max(0.0) as u64;
+        self
+    }
+
+    /// Calls `write` with the interpolated state at every grid time that the step reaches.
+    pub fn visit(&mut self, step: &mut Accepted<'_>, mut write: impl FnMut(&State, &mut System)) {
+        let end = step.to.time_s + 1e-9 * self.interval_s;
+        while self.next as f64 * self.interval_s <= end {
+            step.interpolate(self.next as f64 * self.interval_s, &mut self.state);
+            write(&self.state, step.system);
+            self.next += 1;
+        }
+    }
+}
+
+/// A run of a system.
+pub struct Simulation {
+    pub(crate) system: System,
+    pub(crate) params: Params,
+    pub(crate) integrator: Integrator,
+    pub(crate) now: Point,
+    /// The last point before an accepted step; scratch during one.
+    pub(crate) other: Point,
+    /// Length of the next step, to which `now` is tuned \[s\].
+    pub(crate) step_s: f64,
+    pub(crate) info: RunInfo,
+}
+
+impl Simulation {
+    /// Begins at the system's start, velocities fitted to the joints.
+    ///
+    /// # Errors
+    /// [`DynamicsError::Parameter`], [`DynamicsError::Contradiction`], [`DynamicsError::Singular`], or the error of an element.
+    pub fn new(system: System, params: Params) -> Result<Self, DynamicsError> {
+        let start = system.start().clone();
+        Self::from_state(system, start, params)
+    }
+
+    /// Begins at a state, such as a static equilibrium, whose places fit the joints; velocities are fitted.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn from_state(
+        mut system: System,
+        mut state: State,
+        params: Params,
+    ) -> Result<Self, DynamicsError> {
+        params.validate()?;
+        system.begin(&state);
+        constraints::project_velocity(&mut system, &mut state)?;
+        let mut integrator = Integrator::new(&system, Scheme::new(params.rho_infinity));
+        let step_s = params.first_step_s();
+        let (equations, saddle) = integrator.for_start();
+        let first = initial::accelerations(&mut system, &state, equations, saddle)?;
+        system.refresh(&state);
+        let energy = system.energy(&state, &first.lambda);
+        let jerk = initial::jerk(
+            &mut system,
+            &state,
+            &first.acceleration,
+            step_s,
+            equations,
+            saddle,
+        )?;
+        let mut now = Point {
+            algorithmic: first.acceleration.clone(),
+            acceleration: first.acceleration,
+            lambda: first.lambda,
+            jerk,
+            state,
+        };
+        integrator.retune(&mut system, &mut now, 0.0, step_s)?;
+        Ok(Self {
+            other: now.clone(),
+            info: RunInfo {
+                step_range_s: (f64::INFINITY, 0.0),
+                energy: EnergyBalance::begin(energy),
+                ..RunInfo::default()
+            },
+            system,
+            params,
+            integrator,
+            now,
+            step_s,
+        })
+    }
+
+    /// State now. In directions that joints prescribe the velocity is that of the scheme, exact to the second order in the step.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.now.state
+    }
+
+    /// v̇ now.
+    #[must_use]
+    pub fn acceleration(&self) -> &[f64] {
+        &self.now.acceleration
+    }
+
+    /// Reactions λ now, one for each joint equation.
+    #[must_use]
+    pub fn lambda(&self) -> &[f64] {
+        &self.now.lambda
+    }
+
+    /// Records so far.
+    #[must_use]
+    pub fn info(&self) -> &RunInfo {
+        &self.info
+    }
+
+    /// The system.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Gives the system back.
+    #[must_use]
+    pub fn into_system(self) -> System {
+        self.system
+    }
+
+    /// Steps until `end_s` is reached or `visit` breaks. The last step may go past the end: interpolate.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn run(
+        &mut self,
+        end_s: f64,
+        mut visit: impl FnMut(&mut Accepted<'_>) -> ControlFlow<()>,
+    ) -> Result<(), DynamicsError> {
+        while self.now.state.time_s < end_s - 1e-6 * self.step_s {
+            self.step()?;
+            let mut step = Accepted {
+                from: &self.other.state,
+                to: &self.now.state,
+                lambda: &self.now.lambda,
+                acceleration: &self.now.acceleration,
+                info: &self.info,
+                system: &mut self.system,
+            };
+            if visit(&mut step).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes one step that is accepted, after as many shorter trials as the step control allows.
+    ///
+    /// # Errors
+    /// [`DynamicsError::StepTooLarge`] with advice, [`DynamicsError::Contradiction`] if a redundant joint equation no longer holds,
+    /// [`DynamicsError::Singular`], or the error of an element.
+    pub fn step(&mut self) -> Result<(), DynamicsError> {
+        loop {
+            let h = self.step_s;
+            let outcome = self.integrator.attempt(
+                &mut self.system,
+                &self.now,
+                &mut self.other,
+                h,
+                &self.params,
+            );
+            self.count_effort();
+            let limits = match (self.params.step, outcome) {
+                (StepControl::Fixed { .. }, Ok(())) => return self.accept(h, h),
+                (StepControl::Fixed { .. }, Err(failure)) => {
+                    return Err(self.refusal(failure, FIXED_ADVICE));
+                }
+                (StepControl::Adaptive(limits), Err(failure)) => {
+                    self.info.unconverged += 1;
+                    if 0.25 * h < limits.least_step_s {
+                        return Err(self.refusal(failure, ADAPTIVE_ADVICE));
+                    }
+                    self.change_step(0.25 * h)?;
+                    continue;
+                }
+                (StepControl::Adaptive(limits), Ok(())) => limits,
+            };
+            let error = self.error_ratio(h, &limits);
+            let factor = 0.9 / error.cbrt();
+            if error > 1.0 {
+                self.info.rejected += 1;
+                let shorter = h * factor.max(0.2);
+                if shorter < limits.least_step_s {
+                    return Err(self.refusal(
+                        StepFailure::NoConvergence {
+                            iterations: 0,
+                            ratio: error,
+                            largest: 0,
+                        },
+                        TOLERANCE_ADVICE,
+                    ));
+                }
+                self.change_step(shorter)?;
+                continue;
+            }
+            // A step that could grow by a little only is left alone: a change costs a factorisation.
+            let next = if factor > 1.25 {
+                (h * factor.min(2.0)).min(limits.largest_step_s)
+            } else {
+                h * factor.min(1.0)
+            };
+            return self.accept(h, next);
+        }
+    }
+
+    fn count_effort(&mut self) {
+        let effort = std::mem::take(&mut self.integrator.effort);
+        self.info.iterations += effort.iterations;
+        self.info.factorisations += effort.factorisations;
+        self.info.evaluations += effort.evaluations;
+    }
+
+    fn accept(&mut self, h: f64, next_step_s: f64) -> Result<(), DynamicsError> {
+        let equations = &self.integrator.equations;
+        let most = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        self.info.largest_violation = self.info.largest_violation.max(most(&equations.violation));
+        self.info.largest_violation_rate = self
+            .info
+            .largest_violation_rate
+            .max(most(&equations.violation_rate));
+        watch_dropped(&mut self.system, &self.other.state, &equations.violation)?;
+        std::mem::swap(&mut self.now, &mut self.other);
+        self.system.commit(&self.now.state);
+        self.info
+            .energy
+            .advance(self.system.energy(&self.now.state, &self.now.lambda), h);
+        self.info.steps += 1;
+        let (least, largest) = self.info.step_range_s;
+        self.info.step_range_s = (least.min(h), largest.max(h));
+        if next_step_s.to_bits() != h.to_bits() {
+            self.change_step(next_step_s)?;
+        }
+        Ok(())
+    }
+
+    fn change_step(&mut self, step_s: f64) -> Result<(), DynamicsError> {
+        self.integrator
+            .retune(&mut self.system, &mut self.now, self.step_s, step_s)?;
+        self.step_s = step_s;
+        Ok(())
+    }
+
+    /// Estimated error of the step just tried over its tolerance.
+    fn error_ratio(&self, h: f64, limits: &AdaptiveStep) -> f64 {
+        let tolerance: [f64; KINDS] = [
+            limits.translation_tolerance_m,
+            limits.rotation_tolerance_rad,
+            limits.modal_tolerance,
+        ];
+        let weight = self.integrator.scheme.error_constant.abs() * h * h;
+        let pairs = self.other.acceleration.iter().zip(&self.now.acceleration);
+        let ratios = pairs
+            .zip(&self.integrator.kinds)
+            .map(|((new, old), &kind)| weight * (new - old).abs() / tolerance[kind]);
+        // The floor keeps the growth of the step finite where nothing accelerates.
+        ratios.fold(1e-9, f64::max)
+    }
+
+    fn refusal(&self, failure: StepFailure, advice: &'static str) -> DynamicsError {
+        let time_s = self.now.state.time_s;
+        match failure {
+            StepFailure::Element(error) => error,
+            StepFailure::Singular => DynamicsError::Singular {
+                what: "the iteration matrix",
+                time_s,
+            },
+            StepFailure::NoConvergence {
+                iterations,
+                ratio,
+                largest,
+            } => DynamicsError::StepTooLarge {
+                time_s,
+                step_s: self.step_s,
+                iterations,
+                ratio,
+                largest: self.system.describe(largest),
+                advice,
+            },
+        }
+    }
+}
+
+const FIXED_ADVICE: &str = "the fixed step is too large for the stiffest force or the fastest rotation: take a tenth of it, or an adaptive step";
+const ADAPTIVE_ADVICE: &str = "the shortest step allowed does not converge either: look for a force that jumps with position or speed, or allow shorter steps";
+const TOLERANCE_ADVICE: &str =
+    "the shortest step allowed exceeds the tolerance: loosen the tolerance, or allow shorter steps";

@@ -1,0 +1,290 @@
+//! Static equilibrium: the motion in which nothing accelerates, by Newton's method with load steps.
+//!
+//! ```text
+//! [∂residual/∂q   Bᵀ] [δ ]      [residual ]
+//! [B              0 ] [δλ] = −  [violation]           v̇ = 0, v as given
+//! ```
+//!
+//! Each correction is the smallest that solves this (singular value decomposition of the scaled matrix). Directions that nothing
+//! resists are thereby held and reported by name, or refused. A load along such a direction moves the system along it for some
+//! iterations, because resistance may come with the position (a pendulum released level); if none comes it is an error.
+
+use faer::Mat;
+
+use crate::error::DynamicsError;
+use crate::state::State;
+use crate::system::{At, Detail, Equations, System};
+
+/// Singular values below this share of the largest, after scaling, count as zero.
+const FREE: f64 = 1e-11;
+
+/// Load along a free direction, as a share of all loads, that counts as balanced.
+const BALANCED: f64 = 1e-9;
+
+/// Longest correction of one iteration: radians, and shares of the system's size.
+const LONGEST: f64 = 0.2;
+
+/// What to do about motions that nothing resists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FreeMotions {
+    /// Hold them where they are; they are listed in the result.
+    Hold,
+    /// Refuse them.
+    Refuse,
+}
+
+/// Parameters of [`equilibrium`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StaticParams {
+    /// Equal steps in which applied loads and weights are brought up. Default 1.
+    pub load_steps: usize,
+    /// Iterations in each. Default 100.
+    pub most_iterations: usize,
+    /// Largest correction at the end: radians, and share of the system's size. Default 1e-12.
+    pub tolerance: f64,
+    /// Motions that nothing resists. Default: hold.
+    pub free_motions: FreeMotions,
+}
+
+impl Default for StaticParams {
+    fn default() -> Self {
+        Self {
+            load_steps: 1,
+            most_iterations: 100,
+            tolerance: 1e-12,
+            free_motions: FreeMotions::Hold,
+        }
+    }
+}
+
+/// A static equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// Places in equilibrium; velocities as given.
+    pub state: State,
+    /// Reactions λ, one for each joint equation.
+    pub lambda: Vec<f64>,
+    /// Iterations of all load steps.
+    pub iterations: usize,
+    /// Motions that nothing resists, held.
+    pub held: Vec<String>,
+}
+
+/// A scaled Newton matrix, decomposed, with what it says about free motions.
+struct Correction {
+    /// δ and δλ, free directions at rest.
+    values: Vec<f64>,
+    /// Free motions, scaled to a largest entry of 1.
+    free: Vec<Vec<f64>>,
+    /// Load along each over the sum of all loads' magnitudes along it.
+    share: Vec<f64>,
+    /// Load along each.
+    load: Vec<f64>,
+}
+
+/// Finds the static equilibrium near a state.
+///
+/// # Errors
+/// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::Singular`] or the error of an element.
+pub fn equilibrium(
+    system: &mut System,
+    start: &State,
+    params: &StaticParams,
+) -> Result<Equilibrium, DynamicsError> {
+    let (n, m) = (system.degrees_of_freedom(), system.equations());
+    let mut equations = Equations::new(system);
+    let mut state = start.clone();
+    system.begin(&state);
+    let rest = vec![0.0; n];
+    // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
+    let mut lambda = system.accelerations(&state)?.lambda;
+    let mut iterations = 0;
+    let mut held = Vec::new();
+    let size = system.size_m();
+    for step in 1..=params.load_steps.max(1) {
+        let load_factor = step as f64 / params.load_steps.max(1) as f64;
+        let mut iteration = 0;
+        loop {
+            iteration += 1;
+            let at = At {
+                state: &state,
+                acceleration: &rest,
+                lambda: &lambda,
+                load_factor,
+            };
+            system.evaluate(at, Detail::Tangents, &mut equations)?;
+            let mut correction = correct(system, &equations, m)?;
+            let unbalanced = (0..correction.free.len())
+                .filter(|&k| correction.share[k] > BALANCED)
+                .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));
+            if !correction.free.is_empty() && params.free_motions == FreeMotions::Refuse {
+                return Err(unbalanced_error(
+                    system,
+                    &correction,
+                    unbalanced.unwrap_or(0),
+                ));
+            }
+            if let Some(k) = unbalanced {
+                if iteration >= params.most_iterations {
+                    return Err(unbalanced_error(system, &correction, k));
+                }
+                let push = -LONGEST * 0.5 * correction.load[k].signum();
+                for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
+                    *value += push * free;
+                }
+            }
+            let (ratio, largest) = measure(system, &correction.values[..n], size);
+            let shortening = (LONGEST / ratio).min(1.0);
+            let increment: Vec<f64> = correction.values[..n]
+                .iter()
+                .map(|d| shortening * d)
+                .collect();
+            let from = state.clone();
+            state.set_moved(&from, &increment, &system.layout);
+            for (place, &equation) in system.kept.iter().enumerate() {
+                lambda[equation] += shortening * correction.values[n + place];
+            }
+            if unbalanced.is_none() && ratio <= params.tolerance {
+                held = correction
+                    .free
+                    .iter()
+                    .map(|motion| in_words(system, motion))
+                    .collect();
+                break;
+            }
+            if iteration >= params.most_iterations || !ratio.is_finite() {
+                return Err(DynamicsError::NoEquilibrium {
+                    iterations: iteration,
+                    load_factor,
+                    ratio: ratio / params.tolerance,
+                    largest: system.describe(largest),
+                });
+            }
+        }
+        iterations += iteration;
+        system.commit(&state);
+    }
+    Ok(Equilibrium {
+        state,
+        lambda,
+        iterations,
+        held,
+    })
+}
+
+fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correction, DynamicsError> {
+    let n = equations.residual.len();
+    let kept = &system.kept;
+    let total = n + kept.len();
+    let entry = |i: usize, j: usize| match (i < n, j < n) {
+        (true, true) => equations.stiffness.get(i, j),
+        (true, false) => equations.gradient.get(i, kept[j - n]),
+        (false, true) => equations.gradient.get(j, kept[i - n]),
+        (false, false) => 0.0,
+    };
+    debug_assert!(kept.len() <= m);
+    // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
+    let mut scale: Vec<f64> = system
+        .mass_diagonal()
+        .iter()
+        .map(|mass| 1.0 / mass.sqrt())
+        .collect();
+    scale.resize(total, 1.0);
+    for _ in 0..4 {
+        let most = |i: usize| {
+            (0..total).fold(0.0_f64, |most, j| {
+                most.max(
+                    (entry(i, j) * scale[j])
+                        .abs()
+                        .max((entry(j, i) * scale[j]).abs()),
+                )
+            })
+        };
+        let changes: Vec<f64> = (0..total).map(|i| most(i) * scale[i]).collect();
+        for (scale, change) in scale.iter_mut().zip(changes) {
+            if change > 0.0 {
+                *scale /= change.sqrt();
+            }
+        }
+    }
+    let scaled = Mat::from_fn(total, total, |i, j| scale[i] * entry(i, j) * scale[j]);
+    let singular = || DynamicsError::Singular {
+        what: "the static stiffness (it has entries that are not finite)",
+        time_s: 0.0,
+    };
+    let svd = scaled.svd().map_err(|_| singular())?;
+    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+    let right = |i: usize| {
+        -scale[i]
+            * if i < n {
+                equations.residual[i]
+            } else {
+                equations.violation[kept[i - n]]
+            }
+    };
+    let mut correction = Correction {
+        values: vec![0.0; total],
+        free: Vec::new(),
+        share: Vec::new(),
+        load: Vec::new(),
+    };
+    for k in 0..total {
+        let along: f64 = (0..total).map(|i| u[(i, k)] * right(i)).sum();
+        if s[k] > FREE * s[0] {
+            for i in 0..total {
+                correction.values[i] += scale[i] * v[(i, k)] * along / s[k];
+            }
+            continue;
+        }
+        let motion: Vec<f64> = (0..n).map(|i| scale[i] * v[(i, k)]).collect();
+        let most = motion.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if most == 0.0 {
+            continue;
+        }
+        let motion: Vec<f64> = motion.iter().map(|x| x / most).collect();
+        let load: f64 = motion
+            .iter()
+            .zip(&equations.residual)
+            .map(|(x, r)| x * r)
+            .sum();
+        let all: f64 = (0..total).map(|i| right(i).abs()).sum();
+        correction
+            .share
+            .push(if all > 0.0 { along.abs() / all } else { 0.0 });
+        correction.load.push(load);
+        correction.free.push(motion);
+    }
+    if correction.values.iter().any(|x| !x.is_finite()) {
+        return Err(singular());
+    }
+    Ok(correction)
+}
+
+/// Largest correction (radians, shares of the size) and where.
+fn measure(system: &System, increment: &[f64], size: f64) -> (f64, usize) {
+    increment
+        .iter()
+        .enumerate()
+        .fold((0.0, 0), |(most, place), (dof, d)| {
+            let rotation = (3..6).contains(&system.layout.locate(dof).1);
+            let here = if rotation { d.abs() } else { d.abs() / size };
+            if here > most {
+                (here, dof)
+            } else {
+                (most, place)
+            }
+        })
+}
+
+fn in_words(system: &System, motion: &[f64]) -> String {
+    let parts = motion.iter().enumerate().filter(|(_, x)| x.abs() > 0.1);
+    let words: Vec<String> = parts.map(|(dof, _)| system.describe(dof)).collect();
+    words.join(" with ")
+}
+
+fn unbalanced_error(system: &System, correction: &Correction, k: usize) -> DynamicsError {
+    DynamicsError::Unbalanced {
+        motion: in_words(system, &correction.free[k]),
+        load: correction.load[k].abs(),
+    }
+}
