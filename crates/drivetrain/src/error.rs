@@ -48,6 +48,11 @@ pub enum DrivetrainError {
         /// Base helix angle.
         base_helix_deg: f64,
     },
+    /// Errors of single teeth with a model that has no single teeth.
+    #[error(
+        "flank errors are given, but the iso6336 mesh is one spring that knows no single tooth: take another mesh model, or leave them out"
+    )]
+    UnusedFlankErrors,
     /// The axes stand too far from parallel.
     #[error(
         "the gear axes stand {found_mrad:.2} mrad from parallel; the slices allow up to {allowed_mrad} mrad, and both z axes must point the same way"

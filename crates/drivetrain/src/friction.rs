@@ -40,8 +40,16 @@ impl Friction {
         let owner = "tooth friction";
         not_negative(owner, "the dynamic coefficient", dynamic_coefficient)?;
         not_negative(owner, "the static coefficient", static_coefficient)?;
-        positive(owner, "the static transition speed in m/s", static_speed_m_per_s)?;
-        positive(owner, "the dynamic transition speed in m/s", dynamic_speed_m_per_s)?;
+        positive(
+            owner,
+            "the static transition speed in m/s",
+            static_speed_m_per_s,
+        )?;
+        positive(
+            owner,
+            "the dynamic transition speed in m/s",
+            dynamic_speed_m_per_s,
+        )?;
         let out_of_order = |what, found, allowed| DrivetrainError::Value {
             owner,
             what,

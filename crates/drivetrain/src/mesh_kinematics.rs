@@ -60,6 +60,8 @@ pub struct TeethLine {
     pub touching_roll_rad: [f64; 2],
     /// Derivatives of the roll angles by the increments of the pose.
     pub roll_gradient: [Vector6; 2],
+    /// Gap that ideal flanks would have at mid-face \[m\].
+    pub ideal_gap_m: f64,
     /// First of its contacts, and how many there are.
     pub contacts: (usize, usize),
 }
@@ -105,6 +107,18 @@ pub struct FlankContacts {
     pub lines: Vec<TeethLine>,
     /// Their slices, line by line.
     pub contacts: Vec<ToothContact>,
+}
+
+impl FlankContacts {
+    /// Memory for so many slice planes and contacts.
+    #[must_use]
+    pub fn with_capacity(planes: usize, contacts: usize) -> Self {
+        Self {
+            planes: Vec::with_capacity(planes),
+            lines: Vec::with_capacity(contacts),
+            contacts: Vec::with_capacity(contacts),
+        }
+    }
 }
 
 /// Deviations of one gear's flanks.
@@ -189,6 +203,12 @@ impl MeshKinematics {
     #[must_use]
     pub fn ends(&self) -> PathEnds {
         self.ends
+    }
+
+    /// Whether the flanks of any gear deviate from the ideal.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.errors.iter().any(|errors| !errors.is_empty())
     }
 
     /// Angle between two teeth \[rad\].
@@ -301,9 +321,8 @@ impl MeshKinematics {
         let teeth =
             [0, 1].map(|i| (sigma * counts[i]).rem_euclid(self.gears[i].teeth as f64) as usize);
         let rolls = |plane: &SlicePlane| {
-            [0, 1].map(|i| {
-                self.roll_of_tooth_0(i, side, plane, spin) - counts[i] * self.pitch_rad(i)
-            })
+            [0, 1]
+                .map(|i| self.roll_of_tooth_0(i, side, plane, spin) - counts[i] * self.pitch_rad(i))
         };
         let roll_gradients = |plane: &SlicePlane| {
             let along = sigma / plane.length_m * plane.across;
@@ -321,8 +340,7 @@ impl MeshKinematics {
             let moment = plane.z_m * axis.cross(&plane.normal) + sigma * r2 * turn;
             let mut gradient = stacked(plane.normal, moment);
             for gear in 0..2 {
-                let (depth, slope) =
-                    self.removed(gear, teeth[gear], (side, roll[gear], plane.z_m));
+                let (depth, slope) = self.removed(gear, teeth[gear], (side, roll[gear], plane.z_m));
                 gap_m += depth;
                 gradient += slope * by_pose[gear];
             }
@@ -340,7 +358,11 @@ impl MeshKinematics {
         found.lines.push(TeethLine {
             teeth,
             roll_rad,
-            touching_roll_rad: [0, 1].map(|i| roll_rad[i].min(self.gears[i].flank_end_roll_rad)),
+            touching_roll_rad: [0, 1].map(|i| {
+                let gear = &self.gears[i];
+                roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
+            }),
+            ideal_gap_m: middle.length_m - r1 * roll_rad[0] - r2 * roll_rad[1],
             roll_gradient: roll_gradients(middle),
             contacts: (first, found.contacts.len() - first),
         });
@@ -394,9 +416,7 @@ fn line_of_action(
 }
 
 fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
-    Vector6::new(
-        upper[0], upper[1], upper[2], lower[0], lower[1], lower[2],
-    )
+    Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
 }
 
 impl SlicePlane {

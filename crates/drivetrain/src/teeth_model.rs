@@ -76,3 +76,21 @@ pub trait TeethModel: Send {
     /// Forgets warm starts. Called at the end of every accepted step, so that a run that is resumed there repeats bit by bit.
     fn forget(&mut self) {}
 }
+
+impl TeethModel for Box<dyn TeethModel> {
+    fn evaluate(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+    ) -> Result<(), DrivetrainError> {
+        (**self).evaluate(flanks, loads)
+    }
+
+    fn resolves_teeth(&self) -> bool {
+        (**self).resolves_teeth()
+    }
+
+    fn forget(&mut self) {
+        (**self).forget();
+    }
+}

@@ -154,8 +154,9 @@ impl TeethModel for MeshSpring {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         let from_middle = |roll: f64| (roll - self.middle_roll_rad).abs();
-        let nearest = (flanks.lines.iter().enumerate())
-            .min_by(|(_, a), (_, b)| from_middle(a.roll_rad[0]).total_cmp(&from_middle(b.roll_rad[0])));
+        let nearest = (flanks.lines.iter().enumerate()).min_by(|(_, a), (_, b)| {
+            from_middle(a.roll_rad[0]).total_cmp(&from_middle(b.roll_rad[0]))
+        });
         let Some((number, line)) = nearest else {
             return Ok(());
         };
@@ -202,9 +203,13 @@ mod tests {
             young_pa: 206e9,
             line_load_n_per_m: 4e5,
         };
-        assert!((pair.theoretical() - 17.85584).abs() < 1e-5, "{}", pair.theoretical());
+        assert!(
+            (pair.theoretical() - 17.85584).abs() < 1e-5,
+            "{}",
+            pair.theoretical()
+        );
         assert!((pair.single() - 12.37047).abs() < 1e-5, "{}", pair.single());
-        let published_ratio = (17.46485 / 12.37047 - 0.25) / 0.75;
+        let published_ratio: f64 = (17.46485 / 12.37047 - 0.25) / 0.75;
         assert!((published_ratio - 1.549).abs() < 1e-3);
         let mesh = pair.mesh_n_per_m2(published_ratio) * 1e-9;
         assert!((mesh - 17.46485).abs() < 1e-4);
