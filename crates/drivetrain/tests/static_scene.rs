@@ -136,7 +136,7 @@ fn faults_act_where_they_are() {
     let away = 12.0 * pair.pitch_1_rad();
     for (what, fault, slices_lost) in [
         ("broken", broken, 5),
-        ("chip", chip, 2),
+        ("chip", chip, 1),
         ("spall", spall, 3),
     ] {
         let mut mesh = right_only(&pair, [vec![fault], Vec::new()]);

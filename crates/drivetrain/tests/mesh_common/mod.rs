@@ -7,6 +7,7 @@ pub mod pair_common;
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
 use gearmesh_drivetrain::*;
+use gearmesh_dynamics::Marker;
 use gearmesh_geometry::{FlankSide, GearPair, Material, ToothGeometry, involute};
 use gearmesh_model::{Flank, ReducedGear};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -170,4 +171,83 @@ pub fn moving(pose: &Pose, rates: &pose::Vector6) -> Pose {
         angular_velocity_rad_per_s: Vector3::new(rates[3], rates[4], rates[5]),
         ..*pose
     }
+}
+
+/// A gear on a revolute joint: mass and inertia of a solid disc with a bore of 16 mm.
+pub fn gear_body(
+    name: &str,
+    gear: &ToothGeometry,
+    width_m: f64,
+    (x_m, angle_rad, speed_rad_per_s): (f64, f64, f64),
+) -> gearmesh_dynamics::Body {
+    let blank = gearmesh_geometry::Blank {
+        bore_radius_m: 8e-3,
+        web: None,
+        openings: None,
+    };
+    let inertia = GearInertia::new(gear, &blank, width_m, 7850.0).unwrap();
+    let (across, polar) = (inertia.across_kg_m2, inertia.polar_kg_m2);
+    gearmesh_dynamics::Body {
+        position_m: Vector3::new(x_m, 0.0, 0.0),
+        orientation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, angle_rad)),
+        angular_velocity_rad_per_s: Vector3::new(0.0, 0.0, speed_rad_per_s),
+        ..gearmesh_dynamics::Body::rigid(name, inertia.mass_kg, [across, across, polar])
+    }
+}
+
+/// Two gears on fixed axes, gear 1 turning clockwise at `speed_1` with gear 2 at its ratio, torques `torque_2` on gear 2 against its
+/// motion and the balancing one on gear 1, right flanks pressed together by `-te_m`.
+pub fn two_gears(
+    pair: &GearPair,
+    mesh: GearMesh,
+    (speed_1, torque_2, te_m): (f64, f64, f64),
+    width_m: f64,
+) -> (gearmesh_dynamics::SystemBuilder, [Marker; 2]) {
+    use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind};
+    use gearmesh_dynamics::{Joint, JointKind, System, TimeFunction};
+    let phi = angles(pair, FlankSide::Right, 0.0, te_m);
+    let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
+    let a = pair.centre_distance_m;
+    let mut builder = System::builder();
+    let mut markers = Vec::new();
+    for (name, gear, x, angle, speed, torque) in [
+        (
+            "gear 1",
+            &pair.gear_1,
+            0.0,
+            phi[0],
+            -speed_1,
+            -torque_2 * ratio,
+        ),
+        (
+            "gear 2",
+            &pair.gear_2,
+            a,
+            phi[1],
+            speed_1 * ratio,
+            -torque_2,
+        ),
+    ] {
+        let body = gear_body(name, gear, width_m, (x, angle, speed));
+        let id = builder.body(body).unwrap();
+        let marker = Marker::at(id, [0.0; 3]);
+        let housing = Marker::ground([x, 0.0, 0.0]);
+        let joint = Joint::new(
+            &format!("bearing of {name}"),
+            JointKind::Revolute,
+            housing,
+            marker,
+        );
+        builder.joint(joint.unwrap());
+        if torque != 0.0 {
+            let axis = (Axes::World, [0.0, 0.0, 1.0]);
+            let load = TimeFunction::Constant(torque);
+            let name = format!("torque on {name}");
+            builder.element(AppliedLoad::new(&name, id, LoadKind::Torque, axis, load).unwrap());
+        }
+        markers.push(marker);
+    }
+    let markers = [markers[0], markers[1]];
+    builder.element(MeshElement::new("mesh", markers, mesh));
+    (builder, markers)
 }
