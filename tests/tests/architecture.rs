@@ -14,10 +14,10 @@ use serde_json::Value;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 5] = ["contact", "recovery", "signal", "scene", "report"];
+const ONLINE: [&str; 6] = ["contact", "recovery", "signal", "rating", "scene", "report"];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("geometry", &[]),
     ("mesh", &["geometry"]),
     ("fe", &[]),
@@ -26,6 +26,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("contact", &["geometry", "model"]),
     ("recovery", &["model", "contact"]),
     ("signal", &[]),
+    ("rating", &["geometry", "contact"]),
     (
         "scene",
         &["geometry", "model", "contact", "recovery", "signal"],

@@ -19,6 +19,8 @@ pub enum Command {
     Mesh(MeshArguments),
     /// Reduce a gear to its compliance at the flanks (the offline stage)
     Reduce(ReduceArguments),
+    /// Find the natural frequencies and mode shapes of a gear, held at its bore
+    Modes(ModesArguments),
     /// Print the deflection along a flank under a line load
     Compliance(ComplianceArguments),
     /// Say what a scene will compute
@@ -61,6 +63,26 @@ pub struct ReduceArguments {
     /// Do not reduce a coarser mesh to estimate the discretisation error
     #[arg(long)]
     pub no_error_estimate: bool,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh modes`.
+#[derive(Debug, Args)]
+#[allow(non_snake_case)]
+pub struct ModesArguments {
+    /// Gear file with material.density_kg_per_m3
+    pub gear: PathBuf,
+    /// So many modes, the lowest; instead of what the gear file says in [modes]
+    #[arg(long, conflicts_with = "up_to_Hz")]
+    pub count: Option<usize>,
+    /// All modes up to this frequency; instead of what the gear file says in [modes]
+    #[arg(long = "up-to-Hz")]
+    pub up_to_Hz: Option<f64>,
+    /// Mesh file for the shapes, one point field a mode (vtu, ...)
+    #[arg(long)]
+    pub shapes: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

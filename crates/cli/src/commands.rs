@@ -5,6 +5,7 @@ pub mod compare;
 pub mod compliance;
 pub mod demo;
 pub mod mesh;
+pub mod modes;
 pub mod plan;
 pub mod recover;
 pub mod reduce;

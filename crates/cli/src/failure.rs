@@ -68,6 +68,9 @@ impl From<gearmesh_reduction::ReductionError> for Failure {
         use gearmesh_reduction::ReductionError;
         match error {
             ReductionError::EmptyGauge { .. }
+            | ReductionError::NoDensity
+            | ReductionError::ModesInPlaneStrain
+            | ReductionError::NoModes { .. }
             | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => {
                 Self::input(error)
             }

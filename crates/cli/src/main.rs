@@ -17,6 +17,7 @@ fn main() -> ExitCode {
     let outcome = interrupt::install().and_then(|()| match &arguments.command {
         Command::Mesh(a) => commands::mesh::run(a),
         Command::Reduce(a) => commands::reduce::run(a),
+        Command::Modes(a) => commands::modes::run(a),
         Command::Compliance(a) => commands::compliance::run(a),
         Command::Plan(a) => commands::plan::run(a),
         Command::Run(a) => commands::run::run(a),

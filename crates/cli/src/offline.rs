@@ -11,6 +11,7 @@ use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
 use gearmesh_scene::{LoadedScene, SceneResult};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The Python that has gmsh and meshio.
@@ -29,42 +30,52 @@ pub fn reduced(
     Ok(outcome?)
 }
 
-/// Writes a mesh with its sets, and a field where given, in the format that the extension names.
+/// Fields of a mesh file by name.
+#[derive(Debug, Default)]
+pub struct MeshFields {
+    /// On nodes.
+    pub point: BTreeMap<String, MeshField>,
+    /// In elements.
+    pub cell: BTreeMap<String, MeshField>,
+}
+
+impl From<&Field> for MeshFields {
+    fn from(field: &Field) -> Self {
+        let displacement = MeshField {
+            components: 3,
+            values: field.displacement_m.iter().flatten().copied().collect(),
+            unit: "m".into(),
+        };
+        let von_mises = MeshField {
+            components: 1,
+            values: field.von_mises_pa.clone(),
+            unit: "Pa".into(),
+        };
+        Self {
+            point: BTreeMap::from([("displacement_m".into(), displacement)]),
+            cell: BTreeMap::from([("von_mises_Pa".into(), von_mises)]),
+        }
+    }
+}
+
+/// Writes a mesh with its sets and fields in the format that the extension names.
 pub fn export_mesh(
     gear: &GearDefinition,
     mesh: &GearMesh,
-    field: Option<&Field>,
+    fields: MeshFields,
     output: &Path,
 ) -> Result<(), Failure> {
-    let scalar = |values: Vec<f64>, unit: &str| MeshField {
-        components: 1,
-        values,
-        unit: unit.into(),
-    };
     let mut data = MeshData {
         points: mesh.nodes.clone(),
         point_sets: mesh.node_sets(gear),
+        point_fields: fields.point,
+        cell_fields: fields.cell,
         ..MeshData::default()
     };
     let connectivity = mesh.elements.connectivity();
     match mesh.elements.shape() {
         ElementShape::Hex8 => data.hexes = connectivity.as_chunks().0.to_vec(),
         ElementShape::Hex20 => data.set_hexes_of_20(connectivity.as_chunks().0),
-    }
-    if let Some(field) = field {
-        let displacement = field.displacement_m.iter().flatten().copied().collect();
-        data.point_fields.insert(
-            "displacement_m".into(),
-            MeshField {
-                components: 3,
-                values: displacement,
-                unit: "m".into(),
-            },
-        );
-        data.cell_fields.insert(
-            "von_mises_Pa".into(),
-            scalar(field.von_mises_pa.clone(), "Pa"),
-        );
     }
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);

@@ -25,6 +25,7 @@ fn help_names_all_commands() {
       mesh        Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf,
                   msh, ...)
       reduce      Reduce a gear to its compliance at the flanks (the offline stage)
+      modes       Find the natural frequencies and mode shapes of a gear, held at its bore
       compliance  Print the deflection along a flank under a line load
       plan        Say what a scene will compute
       run         Run a scene
@@ -42,6 +43,7 @@ fn help_names_all_commands() {
     for command in [
         "mesh",
         "reduce",
+        "modes",
         "compliance",
         "plan",
         "run",
@@ -118,6 +120,78 @@ fn mesh_writes_what_it_counts() {
     );
     // The reduction works on the same mesh.
     assert_eq!(figures["nodes"], workshop().figures[1]["nodes"]);
+}
+
+/// Figures on modes that must hold on any mesh, and the shapes as point fields.
+#[test]
+fn modes_are_sorted_paired_and_drawn() {
+    let desk = Desk::new();
+    let with_density = THIN.replace("poisson = 0.3", "poisson = 0.3\ndensity_kg_per_m3 = 7850.0");
+    let gear = desk.file("gear.toml", &with_density);
+    let shapes = desk.path("shapes.vtu");
+    let command = ["modes", argument(&gear), "--count", "5"];
+    let options = ["--shapes", argument(&shapes), "--json"];
+    let figures = succeeds(&[&command[..], &options[..]].concat()).json();
+    let modes = figures["modes"].as_array().unwrap();
+    assert!(modes.len() == 5 || modes.len() == 6, "{figures}");
+    let hz: Vec<f64> = modes.iter().map(|m| number(&m["frequency_Hz"])).collect();
+    assert!(hz[0] > 0.0 && hz.windows(2).all(|w| w[0] <= w[1] * (1.0 + 1e-9)));
+    for mode in modes {
+        let shares = ["radial_share", "circumferential_share", "axial_share"];
+        let sum: f64 = shares.iter().map(|name| number(&mode[name])).sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{mode}");
+        let paired = mode["nodal_diameters"] != 0 && mode["nodal_diameters"] != 9;
+        let near = hz
+            .iter()
+            .filter(|f| (*f / number(&mode["frequency_Hz"]) - 1.0).abs() < 1e-8);
+        assert_eq!(near.count(), if paired { 2 } else { 1 }, "{figures}");
+    }
+    let sums = numbers(&figures["effective_mass_sums"]);
+    assert!(sums.iter().all(|s| (0.0..=1.0).contains(s)), "{sums:?}");
+    let file = String::from_utf8_lossy(&std::fs::read(&shapes).unwrap()).into_owned();
+    for mode in 1..=modes.len() {
+        assert!(file.contains(&format!("Name=\"mode_{mode:03}_")), "{mode}");
+    }
+    let table = succeeds(&command).stdout;
+    assert!(
+        table.contains("nodal") && table.lines().count() == modes.len() + 4,
+        "{table}"
+    );
+
+    // The model file holds what [modes] and [hub] ask for.
+    let tables = "[modes]\ncount = 3\n[hub]\nsupport = \"reference-point\"\n";
+    let gear = desk.file("both.toml", &format!("{with_density}\n{tables}"));
+    let model = desk.path("model.h5");
+    let arguments = [
+        "reduce",
+        argument(&gear),
+        "-o",
+        argument(&model),
+        "--no-error-estimate",
+    ];
+    let text = succeeds(&arguments).stdout;
+    assert!(text.contains("bore rigid on a reference point"), "{text}");
+    assert!(text.contains("natural modes up to"), "{text}");
+}
+
+#[test]
+fn modes_that_cannot_be_found_are_refused() {
+    let desk = Desk::new();
+    let gear = desk.file("gear.toml", THIN);
+    let refused = |arguments: &[&str], expected: &str| {
+        let answer = gearmesh(&[&["modes", argument(&gear)], arguments].concat());
+        assert_eq!(
+            (answer.code, answer.stdout.as_str()),
+            (Some(2), ""),
+            "{answer:#?}"
+        );
+        assert!(answer.stderr.contains(expected), "{answer:#?}");
+    };
+    refused(&[], "--count, --up-to-Hz, or [modes]");
+    refused(&["--count", "0"], "--count: found 0");
+    refused(&["--up-to-Hz", "-3"], "--up-to-Hz");
+    refused(&["--count", "3"], "material.density_kg_per_m3");
+    refused(&["--count", "3", "--up-to-Hz", "10"], "cannot be used with");
 }
 
 #[test]

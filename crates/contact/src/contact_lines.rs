@@ -210,9 +210,8 @@ impl ContactLines {
     /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂)/cos β_b of the flanks \[m\], in the plane normal to the contact line; a
     /// tip edge counts with its flank's end.
     pub fn relative_radius_m(&self, line: &ContactLine) -> f64 {
-        let a = self.pair.gear_1.base_radius_m * line.roll_1_rad;
-        let b = self.pair.gear_2.base_radius_m * line.roll_2_rad;
-        a * b / ((a + b) * self.helix_cos())
+        self.pair
+            .relative_radius_m(line.roll_1_rad, line.roll_2_rad)
     }
 
     /// Tilt \[rad\] and relative radius \[m\] of the rounded edge against the flank; none on the path.

@@ -3,6 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
+//! | which unit loads make a force at a roll angle | [`RollHats`] | `roll_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
@@ -12,6 +13,7 @@
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
+//! | how wide and under which pressure do two cylinders touch | [`hertz`] | `hertz.rs` |
 //! | the complementarity problem itself, which knows no gear | [`nlcp`] | `nlcp.rs` |
 //!
 //! Cost of a static position with five slices and one or two pairs: some microseconds, without allocation.
@@ -20,9 +22,11 @@
 pub mod contact_lines;
 pub mod contact_slices;
 pub mod flank_deflection;
+pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
+pub mod roll_shares;
 pub mod slice_compliance;
 pub mod slice_contact;
 pub mod slice_spread;
@@ -32,6 +36,7 @@ pub mod tip_contact;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_slices::ContactSlice;
 pub use local_contact::LocalContact;
+pub use roll_shares::{RollHats, RollPlace};
 pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
 pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};

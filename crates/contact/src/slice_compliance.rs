@@ -1,12 +1,12 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
 //! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`axial_shares`]) make it
-//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the two
-//! nearest stations share the force so that its first moment is kept; the outermost hats are halves, their centroid
-//! lies a third of a spacing inside, and the shares are taken with respect to centroids. C = Φᵀ C_grid Φ as a whole.
+//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the nearest
+//! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
+use crate::roll_shares::{RollHats, RollPlace};
 use crate::slice_spread::NeighbourTerm;
 use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
@@ -18,8 +18,7 @@ pub struct SliceCompliance {
     teeth_per_sector: usize,
     slices: usize,
     stations: usize,
-    /// Roll angles of the hats' centroids.
-    centroids_rad: Vec<f64>,
+    hats: RollHats,
     opposite_distance_m: Vec<f64>,
     /// `[tooth in sector][response tooth][(station, slice) of load][(station, slice) of response]`.
     blocks: Vec<f64>,
@@ -33,15 +32,6 @@ pub struct SliceCompliance {
     poisson: f64,
     slice_width_m: f64,
     z_m: Vec<f64>,
-}
-
-/// A place between two roll stations: the lower one and the share of the upper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RollPlace {
-    /// Lower station.
-    pub station: usize,
-    /// Share of the station above it; may lie a little outside 0 to 1 beyond the outermost centroids.
-    pub share: f64,
 }
 
 /// A slice on a tooth and the place of its contact along the profile.
@@ -137,7 +127,7 @@ impl SliceCompliance {
             }
         }
         let slice_width_m = gear.face_width_m / slices as f64;
-        let centroids_rad = centroids(&grid.roll_angles_rad);
+        let hats = RollHats::new(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);
@@ -149,9 +139,9 @@ impl SliceCompliance {
                 .map(|half| {
                     let station = (half / 2).min(stations - 2);
                     let share = 0.5 * half as f64 - station as f64;
-                    let place = RollPlace { station, share };
-                    let roll =
-                        (1.0 - share) * centroids_rad[station] + share * centroids_rad[station + 1];
+                    let c = hats.centroids_rad();
+                    let roll = (1.0 - share) * c[station] + share * c[station + 1];
+                    let place = hats.place(roll);
                     let missing = field.contact_at(roll, gear.base_radius_m)
                         - mesh_at(field, stations, place);
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
@@ -165,7 +155,7 @@ impl SliceCompliance {
             teeth_per_sector: own,
             slices,
             stations,
-            centroids_rad,
+            hats,
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
             near_field,
@@ -205,7 +195,7 @@ impl SliceCompliance {
 
     /// Where a roll angle lies between the stations.
     pub fn place(&self, roll_rad: f64) -> RollPlace {
-        roll_place(&self.centroids_rad, roll_rad)
+        self.hats.place(roll_rad)
     }
 
     /// Depth h \[m\] of the local logarithm at a roll angle: effective where the model is calibrated, else the distance
@@ -251,14 +241,8 @@ impl SliceCompliance {
         let block = tooth * self.teeth + response;
         let table = &self.blocks[block * size * size..(block + 1) * size * size];
         let n = self.slices;
-        for (sa, wa) in [
-            (place_a.station, 1.0 - place_a.share),
-            (place_a.station + 1, place_a.share),
-        ] {
-            for (sb, wb) in [
-                (place_b.station, 1.0 - place_b.share),
-                (place_b.station + 1, place_b.share),
-            ] {
+        for (sa, wa) in place_a.shares() {
+            for (sb, wb) in place_b.shares() {
                 let weight = factor * wa * wb;
                 for i in 0..n {
                     let row = &table[(sa * n + i) * size + sb * n..][..n];
@@ -320,12 +304,16 @@ impl SliceCompliance {
         let block = tooth * self.teeth + response;
         let table = &self.blocks[block * size * size..(block + 1) * size * size];
         let row = |station: usize| &table[(station * self.slices + a.slice) * size..][..size];
-        let column = b.place.station * self.slices + b.slice;
-        let response_of = |row: &[f64]| {
-            (1.0 - b.place.share) * row[column] + b.place.share * row[column + self.slices]
+        let response_of = |row: &[f64]| -> f64 {
+            let shares = b.place.shares();
+            shares
+                .map(|(station, share)| share * row[station * self.slices + b.slice])
+                .sum()
         };
-        (1.0 - a.place.share) * response_of(row(a.place.station))
-            + a.place.share * response_of(row(a.place.station + 1))
+        let shares = a.place.shares();
+        shares
+            .map(|(station, share)| share * response_of(row(station)))
+            .sum::<f64>()
             + self.spread_between(a, b)
     }
 }
@@ -338,13 +326,11 @@ fn largest_neighbour_term(
     (stations, slices): (usize, usize),
     place: RollPlace,
 ) -> f64 {
-    let shares = [
-        (place.station, 1.0 - place.share),
-        (place.station + 1, place.share),
-    ];
     let size = stations * slices;
     let c = |i: usize, j: usize| -> f64 {
-        let parts = shares.iter().flat_map(|a| shares.map(|b| (*a, b)));
+        let parts = place
+            .shares()
+            .flat_map(|a| place.shares().map(move |b| (a, b)));
         parts
             .map(|((a, wa), (b, wb))| wa * wb * blocks[(a * slices + i) * size + b * slices + j])
             .sum()
@@ -366,13 +352,9 @@ fn largest_neighbour_term(
 
 /// w_h = Φᵀ W Φ at a roll place \[m²/N\].
 fn mesh_at(field: &NearField, stations: usize, place: RollPlace) -> f64 {
-    let shares = [
-        (place.station, 1.0 - place.share),
-        (place.station + 1, place.share),
-    ];
     let mut sum = 0.0;
-    for (a, wa) in shares {
-        for (b, wb) in shares {
+    for (a, wa) in place.shares() {
+        for (b, wb) in place.shares() {
             sum += wa * wb * field.mesh_m2_per_n[a * stations + b];
         }
     }
@@ -386,27 +368,6 @@ fn near_field_of(gear: &ReducedGear, flank_index: usize) -> Result<NearField, Re
     let size = stations * stations;
     field.mesh_m2_per_n = field.mesh_m2_per_n[flank_index * size..][..size].to_vec();
     Ok(field)
-}
-
-/// Centroids of the hats in roll angle.
-pub fn centroids(stations: &[f64]) -> Vec<f64> {
-    let last = stations.len() - 1;
-    let mut centroids = stations.to_vec();
-    centroids[0] += (stations[1] - stations[0]) / 3.0;
-    centroids[last] -= (stations[last] - stations[last - 1]) / 3.0;
-    centroids
-}
-
-/// Where a roll angle lies between hats' centroids.
-pub fn roll_place(centroids_rad: &[f64], roll_rad: f64) -> RollPlace {
-    let above = centroids_rad
-        .partition_point(|xi| *xi <= roll_rad)
-        .clamp(1, centroids_rad.len() - 1);
-    let (low, high) = (centroids_rad[above - 1], centroids_rad[above]);
-    RollPlace {
-        station: above - 1,
-        share: (roll_rad - low) / (high - low),
-    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_slices::ContactSlice;
+use crate::hertz;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info, LocalLawError, NlcpError};
 use crate::slice_contact::{Given, Separations, SliceContact};
@@ -190,12 +191,7 @@ impl StaticContact {
         let (contact, edge) = self.slices.hertz(active_slice);
         let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
         let a = contact.half_width_m(force_n) * share;
-        if a > 0.0 {
-            let line_load = force_n / contact.width_m;
-            (a, 2.0 * line_load / (std::f64::consts::PI * a))
-        } else {
-            (0.0, 0.0)
-        }
+        (a, hertz::peak_pressure_pa(force_n / contact.width_m, a))
     }
 
     /// Solves one position. Lines and forces are left in [`StaticContact::active_lines`] and

@@ -26,7 +26,8 @@ use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::{Mat, MatRef, Par, Side, c64};
+use faer::reborrow::ReborrowMut;
+use faer::{Mat, MatMut, MatRef, Par, Side, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -95,6 +96,25 @@ impl CyclicInterface {
         self.cut
     }
 
+    /// e^{ikα}: what a cut has more in phase than the cut before, in a field of harmonic k.
+    pub fn turn(&self, k: usize) -> c64 {
+        phase(k, self.sectors)
+    }
+
+    /// Overwrites the loads p_R + e^{-ikα} p_L of harmonic k (rows of one cut × cases) with the displacements of cut R.
+    ///
+    /// # Panics
+    /// If there is no such harmonic or `loads` does not have the rows of a cut. Without cuts nothing is to be done.
+    pub fn solve_harmonic(&self, k: usize, mut loads: MatMut<'_, c64>) {
+        assert_eq!(loads.nrows(), self.cut, "rows of the loads at a cut");
+        if self.cut == 0 {
+            return;
+        }
+        let factor = self.factors[k].as_ref();
+        solve_lower_triangular_in_place(factor, loads.rb_mut(), Par::rayon(0));
+        solve_upper_triangular_in_place(factor.adjoint(), loads, Par::rayon(0));
+    }
+
     /// Λ⁻¹(p_R + e^{-ikα} p_L).
     fn transformed(&self, k: usize, loads: MatRef<'_, f64>) -> Mat<c64> {
         let back = phase(k, self.sectors).conj();
@@ -161,9 +181,7 @@ impl CyclicInterface {
                         }
                     }
                 }
-                let factor = self.factors[k].as_ref();
-                solve_lower_triangular_in_place(factor, total.as_mut(), Par::rayon(0));
-                solve_upper_triangular_in_place(factor.adjoint(), total.as_mut(), Par::rayon(0));
+                self.solve_harmonic(k, total.as_mut());
                 total
             })
             .collect();

@@ -3,14 +3,13 @@
 use faer::prelude::ReborrowMut;
 use faer::{Mat, Scale, Side};
 
-use crate::factor::Factor;
-use crate::symmetric_product::SymmetricRows;
+use crate::modes::ModeProblem;
 
 /// A remainder below this part of the vector is rounding: the basis holds the whole of it already.
 const SMALLEST_REMAINDER: f64 = 1e-12;
 
 pub(crate) struct LanczosBasis {
-    /// Columns M-orthonormal; the first `len` are in use.
+    /// Columns M-orthonormal; the first `len` are in use. It grows as needed.
     v: Mat<f64>,
     /// A V_p = V H, one column per processed column of V.
     h: Mat<f64>,
@@ -37,10 +36,10 @@ pub(crate) struct Ritz {
 }
 
 impl LanczosBasis {
-    pub fn new(unknowns: usize, columns: usize) -> Self {
+    pub fn new(unknowns: usize) -> Self {
         Self {
-            v: Mat::zeros(unknowns, columns),
-            h: Mat::zeros(columns, columns),
+            v: Mat::zeros(unknowns, 0),
+            h: Mat::zeros(0, 0),
             len: 0,
             processed: 0,
         }
@@ -48,16 +47,17 @@ impl LanczosBasis {
 
     /// Appends what is new in the columns of `w`. With `image_of`, they are A times the columns from there on, and
     /// their coefficients enter H.
-    pub fn append(&mut self, w: Mat<f64>, m: &SymmetricRows, image_of: Option<usize>) {
-        let product = m.product(w.as_ref());
+    pub fn append(&mut self, w: Mat<f64>, problem: &impl ModeProblem, image_of: Option<usize>) {
+        let product = problem.mass_product(w.as_ref());
         let norms: Vec<f64> = (0..w.ncols())
             .map(|j| (w.col(j).transpose() * product.col(j)).max(0.0).sqrt())
             .collect();
         // Twice is enough: the second pass removes what rounding of the first left. With W = V C₁ + Q₁ R₁ and
         // Q₁ = V C₂ + Q₂ R₂ the coefficients of W are C₁ + C₂ R₁ and R₂ R₁.
-        let first = self.orthonormalise(w, m, &norms);
+        let first = self.orthonormalise(w, problem, &norms);
         let units = vec![1.0; first.q.ncols()];
-        let second = self.orthonormalise(first.q, m, &units);
+        let second = self.orthonormalise(first.q, problem, &units);
+        self.reserve(self.len + second.q.ncols());
         if let Some(column) = image_of {
             let in_basis = first.c + second.c * &first.r;
             let in_new = second.r * &first.r;
@@ -71,13 +71,22 @@ impl LanczosBasis {
         self.len += added;
     }
 
+    /// Room for so many columns, and a quarter more so that it is not asked for at every step.
+    fn reserve(&mut self, columns: usize) {
+        if columns > self.v.ncols() {
+            let columns = columns + columns / 4;
+            self.v.resize_with(self.v.nrows(), columns, |_, _| 0.0);
+            self.h.resize_with(columns, columns, |_, _| 0.0);
+        }
+    }
+
     /// W = V C + Q R with Q M-orthonormal and M-orthogonal to V; columns without remainder, measured against `norms`,
     /// give none in Q.
-    fn orthonormalise(&self, mut w: Mat<f64>, m: &SymmetricRows, norms: &[f64]) -> Split {
+    fn orthonormalise(&self, mut w: Mat<f64>, problem: &impl ModeProblem, norms: &[f64]) -> Split {
         let basis = self.v.subcols(0, self.len);
-        let c = basis.transpose() * m.product(w.as_ref());
+        let c = basis.transpose() * problem.mass_product(w.as_ref());
         w -= basis * &c;
-        let mut product = m.product(w.as_ref());
+        let mut product = problem.mass_product(w.as_ref());
         let columns = w.ncols();
         let mut r = Mat::zeros(columns, columns);
         let mut kept: Vec<usize> = Vec::with_capacity(columns);
@@ -110,12 +119,12 @@ impl LanczosBasis {
     }
 
     /// Applies A = (K + s M)⁻¹ M to the next columns, at most `block`; returns how many.
-    pub fn grow(&mut self, block: usize, m: &SymmetricRows, factor: &Factor) -> usize {
+    pub fn grow(&mut self, block: usize, problem: &impl ModeProblem) -> usize {
         let first = self.processed;
         let count = block.min(self.len - first);
-        let mut images = m.product(self.v.subcols(first, count));
-        factor.solve_in_place(images.as_mut());
-        self.append(images, m, Some(first));
+        let mut images = problem.mass_product(self.v.subcols(first, count));
+        problem.solve_in_place(images.as_mut());
+        self.append(images, problem, Some(first));
         self.processed += count;
         count
     }

@@ -16,6 +16,7 @@
 //! K + DofOrdering                    -> SymbolicFactor     pattern of L, once per mesh and constraints
 //!                                    -> Factor             values of L, then any number of solves
 //! K + M + Factor                     -> natural_modes      lowest frequencies and shapes
+//! products and solves of one's own   -> search_modes       the same
 //! K + kept nodes                     -> StaticCondensation a part replaced by its stiffness at some nodes
 //! stiffness of a sector at its cuts  -> CyclicInterface    a ring of equal sectors, by harmonics
 //! ```
@@ -117,13 +118,17 @@ pub use factor::{Factor, FactorInfo, SymbolicFactor};
 pub use graph::NodeGraph;
 pub use hex8::CORNERS;
 pub use hex20::EDGE_CORNERS;
-pub use mass::assemble_mass;
+pub use mass::{assemble_mass, mass_product};
 pub use material::{LameParameters, Material, von_mises};
 pub use model::FeModel;
-pub use modes::{ModeSettings, NaturalModes, natural_modes, shifted_stiffness};
+pub use modes::{
+    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, search_modes,
+    shifted_stiffness,
+};
 pub use ordering::DofOrdering;
 pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};
 pub use quadrature::WeightedPoint;
-pub use rigid_group::RigidGroup;
+pub use rigid_group::{RigidGroup, rigid_motions};
 pub use static_condensation::{CondensedLoads, StaticCondensation};
 pub use structured::StructuredMesh;
+pub use symmetric_product::SymmetricRows;

@@ -3,6 +3,9 @@
 //! 3×3×3 Gauss points for every element: exact for any hexahedron with eight nodes and for straight-edged ones with
 //! twenty. The condensed modes of the incompatible element carry no mass: they are inner unknowns of its stiffness only.
 
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+
 use crate::assembly::{SparseMatrix, assemble};
 use crate::constraints::DofMap;
 use crate::element::HexElement;
@@ -57,15 +60,74 @@ pub fn assemble_mass(
     dofs: &DofMap,
     density_kg_per_m3: f64,
 ) -> Result<SparseMatrix, FeError> {
-    if !(density_kg_per_m3 > 0.0 && density_kg_per_m3.is_finite()) {
-        return Err(FeError::DensityOutOfRange { density_kg_per_m3 });
-    }
+    check_density(density_kg_per_m3)?;
     assemble(model, dofs, &NodeGraph::new(model, dofs)?, |element| {
-        model
-            .element()
-            .mass(&model.element_coordinates(element)?, density_kg_per_m3)
-            .map_err(|source| FeError::Element { element, source })
+        element_mass(model, element, density_kg_per_m3)
     })
+}
+
+/// M X (3 n × columns) over all degrees of freedom of a model, held or not, element by element: for the few products that need
+/// no matrix, such as those with rigid motions.
+///
+/// # Errors
+/// [`FeError::DensityOutOfRange`]; [`FeError::SizeMismatch`] when X has other rows; [`FeError::Element`].
+pub fn mass_product(
+    model: &FeModel,
+    density_kg_per_m3: f64,
+    x: MatRef<'_, f64>,
+) -> Result<Mat<f64>, FeError> {
+    check_density(density_kg_per_m3)?;
+    if x.nrows() != model.dof_count() {
+        return Err(FeError::SizeMismatch {
+            what: "the vectors for the mass matrix",
+            found: x.nrows(),
+            expected: model.dof_count(),
+        });
+    }
+    let mut product = Mat::zeros(x.nrows(), x.ncols());
+    // Elements in parallel, sums always in their order.
+    for chunk in (0..model.element_count()).collect::<Vec<_>>().chunks(8192) {
+        let parts = chunk
+            .par_iter()
+            .map(|&element| {
+                let dofs = model.element_dofs(element)?;
+                let mass = element_mass(model, element, density_kg_per_m3)?;
+                let part = Mat::from_fn(dofs.len(), x.ncols(), |i, column| {
+                    (0..dofs.len())
+                        .map(|j| mass[(i, j)] * x[(dofs[j], column)])
+                        .sum::<f64>()
+                });
+                Ok((dofs, part))
+            })
+            .collect::<Result<Vec<_>, FeError>>()?;
+        for (dofs, part) in &parts {
+            for column in 0..x.ncols() {
+                for (i, &dof) in dofs.iter().enumerate() {
+                    product[(dof, column)] += part[(i, column)];
+                }
+            }
+        }
+    }
+    Ok(product)
+}
+
+fn element_mass(
+    model: &FeModel,
+    element: usize,
+    density_kg_per_m3: f64,
+) -> Result<ElementMatrix, FeError> {
+    model
+        .element()
+        .mass(&model.element_coordinates(element)?, density_kg_per_m3)
+        .map_err(|source| FeError::Element { element, source })
+}
+
+fn check_density(density_kg_per_m3: f64) -> Result<(), FeError> {
+    if density_kg_per_m3 > 0.0 && density_kg_per_m3.is_finite() {
+        Ok(())
+    } else {
+        Err(FeError::DensityOutOfRange { density_kg_per_m3 })
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::element::{HexElement, StrainOperator};
 use crate::element_matrix::ElementMatrix;
-use crate::error::{ElementError, FeError};
+use crate::error::FeError;
 use crate::material::Material;
 
 /// Nodes, hexahedra, one material, one element formulation. Valid by construction.
@@ -280,13 +280,18 @@ impl FeModel {
     /// # Errors
     /// [`FeError::Element`]; not for a model that was accepted.
     pub fn volume(&self) -> Result<f64, FeError> {
-        (0..self.element_count())
-            .map(|element| {
-                self.element
-                    .volume(&self.gather(element))
-                    .map_err(|source: ElementError| FeError::Element { element, source })
-            })
-            .sum()
+        let elements = 0..self.element_count();
+        elements.map(|element| self.element_volume(element)).sum()
+    }
+
+    /// Volume (m³) of an element.
+    ///
+    /// # Errors
+    /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
+    pub fn element_volume(&self, element: usize) -> Result<f64, FeError> {
+        self.element
+            .volume(&self.element_coordinates(element)?)
+            .map_err(|source| FeError::Element { element, source })
     }
 
     fn check_element(&self, element: usize) -> Result<(), FeError> {

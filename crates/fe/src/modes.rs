@@ -18,7 +18,7 @@
 //! generalized eigenproblems*, SIAM J. Matrix Anal. Appl. 15 (1994) 228-272; K. Wu, H. Simon, *Thick-restart Lanczos
 //! method*, SIAM J. Matrix Anal. Appl. 22 (2000) 602-616.
 
-use faer::Mat;
+use faer::{Mat, MatMut, MatRef};
 
 use crate::assembly::SparseMatrix;
 use crate::error::FeError;
@@ -26,11 +26,78 @@ use crate::factor::Factor;
 use crate::lanczos_basis::LanczosBasis;
 use crate::symmetric_product::SymmetricRows;
 
+/// Which modes are wanted, from the lowest on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WantedModes {
+    /// So many.
+    Lowest(usize),
+    /// All with ω² up to this (rad²/s²). The search goes on until a mode above it has converged too.
+    UpTo(f64),
+}
+
+impl WantedModes {
+    /// How many of these θ = 1/(ω² + s), largest first, are wanted, and how many must have converged for that.
+    fn among(self, theta: &[f64], shift: f64, unknowns: usize) -> [usize; 2] {
+        match self {
+            Self::Lowest(count) => [count; 2],
+            Self::UpTo(omega_squared) => {
+                let least = 1.0 / (omega_squared + shift);
+                let count = theta.iter().take_while(|t| **t >= least).count();
+                [count, (count + 1).min(unknowns)]
+            }
+        }
+    }
+}
+
+/// A body whose natural modes can be searched: K φ = ω² M φ over some unknowns.
+pub trait ModeProblem {
+    /// Number of unknowns.
+    fn size(&self) -> usize;
+    /// M X for a few vectors.
+    fn mass_product(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+    /// K X for a few vectors.
+    fn stiffness_product(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+    /// Overwrites B with (K + s M)⁻¹ B, s the shift of the settings.
+    fn solve_in_place(&self, b: MatMut<'_, f64>);
+    /// The vectors that the search begins with: numbers without pattern, the same in every run.
+    fn start(&self, columns: usize) -> Mat<f64> {
+        let angle = |i: usize, j: usize| 12.9898 * i as f64 + 78.233 * (j + 1) as f64;
+        Mat::from_fn(self.size(), columns, |i, j| {
+            (angle(i, j).sin() * 43_758.545_3).fract()
+        })
+    }
+}
+
+/// K and M as matrices, with the factor of K + s M.
+struct AssembledProblem<'a> {
+    stiffness: SymmetricRows,
+    mass: SymmetricRows,
+    factor: &'a Factor,
+}
+
+impl ModeProblem for AssembledProblem<'_> {
+    fn size(&self) -> usize {
+        self.factor.size()
+    }
+
+    fn mass_product(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.mass.product(x)
+    }
+
+    fn stiffness_product(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.stiffness.product(x)
+    }
+
+    fn solve_in_place(&self, b: MatMut<'_, f64>) {
+        self.factor.solve_in_place(b);
+    }
+}
+
 /// How natural modes are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeSettings {
-    /// Number of modes wanted.
-    pub count: usize,
+    /// Which modes are wanted.
+    pub wanted: WantedModes,
     /// Shift s (rad²/s²) of the factor that is handed in: 0 for a body that is held; positive, of the size of the
     /// lowest ω² wanted, for one that is free and has K singular.
     pub shift_rad2_per_s2: f64,
@@ -48,7 +115,7 @@ impl ModeSettings {
     /// which weighs the higher modes left in a shape with their ω², is below some 1e-8 too.
     pub fn new(count: usize) -> Self {
         Self {
-            count,
+            wanted: WantedModes::Lowest(count),
             shift_rad2_per_s2: 0.0,
             tolerance: 1e-10,
             restarts: 60,
@@ -76,7 +143,7 @@ pub struct NaturalModes {
 }
 
 impl NaturalModes {
-    fn new(matrices: [&SymmetricRows; 2], shift: f64, mut shapes: Mat<f64>, theta: &[f64]) -> Self {
+    fn new(problem: &impl ModeProblem, shift: f64, mut shapes: Mat<f64>, theta: &[f64]) -> Self {
         let mut omega_squared = Vec::with_capacity(shapes.ncols());
         let mut relative_residuals = Vec::with_capacity(shapes.ncols());
         for (mode, theta) in theta.iter().take(shapes.ncols()).enumerate() {
@@ -88,9 +155,10 @@ impl NaturalModes {
             if largest < 0.0 {
                 shapes.col_mut(mode).iter_mut().for_each(|v| *v = -*v);
             }
-            let shape = shapes.col(mode);
+            let shape = shapes.col(mode).as_mat();
             let value = 1.0 / theta - shift;
-            let [elastic, inertial] = matrices.map(|matrix| matrix.product(shape.as_mat()));
+            let elastic = problem.stiffness_product(shape);
+            let inertial = problem.mass_product(shape);
             let residual = elastic - faer::Scale(value) * &inertial;
             relative_residuals.push(residual.norm_l2() * theta / inertial.norm_l2());
             omega_squared.push(value);
@@ -141,8 +209,7 @@ pub fn shifted_stiffness(
 
 /// The lowest natural modes of stiffness `k` and mass `m`; `factor` is that of K + s M with the shift of `settings`.
 ///
-/// Memory: 3 count + 4 block vectors for the basis, half of it again at a restart. The start vectors are fixed, so
-/// the result is the same in every run up to the rounding of parallel sums.
+/// As [`search_modes`], with the matrices at hand.
 ///
 /// # Errors
 /// [`FeError::ModeCount`], [`FeError::SizeMismatch`], [`FeError::ModesNotConverged`].
@@ -152,13 +219,7 @@ pub fn natural_modes(
     factor: &Factor,
     settings: &ModeSettings,
 ) -> Result<NaturalModes, FeError> {
-    let (n, wanted) = (k.ncols(), settings.count);
-    if wanted == 0 || wanted > n {
-        return Err(FeError::ModeCount {
-            found: wanted,
-            unknowns: n,
-        });
-    }
+    let n = k.ncols();
     for (what, found) in [
         ("the mass matrix", m.ncols()),
         ("the factor", factor.size()),
@@ -171,46 +232,62 @@ pub fn natural_modes(
             });
         }
     }
-    let [elastic, inertial] = [k, m].map(SymmetricRows::new);
+    let [stiffness, mass] = [k, m].map(SymmetricRows::new);
+    let problem = AssembledProblem {
+        stiffness,
+        mass,
+        factor,
+    };
+    search_modes(&problem, settings)
+}
+
+/// The lowest natural modes of a problem that tells its products and solves; none where the wanted range holds none.
+///
+/// Memory: 3 count + 4 block vectors for the basis, half of it again at a restart. The start vectors are fixed, so
+/// the result is the same in every run up to the rounding of parallel sums.
+///
+/// # Errors
+/// [`FeError::ModeCount`], [`FeError::ModesNotConverged`].
+pub fn search_modes(
+    problem: &impl ModeProblem,
+    settings: &ModeSettings,
+) -> Result<NaturalModes, FeError> {
+    let n = problem.size();
+    if let WantedModes::Lowest(found) = settings.wanted
+        && (found == 0 || found > n)
+    {
+        return Err(FeError::ModeCount { found, unknowns: n });
+    }
+    let shift = settings.shift_rad2_per_s2;
     let block = settings.block.max(1);
-    let kept = wanted + block;
-    let capacity = 3 * kept;
-    let mut basis = LanczosBasis::new(n, capacity + block);
-    // Numbers without pattern, the same in every run.
-    let angle = |i: usize, j: usize| 12.9898 * i as f64 + 78.233 * (j + 1) as f64;
-    let start = Mat::from_fn(n, block, |i, j| (angle(i, j).sin() * 43_758.545_3).fract());
-    basis.append(start, &inertial, None);
+    let mut basis = LanczosBasis::new(n);
+    basis.append(problem.start(block.min(n)), problem, None);
     let (mut solves, mut restarts) = (0, 0);
     loop {
-        solves += basis.grow(block, &inertial, factor);
-        let ritz = basis.ritz().ok_or(FeError::ModesNotConverged {
-            converged: 0,
+        solves += basis.grow(block, problem);
+        let failed = |converged, wanted| FeError::ModesNotConverged {
+            converged,
             wanted,
             restarts,
-        })?;
-        let converged = ritz.residuals.iter().take(wanted);
+        };
+        let ritz = basis.ritz().ok_or_else(|| failed(0, 1))?;
+        let [wanted, needed] = settings.wanted.among(&ritz.theta, shift, n);
+        let converged = ritz.residuals.iter().take(needed);
         let converged = converged.filter(|r| **r <= settings.tolerance).count();
-        if converged == wanted {
+        if converged == needed {
             let shapes = basis.vectors(&ritz, wanted);
-            let mut modes = NaturalModes::new(
-                [&elastic, &inertial],
-                settings.shift_rad2_per_s2,
-                shapes,
-                &ritz.theta,
-            );
+            let mut modes = NaturalModes::new(problem, shift, shapes, &ritz.theta);
             modes.krylov_residuals = ritz.residuals[..wanted].to_vec();
             (modes.solves, modes.restarts) = (solves, restarts);
             return Ok(modes);
         }
+        let kept = needed + block;
+        let full = basis.len >= 3 * kept;
         let exhausted = basis.processed == basis.len;
-        if exhausted || (basis.len >= capacity && restarts == settings.restarts) {
-            return Err(FeError::ModesNotConverged {
-                converged,
-                wanted,
-                restarts,
-            });
+        if exhausted || (full && restarts == settings.restarts) {
+            return Err(failed(converged, needed));
         }
-        if basis.len >= capacity {
+        if full {
             basis.restart(&ritz, kept);
             restarts += 1;
         }

@@ -13,7 +13,8 @@ use crate::assembly::SparseMatrix;
 const WIDTH: usize = 8;
 
 /// A matrix A = Aᵀ, its non-zeros row by row.
-pub(crate) struct SymmetricRows {
+#[derive(Debug, Clone)]
+pub struct SymmetricRows {
     offsets: Vec<usize>,
     entries: Vec<(u32, f64)>,
 }
@@ -36,6 +37,9 @@ impl SymmetricRows {
     }
 
     /// A X; the same to the last bit for any number of threads.
+    ///
+    /// # Panics
+    /// If X does not have the rows of A.
     pub fn product(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         let (n, columns) = (x.nrows(), x.ncols());
         assert_eq!(self.offsets.len(), n + 1, "rows of the vectors");

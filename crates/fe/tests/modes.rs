@@ -250,6 +250,7 @@ fn torsion_of_a_disc_held_at_its_bore() {
     let exact = steel().lame().mu_pa / DENSITY * torsion_wave_number(inner, outer).powi(2);
     for (element, coarse, order) in [
         (HexElement::Hex8, [36, 6, 1], 2.0),
+        (HexElement::Hex8Incompatible, [36, 6, 1], 2.0),
         (HexElement::Hex20, [24, 4, 1], 4.0),
     ] {
         let error = |counts: [usize; 3]| {

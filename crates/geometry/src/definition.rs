@@ -175,6 +175,28 @@ pub struct Material {
     pub young_pa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Density \[kg/m³\], where given.
+    pub density_kg_per_m3: Option<f64>,
+}
+
+/// Which natural modes are computed, from the lowest on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModeRange {
+    /// So many; one more where that would part a pair of equal frequencies.
+    Count(usize),
+    /// All up to this frequency \[Hz\].
+    UpToHz(f64),
+}
+
+/// How the bore is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HubSupport {
+    /// Fixed.
+    #[default]
+    Fixed,
+    /// Rigid, on a reference point with six degrees of freedom, on the axis at mid-face.
+    ReferencePoint,
 }
 
 /// Finite element of the body.
@@ -277,6 +299,10 @@ pub struct GearDefinition {
     pub mesh: MeshSettings,
     /// Reduction.
     pub reduction: ReductionSettings,
+    /// Natural modes, where asked for.
+    pub modes: Option<ModeRange>,
+    /// How the bore is held.
+    pub hub: HubSupport,
     /// Gauges.
     pub gauges: Vec<GaugeDefinition>,
     /// The profile that follows from `tooth`.

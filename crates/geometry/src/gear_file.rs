@@ -5,9 +5,11 @@
 
 mod blank_table;
 mod gauge_table;
+mod hub_table;
 mod material_table;
 mod mesh_table;
 mod microgeometry_table;
+mod modes_table;
 mod openings_table;
 mod reduction_table;
 mod tooth_table;
@@ -38,6 +40,9 @@ struct GearFile {
     mesh: mesh_table::MeshTable,
     #[serde(default)]
     reduction: reduction_table::ReductionTable,
+    modes: Option<modes_table::ModesTable>,
+    #[serde(default)]
+    hub: hub_table::HubTable,
     #[serde(default)]
     gauge: Vec<gauge_table::GaugeTable>,
 }
@@ -66,6 +71,11 @@ impl GearDefinition {
             .check(document, &profile, tooth.face_width_m)?;
         let mesh = file.mesh.check(document, &tooth, &blank)?;
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
+        let modes = file.modes;
+        let modes = modes
+            .map(|table| table.check(document, &material, mesh.plane_strain))
+            .transpose()?;
+        let hub = file.hub.check(document, &material, mesh.plane_strain)?;
         let gauges = gauge_table::check_all(file.gauge, document, &tooth, &profile)?;
         Ok(Self {
             name: file.name,
@@ -75,6 +85,8 @@ impl GearDefinition {
             microgeometry,
             mesh,
             reduction,
+            modes,
+            hub,
             gauges,
             profile,
             source: document.text.clone(),

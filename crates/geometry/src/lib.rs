@@ -25,8 +25,9 @@ pub mod profile_curve;
 pub mod tooth;
 
 pub use definition::{
-    Blank, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes, Material, MeshSettings,
-    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
+    Blank, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes, HubSupport, Material,
+    MeshSettings, ModeRange, Openings, ReductionSettings, RootPosition, Slots, Symmetry,
+    ToothDefinition,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

@@ -297,6 +297,14 @@ impl GearPair {
         )
     }
 
+    /// Relative radius of curvature ρ \[m\] across the line of contact of two flanks that touch at the given roll angles:
+    /// 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)).
+    pub fn relative_radius_m(&self, roll_1_rad: f64, roll_2_rad: f64) -> f64 {
+        let a = self.gear_1.base_radius_m * roll_1_rad;
+        let b = self.gear_2.base_radius_m * roll_2_rad;
+        a * b / ((a + b) * self.base_helix_angle_rad().cos())
+    }
+
     /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and
     /// distance `path_m` from the pitch point along the line of action \[m\]:
     /// (z ∓ s tan β_b)(δ_inclination sin α_w + δ_deviation cos α_w), − on right flanks with a right-hand gear 1.

@@ -23,6 +23,8 @@ fn main() {
         teeth,
         sectors: teeth / own,
         gauges: vec![],
+        reference_point: None,
+        modes: None,
         ..small_reduced_gear()
     };
     gear.grid.roll_angles_rad = (0..9).map(|i| 0.2 + 0.05 * f64::from(i)).collect();

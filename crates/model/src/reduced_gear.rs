@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
+use crate::rigid_body::{ReferencePoint, RigidBody};
 
 /// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -149,6 +151,12 @@ pub struct ReducedGear {
     pub near_field: Option<NearField>,
     /// Strain gauges.
     pub gauges: Vec<GaugeRows>,
+    /// Mass and inertia; none where no density was given.
+    pub rigid_body: Option<RigidBody>,
+    /// The flanks under rigid motions; none where the bore is fixed.
+    pub reference_point: Option<ReferencePoint>,
+    /// Natural modes; none where none were asked for.
+    pub modes: Option<ModalBasis>,
     /// Where it comes from.
     pub provenance: Provenance,
     /// How well the reduction fulfilled its identities.
@@ -260,7 +268,7 @@ impl ReducedGear {
             })
     }
 
-    fn carrying(&self, flank: Flank) -> usize {
+    pub(crate) fn carrying(&self, flank: Flank) -> usize {
         let index = self.flanks.iter().position(|&reduced| reduced == flank);
         assert!(
             index.is_some(),

@@ -78,6 +78,7 @@ impl ReducedGear {
             let item = format!("own_tooth of gauge \"{name}\"");
             check_array(&item, &gauge.own_tooth, flanks * loads, "flanks * loads")?;
         }
+        self.check_dynamics()?;
         let times = self
             .provenance
             .stage_seconds
@@ -99,6 +100,64 @@ impl ReducedGear {
             f64::is_finite,
             "finite",
         )
+    }
+
+    fn check_dynamics(&self) -> Result<(), ReducedGearError> {
+        let loads = self.teeth * self.flanks.len() * self.grid.len() * 3;
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        if let Some(body) = &self.rigid_body {
+            in_range("rigid_body.mass_kg", body.mass_kg, positive, "above 0 kg")?;
+            let places = [body.reference_m, body.centre_m].concat();
+            check_array("rigid_body.centre_m", &places, 6, "3 + 3")?;
+            let inertia = body.inertia_kg_m2.as_flattened();
+            check_array("rigid_body.inertia_kg_m2", inertia, 9, "3 * 3")?;
+        }
+        if let Some(point) = &self.reference_point {
+            check_array("reference_point.place_m", &point.place_m, 3, "3")?;
+            check_array(
+                "reference_point.flank",
+                &point.flank,
+                6 * loads,
+                "teeth * flanks * loads * 3 * 6",
+            )?;
+        }
+        let Some(basis) = &self.modes else {
+            return Ok(());
+        };
+        let modes = basis.count();
+        if modes == 0 || basis.nodal_diameters.len() != modes {
+            return Err(out_of_range(
+                "the number of modes",
+                format!("{modes} and {}", basis.nodal_diameters.len()),
+                "at least 1, the same in all arrays",
+            ));
+        }
+        check_array("modes.omega_squared", &basis.omega_squared, modes, "modes")?;
+        in_range(
+            "the smallest of modes.omega_squared",
+            smallest(&basis.omega_squared),
+            positive,
+            "above 0",
+        )?;
+        in_range(
+            "modes.complete_to_hz",
+            basis.complete_to_hz,
+            positive,
+            "above 0 Hz",
+        )?;
+        check_array(
+            "modes.flank",
+            &basis.flank,
+            modes * loads,
+            "modes * teeth * flanks * loads * 3",
+        )?;
+        check_array(
+            "modes.gauges",
+            &basis.gauges,
+            modes * self.gauges.len(),
+            "modes * gauges",
+        )?;
+        check_array("modes.coupling", &basis.coupling, modes * 6, "modes * 6")
     }
 
     fn check_counts(&self) -> Result<(), ReducedGearError> {
@@ -260,6 +319,7 @@ fn smallest(values: &[f64]) -> f64 {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::modal_basis::ModalBasis;
     use crate::reduced_gear::Flank;
     use crate::synthetic::small_reduced_gear;
 
@@ -267,12 +327,16 @@ mod tests {
         gear.near_field.as_mut().unwrap()
     }
 
+    fn modes(gear: &mut ReducedGear) -> &mut ModalBasis {
+        gear.modes.as_mut().unwrap()
+    }
+
     #[test]
     fn every_wrong_figure_is_found() {
         let gear = small_reduced_gear();
         gear.validate().unwrap();
         type Change = fn(&mut ReducedGear);
-        let spoil: [(&str, Change); 20] = [
+        let spoil: [(&str, Change); 29] = [
             ("teeth", |g| g.teeth = 0),
             ("sectors", |g| g.sectors = 4),
             ("flanks", |g| g.flanks = vec![Flank::Left, Flank::Left]),
@@ -305,6 +369,21 @@ mod tests {
             ("adjoint of gauge \"root\"", |g| {
                 g.gauges[0].adjoint[0] = f64::NAN
             }),
+            ("rigid_body.mass_kg", |g| {
+                g.rigid_body.as_mut().unwrap().mass_kg = 0.0
+            }),
+            ("rigid_body.inertia_kg_m2", |g| {
+                g.rigid_body.as_mut().unwrap().inertia_kg_m2[1][1] = f64::NAN
+            }),
+            ("reference_point.flank", |g| {
+                g.reference_point.as_mut().unwrap().flank.truncate(5)
+            }),
+            ("number of modes", |g| modes(g).nodal_diameters.truncate(1)),
+            ("modes.omega_squared", |g| modes(g).omega_squared[0] = 0.0),
+            ("modes.complete_to_hz", |g| modes(g).complete_to_hz = -1.0),
+            ("modes.flank", |g| modes(g).flank[4] = f64::NAN),
+            ("modes.gauges", |g| modes(g).gauges.truncate(3)),
+            ("modes.coupling", |g| modes(g).coupling.truncate(11)),
         ];
         for (item, change) in spoil {
             let mut spoiled = gear.clone();

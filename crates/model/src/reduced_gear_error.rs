@@ -61,4 +61,12 @@ pub enum ReducedGearError {
         /// The gear.
         gear: String,
     },
+    /// The model carries no natural modes.
+    #[error(
+        "gear \"{gear}\" carries no natural modes; add a table [modes] to the gear's file and reduce it again"
+    )]
+    NoModes {
+        /// The gear.
+        gear: String,
+    },
 }

@@ -3,6 +3,9 @@
 use std::path::Path;
 
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
+use crate::dynamics_file::{
+    Sizes, put_dynamics, take_modes, take_reference_point, take_rigid_body,
+};
 use crate::file_error::FileError;
 use crate::near_field::NearField;
 use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
@@ -10,13 +13,14 @@ use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field
-    version: 2,
+    // 2: near field; 3: rigid body, reference point, modes
+    version: 3,
 };
 
-const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
+pub(crate) const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
 const NORMAL: &str = "inward normal of the flank at each point, positive into the material";
-const FLANK_COMPONENTS: &str = "flank: inward normal, profile tangential towards the tip, axial +z";
+pub(crate) const FLANK_COMPONENTS: &str =
+    "flank: inward normal, profile tangential towards the tip, axial +z";
 
 /// Writes a reduced gear, atomically.
 ///
@@ -36,6 +40,7 @@ pub fn write_reduced_gear(path: &Path, gear: &ReducedGear) -> Result<(), FileErr
     for (index, gauge) in gear.gauges.iter().enumerate() {
         put_gauge(&mut tree, gear, index, gauge);
     }
+    put_dynamics(&mut tree, gear);
     put_provenance(&mut tree, &gear.provenance);
     put_named_numbers(
         &mut tree,
@@ -75,7 +80,13 @@ pub fn read_reduced_gear(path: &Path) -> Result<ReducedGear, FileError> {
     let own = teeth.checked_div(sectors).unwrap_or_default();
     let gauges = tree.children("gauges").len();
     let gauges = (0..gauges).map(|index| take_gauge(&mut tree, path, index, [teeth, hands, loads]));
-    let gauges = gauges.collect::<Result<_, _>>()?;
+    let gauges: Vec<GaugeRows> = gauges.collect::<Result<_, _>>()?;
+    let sizes = Sizes {
+        teeth,
+        hands,
+        loads,
+        gauges: gauges.len(),
+    };
     let gear = ReducedGear {
         name: tree.take_text(path, "gear/name")?,
         input_toml: tree.take_text(path, "gear/input_toml")?,
@@ -100,6 +111,9 @@ pub fn read_reduced_gear(path: &Path) -> Result<ReducedGear, FileError> {
         )?,
         near_field: take_near_field(&mut tree, path, hands, stations)?,
         gauges,
+        rigid_body: take_rigid_body(&mut tree, path)?,
+        reference_point: take_reference_point(&mut tree, path, sizes)?,
+        modes: take_modes(&mut tree, path, sizes)?,
         provenance: take_provenance(&mut tree, path)?,
         checks: take_checks(&mut tree, path)?,
     };

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::mesh_data::{Field, MeshData};
+use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use crate::rigid_body::{ReferencePoint, RigidBody};
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
 pub fn small_reduced_gear() -> ReducedGear {
@@ -90,6 +92,28 @@ pub fn small_reduced_gear() -> ReducedGear {
             gauge("root", 0, Flank::Right),
             gauge("opposite", 3, Flank::Left),
         ],
+        rigid_body: Some(RigidBody {
+            reference_m: [0.0; 3],
+            mass_kg: 1.5,
+            centre_m: [0.0, 0.0, 0.001],
+            inertia_kg_m2: [[2e-3, 0.0, 0.0], [0.0, 2e-3, 0.0], [0.0, 0.0, 3.8e-3]],
+        }),
+        reference_point: Some(ReferencePoint {
+            place_m: [0.0; 3],
+            flank: (0..teeth * 2 * loads * 3 * 6)
+                .map(|i| (0.1 * i as f64).cos())
+                .collect(),
+        }),
+        modes: Some(ModalBasis {
+            omega_squared: vec![4e7, 9e7],
+            nodal_diameters: vec![1, 0],
+            complete_to_hz: 2000.0,
+            flank: (0..2 * teeth * 2 * loads * 3)
+                .map(|i| 0.02 * (0.3 * i as f64).sin())
+                .collect(),
+            gauges: vec![0.1, -0.2, 0.3, 0.05],
+            coupling: (0..12).map(|i| 0.01 * f64::from(i)).collect(),
+        }),
         provenance: Provenance {
             program: "gearmesh".to_owned(),
             version: "0.0.0".to_owned(),

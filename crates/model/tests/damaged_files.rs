@@ -234,6 +234,11 @@ fn wrong_shapes_types_and_values() {
         "compliance/c_tooth",
         "gauges/0/adjoint",
         "gauges/0/own_tooth",
+        "rigid_body/inertia",
+        "reference_point/flank",
+        "modes/flank",
+        "modes/gauges",
+        "modes/coupling",
     ] {
         let error = with(name, &poison);
         let message = error.to_string();

@@ -1,6 +1,7 @@
 //! One gauge of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
+use gearmesh_contact::RollHats;
+use gearmesh_contact::slice_compliance::axial_shares;
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
 /// Force on one slice of this gear.
@@ -35,7 +36,7 @@ pub struct GaugeReader {
     pub name: String,
     slices: usize,
     stations: usize,
-    centroids_rad: Vec<f64>,
+    hats: RollHats,
     /// `[tooth][station][slice]` of (method 1 normal, method 2 normal, method 2 tangential).
     rows: Vec<[f64; 3]>,
 }
@@ -79,7 +80,7 @@ impl GaugeReader {
             name: gauge.name.clone(),
             slices,
             stations,
-            centroids_rad: centroids(&grid.roll_angles_rad),
+            hats: RollHats::new(&grid.roll_angles_rad),
             rows,
         })
     }
@@ -88,11 +89,7 @@ impl GaugeReader {
     pub fn read(&self, slices: impl IntoIterator<Item = LoadedSlice>) -> Strain {
         let mut strain = Strain::default();
         for loaded in slices.into_iter().filter(|s| s.force_n != 0.0) {
-            let place = roll_place(&self.centroids_rad, loaded.roll_rad);
-            for (station, weight) in [
-                (place.station, 1.0 - place.share),
-                (place.station + 1, place.share),
-            ] {
+            for (station, weight) in self.hats.place(loaded.roll_rad).shares() {
                 let first = (loaded.tooth * self.stations + station) * self.slices;
                 let row = &self.rows[first + loaded.slice];
                 let [normal, tangential] = loaded.components;
@@ -119,10 +116,8 @@ mod tests {
         let forces: Vec<f64> = (0..model.grid.slices)
             .map(|k| 100.0 + 30.0 * k as f64)
             .collect();
-        // On a roll station's centroid in the middle: only that station's loads.
-        let stations = model.grid.roll_angles_rad.len();
-        let station = stations / 2;
-        let roll_rad = centroids(&model.grid.roll_angles_rad)[station];
+        let roll_rad = 0.37;
+        let place = RollHats::new(&model.grid.roll_angles_rad).place(roll_rad);
         let loaded = |tooth: usize, components: [f64; 2]| {
             forces
                 .iter()
@@ -142,7 +137,12 @@ mod tests {
             .flat_map(|(slice, f)| {
                 axial_shares(slice, forces.len()).map(move |(axial, share)| (axial, f * share))
             })
-            .map(|(axial, f)| f * gauge.own_tooth[model.grid.load(station, axial)])
+            .flat_map(|(axial, f)| {
+                place
+                    .shares()
+                    .map(move |(station, share)| (station, axial, f * share))
+            })
+            .map(|(station, axial, f)| f * gauge.own_tooth[model.grid.load(station, axial)])
             .sum();
         let scale = strain.method_2.abs().max(expected.abs());
         assert!((strain.method_2 - strain.method_1 - expected).abs() < 1e-14 * scale);

@@ -1,7 +1,8 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
 use crate::gauge_reader::LoadedSlice;
-use gearmesh_contact::slice_compliance::{axial_shares, centroids, roll_place};
+use gearmesh_contact::RollHats;
+use gearmesh_contact::slice_compliance::axial_shares;
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.
@@ -22,14 +23,10 @@ pub fn grid_forces(
     grid: &FlankGrid,
     slices: impl IntoIterator<Item = LoadedSlice>,
 ) -> Vec<GridLoadForce> {
-    let centroids = centroids(&grid.roll_angles_rad);
+    let hats = RollHats::new(&grid.roll_angles_rad);
     let mut forces = Vec::new();
     for loaded in slices {
-        let place = roll_place(&centroids, loaded.roll_rad);
-        for (station, weight) in [
-            (place.station, 1.0 - place.share),
-            (place.station + 1, place.share),
-        ] {
+        for (station, weight) in hats.place(loaded.roll_rad).shares() {
             for (axial, share) in axial_shares(loaded.slice, grid.slices) {
                 let on_load = weight * share * loaded.force_n;
                 if on_load != 0.0 {

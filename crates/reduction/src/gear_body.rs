@@ -24,11 +24,12 @@ pub struct GearBody {
     pub dofs: DofMap,
     /// Wall time by stage.
     pub stage_seconds: Vec<(String, f64)>,
-    solver: Solver,
+    pub(crate) solver: Solver,
+    deformation: Deformation,
     right_hand_sides: AtomicUsize,
 }
 
-enum Solver {
+pub(crate) enum Solver {
     Whole(Box<WholeGear>),
     Cyclic(Box<CyclicBody>),
 }
@@ -96,8 +97,14 @@ impl GearBody {
             dofs,
             stage_seconds,
             solver,
+            deformation,
             right_hand_sides: AtomicUsize::new(0),
         })
+    }
+
+    /// Whether the gear is a cross-section in plane strain.
+    pub fn is_plane(&self) -> bool {
+        self.deformation == Deformation::PlaneStrain
     }
 
     /// What has been done so far, as counts by name: factorisations, right-hand sides, sizes of what was factorised.

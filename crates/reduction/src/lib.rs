@@ -13,6 +13,8 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
+//! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
+//! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
 //! | the whole displacement and stress field | `field.rs` |
 //!
@@ -23,15 +25,20 @@
 pub mod contact_problem;
 pub mod cyclic_body;
 mod cyclic_response;
+pub mod dynamics;
 pub mod error_estimate;
 pub mod face_overlap;
 pub mod field;
 pub mod flank_loads;
 pub mod gauge_row;
 pub mod gear_body;
+pub mod gear_modes;
+mod harmonic_problem;
+pub mod mode_figures;
 pub mod near_field;
 mod part;
 pub mod reduce;
+pub mod rigid_mass;
 pub mod sector_substructure;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
@@ -39,6 +46,8 @@ pub mod tooth_vectors;
 pub mod whole_gear;
 
 pub use gear_body::GearBody;
+pub use gear_modes::GearModes;
+pub use mode_figures::GearMode;
 pub use reduce::{ReductionOptions, reduce};
 
 use gearmesh_geometry::FlankSide;
@@ -60,6 +69,22 @@ pub enum ReductionError {
     EmptyGauge {
         /// Name of the gauge.
         name: String,
+    },
+    /// Modes were asked for where the file has no density.
+    #[error(
+        "natural modes need a density; add material.density_kg_per_m3 to the gear file, 7850 for steel"
+    )]
+    NoDensity,
+    /// Modes were asked for of a cross-section.
+    #[error("plane strain has no natural modes of a gear; set mesh.plane_strain = false")]
+    ModesInPlaneStrain,
+    /// The range holds no mode.
+    #[error(
+        "the gear has no natural mode up to {up_to_hz} Hz; ask for a higher frequency, or for modes by count"
+    )]
+    NoModes {
+        /// End of the range \[Hz\].
+        up_to_hz: f64,
     },
     /// An identity that holds exactly was violated: the numbers cannot be trusted.
     #[error(

@@ -1,5 +1,6 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
+use crate::dynamics::dynamics;
 use crate::error_estimate::{ErrorEstimate, estimate};
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
@@ -110,9 +111,19 @@ pub fn reduce(
     }
     lap("checks");
 
-    let mut gauges = gauges(gear, &body, &loads, &submodels, progress)?;
+    let gauge_rows: Vec<SparseVector> = gear
+        .gauges
+        .iter()
+        .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
+        .collect::<Result<_, _>>()?;
+    let mut gauges = gauges(gear, &body, &loads, &submodels, &gauge_rows, progress)?;
     lap("gauges");
+    let dynamics = dynamics(gear, &body, &loads, &gauge_rows, progress)?;
+    if dynamics.rigid_body.is_some() {
+        lap("mass and modes");
+    }
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
+    further.extend(dynamics.checks);
     if options.estimate_error {
         let ErrorEstimate {
             compliance,
@@ -124,6 +135,9 @@ pub fn reduce(
         }
         lap("error estimate");
     }
+    let mut effort = body.effort();
+    let mode_solves = dynamics.solves.map(|solves| solves as f64);
+    effort.extend(mode_solves.map(|solves| ("solves for natural modes".to_string(), solves)));
     let curve = ProfileCurve::new(&gear.profile);
     // Along a helical flank's normal the tooth is thinner by the cosine of the base helix.
     let helix_cos = gear.profile.base_helix_angle_rad().cos();
@@ -147,6 +161,9 @@ pub fn reduce(
         c_tooth,
         near_field: Some(near_field),
         gauges,
+        rigid_body: dynamics.rigid_body,
+        reference_point: dynamics.reference_point,
+        modes: dynamics.modes,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -157,7 +174,7 @@ pub fn reduce(
             elements: body.mesh.elements.len(),
             dofs: body.dofs.free_count(),
             stage_seconds,
-            effort: body.effort(),
+            effort,
         },
         checks: ReductionChecks {
             symmetry,
@@ -259,17 +276,13 @@ fn gauges(
     body: &GearBody,
     loads: &[Vec<GridLoad>],
     submodels: &[ToothSubmodel],
+    rows: &[SparseVector],
     progress: &dyn Progress,
 ) -> Result<Vec<GaugeRows>, ReductionError> {
     if gear.gauges.is_empty() {
         return Ok(Vec::new());
     }
     progress.stage("solving gauges");
-    let rows: Vec<SparseVector> = gear
-        .gauges
-        .iter()
-        .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
-        .collect::<Result<_, _>>()?;
     let directions: Vec<&SparseVector> = loads
         .iter()
         .flatten()

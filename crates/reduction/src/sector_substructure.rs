@@ -4,10 +4,10 @@ use crate::Progress;
 use crate::part::Part;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
 use gearmesh_fe::{
-    CylindricalFrames, DofMap, FeError, FeModel, StaticCondensation, StiffnessMatrix,
-    assemble_stiffness,
+    CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
+    assemble_mass, assemble_stiffness,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
@@ -32,6 +32,10 @@ pub struct SectorSubstructure {
     images: Vec<Vec<u32>>,
     /// Sector node of each shared node of each of its teeth.
     tooth_nodes: Vec<Vec<usize>>,
+    /// Elements of the body alone.
+    body_elements: Vec<u32>,
+    /// The cuts R and L.
+    cuts: [Vec<usize>; 2],
     /// Stiffness of the body alone and its nodes among those of the sector.
     body_stiffness: StiffnessMatrix,
     body_nodes: Vec<usize>,
@@ -67,7 +71,8 @@ impl SectorSubstructure {
         listed.sort_by_key(|(node, _)| *node);
         listed.dedup_by_key(|(node, _)| *node);
         listed.retain(|(node, _)| !fixed[*node as usize]);
-        let body = Part::new(model, &mesh.body_elements(0))?;
+        let body_elements = mesh.body_elements(0);
+        let body = Part::new(model, &body_elements)?;
         // Where the ring is outside the web its nodes belong to teeth only.
         listed.retain(|(node, name)| {
             matches!(name, SectorNode::Tooth(..)) || body.place(*node).is_some()
@@ -95,21 +100,18 @@ impl SectorSubstructure {
             })
             .collect();
 
-        let held: Vec<usize> = (0..body.nodes.len())
-            .filter(|&i| fixed[body.nodes[i] as usize])
-            .collect();
-        let dofs = DofMap::with_fixed_nodes(body.nodes.len(), &held)?;
+        let dofs = free_dofs(&body, fixed)?;
         let mut body_stiffness = assemble_stiffness(&body.model, &dofs)?;
-        let free = || body.nodes.iter().filter(|&&n| !fixed[n as usize]);
-        CylindricalFrames::new(free().map(|&n| mesh.nodes[n as usize]))
-            .turn_stiffness(&mut body_stiffness);
-        let body_nodes: Vec<usize> = free().filter_map(|&n| place(n)).collect();
+        frames(&body, mesh, fixed).turn_stiffness(&mut body_stiffness);
+        let body_nodes: Vec<usize> = free_nodes(&body, fixed).filter_map(place).collect();
 
-        let kept: Vec<usize> = if sectors == 1 {
-            Vec::new()
+        let cuts = if sectors == 1 {
+            [Vec::new(), Vec::new()]
         } else {
-            let [right, left] = [0, 1].map(|sector| mesh.cut_nodes(sector).into_iter());
-            right.chain(left).filter_map(place).collect()
+            [0, 1].map(|sector| {
+                let nodes = mesh.cut_nodes(sector).into_iter();
+                nodes.filter_map(place).collect::<Vec<_>>()
+            })
         };
         let stiffness = assemble(
             images[0].len(),
@@ -118,6 +120,7 @@ impl SectorSubstructure {
             tooth,
             &tooth_nodes,
         )?;
+        let kept = cuts.concat();
         let condensation = StaticCondensation::announced(stiffness, &kept, |symbolic| {
             progress.expect(symbolic.expected_seconds())
         })?;
@@ -127,6 +130,8 @@ impl SectorSubstructure {
             first_tooth,
             images,
             tooth_nodes,
+            body_elements,
+            cuts,
             body_stiffness,
             body_nodes,
             condensation,
@@ -138,11 +143,54 @@ impl SectorSubstructure {
         &self.condensation
     }
 
+    /// Nodes of the cuts R (before its first tooth) and L (its image, behind the last one); none in a single sector.
+    pub fn cuts(&self) -> &[Vec<usize>; 2] {
+        &self.cuts
+    }
+
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of [`SectorSubstructure::body_nodes`].
+    pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
+        self.body_stiffness.as_ref()
+    }
+
+    /// Sector nodes of hub, web and rim.
+    pub fn body_nodes(&self) -> &[usize] {
+        &self.body_nodes
+    }
+
+    /// Mass (kg) as [`SectorSubstructure::body_stiffness`].
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn body_mass(
+        &self,
+        mesh: &GearMesh,
+        model: &FeModel,
+        fixed: &[bool],
+        density_kg_per_m3: f64,
+    ) -> Result<SparseMatrix, FeError> {
+        let body = Part::new(model, &self.body_elements)?;
+        let dofs = free_dofs(&body, fixed)?;
+        let mut mass = assemble_mass(&body.model, &dofs, density_kg_per_m3)?;
+        frames(&body, mesh, fixed).turn_stiffness(&mut mass);
+        Ok(mass)
+    }
+
     /// Sector of a tooth and its number there.
     pub fn of_tooth(&self, tooth: usize) -> (usize, usize) {
         let teeth = self.sectors * self.own;
         let from_first = (tooth + teeth - self.first_tooth) % teeth;
         (from_first / self.own, from_first % self.own)
+    }
+
+    /// Tooth of a sector.
+    pub fn tooth(&self, sector: usize, a: usize) -> usize {
+        (self.first_tooth + sector * self.own + a) % (self.sectors * self.own)
+    }
+
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        self.images[0].len()
     }
 
     /// Sector nodes of what the a-th tooth shares with its surroundings.
@@ -167,6 +215,23 @@ impl SectorSubstructure {
             })
             .reduce(zero, |a, b| a + b)
     }
+}
+
+/// Nodes of the whole mesh in a part that are not held.
+fn free_nodes<'a>(body: &'a Part, fixed: &'a [bool]) -> impl Iterator<Item = u32> + 'a {
+    let nodes = body.nodes.iter().copied();
+    nodes.filter(|&n| !fixed[n as usize])
+}
+
+fn free_dofs(body: &Part, fixed: &[bool]) -> Result<DofMap, FeError> {
+    let held: Vec<usize> = (0..body.nodes.len())
+        .filter(|&i| fixed[body.nodes[i] as usize])
+        .collect();
+    DofMap::with_fixed_nodes(body.nodes.len(), &held)
+}
+
+fn frames(body: &Part, mesh: &GearMesh, fixed: &[bool]) -> CylindricalFrames {
+    CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes[n as usize]))
 }
 
 /// Lower triangle of the sector's stiffness: the body's own and one dense block per tooth.

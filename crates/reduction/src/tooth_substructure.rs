@@ -6,15 +6,18 @@
 use crate::flank_loads::SparseVector;
 use crate::part::Part;
 use faer::Mat;
+use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
-    CondensedLoads, CylindricalFrames, DofMap, FeError, FeModel, StaticCondensation,
-    StiffnessMatrix, assemble_stiffness,
+    CondensedLoads, CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation,
+    StiffnessMatrix, assemble_mass, assemble_stiffness,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 
 /// The tooth cell and its condensation, in cylindrical components.
 pub struct ToothSubstructure {
+    /// Elements of the cell of tooth 0.
+    elements: Vec<u32>,
     /// Cell of tooth 0 as nodes of the whole mesh, ascending.
     part: Vec<u32>,
     /// Nodes of the whole mesh of each tooth: the images of those of tooth 0.
@@ -68,6 +71,7 @@ impl ToothSubstructure {
         CylindricalFrames::new(part.model.nodes().iter().copied()).turn_stiffness(&mut stiffness);
         let condensation = StaticCondensation::new(stiffness.clone(), &boundary)?;
         Ok(Self {
+            elements,
             part: part.nodes,
             images,
             boundary,
@@ -79,6 +83,28 @@ impl ToothSubstructure {
     /// The condensation.
     pub fn condensation(&self) -> &StaticCondensation {
         &self.condensation
+    }
+
+    /// Stiffness of the cell, nothing fixed, three rows a node.
+    pub fn stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
+        self.stiffness.as_ref()
+    }
+
+    /// Mass of the cell (kg), as [`ToothSubstructure::stiffness`].
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn mass(&self, model: &FeModel, density_kg_per_m3: f64) -> Result<SparseMatrix, FeError> {
+        let part = Part::new(model, &self.elements)?;
+        let dofs = DofMap::all_free(part.nodes.len())?;
+        let mut mass = assemble_mass(&part.model, &dofs, density_kg_per_m3)?;
+        CylindricalFrames::new(part.model.nodes().iter().copied()).turn_stiffness(&mut mass);
+        Ok(mass)
+    }
+
+    /// Nodes of the cell that are shared with the rest of the gear.
+    pub fn boundary(&self) -> &[usize] {
+        &self.boundary
     }
 
     /// Number of nodes of the cell.

@@ -2,33 +2,50 @@
 
 use crate::flank_loads::SparseVector;
 use gearmesh_mesh::GearMesh;
+use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// A vector given on the cell of tooth 0, on `tooth`. Entries outside the cell are left out.
 pub fn on_tooth(mesh: &GearMesh, vector: &SparseVector, tooth: usize) -> SparseVector {
+    turned(mesh, &[vector], tooth).remove(0)
+}
+
+/// Vectors given on the cell of tooth 0, on every tooth: `[tooth][vector]`.
+pub fn on_all_teeth(mesh: &GearMesh, vectors: &[&SparseVector]) -> Vec<SparseVector> {
+    (0..mesh.teeth())
+        .into_par_iter()
+        .flat_map_iter(|tooth| turned(mesh, vectors, tooth))
+        .collect()
+}
+
+fn turned(mesh: &GearMesh, vectors: &[&SparseVector], tooth: usize) -> Vec<SparseVector> {
     if tooth == 0 {
-        return vector.clone();
+        return vectors.iter().map(|&vector| vector.clone()).collect();
     }
     let (sin, cos) = (TAU * tooth as f64 / mesh.teeth() as f64).sin_cos();
-    let needed: HashSet<u32> = vector.iter().map(|e| (e.0 / 3) as u32).collect();
+    let entries = vectors.iter().copied().flatten();
+    let needed: HashSet<u32> = entries.map(|e| (e.0 / 3) as u32).collect();
     let cells = mesh.cell_nodes(0).into_iter().zip(mesh.cell_nodes(tooth));
     let image: HashMap<usize, usize> = cells
         .filter(|(from, _)| needed.contains(from))
         .map(|(from, to)| (from as usize, to as usize))
         .collect();
-    let mut turned: Vec<(usize, f64)> = Vec::with_capacity(2 * vector.len());
-    for &(dof, value) in vector {
-        let Some(&node) = image.get(&(dof / 3)) else {
-            continue;
-        };
-        match dof % 3 {
-            0 => turned.extend([(3 * node, cos * value), (3 * node + 1, sin * value)]),
-            1 => turned.extend([(3 * node, -sin * value), (3 * node + 1, cos * value)]),
-            _ => turned.push((3 * node + 2, value)),
+    let turn = |vector: &&SparseVector| {
+        let mut turned: Vec<(usize, f64)> = Vec::with_capacity(2 * vector.len());
+        for &(dof, value) in *vector {
+            let Some(&node) = image.get(&(dof / 3)) else {
+                continue;
+            };
+            match dof % 3 {
+                0 => turned.extend([(3 * node, cos * value), (3 * node + 1, sin * value)]),
+                1 => turned.extend([(3 * node, -sin * value), (3 * node + 1, cos * value)]),
+                _ => turned.push((3 * node + 2, value)),
+            }
         }
-    }
-    summed(turned)
+        summed(turned)
+    };
+    vectors.iter().map(turn).collect()
 }
 
 /// Entries sorted by degree of freedom, those of the same one added.

@@ -2,11 +2,11 @@
 
 use crate::Progress;
 use crate::flank_loads::{SparseVector, dot};
-use crate::tooth_vectors::on_tooth;
+use crate::tooth_vectors::on_all_teeth;
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Factor, FeError, FeModel, NodeGraph, StiffnessMatrix, SymbolicFactor,
-    assemble_stiffness_with_graph,
+    DofMap, DofOrdering, Factor, FeError, FeModel, ModeSettings, NaturalModes, NodeGraph,
+    SparseMatrix, StiffnessMatrix, SymbolicFactor, assemble_stiffness_with_graph, natural_modes,
 };
 use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
@@ -86,16 +86,24 @@ impl WholeGear {
         vectors: &[&SparseVector],
         progress: &dyn Progress,
     ) -> Vec<Vec<f64>> {
-        let teeth = mesh.teeth();
-        let everywhere: Vec<SparseVector> = (0..teeth)
-            .into_par_iter()
-            .flat_map_iter(|t| vectors.iter().map(move |v| on_tooth(mesh, v, t)))
-            .collect();
+        let everywhere = on_all_teeth(mesh, vectors);
         let mut readings = Vec::with_capacity(rows.len());
         self.solve_each(dofs, rows, progress, |_, u| {
             readings.push(everywhere.par_iter().map(|v| dot(v, u)).collect());
         });
         readings
+    }
+
+    /// The lowest natural modes for a mass matrix over the free degrees of freedom.
+    ///
+    /// # Errors
+    /// As [`natural_modes`].
+    pub fn natural_modes(
+        &self,
+        mass: &SparseMatrix,
+        settings: &ModeSettings,
+    ) -> Result<NaturalModes, FeError> {
+        natural_modes(&self.stiffness, mass, &self.factor, settings)
     }
 
     /// XᵀKX for full fields that are zero where the body is held.

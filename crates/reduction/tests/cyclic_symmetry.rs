@@ -1,87 +1,36 @@
 //! The cyclic solution against one factorisation of the whole gear: compliance, gauge rows, fields, effort.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod common;
+
+use common::{
+    MESH, QUADRATIC, SLOTS, SOLID, THIN_RIM, body, difference, reduced, without_symmetry,
+};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
-use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::ReducedGear;
 use gearmesh_reduction::field::{GridForce, fields};
 use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
 use gearmesh_reduction::tooth_vectors::on_tooth;
-use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
 
 /// Agreement demanded of the two ways: rounding alone.
 const AGREEMENT: f64 = 1e-9;
 
-const SMALL: &str = r#"
-name = "small"
-[tooth]
-teeth = 18
-module_mm = 3.0
-profile_shift = 0.1
-face_width_mm = 12.0
-[material]
-young_GPa = 210.0
-poisson = 0.3
-[mesh]
-flank_mm = 1.5
-fillet_mm = 0.6
-body_mm = 4.0
-axial_mm = 3.0
-[reduction]
-roll_stations = 4
-slices = 2
-flanks = ["right", "left"]
-[[gauge]]
-name = "root of a tooth of the first sector"
-tooth = 0
-side = "right"
-length_mm = 0.9
-width_mm = 4.0
-[[gauge]]
-name = "root elsewhere"
-tooth = 7
-side = "left"
-length_mm = 0.9
-width_mm = 4.0
-"#;
-
-const THIN_RIM: &str = "[blank]
-kind = \"thin-rim\"
-bore_diameter_mm = 14.0
-hub_diameter_mm = 20.0
-rim_inner_diameter_mm = 38.0
-web_thickness_mm = 4.0
-";
-
-fn gear(blank: &str, symmetry: &str) -> GearDefinition {
-    let settings = format!("[reduction]\nsymmetry = \"{symmetry}\"");
-    let text = format!("{}\n{blank}", SMALL.replace("[reduction]", &settings));
-    GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
-}
-
-/// Largest difference relative to the largest value.
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let largest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let worst = a
-        .iter()
-        .zip(b)
-        .fold(0.0f64, |m, (x, y)| m.max((x - y).abs()));
-    worst / largest
+/// A gear with a gauge on the first sector and one elsewhere.
+fn gear(mesh: &str, blank: &str) -> GearDefinition {
+    common::with_gauges(mesh, blank, 0.0, &[(0, "right"), (7, "left")])
 }
 
 /// Reduces a gear both ways and compares everything; `factorisations` of the cyclic way are tooth, sector, harmonics.
-fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_error: bool) {
-    let python = PythonEnvironment::find().unwrap();
-    let options = ReductionOptions { estimate_error };
-    let run = |symmetry| -> (GearDefinition, ReducedGear, GearBody) {
-        let gear = gear(blank, symmetry);
-        let (model, body) = reduce(&gear, &python, options, &Silent).unwrap();
-        (gear, model, body)
-    };
-    let (gear, cyclic, body) = run("auto");
-    let (_, whole, whole_body) = run("off");
+fn both_ways_agree(
+    (mesh, blank): (&str, &str),
+    sectors: usize,
+    factorisations: usize,
+    estimate_error: bool,
+) {
+    let gear = gear(mesh, blank);
+    let (cyclic, body) = reduced(&gear, estimate_error);
+    let (whole, whole_body) = reduced(&without_symmetry(&gear), estimate_error);
     assert_eq!(gear.sectors(), sectors);
     let effort = |model: &ReducedGear, name: &str| {
         let counts = &model.provenance.effort;
@@ -144,42 +93,48 @@ fn both_ways_agree(blank: &str, sectors: usize, factorisations: usize, estimate_
 
 #[test]
 fn thin_rim_one_tooth_a_sector() {
-    both_ways_agree(THIN_RIM, 18, 2 + 10, false);
+    both_ways_agree((MESH, THIN_RIM), 18, 2 + 10, false);
 }
 
 #[test]
 fn solid_blank() {
-    let blank = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
-    both_ways_agree(blank, 18, 2 + 10, false);
+    both_ways_agree((MESH, SOLID), 18, 2 + 10, false);
 }
 
 #[test]
 fn slots_with_several_teeth_a_sector() {
-    let slots = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
-    both_ways_agree(&format!("{THIN_RIM}{slots}"), 3, 2 + 2, true);
+    both_ways_agree((MESH, &format!("{THIN_RIM}{SLOTS}")), 3, 2 + 2, true);
+}
+
+#[test]
+fn quadratic_elements() {
+    both_ways_agree((QUADRATIC, THIN_RIM), 18, 2 + 10, false);
+    both_ways_agree((QUADRATIC, SOLID), 18, 2 + 10, false);
+    both_ways_agree((QUADRATIC, &format!("{THIN_RIM}{SLOTS}")), 3, 2 + 2, false);
 }
 
 #[test]
 fn drilled_with_two_teeth_a_sector_and_a_turned_pattern() {
     let holes = "holes = { count = 9, pitch_circle_diameter_mm = 29.0, diameter_mm = 3.5, phase_deg = 11.0 }\n";
-    both_ways_agree(&format!("{THIN_RIM}{holes}"), 9, 2 + 5, false);
+    both_ways_agree((MESH, &format!("{THIN_RIM}{holes}")), 9, 2 + 5, false);
 }
 
 #[test]
 fn two_sectors_share_both_their_cuts() {
     let holes = "holes = { count = 4, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = 30.0 }\n";
-    both_ways_agree(&format!("{THIN_RIM}{holes}"), 2, 2 + 2, false);
+    both_ways_agree((MESH, &format!("{THIN_RIM}{holes}")), 2, 2 + 2, false);
 }
 
 #[test]
 fn no_repetition_leaves_one_sector_without_cuts() {
     let holes = "holes = { count = 5, pitch_circle_diameter_mm = 29.0, diameter_mm = 4.0, phase_deg = 7.0 }\n";
-    both_ways_agree(&format!("{THIN_RIM}{holes}"), 1, 2, false);
+    both_ways_agree((MESH, &format!("{THIN_RIM}{holes}")), 1, 2, false);
 }
 
 #[test]
 fn symmetry_is_used_unless_it_is_switched_off() {
-    let text = |line: &str| format!("{SMALL}\n{THIN_RIM}").replace("slices = 2", line);
+    let small = gear(MESH, THIN_RIM).source;
+    let text = |line: &str| small.replace("slices = 2", line);
     let read = |line| GearDefinition::from_document(&InputDocument::new("small.toml", text(line)));
     let symmetry = |line| read(line).unwrap().reduction.symmetry;
     assert_eq!(symmetry("slices = 2"), Symmetry::Auto);
@@ -195,13 +150,17 @@ fn symmetry_is_used_unless_it_is_switched_off() {
 /// Loads of tooth 0 turned to another tooth are the loads integrated there.
 #[test]
 fn turned_loads_are_those_of_the_other_tooth() {
-    let python = PythonEnvironment::find().unwrap();
-    let gear = gear(THIN_RIM, "auto");
-    let body = GearBody::new(&gear, &python, &Silent).unwrap();
-    let grid = flank_grid(&gear);
+    for mesh in [MESH, QUADRATIC] {
+        turned_loads(&gear(mesh, THIN_RIM));
+    }
+}
+
+fn turned_loads(gear: &GearDefinition) {
+    let body = body(gear);
+    let grid = flank_grid(gear);
     for side in [FlankSide::Right, FlankSide::Left] {
-        let here = flank_loads(&gear, &body.mesh, &grid, 0, side);
-        let there = flank_loads(&gear, &body.mesh, &grid, 11, side);
+        let here = flank_loads(gear, &body.mesh, &grid, 0, side);
+        let there = flank_loads(gear, &body.mesh, &grid, 11, side);
         for (a, b) in here.iter().zip(&there) {
             for (from, to) in [
                 (&a.normal, &b.normal),

@@ -1,41 +1,13 @@
 //! Reduction of small helical gears: unit loads, mirror images, the spur limit, with and without cyclic symmetry.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
-use gearmesh_mesh::python::PythonEnvironment;
+mod common;
+
+use common::{MESH, QUADRATIC, SOLID, body, difference, without_symmetry};
+use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
-use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
 
-const SMALL: &str = r#"
-name = "small"
-[material]
-young_GPa = 210.0
-poisson = 0.3
-[mesh]
-flank_mm = 1.6
-fillet_mm = 0.7
-body_mm = 4.0
-axial_mm = 3.0
-[reduction]
-roll_stations = 4
-slices = 2
-flanks = ["right", "left"]
-[[gauge]]
-name = "root"
-tooth = 3
-side = "right"
-length_mm = 0.9
-width_mm = 4.0
-z_mm = 2.0
-[tooth]
-teeth = 18
-module_mm = 3.0
-profile_shift = 0.1
-face_width_mm = 12.0
-"#;
-const SOLID: &str = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
 const DRILLED: &str = "[blank]
 kind = \"solid\"
 bore_diameter_mm = 10.0
@@ -46,45 +18,19 @@ diameter_mm = 6.0
 phase_deg = 10.0
 ";
 
-/// A small gear, its helix signed: positive for a right hand.
 fn gear(helix_deg: f64, blank: &str) -> GearDefinition {
-    let helix = if helix_deg == 0.0 {
-        String::new()
-    } else {
-        let hand = if helix_deg > 0.0 { "right" } else { "left" };
-        format!(
-            "helix_angle_deg = {:e}\nhand = \"{hand}\"\n",
-            helix_deg.abs()
-        )
-    };
-    let text = format!("{SMALL}{helix}{blank}");
-    GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
+    common::gear(MESH, blank, helix_deg)
 }
 
 fn reduced(gear: &GearDefinition) -> ReducedGear {
-    let python = PythonEnvironment::find().unwrap();
-    let options = ReductionOptions {
-        estimate_error: false,
-    };
-    reduce(gear, &python, options, &Silent).unwrap().0
-}
-
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let largest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let worst = a
-        .iter()
-        .zip(b)
-        .fold(0.0f64, |m, (x, y)| m.max((x - y).abs()));
-    worst / largest
+    common::reduced(gear, false).0
 }
 
 #[test]
 fn unit_loads_push_along_the_helicoids_normal() {
-    let python = PythonEnvironment::find().unwrap();
     for helix_deg in [24.0f64, -24.0] {
         let gear = gear(helix_deg, SOLID);
-        let body = GearBody::new(&gear, &python, &Silent).unwrap();
+        let body = body(&gear);
         let grid = flank_grid(&gear);
         let base_helix = gear.profile.base_helix_angle_rad();
         for side in [FlankSide::Right, FlankSide::Left] {
@@ -131,11 +77,14 @@ fn unit_loads_push_along_the_helicoids_normal() {
 
 #[test]
 fn the_identities_hold_and_symmetry_changes_nothing() {
-    for (helix_deg, blank, sectors) in [(24.0, SOLID, 18), (-10.0, DRILLED, 3)] {
-        let mut definition = gear(helix_deg, blank);
+    for (helix_deg, blank, sectors, mesh) in [
+        (24.0, SOLID, 18, MESH),
+        (-10.0, DRILLED, 3, MESH),
+        (-10.0, DRILLED, 3, QUADRATIC),
+    ] {
+        let definition = common::gear(mesh, blank, helix_deg);
         let cyclic = reduced(&definition);
-        definition.reduction.symmetry = Symmetry::Off;
-        let whole = reduced(&definition);
+        let whole = reduced(&without_symmetry(&definition));
         assert_eq!(cyclic.sectors, sectors);
         for model in [&cyclic, &whole] {
             assert!(model.checks.symmetry < 1e-9, "{}", model.checks.symmetry);

@@ -1,71 +1,44 @@
 //! Identities of the reduction on a coarse small gear: loads, patterns over several teeth, gauges, convergence.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition};
+mod common;
+
+use common::{MESH, QUADRATIC, SOLID, THIN_RIM, body, gear, reduced};
+use gearmesh_fe::FeModel;
+use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::Flank;
+use gearmesh_reduction::Silent;
 use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
+use gearmesh_reduction::gauge_row::gauge_row;
+use gearmesh_reduction::gear_body::model_of;
 use gearmesh_reduction::tooth_submodel::{Deformation, ToothSubmodel};
-use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
-
-const SMALL: &str = r#"
-name = "small"
-[tooth]
-teeth = 18
-module_mm = 3.0
-profile_shift = 0.1
-face_width_mm = 12.0
-[blank]
-kind = "thin-rim"
-bore_diameter_mm = 14.0
-hub_diameter_mm = 20.0
-rim_inner_diameter_mm = 38.0
-web_thickness_mm = 4.0
-[material]
-young_GPa = 210.0
-poisson = 0.3
-[reduction]
-roll_stations = 4
-slices = 2
-flanks = ["right", "left"]
-[[gauge]]
-name = "root"
-tooth = 3
-side = "right"
-length_mm = 0.9
-width_mm = 4.0
-"#;
-
-fn gear(extra: &str) -> GearDefinition {
-    let text = format!("{SMALL}\n[mesh]\n{extra}");
-    GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
-}
-
-const COARSE: &str = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 4.0\naxial_mm = 3.0\n";
 
 #[test]
 fn unit_loads_carry_one_newton_on_the_base_circle() {
-    let gear = gear(COARSE);
-    let python = PythonEnvironment::find().unwrap();
-    let body = GearBody::new(&gear, &python, &Silent).unwrap();
-    let grid = flank_grid(&gear);
+    // How far chords and parabolas are off the involute.
+    for (mesh, chords) in [(MESH, 1e-3), (QUADRATIC, 1e-4)] {
+        unit_loads(&gear(mesh, THIN_RIM, 0.0), chords);
+    }
+}
+
+fn unit_loads(gear: &GearDefinition, chords: f64) {
+    let (mesh, _) = meshed(gear);
+    let grid = flank_grid(gear);
     for side in [FlankSide::Right, FlankSide::Left] {
-        for (number, load) in flank_loads(&gear, &body.mesh, &grid, 5, side)
-            .iter()
-            .enumerate()
-        {
-            let mut force = [0.0; 3];
-            let (mut torque, mut moment) = (0.0, 0.0);
+        for (number, load) in flank_loads(gear, &mesh, &grid, 5, side).iter().enumerate() {
+            let (mut force, mut first) = ([0.0; 3], [0.0; 3]);
+            let mut torque = 0.0;
             for &(dof, value) in &load.normal {
-                let p = body.mesh.nodes[dof / 3];
+                let p = mesh.nodes[dof / 3];
                 force[dof % 3] += value;
+                first[dof % 3] += p[2] * value;
                 torque += match dof % 3 {
                     0 => -p[1] * value,
                     1 => p[0] * value,
                     _ => 0.0,
                 };
-                moment += p[2] * value.abs();
             }
             let size = force[0].hypot(force[1]);
             // The normal turns over the hat: with spacing d its mean is shorter by d²/12. Chords add a little.
@@ -77,15 +50,81 @@ fn unit_loads_carry_one_newton_on_the_base_circle() {
             assert!(force[2] == 0.0);
             // Each normal is tangent to the base circle; only the chords' sagitta is left.
             let lever = side.mirror() * torque / gear.profile.base_radius_m;
-            assert!((lever - 1.0).abs() < 1e-3, "{lever}");
+            assert!((lever - 1.0).abs() < chords, "{lever}");
             let axial: f64 = load.axial.iter().map(|(_, v)| v).sum();
             assert!((axial - 1.0).abs() < 1e-12);
             // An inner hat is symmetric about its station.
             let j = number % grid.z_m.len();
             if j > 0 && j + 1 < grid.z_m.len() {
-                let total: f64 = load.normal.iter().map(|(_, v)| v.abs()).sum();
-                assert!((moment / total - grid.z_m[j]).abs() < 1e-9);
+                let height = (force[0] * first[0] + force[1] * first[1]) / (size * size);
+                assert!((height - grid.z_m[j]).abs() < 1e-12, "{height}");
             }
+        }
+    }
+}
+
+/// Mesh and model without a solver.
+fn meshed(gear: &GearDefinition) -> (GearMesh, FeModel) {
+    let mesh = GearMesh::new(gear, &PythonEnvironment::find().unwrap()).unwrap();
+    let model = model_of(gear, &mesh).unwrap();
+    (mesh, model)
+}
+
+/// What a gauge reads of a displacement field given at the nodes, and the sum of the absolute terms: the scale of rounding.
+fn reading(
+    row: &[(usize, f64)],
+    mesh: &GearMesh,
+    field: impl Fn([f64; 3]) -> [f64; 3],
+) -> (f64, f64) {
+    let terms = row
+        .iter()
+        .map(|&(dof, weight)| weight * field(mesh.nodes[dof / 3])[dof % 3]);
+    terms.fold((0.0, 0.0), |(sum, size), term| {
+        (sum + term, size + term.abs())
+    })
+}
+
+#[test]
+fn a_gauge_reads_uniform_strain_and_no_rigid_motion() {
+    for (lengths, straight) in [(MESH, 3e-2), (QUADRATIC, 3e-3)] {
+        for helix_deg in [0.0, 20.0] {
+            let gear = gear(lengths, SOLID, helix_deg);
+            let (mesh, model) = meshed(&gear);
+            let gauge = &gear.gauges[0];
+            let row = gauge_row(&gear, &mesh, &model, gauge, 0).unwrap();
+            let rigid: [fn([f64; 3]) -> [f64; 3]; 4] = [
+                |_| [1.0, 2.0, 3.0],
+                |[x, y, _]| [-y, x, 0.0],
+                |[_, y, z]| [0.0, -z, y],
+                |[x, _, z]| [z, 0.0, -x],
+            ];
+            for motion in rigid {
+                let (sum, size) = reading(&row, &mesh, motion);
+                assert!(sum.abs() < 1e-13 * size, "{sum} of {size}");
+            }
+            // The same in all directions of the section: no matter which way the profile runs.
+            let (sum, size) = reading(&row, &mesh, |[x, y, _]| [1e-3 * x, 1e-3 * y, 0.0]);
+            assert!((sum - 1e-3).abs() < 1e-13 * size, "{sum}");
+            // Along one direction: the mean of t_x² over the gauge's piece of the exact profile, turned with the helix.
+            let (sum, _) = reading(&row, &mesh, |[x, _, _]| [x, 0.0, 0.0]);
+            let curve = ProfileCurve::new(&gear.profile);
+            let centre = curve.arc_length_at(gauge.position).unwrap();
+            let steps = 40;
+            let mut expected = 0.0;
+            for i in 0..steps {
+                let share = (f64::from(i) + 0.5) / f64::from(steps) - 0.5;
+                let arc = centre + share * gauge.length_m;
+                let (a, b) = (curve.point_at(arc - 1e-7), curve.point_at(arc + 1e-7));
+                let along = (b[1] - a[1]).atan2(b[0] - a[0]);
+                for j in 0..steps {
+                    let share = (f64::from(j) + 0.5) / f64::from(steps) - 0.5;
+                    let z = gauge.z_m + share * gauge.width_m;
+                    let turned = along + gear.profile.twist_rad_per_m() * z;
+                    expected += turned.cos().powi(2) / f64::from(steps * steps);
+                }
+            }
+            println!("{lengths}{helix_deg} deg: {sum} against {expected}");
+            assert!((sum - expected).abs() < straight, "{sum} {expected}");
         }
     }
 }
@@ -93,9 +132,8 @@ fn unit_loads_carry_one_newton_on_the_base_circle() {
 /// ΨᵀKΨ = C_hub − C_tooth holds as a whole for the loads of one hand on several teeth: submodels share no free node.
 #[test]
 fn the_pattern_identity_holds_across_teeth() {
-    let gear = gear(COARSE);
-    let python = PythonEnvironment::find().unwrap();
-    let body = GearBody::new(&gear, &python, &Silent).unwrap();
+    let gear = gear(MESH, THIN_RIM, 0.0);
+    let body = body(&gear);
     let grid = flank_grid(&gear);
     let side = FlankSide::Right;
     let n = body.dofs.dof_count();
@@ -165,18 +203,7 @@ fn the_pattern_identity_holds_across_teeth() {
 
 #[test]
 fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
-    let gear = gear(COARSE);
-    let python = PythonEnvironment::find().unwrap();
-    let model = reduce(
-        &gear,
-        &python,
-        ReductionOptions {
-            estimate_error: false,
-        },
-        &Silent,
-    )
-    .unwrap()
-    .0;
+    let model = reduced(&gear(MESH, THIN_RIM, 0.0), false).0;
     model.validate().unwrap();
     assert!(
         model.checks.symmetry < 1e-10 && model.checks.pattern_identity < 1e-9,
@@ -229,26 +256,10 @@ fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
 /// Superposition against one direct solution: strain by the adjoint row equals strain taken from the field.
 #[test]
 fn adjoint_rows_read_what_the_field_holds() {
-    let gear = gear(COARSE);
-    let python = PythonEnvironment::find().unwrap();
-    let (model, body) = reduce(
-        &gear,
-        &python,
-        ReductionOptions {
-            estimate_error: false,
-        },
-        &Silent,
-    )
-    .unwrap();
+    let gear = gear(MESH, THIN_RIM, 0.0);
+    let (model, body) = reduced(&gear, false);
     let loads = flank_loads(&gear, &body.mesh, &model.grid, 3, FlankSide::Right);
-    let row = gearmesh_reduction::gauge_row::gauge_row(
-        &gear,
-        &body.mesh,
-        &body.model,
-        &gear.gauges[0],
-        3,
-    )
-    .unwrap();
+    let row = gauge_row(&gear, &body.mesh, &body.model, &gear.gauges[0], 3).unwrap();
     let n = model.grid.len();
     for load in [0, n / 2, n - 1] {
         for (direction, vector) in [

@@ -1,6 +1,7 @@
 //! Order spectrum of a periodic signal sampled uniformly over whole revolutions.
 
-use realfft::RealFftPlanner;
+use crate::error::SeriesError;
+use crate::fourier::RealFourier;
 use realfft::num_complex::Complex64;
 
 /// Why a spectrum cannot be made or read.
@@ -46,14 +47,9 @@ pub enum OrderError {
         /// Samples of the one that differs.
         other_samples: usize,
     },
-    /// The Fourier transform refused its buffers.
-    #[error("Fourier transform of {samples} samples failed: {reason}")]
-    Transform {
-        /// Number of samples.
-        samples: usize,
-        /// What the transform said.
-        reason: String,
-    },
+    /// The Fourier transform failed.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
 }
 
 /// Single-sided complex order spectrum.
@@ -92,17 +88,10 @@ impl OrderSpectrum {
         {
             return Err(OrderError::NotFinite { index, value });
         }
-        let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
-        let mut input = samples.to_vec();
-        let mut coefficients = transform.make_output_vec();
-        transform
-            .process(&mut input, &mut coefficients)
-            .map_err(|e| OrderError::Transform {
-                samples: n,
-                reason: e.to_string(),
-            })?;
+        let fourier = RealFourier::new(n);
+        let mut coefficients = fourier.lines(&mut samples.to_vec())?;
         for (k, c) in coefficients.iter_mut().enumerate() {
-            *c *= scale(k, n) / n as f64;
+            *c *= fourier.pair_factor(k) / n as f64;
         }
         Ok(Self {
             coefficients,
@@ -143,25 +132,16 @@ impl OrderSpectrum {
     /// The samples that have this spectrum.
     ///
     /// # Errors
-    /// [`OrderError::Transform`].
+    /// [`OrderError::Series`].
     pub fn to_samples(&self) -> Result<Vec<f64>, OrderError> {
-        let n = self.samples;
-        let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(n);
-        // realfft's inverse is not normalised; the lines with factor 2 count twice in a full spectrum.
-        let mut input: Vec<Complex64> = self
+        let fourier = RealFourier::new(self.samples);
+        let mut lines: Vec<Complex64> = self
             .coefficients
             .iter()
             .enumerate()
-            .map(|(k, c)| c / scale(k, n))
+            .map(|(k, c)| c * (self.samples as f64 / fourier.pair_factor(k)))
             .collect();
-        let mut samples = transform.make_output_vec();
-        transform
-            .process(&mut input, &mut samples)
-            .map_err(|e| OrderError::Transform {
-                samples: n,
-                reason: e.to_string(),
-            })?;
-        Ok(samples)
+        Ok(fourier.samples_of(&mut lines)?)
     }
 
     /// Order of every line: k/R.
@@ -227,15 +207,6 @@ impl OrderSpectrum {
             revolutions: self.revolutions,
             highest: (self.coefficients.len() - 1) as f64 / self.revolutions as f64,
         })
-    }
-}
-
-/// 1 for the mean and the Nyquist line of an even number of samples, 2 for lines that stand for a conjugate pair.
-fn scale(line: usize, samples: usize) -> f64 {
-    if line == 0 || 2 * line == samples {
-        1.0
-    } else {
-        2.0
     }
 }
 

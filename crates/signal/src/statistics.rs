@@ -14,8 +14,8 @@ pub enum StatisticsError {
         /// Samples of the second signal.
         second: usize,
     },
-    /// A constant signal has no correlation with anything.
-    #[error("a constant signal has no correlation")]
+    /// A constant signal has no correlation with anything, no kurtosis, and, if it is zero, no crest factor.
+    #[error("a constant signal has no correlation, no kurtosis and, at zero, no crest factor")]
     Constant,
 }
 
@@ -57,6 +57,37 @@ pub fn rms(x: &[f64]) -> Result<f64, StatisticsError> {
     Ok((x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt())
 }
 
+/// Kurtosis m₄/m₂² of the distribution (means taken off, m_k = mean of (x − mean)^k): 1.5 for a sine over whole periods, 1 for a
+/// square wave, 3 for Gaussian noise, more where there are impulses. From n samples of Gaussian noise it scatters by √(24/n).
+///
+/// # Errors
+/// [`StatisticsError::Empty`]; [`StatisticsError::Constant`] where the signal varies by no more than rounding of its mean.
+pub fn kurtosis(x: &[f64]) -> Result<f64, StatisticsError> {
+    let mean = mean(x)?;
+    let (mut second, mut fourth) = (0.0, 0.0);
+    for v in x {
+        let square = (v - mean).powi(2);
+        second += square;
+        fourth += square * square;
+    }
+    if second <= rounding(x.len(), mean) {
+        return Err(StatisticsError::Constant);
+    }
+    Ok(fourth * x.len() as f64 / (second * second))
+}
+
+/// Crest factor: largest |x| over the RMS value; the mean is **not** taken off. √2 for a sine, 1 for a square wave.
+///
+/// # Errors
+/// [`StatisticsError::Empty`]; [`StatisticsError::Constant`] for a signal that is zero throughout.
+pub fn crest_factor(x: &[f64]) -> Result<f64, StatisticsError> {
+    let rms = rms(x)?;
+    if rms == 0.0 {
+        return Err(StatisticsError::Constant);
+    }
+    Ok(x.iter().fold(0.0f64, |largest, v| largest.max(v.abs())) / rms)
+}
+
 /// Pearson's correlation coefficient, −1 … 1 (means taken off).
 ///
 /// # Errors
@@ -72,8 +103,7 @@ pub fn correlation(x: &[f64], y: &[f64]) -> Result<f64, StatisticsError> {
         yy += y * y;
         xy += x * y;
     }
-    let rounding = |mean: f64| x.len() as f64 * (8.0 * f64::EPSILON * mean).powi(2);
-    if xx <= rounding(mean_x) || yy <= rounding(mean_y) {
+    if xx <= rounding(x.len(), mean_x) || yy <= rounding(y.len(), mean_y) {
         return Err(StatisticsError::Constant);
     }
     Ok((xy / (xx.sqrt() * yy.sqrt())).clamp(-1.0, 1.0))
@@ -120,6 +150,11 @@ pub fn rms_deviation(x: &[f64], y: &[f64]) -> Result<f64, StatisticsError> {
     same_length(x, y)?;
     let difference: Vec<f64> = x.iter().zip(y).map(|(x, y)| x - y).collect();
     rms(&difference)
+}
+
+/// Sum of squares about the mean that rounding alone makes of a constant.
+fn rounding(samples: usize, mean: f64) -> f64 {
+    samples as f64 * (8.0 * f64::EPSILON * mean).powi(2)
 }
 
 fn same_length(x: &[f64], y: &[f64]) -> Result<(), StatisticsError> {

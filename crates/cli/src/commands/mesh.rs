@@ -14,7 +14,12 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
     // Refused here too, where the finite element model would refuse an element.
     gearmesh_reduction::gear_body::model_of(&gear, &mesh)?;
-    offline::export_mesh(&gear, &mesh, None, &arguments.output)?;
+    offline::export_mesh(
+        &gear,
+        &mesh,
+        offline::MeshFields::default(),
+        &arguments.output,
+    )?;
     let quality = mesh.quality;
     if arguments.json {
         console::json(&json!({

@@ -170,7 +170,7 @@ fn field(
     let body = GearBody::new(&definition, &offline::python()?, &bar)?;
     bar.finish();
     let field = offline::field_of(loaded, result, &definition, &body, *case)?;
-    offline::export_mesh(&definition, &body.mesh, Some(&field), output)?;
+    offline::export_mesh(&definition, &body.mesh, (&field).into(), output)?;
     console::note(format!(
         "{}: field of gear {} at {:.4} deg and {} N m",
         output.display(),

@@ -39,6 +39,8 @@ pub fn figures(model: &ReducedGear) -> serde_json::Value {
         "pattern_identity": model.checks.pattern_identity,
         "further": model.checks.further.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         "gauges": gauges,
+        "mass_kg": model.rigid_body.as_ref().map(|body| body.mass_kg),
+        "natural_frequencies_Hz": model.modes.as_ref().map(|modes| modes.frequencies_hz()),
         "stage_seconds": model.provenance.stage_seconds.iter().map(|(n, s)| json!({"stage": n, "seconds": s})).collect::<Vec<_>>(),
         "effort": model.provenance.effort.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
     })
@@ -75,6 +77,22 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
             g.name,
             g.description,
             100.0 * g.error_estimate_relative
+        ));
+    }
+    if let Some(body) = &model.rigid_body {
+        let support = match &model.reference_point {
+            Some(_) => "bore rigid on a reference point",
+            None => "bore fixed",
+        };
+        lines.push(format!("mass {:.4} kg, {support}", body.mass_kg));
+    }
+    if let Some(basis) = &model.modes {
+        lines.push(format!(
+            "{} natural modes up to {:.1} Hz, the lowest at {:.1} Hz with {} nodal diameters",
+            basis.count(),
+            basis.complete_to_hz,
+            basis.frequencies_hz()[0],
+            basis.nodal_diameters[0]
         ));
     }
     let times: Vec<String> = p

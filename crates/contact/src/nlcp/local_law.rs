@@ -35,6 +35,7 @@
 use std::f64::consts::PI;
 
 use super::edge_contact::EdgeContact;
+use crate::hertz;
 use thiserror::Error;
 
 /// Recommended floor of the logarithm as a fraction of the mean slice force of the nominal load.
@@ -126,8 +127,11 @@ impl LineContact {
 
     /// `c` of `a = c √F` \[m/√N\].
     fn half_width_factor(&self) -> f64 {
-        let compliance = self.plane_strain_compliance();
-        (4.0 * self.relative_radius_m * compliance / (PI * self.width_m)).sqrt()
+        hertz::half_width_m(
+            1.0 / self.width_m,
+            self.relative_radius_m,
+            self.plane_strain_compliance(),
+        )
     }
 
     /// `1/E* = Σ (1 − ν²)/E` \[1/Pa\].

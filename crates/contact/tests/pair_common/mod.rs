@@ -97,6 +97,8 @@ pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> 
         c_tooth: vec![0.0; loads * loads],
         opposite_distance_m: (0..stations).map(|k| 5e-3 - 4e-4 * k as f64).collect(),
         gauges: Vec::new(),
+        reference_point: None,
+        modes: None,
         ..small_reduced_gear()
     }
 }

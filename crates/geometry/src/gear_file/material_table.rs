@@ -12,6 +12,7 @@ use serde::Deserialize;
 pub(super) struct MaterialTable {
     young_GPa: f64,
     poisson: f64,
+    density_kg_per_m3: Option<f64>,
 }
 
 impl MaterialTable {
@@ -30,9 +31,29 @@ impl MaterialTable {
             (0.0..0.5).contains(&self.poisson),
             "0 up to, not including, 0.5",
         )?;
+        if let Some(density) = self.density_kg_per_m3 {
+            keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
+        }
         Ok(Material {
             young_pa: self.young_GPa * 1e9,
             poisson: self.poisson,
+            density_kg_per_m3: self.density_kg_per_m3,
         })
+    }
+}
+
+/// Complains at `key` where the material has no density.
+pub(super) fn needs_density(
+    document: &InputDocument,
+    key: &str,
+    material: &Material,
+    what: &str,
+) -> Result<(), InputError> {
+    match material.density_kg_per_m3 {
+        Some(_) => Ok(()),
+        None => Err(document.error(
+            key,
+            format!("{what} need a density; add material.density_kg_per_m3, 7850 for steel"),
+        )),
     }
 }

@@ -1,0 +1,41 @@
+//! `[hub]`: how the bore is held.
+
+use super::TableKeys;
+use super::material_table::needs_density;
+use crate::definition::{HubSupport, Material};
+use crate::input::{InputDocument, InputError};
+use serde::Deserialize;
+
+/// The keys of `[hub]`.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HubTable {
+    #[serde(default)]
+    support: HubSupport,
+}
+
+impl HubTable {
+    /// The support.
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        material: &Material,
+        plane_strain: bool,
+    ) -> Result<HubSupport, InputError> {
+        if self.support == HubSupport::ReferencePoint {
+            needs_density(
+                document,
+                "hub.support",
+                material,
+                "bodies on a reference point",
+            )?;
+            if plane_strain {
+                return Err(TableKeys::new(document, "hub").error(
+                    "support",
+                    "a cross-section in plane strain has no six rigid motions; set support = \"fixed\" or mesh.plane_strain = false",
+                ));
+            }
+        }
+        Ok(self.support)
+    }
+}

@@ -1,0 +1,54 @@
+//! `[modes]`: natural modes with the bore held, for the dynamics.
+
+use super::TableKeys;
+use super::material_table::needs_density;
+use crate::definition::{Material, ModeRange};
+use crate::input::{InputDocument, InputError};
+use serde::Deserialize;
+
+/// The keys of `[modes]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub(super) struct ModesTable {
+    count: Option<usize>,
+    up_to_Hz: Option<f64>,
+}
+
+impl ModesTable {
+    /// Which modes are wanted.
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        material: &Material,
+        plane_strain: bool,
+    ) -> Result<ModeRange, InputError> {
+        let keys = TableKeys::new(document, "modes");
+        needs_density(document, "modes", material, "natural modes")?;
+        if plane_strain {
+            return Err(document.error(
+                "modes",
+                "plane strain has no natural modes of a gear; remove [modes] or set mesh.plane_strain = false",
+            ));
+        }
+        match (self.count, self.up_to_Hz) {
+            (Some(count), None) => {
+                let ok = (1..=1000).contains(&count);
+                keys.require("count", count as f64, ok, "1 to 1000")?;
+                Ok(ModeRange::Count(count))
+            }
+            (None, Some(hz)) => {
+                keys.require("up_to_Hz", hz, hz > 0.0, "more than 0")?;
+                Ok(ModeRange::UpToHz(hz))
+            }
+            (Some(_), Some(_)) => Err(keys.error(
+                "count",
+                "count and up_to_Hz exclude each other; keep one of them",
+            )),
+            (None, None) => Err(document.error(
+                "modes",
+                "say which modes: up_to_Hz, a frequency, or count, a number",
+            )),
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Rating: is the tooth strong enough, and for how long.
+//!
+//! | you have | you want | use |
+//! | --- | --- | --- |
+//! | a tooth and where it is loaded | root section, Lewis factor, nominal bending stress | [`RootSection`] |
+//! | a pair | the highest point of single contact | [`highest_single_contact_rolls_rad`] |
+//! | a pair and a line load | Hertz pressure along the path | [`flank_pressure`] |
+//! | strain of a root gauge | stress | [`root_stress_pa`] |
+//! | a stress history | cycles | [`rainflow()`] |
+//! | a table or slopes | cycles to failure of an amplitude | [`SnCurve`] |
+//! | cycles and an S-N curve | damage, life | [`miner_damage`], [`history_damage`] |
+//!
+//! The root section's stress is nominal: no notch factor. Recovered root strain holds the notch already; its S-N table must be one
+//! of local stress. SI units; megapascals exist in S-N tables only. Equations: docs/theory/rating.md.
+
+mod damage;
+mod flank_pressure;
+mod mean_stress;
+mod rainflow;
+mod root_section;
+mod root_stress;
+mod sn_curve;
+mod sn_table;
+
+pub use damage::{Damage, DamageError, history_damage, miner_damage};
+pub use flank_pressure::{FlankPressure, FlankPressureError, flank_pressure};
+pub use mean_stress::MeanStress;
+pub use rainflow::{Cycle, Passage, RainflowError, rainflow, turning_points};
+pub use root_section::{
+    RootConstruction, RootSection, RootSectionError, highest_single_contact_rolls_rad,
+    lewis_stress_pa,
+};
+pub use root_stress::{SurfaceState, root_stress_pa};
+pub use sn_curve::{AboveTable, BelowTable, SnCurve, SnError, SnPoint};
+pub use sn_table::{SnTable, SnTableError};

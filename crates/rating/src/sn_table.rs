@@ -1,0 +1,181 @@
+//! S-N tables in files: TOML arrays or CSV, megapascals in the key or head.
+
+use crate::sn_curve::{AboveTable, BelowTable, SnCurve, SnError, SnPoint};
+use serde::Deserialize;
+
+/// The head of a CSV table.
+const CSV_HEAD: [&str; 2] = ["cycles", "stress_amplitude_MPa"];
+
+/// Why a file is no S-N table.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SnTableError {
+    /// Not TOML, or with other keys.
+    #[error("no S-N table: {reason}")]
+    Toml {
+        /// What the reader says, with the place.
+        reason: String,
+    },
+    /// Arrays of different length.
+    #[error(
+        "{cycles} values in cycles, {amplitudes} in stress_amplitude_MPa; every row needs both"
+    )]
+    Lengths {
+        /// Values in `cycles`.
+        cycles: usize,
+        /// Values in `stress_amplitude_MPa`.
+        amplitudes: usize,
+    },
+    /// A slope that the chosen rule does not use, or lacks.
+    #[error(
+        "below = \"slope\" and slope_below belong together: give both, or another rule and no slope_below"
+    )]
+    SlopeBelow,
+    /// Another head.
+    #[error("line {line}: head `{found}`; allowed is `cycles,stress_amplitude_MPa`")]
+    Head {
+        /// Line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// A row that is no pair of numbers.
+    #[error("line {line}: `{found}`; a row is two numbers: cycles, stress amplitude in MPa")]
+    Row {
+        /// Line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// The rows are no S-N curve.
+    #[error(transparent)]
+    Curve(#[from] SnError),
+}
+
+/// Rule for amplitudes below the table, by its word in files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum BelowWord {
+    EnduranceLimit,
+    LastSlope,
+    Haibach,
+    Slope,
+}
+
+/// Rule for amplitudes above the table, by its word in files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum AboveWord {
+    #[default]
+    Refuse,
+    FirstSlope,
+}
+
+/// An S-N table as it stands in a TOML file.
+///
+/// ```toml
+/// cycles               = [1e3, 1e5, 2e6]
+/// stress_amplitude_MPa = [900, 520, 300]      # at zero mean, of the same kind of stress as the history: local or nominal
+/// below = "haibach"                           # or "endurance-limit", "last-slope", "slope" (with slope_below)
+/// above = "first-slope"                       # or "refuse", the default
+/// ```
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct SnTable {
+    cycles: Vec<f64>,
+    stress_amplitude_MPa: Vec<f64>,
+    below: BelowWord,
+    slope_below: Option<f64>,
+    #[serde(default)]
+    above: AboveWord,
+}
+
+impl SnTable {
+    /// The curve that the table says.
+    ///
+    /// # Errors
+    /// [`SnTableError`], see its variants.
+    pub fn curve(&self) -> Result<SnCurve, SnTableError> {
+        if self.cycles.len() != self.stress_amplitude_MPa.len() {
+            return Err(SnTableError::Lengths {
+                cycles: self.cycles.len(),
+                amplitudes: self.stress_amplitude_MPa.len(),
+            });
+        }
+        let below = match (self.below, self.slope_below) {
+            (BelowWord::EnduranceLimit, None) => BelowTable::EnduranceLimit,
+            (BelowWord::LastSlope, None) => BelowTable::LastSlope,
+            (BelowWord::Haibach, None) => BelowTable::Haibach,
+            (BelowWord::Slope, Some(slope)) => BelowTable::Slope(slope),
+            _ => return Err(SnTableError::SlopeBelow),
+        };
+        let above = match self.above {
+            AboveWord::Refuse => AboveTable::Refuse,
+            AboveWord::FirstSlope => AboveTable::FirstSlope,
+        };
+        let points: Vec<SnPoint> = self
+            .cycles
+            .iter()
+            .zip(&self.stress_amplitude_MPa)
+            .map(|(&cycles, &mpa)| SnPoint {
+                cycles,
+                amplitude_pa: mpa * 1e6,
+            })
+            .collect();
+        Ok(SnCurve::new(&points, above, below)?)
+    }
+}
+
+impl SnCurve {
+    /// Reads an [`SnTable`] in TOML.
+    ///
+    /// # Errors
+    /// [`SnTableError`], see its variants.
+    pub fn from_toml(text: &str) -> Result<Self, SnTableError> {
+        let table: SnTable = toml::from_str(text).map_err(|e| SnTableError::Toml {
+            reason: e.to_string().trim_end().to_owned(),
+        })?;
+        table.curve()
+    }
+
+    /// Reads the rows of a CSV file: head `cycles,stress_amplitude_MPa`, then two numbers a line; blank lines and lines that begin
+    /// with `#` are skipped. Rows are counted without them.
+    ///
+    /// # Errors
+    /// [`SnTableError`], see its variants.
+    pub fn from_csv(
+        text: &str,
+        above: AboveTable,
+        below: BelowTable,
+    ) -> Result<Self, SnTableError> {
+        let mut lines = text
+            .lines()
+            .enumerate()
+            .map(|(i, line)| (i + 1, line.trim()))
+            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let (line, head) = lines.next().unwrap_or((1, ""));
+        if !head.split(',').map(str::trim).eq(CSV_HEAD) {
+            return Err(SnTableError::Head {
+                line,
+                found: head.to_owned(),
+            });
+        }
+        let points = lines
+            .map(|(line, row)| {
+                point(row).ok_or_else(|| SnTableError::Row {
+                    line,
+                    found: row.to_owned(),
+                })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Self::new(&points, above, below)?)
+    }
+}
+
+fn point(row: &str) -> Option<SnPoint> {
+    let (cycles, mpa) = row.split_once(',')?;
+    Some(SnPoint {
+        cycles: cycles.trim().parse().ok()?,
+        amplitude_pa: mpa.trim().parse::<f64>().ok()? * 1e6,
+    })
+}

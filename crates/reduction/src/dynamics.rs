@@ -1,0 +1,130 @@
+//! What the dynamics needs of a gear beside its compliance: rigid body, reference point of the hub, modal basis.
+//!
+//! A rigid bore on a reference point changes nothing of the compliance: its six motions zero, the bore is held, so that
+//! C at a held reference point is C_hub. What is added are rows under the six motions. docs/theory/modes.md derives it.
+
+use crate::flank_loads::{GridLoad, SparseVector, dot};
+use crate::gear_body::GearBody;
+use crate::gear_modes::GearModes;
+use crate::rigid_mass::REFERENCE_M;
+use crate::tooth_vectors::on_all_teeth;
+use crate::{Progress, ReductionError};
+use faer::MatRef;
+use gearmesh_geometry::{GearDefinition, HubSupport};
+use gearmesh_model::{ModalBasis, ReferencePoint, RigidBody};
+use rayon::prelude::*;
+
+/// Parts of the reduced gear for the dynamics.
+pub struct Dynamics {
+    /// Mass and inertia, where the density is known.
+    pub rigid_body: Option<RigidBody>,
+    /// Rows of the flanks under rigid motions, where the hub is on a reference point.
+    pub reference_point: Option<ReferencePoint>,
+    /// Modal basis, where modes were asked for.
+    pub modes: Option<ModalBasis>,
+    /// Checks by name.
+    pub checks: Vec<(String, f64)>,
+    /// Vectors that K was solved for.
+    pub solves: Option<usize>,
+}
+
+/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all gauges.
+///
+/// # Errors
+/// [`ReductionError`] when there are no modes in the range or the search does not converge.
+pub fn dynamics(
+    gear: &GearDefinition,
+    body: &GearBody,
+    loads: &[Vec<GridLoad>],
+    gauges: &[SparseVector],
+    progress: &dyn Progress,
+) -> Result<Dynamics, ReductionError> {
+    let mut result = Dynamics {
+        rigid_body: None,
+        reference_point: None,
+        modes: None,
+        checks: Vec::new(),
+        solves: None,
+    };
+    let Some(density) = gear.material.density_kg_per_m3 else {
+        return Ok(result);
+    };
+    let rigid = body.rigid_mass(density)?;
+    result.rigid_body = Some(rigid.body.clone());
+    if gear.hub == HubSupport::Fixed && gear.modes.is_none() {
+        return Ok(result);
+    }
+    let directions: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
+        .collect();
+    let rows = on_all_teeth(&body.mesh, &directions);
+    if gear.hub == HubSupport::ReferencePoint {
+        let flank = rows
+            .par_iter()
+            .flat_map_iter(|row| (0..6).map(|q| product(row, rigid.motions.as_ref(), q)))
+            .collect();
+        result.reference_point = Some(ReferencePoint {
+            place_m: REFERENCE_M,
+            flank,
+        });
+        if !gauges.is_empty() {
+            let strain = strain_of_rigid_motions(gauges, rigid.motions.as_ref());
+            let name = "gauges under rigid motions".to_string();
+            result.checks.push((name, strain));
+        }
+    }
+    if let Some(range) = gear.modes {
+        let (mut flank, mut readings, mut coupling) = (Vec::new(), Vec::new(), Vec::new());
+        let GearModes {
+            modes,
+            complete_to_hz,
+            solves,
+            ..
+        } = body.natural_modes(&rigid, range, progress, |_, mode, field| {
+            flank.par_extend(rows.par_iter().map(|row| dot(row, field)));
+            readings.extend(gauges.iter().map(|row| dot(row, field)));
+            coupling.extend(mode.coupling);
+        })?;
+        let worst = modes
+            .iter()
+            .fold(0.0, |w: f64, m| w.max(m.relative_residual));
+        let name = "residual of the natural modes".to_string();
+        result.checks.push((name, worst));
+        result.modes = Some(ModalBasis {
+            omega_squared: modes.iter().map(|m| m.omega_squared).collect(),
+            nodal_diameters: modes.iter().map(|m| m.nodal_diameters).collect(),
+            complete_to_hz,
+            flank,
+            gauges: readings,
+            coupling,
+        });
+        result.solves = Some(solves);
+    }
+    Ok(result)
+}
+
+fn product(row: &SparseVector, fields: MatRef<'_, f64>, column: usize) -> f64 {
+    let terms = row
+        .iter()
+        .map(|&(dof, value)| value * fields[(dof, column)]);
+    terms.sum()
+}
+
+/// Largest strain that a gauge reads of a rigid motion, relative to what its terms would come to without cancelling.
+fn strain_of_rigid_motions(gauges: &[SparseVector], motions: MatRef<'_, f64>) -> f64 {
+    let mut worst: f64 = 0.0;
+    for row in gauges {
+        for q in 0..6 {
+            let terms = row
+                .iter()
+                .map(|&(dof, value)| (value * motions[(dof, q)]).abs());
+            let scale: f64 = terms.sum();
+            if scale > 0.0 {
+                worst = worst.max(product(row, motions, q).abs() / scale);
+            }
+        }
+    }
+    worst
+}

@@ -1,0 +1,40 @@
+//! Rigid motions of a gear and the mass they move.
+
+use crate::gear_body::GearBody;
+use faer::Mat;
+use gearmesh_fe::{FeError, mass_product, rigid_motions};
+use gearmesh_model::RigidBody;
+
+/// The reference point of every hub: on the axis at mid-face.
+pub const REFERENCE_M: [f64; 3] = [0.0; 3];
+
+/// Six unit motions about the reference point, and what they are worth for a density.
+pub struct RigidMass {
+    /// Density \[kg/m³\].
+    pub density_kg_per_m3: f64,
+    /// R over all degrees of freedom, bore included: x, y, z, rotations about x, y, z.
+    pub motions: Mat<f64>,
+    /// M R.
+    pub momenta: Mat<f64>,
+    /// RᵀMR as mass, centre and inertia.
+    pub body: RigidBody,
+}
+
+impl GearBody {
+    /// The gear as a rigid body.
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn rigid_mass(&self, density_kg_per_m3: f64) -> Result<RigidMass, FeError> {
+        let motions = rigid_motions(&self.mesh.nodes, REFERENCE_M);
+        let momenta = mass_product(&self.model, density_kg_per_m3, motions.as_ref())?;
+        let mass = motions.transpose() * &momenta;
+        let mass = std::array::from_fn(|i| std::array::from_fn(|j| mass[(i, j)]));
+        Ok(RigidMass {
+            density_kg_per_m3,
+            body: RigidBody::from_mass_matrix(&mass, REFERENCE_M),
+            motions,
+            momenta,
+        })
+    }
+}

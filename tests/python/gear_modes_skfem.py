@@ -1,0 +1,34 @@
+"""Natural frequencies (Hz) of the eight-node body in a mesh file, its set "bore" held, by scikit-fem and ARPACK.
+
+Run by tests/tests/gear_modes.rs: arguments are mesh file, Young's modulus (Pa), Poisson's ratio, density (kg/m3), number of
+modes; prints one frequency a line.
+"""
+
+import sys
+
+import numpy as np
+import scipy.sparse.linalg
+import skfem
+from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+import gearmesh
+
+path = sys.argv[1]
+young_pa, poisson, density = map(float, sys.argv[2:5])
+count = int(sys.argv[5])
+mesh = gearmesh.read_mesh(path)
+# Natural coordinates of the corners in VTK order, and which of them lies where scikit-fem's [0, 1]^3 has its k-th.
+corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+order = [np.flatnonzero(np.all(corners == at, axis=1))[0] for at in skfem.ElementHex1.doflocs]
+body = skfem.MeshHex(mesh["points"].T.copy(), mesh["hexes"].astype(np.int64)[:, order].T.copy())
+assert np.array_equal(body.p.T, mesh["points"])
+element = skfem.ElementVector(skfem.ElementHex1())
+# Gauss rules of two points a direction for the stiffness and three for the mass, as in the Rust elements.
+k = linear_elasticity(*lame_parameters(young_pa, poisson)).assemble(skfem.Basis(body, element, intorder=3))
+basis = skfem.Basis(body, element, intorder=5)
+m = skfem.BilinearForm(lambda u, v, w: density * sum(u[a] * v[a] for a in range(3))).assemble(basis)
+free = np.setdiff1d(np.arange(basis.N), basis.nodal_dofs[:, mesh["point_sets"]["bore"]].ravel())
+k, m = (matrix.tocsc()[free][:, free] for matrix in (k, m))
+squares = scipy.sparse.linalg.eigsh(k, count, m, sigma=0.0, v0=np.ones(len(free)), return_eigenvectors=False)
+for square in np.sort(squares):
+    print(repr(float(np.sqrt(square) / (2.0 * np.pi))))
