@@ -15,7 +15,7 @@ use crate::system::System;
 pub struct Checkpoint {
     /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (11).
     pub scalars: Vec<f64>,
-    /// steps, rejected, unconverged, iterations, factorisations, evaluations.
+    /// steps, rejected, unconverged, iterations, factorisations, evaluations, steps of the present length.
     pub counts: Vec<u64>,
     /// x, y, z of every body \[m\].
     pub positions_m: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct Checkpoint {
     pub reactions: Vec<f64>,
     /// Angles and offsets of joints, then the internal states of elements.
     pub internal: Vec<f64>,
-    /// Factors of the iteration matrix and the scales of its joint rows.
+    /// Factors of the iteration matrix, the scales of its joint rows and the gradients of the joints when it was made.
     pub factors: Vec<f64>,
     /// Their permutation.
     pub permutation: Vec<u64>,
@@ -73,6 +73,7 @@ impl Simulation {
                 info.iterations,
                 info.factorisations,
                 info.evaluations,
+                self.steps_alike,
             ],
             positions_m: point
                 .state
@@ -90,7 +91,12 @@ impl Simulation {
             velocities: vectors.into_iter().flatten().copied().collect(),
             reactions: point.lambda.clone(),
             internal,
-            factors: [values, row_scale].concat(),
+            factors: [
+                values,
+                row_scale,
+                self.integrator.equations.gradient.values(),
+            ]
+            .concat(),
             permutation: permutation.iter().map(|&i| i as u64).collect(),
         }
     }
@@ -110,6 +116,7 @@ impl Simulation {
         let mut integrator = Integrator::new(&system, Scheme::new(params.rho_infinity));
         let (values, permutation, row_scale) = integrator.saddle.factors();
         let sizes = (values.len(), permutation.len(), row_scale.len());
+        let gradients = integrator.equations.gradient.values().len();
         let (n, bodies) = (system.degrees_of_freedom(), system.bodies().len());
         let mut saved = Vec::new();
         for slot in &system.slots {
@@ -119,14 +126,14 @@ impl Simulation {
         let c = checkpoint;
         for (what, found, expected) in [
             ("scalars", c.scalars.len(), 18),
-            ("counts", c.counts.len(), 6),
+            ("counts", c.counts.len(), 7),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
             ("modal", c.modal.len(), start.modal.len()),
             ("velocities", c.velocities.len(), 4 * n),
             ("reactions", c.reactions.len(), system.equations()),
             ("internal", c.internal.len(), of_joints + saved.len()),
-            ("factors", c.factors.len(), sizes.0 + sizes.2),
+            ("factors", c.factors.len(), sizes.0 + sizes.2 + gradients),
             ("permutation", c.permutation.len(), sizes.1),
         ] {
             if found != expected {
@@ -147,9 +154,10 @@ impl Simulation {
                 expected: sizes.1,
             });
         }
-        integrator
-            .saddle
-            .restore(&c.factors[..sizes.0], &permutation, &c.factors[sizes.0..]);
+        let (factors, rest) = c.factors.split_at(sizes.0);
+        let (row_scale, gradient) = rest.split_at(sizes.2);
+        integrator.saddle.restore(factors, &permutation, row_scale);
+        integrator.equations.gradient.set(gradient);
         integrator.factored_step_s = c.scalars[2];
         integrator.effort = Effort::default();
         restore_internal(&mut system, &c.internal);
@@ -194,6 +202,7 @@ impl Simulation {
             integrator,
             now,
             step_s: c.scalars[1],
+            steps_alike: c.counts[6],
         })
     }
 }

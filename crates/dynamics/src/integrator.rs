@@ -26,11 +26,12 @@ use crate::system::{At, Detail, Equations, System};
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
 
-/// Where corrections no longer shrink, they are accepted up to this multiple of the tolerance's absolute floor: rounding.
+/// Where corrections no longer shrink, they are accepted up to this multiple of [`ROUNDING`]: they are rounding.
 const STALLED: f64 = 100.0;
 
 /// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
-const ROUNDING: f64 = 1e-14;
+/// Velocities carry it divided by the step.
+const ROUNDING: f64 = 1e-15;
 
 /// All that the scheme carries from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +85,8 @@ pub(crate) struct Integrator {
     increment: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
+    pushed: Vec<f64>,
+    inverse_mass: Vec<f64>,
     right: Vec<f64>,
     right_joints: Vec<f64>,
     pub effort: Effort,
@@ -112,6 +115,8 @@ impl Integrator {
             increment: vec![0.0; n],
             delta: vec![0.0; n],
             mu: vec![0.0; m],
+            pushed: vec![0.0; n],
+            inverse_mass: diagonal.iter().map(|mass| 1.0 / mass).collect(),
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
             effort: Effort::default(),
@@ -137,7 +142,7 @@ impl Integrator {
         let square = scheme.beta * h * h;
         self.predict(system, from, to, h);
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
-        let mut last = f64::INFINITY;
+        let (mut last, mut place) = (f64::INFINITY, 0);
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
             let detail = if stale {
@@ -147,9 +152,19 @@ impl Integrator {
             };
             self.evaluate(system, to, detail)
                 .map_err(StepFailure::Element)?;
-            let fresh = stale;
             if stale {
-                self.factor(system, h)?;
+                if !self.factor(system, h) {
+                    // Singular at an iterate that has strayed is the step's fault, not the system's.
+                    return Err(if iteration > 1 {
+                        StepFailure::NoConvergence {
+                            iterations: iteration,
+                            ratio: last,
+                            largest: place,
+                        }
+                    } else {
+                        StepFailure::Singular
+                    });
+                }
                 stale = false;
             }
             for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
@@ -164,7 +179,8 @@ impl Integrator {
                 &mut self.delta,
                 &mut self.mu,
             );
-            let (ratio, largest, above_floor) = self.measure(from, h, params.newton_tolerance);
+            let (ratio, largest, above_floor) =
+                self.measure(system, from, h, params.newton_tolerance);
             if !ratio.is_finite() {
                 self.factored_step_s = f64::NAN;
                 return Err(StepFailure::NoConvergence {
@@ -184,14 +200,22 @@ impl Integrator {
             to.state
                 .set_moved(&from.state, &self.increment, &system.layout);
             let shrinks = ratio < SLOW * last;
-            if ratio <= 1.0 || (!shrinks && fresh && above_floor <= STALLED) {
+            // What the corrections to come would add, if they shrink on as they do: ratio · (θ + θ² + …).
+            let theta = (ratio / last).min(0.5);
+            let rest = ratio
+                * if iteration > 1 {
+                    theta / (1.0 - theta)
+                } else {
+                    1.0
+                };
+            if rest <= 1.0 || (!shrinks && above_floor <= STALLED) {
                 self.finish(from, to, h);
                 return Ok(());
             }
             if !shrinks && iteration > 1 {
                 stale = true;
             }
-            last = ratio;
+            (last, place) = (ratio, largest);
             if iteration == params.most_iterations {
                 self.factored_step_s = f64::NAN;
                 return Err(StepFailure::NoConvergence {
@@ -237,8 +261,8 @@ impl Integrator {
         system.evaluate(at, detail, &mut self.equations)
     }
 
-    /// Assembles and factorises Newton's matrix at the present iterate.
-    fn factor(&mut self, system: &System, h: f64) -> Result<(), StepFailure> {
+    /// Assembles and factorises Newton's matrix at the present iterate; `false` if it is singular.
+    fn factor(&mut self, system: &System, h: f64) -> bool {
         let (s, equations) = (self.scheme, &mut self.equations);
         self.turned.copy_from(&equations.gradient);
         for start in system.layout.starts() {
@@ -254,19 +278,34 @@ impl Integrator {
             [&equations.mass, &equations.damping, &equations.stiffness],
         );
         self.effort.factorisations += 1;
-        if !self
+        let regular = self
             .saddle
-            .factor(&self.matrix, &equations.gradient, &self.turned)
-        {
-            self.factored_step_s = f64::NAN;
-            return Err(StepFailure::Singular);
-        }
-        self.factored_step_s = h;
-        Ok(())
+            .factor(&self.matrix, &equations.gradient, &self.turned);
+        self.factored_step_s = if regular { h } else { f64::NAN };
+        regular
     }
 
-    /// Largest correction over its tolerance, where, and over the absolute floor alone.
-    fn measure(&self, from: &Point, h: f64, tolerance: f64) -> (f64, usize, f64) {
+    /// Largest correction over its tolerance, where, and over the absolute floor alone. The correction of the reactions counts as the
+    /// increment that it would cause if the bodies were free, M⁻¹Bᵀμ with the diagonal of M: with old factors δ can vanish while λ
+    /// does not converge.
+    fn measure(
+        &mut self,
+        system: &System,
+        from: &Point,
+        h: f64,
+        tolerance: f64,
+    ) -> (f64, usize, f64) {
+        self.pushed.fill(0.0);
+        for &equation in &system.kept {
+            let mu = self.mu[equation];
+            for (push, b) in self
+                .pushed
+                .iter_mut()
+                .zip(self.equations.gradient.column(equation))
+            {
+                *push += mu * b;
+            }
+        }
         let mut size = [0.0_f64; KINDS];
         for ((increment, velocity), &kind) in self
             .increment
@@ -277,13 +316,14 @@ impl Integrator {
             size[kind] = size[kind].max(increment.abs()).max(h * velocity.abs());
         }
         let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
-        for (dof, (delta, &kind)) in self.delta.iter().zip(&self.kinds).enumerate() {
-            let ratio = delta.abs() / (tolerance * size[kind] + self.floor[kind]);
-            if ratio > worst || ratio.is_nan() {
-                worst = ratio;
-                place = dof;
+        let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
+        for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
+            let correction = delta.abs().max((inverse * push).abs());
+            let ratio = correction / (tolerance * size[kind] + self.floor[kind]);
+            if !(ratio <= worst) {
+                (worst, place) = (ratio, dof);
             }
-            above = above.max(delta.abs() / self.floor[kind]);
+            above = above.max(correction / self.floor[kind]);
         }
         (worst, place, above)
     }
@@ -300,7 +340,8 @@ impl Integrator {
     }
 
     /// Fits a and v to another step length, `old_step_s` = 0 at the start of a run: a stands for v̇ at t + Δh, and v carries C h² v̈ in the
-    /// directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an order for some steps.
+    /// directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an order for some steps. Later in a run the
+    /// part that v carries is read off the joints' rates and scaled, which does not amplify what noise v̈ has.
     pub(crate) fn retune(
         &mut self,
         system: &mut System,
@@ -336,9 +377,17 @@ impl Integrator {
                 time_s: point.state.time_s,
             });
         }
-        for (equation, right) in self.right_joints.iter_mut().enumerate() {
-            let row = equations.gradient.column(equation).iter();
-            *right = row.zip(&point.jerk).map(|(b, j)| b * j).sum();
+        if old_step_s > 0.0 {
+            let share = (step_s / old_step_s).powi(2) - 1.0;
+            for (right, rate) in self.right_joints.iter_mut().zip(&equations.violation_rate) {
+                *right = share * rate;
+            }
+        } else {
+            let share = self.scheme.error_constant * step_s * step_s;
+            for (equation, right) in self.right_joints.iter_mut().enumerate() {
+                let row = equations.gradient.column(equation).iter();
+                *right = share * row.zip(&point.jerk).map(|(b, j)| b * j).sum::<f64>();
+            }
         }
         self.right.fill(0.0);
         self.projector.solve(
@@ -347,9 +396,8 @@ impl Integrator {
             &mut self.delta,
             &mut self.mu,
         );
-        let change = self.scheme.error_constant * (step_s * step_s - old_step_s * old_step_s);
-        for (velocity, normal) in point.state.velocity.iter_mut().zip(&self.delta) {
-            *velocity += change * normal;
+        for (velocity, change) in point.state.velocity.iter_mut().zip(&self.delta) {
+            *velocity += change;
         }
         Ok(())
     }

@@ -77,6 +77,11 @@ impl Matrix {
         self.add_row(column, row, values);
     }
 
+    /// Takes entries, column after column.
+    pub(crate) fn set(&mut self, values: &[f64]) {
+        self.values.copy_from_slice(values);
+    }
+
     /// Takes the entries of a matrix of the same shape.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.values.copy_from_slice(&other.values);

@@ -86,8 +86,8 @@ pub struct Params {
     pub rho_infinity: f64,
     /// Step length.
     pub step: StepControl,
-    /// Newton ends when its correction is below this share of the step's own increment, for places, rotations and modal coordinates
-    /// each. Default 1e-9: reactions then carry about that share of v/h as error.
+    /// Newton ends when what is left is estimated below this share of the step's own increment, for places, rotations and modal
+    /// coordinates each. Default 1e-10: velocities carry about twice that share as error of a step, reactions that share of v/h.
     pub newton_tolerance: f64,
     /// Newton iterations after which a step is given up. Default 20; three are usual.
     pub most_iterations: usize,
@@ -100,7 +100,7 @@ impl Params {
         Self {
             rho_infinity: 0.8,
             step: StepControl::Fixed { step_s },
-            newton_tolerance: 1e-9,
+            newton_tolerance: 1e-10,
             most_iterations: 20,
         }
     }

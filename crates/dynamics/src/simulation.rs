@@ -106,6 +106,8 @@ pub struct Simulation {
     pub(crate) other: Point,
     /// Length of the next step, to which `now` is tuned \[s\].
     pub(crate) step_s: f64,
+    /// Accepted steps of this length.
+    pub(crate) steps_alike: u64,
     pub(crate) info: RunInfo,
 }
 
@@ -165,6 +167,7 @@ impl Simulation {
             integrator,
             now,
             step_s,
+            steps_alike: 0,
         })
     }
 
@@ -265,7 +268,7 @@ impl Simulation {
             let factor = 0.9 / error.cbrt();
             if error > 1.0 {
                 self.info.rejected += 1;
-                let shorter = h * factor.max(0.2);
+                let shorter = h * factor.clamp(0.2, 0.8);
                 if shorter < limits.least_step_s {
                     return Err(self.refusal(
                         StepFailure::NoConvergence {
@@ -279,11 +282,11 @@ impl Simulation {
                 self.change_step(shorter)?;
                 continue;
             }
-            // A step that could grow by a little only is left alone: a change costs a factorisation.
-            let next = if factor > 1.25 {
-                (h * factor.min(2.0)).min(limits.largest_step_s)
+            let grows = factor > GROWTH && self.steps_alike >= SETTLED;
+            let next = if grows {
+                (GROWTH * h).min(limits.largest_step_s)
             } else {
-                h * factor.min(1.0)
+                h
             };
             return self.accept(h, next);
         }
@@ -311,6 +314,7 @@ impl Simulation {
             .energy
             .advance(self.system.energy(&self.now.state, &self.now.lambda), h);
         self.info.steps += 1;
+        self.steps_alike += 1;
         let (least, largest) = self.info.step_range_s;
         self.info.step_range_s = (least.min(h), largest.max(h));
         if next_step_s.to_bits() != h.to_bits() {
@@ -323,6 +327,7 @@ impl Simulation {
         self.integrator
             .retune(&mut self.system, &mut self.now, self.step_s, step_s)?;
         self.step_s = step_s;
+        self.steps_alike = 0;
         Ok(())
     }
 
@@ -365,6 +370,12 @@ impl Simulation {
         }
     }
 }
+
+/// An adaptive step grows by this factor at once, where it could grow by more: a change costs a factorisation and stirs the reactions.
+const GROWTH: f64 = 1.5;
+
+/// Steps of one length before it grows: what a change has stirred must die out first, or it would be taken for an error.
+const SETTLED: u64 = 4;
 
 const FIXED_ADVICE: &str = "the fixed step is too large for the stiffest force or the fastest rotation: take a tenth of it, or an adaptive step";
 const ADAPTIVE_ADVICE: &str = "the shortest step allowed does not converge either: look for a force that jumps with position or speed, or allow shorter steps";

@@ -10,13 +10,18 @@
 //! iterations, because resistance may come with the position (a pendulum released level); if none comes it is an error.
 
 use faer::Mat;
+use nalgebra::Vector3;
 
 use crate::error::DynamicsError;
+use crate::rotation::skew;
 use crate::state::State;
 use crate::system::{At, Detail, Equations, System};
 
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;
+
+/// Share of the largest stiffness, scaled by the masses, that counts as rounding.
+const ROUNDING: f64 = 1e-14;
 
 /// Load along a free direction, as a share of all loads, that counts as balanced.
 const BALANCED: f64 = 1e-9;
@@ -113,6 +118,7 @@ pub fn equilibrium(
                 load_factor,
             };
             system.evaluate(at, Detail::Tangents, &mut equations)?;
+            moments_in_world(system, &mut equations);
             let mut correction = correct(system, &equations, m)?;
             let unbalanced = (0..correction.free.len())
                 .filter(|&k| correction.share[k] > BALANCED)
@@ -172,11 +178,35 @@ pub fn equilibrium(
     })
 }
 
+/// Lets the stiffness be that of moments along fixed axes: δ(R r) = R (δr + δψ × r). Off the equilibrium a rotation that nothing
+/// resists would otherwise seem to change the moments, as the axes turn along.
+fn moments_in_world(system: &System, equations: &mut Equations) {
+    for start in system.layout.starts() {
+        let turn = start + 3;
+        let moment = Vector3::from_column_slice(&equations.residual[turn..turn + 3]);
+        equations.stiffness.add3(turn, turn, &-skew(&moment));
+    }
+}
+
 fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correction, DynamicsError> {
     let n = equations.residual.len();
     let kept = &system.kept;
     let total = n + kept.len();
+    let mass: Vec<f64> = system
+        .mass_diagonal()
+        .iter()
+        .map(|mass| 1.0 / mass.sqrt())
+        .collect();
+    // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
+    let noise = ROUNDING
+        * (0..n).fold(0.0_f64, |most, j| {
+            let column = equations.stiffness.column(j).iter().zip(&mass);
+            let stiffest = column.fold(0.0_f64, |most, (k, d)| most.max((d * k * mass[j]).abs()));
+            most.max(stiffest)
+                .max((equations.residual[j] * mass[j] * mass[j]).abs())
+        });
     let entry = |i: usize, j: usize| match (i < n, j < n) {
+        (true, true) if (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise => 0.0,
         (true, true) => equations.stiffness.get(i, j),
         (true, false) => equations.gradient.get(i, kept[j - n]),
         (false, true) => equations.gradient.get(j, kept[i - n]),
@@ -184,11 +214,7 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
     };
     debug_assert!(kept.len() <= m);
     // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
-    let mut scale: Vec<f64> = system
-        .mass_diagonal()
-        .iter()
-        .map(|mass| 1.0 / mass.sqrt())
-        .collect();
+    let mut scale = mass.clone();
     scale.resize(total, 1.0);
     for _ in 0..4 {
         let most = |i: usize| {

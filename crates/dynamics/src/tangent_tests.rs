@@ -5,7 +5,8 @@ use nalgebra::{DMatrix, Matrix6, UnitQuaternion, Vector3};
 
 use crate::body::{Body, BodyId, GROUND, Modes};
 use crate::elements::{
-    AppliedLoad, Axes, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
+    AppliedLoad, Axes, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper,
+    TorsionSpring,
 };
 use crate::joint::{Joint, JointKind, Motion};
 use crate::matrix::Matrix;
@@ -18,7 +19,10 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
@@ -119,8 +123,17 @@ impl Case {
         });
         let minus = std::mem::take(&mut sides[1]);
         let plus = std::mem::take(&mut sides[0]);
-        let slope = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect();
-        (slope(plus.0, minus.0), slope(plus.1, minus.1), slope(plus.2, minus.2))
+        let slope = |a: Vec<f64>, b: Vec<f64>| {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| (a - b) / (2.0 * step))
+                .collect()
+        };
+        (
+            slope(plus.0, minus.0),
+            slope(plus.1, minus.1),
+            slope(plus.2, minus.2),
+        )
     }
 
     fn check_tangents(&mut self, what: &str) {
@@ -128,24 +141,33 @@ impl Case {
         let n = exact.residual.len();
         let same = |kind: &str, matrix: &Matrix, dof: usize, difference: &[f64]| {
             for (i, (a, b)) in matrix.column(dof).iter().zip(difference).enumerate() {
-                assert!((a - b).abs() < 2e-7 * (1.0 + a.abs()), "{what}, {kind} [{i}][{dof}]: {a} and {b}");
+                assert!(
+                    (a - b).abs() < 2e-7 * (1.0 + a.abs()),
+                    "{what}, {kind} [{i}][{dof}]: {a} and {b}"
+                );
             }
         };
         for dof in 0..n {
-            let (by_acceleration, ..) = self.difference(|case, step| case.acceleration[dof] += step);
+            let (by_acceleration, ..) =
+                self.difference(|case, step| case.acceleration[dof] += step);
             same("mass", &exact.mass, dof, &by_acceleration);
-            let (by_velocity, _, rate) = self.difference(|case, step| case.state.velocity[dof] += step);
+            let (by_velocity, _, rate) =
+                self.difference(|case, step| case.state.velocity[dof] += step);
             same("damping", &exact.damping, dof, &by_velocity);
             let (by_position, violation, _) = self.difference(|case, step| {
                 let mut increment = vec![0.0; n];
                 increment[dof] = step;
                 let from = case.state.clone();
-                case.state.set_moved(&from, &increment, case.system.layout());
+                case.state
+                    .set_moved(&from, &increment, case.system.layout());
             });
             same("stiffness", &exact.stiffness, dof, &by_position);
             for equation in 0..violation.len() {
                 let b = exact.gradient.get(dof, equation);
-                assert!((b - violation[equation]).abs() < 1e-8, "{what}: gradient {equation}");
+                assert!(
+                    (b - violation[equation]).abs() < 1e-8,
+                    "{what}: gradient {equation}"
+                );
                 assert!((b - rate[equation]).abs() < 1e-8, "{what}: rate {equation}");
             }
         }
@@ -157,7 +179,8 @@ impl Case {
         let (_, _, difference) = self.difference(|case, step| {
             let increment: Vec<f64> = case.state.velocity.iter().map(|v| step * v).collect();
             let from = case.state.clone();
-            case.state.set_moved(&from, &increment, case.system.layout());
+            case.state
+                .set_moved(&from, &increment, case.system.layout());
         });
         for (a, b) in exact.iter().zip(&difference) {
             assert!((a - b).abs() < 1e-7, "{what}: {a} and {b}");
@@ -170,13 +193,18 @@ impl Case {
         self.lambda.fill(0.0);
         let forces = self.evaluate(Detail::Forces).residual;
         let energy = self.system.energy(&self.state, &self.lambda);
-        let power: f64 = forces.iter().zip(&self.state.velocity).map(|(f, v)| f * v).sum();
+        let power: f64 = forces
+            .iter()
+            .zip(&self.state.velocity)
+            .map(|(f, v)| f * v)
+            .sum();
         let velocity = self.state.velocity.clone();
         let step = 1e-5;
         let mut total = |time: f64| {
             let from = self.state.clone();
             let increment: Vec<f64> = velocity.iter().map(|v| time * v).collect();
-            self.state.set_moved(&from, &increment, self.system.layout());
+            self.state
+                .set_moved(&from, &increment, self.system.layout());
             self.evaluate(Detail::Forces);
             let total = self.system.energy(&self.state, &self.lambda).total_j();
             self.state = from;
@@ -184,7 +212,10 @@ impl Case {
         };
         let rate = (total(step) - total(-step)) / (2.0 * step);
         let left = rate + energy.dissipated_w - energy.supplied_w;
-        assert!((left - power).abs() < 1e-7 * (1.0 + power.abs()), "{what}: {left} W and {power} W");
+        assert!(
+            (left - power).abs() < 1e-7 * (1.0 + power.abs()),
+            "{what}: {left} W and {power} W"
+        );
         assert!(energy.dissipated_w >= 0.0);
     }
 }
@@ -221,7 +252,9 @@ fn joints_have_exact_tangents() {
         let [to_body, to_ground] = [pair(random, a, b), pair(random, GROUND, b)];
         builder.joint(Joint::new("between", kind.clone(), to_body.a, to_body.b).unwrap());
         if index % 2 == 1 {
-            builder.joint(Joint::new("to ground", JointKind::Spherical, to_ground.a, to_ground.b).unwrap());
+            builder.joint(
+                Joint::new("to ground", JointKind::Spherical, to_ground.a, to_ground.b).unwrap(),
+            );
         }
         let mut case = Case::new(builder.build().unwrap(), random);
         case.check_tangents(&what);
@@ -274,15 +307,26 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         let mut place = || pair(random, a, b);
         let mut elements: Vec<Box<dyn ForceElement>> = vec![
             Box::new(spring.between("spring", place()).unwrap()),
-            Box::new(TorsionSpring::new(2.0, 0.3).between("torsion", place()).unwrap()),
+            Box::new(
+                TorsionSpring::new(2.0, 0.3)
+                    .between("torsion", place())
+                    .unwrap(),
+            ),
             Box::new(bushing.between("bushing", place()).unwrap()),
             Box::new(bearing.between("bearing", place()).unwrap()),
             Box::new(beam.between("beam", place(), 1.0).unwrap()),
         ];
         for axes in [Axes::World, Axes::Body] {
-            for kind in [LoadKind::Torque, LoadKind::Force { point_m: [0.1, -0.2, 0.3] }] {
+            for kind in [
+                LoadKind::Torque,
+                LoadKind::Force {
+                    point_m: [0.1, -0.2, 0.3],
+                },
+            ] {
                 let direction = (axes, [1.0, 2.0, -0.5]);
-                elements.push(Box::new(AppliedLoad::new("load", id, kind, direction, wave()).unwrap()));
+                elements.push(Box::new(
+                    AppliedLoad::new("load", id, kind, direction, wave()).unwrap(),
+                ));
             }
         }
         for element in elements {

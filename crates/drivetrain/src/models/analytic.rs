@@ -128,6 +128,7 @@ mod tests {
         let steel = Material {
             young_pa: 206e9,
             poisson: 0.3,
+            density_kg_per_m3: None,
         };
         let stiffness = 1.0 / hertz_m_per_n([steel; 2], 0.02);
         assert!((stiffness / 3.555869e9 - 1.0).abs() < 1e-6, "{stiffness}");

@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 pub const STEEL: Material = Material {
     young_pa: 210e9,
     poisson: 0.3,
+    density_kg_per_m3: Some(7850.0),
 };
 pub const WIDTH: f64 = 20e-3;
 pub const SLICES: usize = 5;

@@ -82,7 +82,15 @@ const BODIES: [(f64, f64, [f64; 2]); 7] = [
 /// The mechanism at its start, its plane turned by `orientation` and moved by `origin`.
 pub fn mechanism(orientation: UnitQuaternion<f64>, origin: Vector3<f64>) -> System {
     let [beta, theta, gamma, phi, delta, omega, epsilon] = START;
-    let angles = [beta, beta + theta, gamma, phi + delta, delta, omega + epsilon, epsilon];
+    let angles = [
+        beta,
+        beta + theta,
+        gamma,
+        phi + delta,
+        delta,
+        omega + epsilon,
+        epsilon,
+    ];
     let along = |from: [f64; 2], angle: f64, [x, y]: [f64; 2]| {
         let (s, c) = angle.sin_cos();
         [from[0] + c * x - s * y, from[1] + s * x + c * y]
@@ -99,11 +107,16 @@ pub fn mechanism(orientation: UnitQuaternion<f64>, origin: Vector3<f64>) -> Syst
     let mut builder = System::builder();
     let mut ids = Vec::new();
     for (index, (mass, inertia, center)) in BODIES.into_iter().enumerate() {
-        let mut body = Body::rigid(&format!("K{}", index + 1), mass, [0.6 * inertia, 0.7 * inertia, inertia]);
+        let mut body = Body::rigid(
+            &format!("K{}", index + 1),
+            mass,
+            [0.6 * inertia, 0.7 * inertia, inertia],
+        );
         body.center_of_mass_m = Vector3::new(center[0], center[1], 0.0);
         let place = Vector3::new(origins[index][0], origins[index][1], 0.0);
         body.position_m = origin + orientation * place;
-        body.orientation = orientation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[index]);
+        body.orientation =
+            orientation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[index]);
         ids.push(builder.body(body).unwrap());
     }
     let world = |[x, y]: [f64; 2]| Marker {
@@ -152,7 +165,11 @@ pub fn mechanism(orientation: UnitQuaternion<f64>, origin: Vector3<f64>) -> Syst
 }
 
 /// β, Θ, γ, Φ, δ, Ω, ε, each within half a turn of `near`, and their rates.
-pub fn angles(simulation: &Simulation, orientation: &UnitQuaternion<f64>, near: &[f64; 7]) -> ([f64; 7], [f64; 7]) {
+pub fn angles(
+    simulation: &Simulation,
+    orientation: &UnitQuaternion<f64>,
+    near: &[f64; 7],
+) -> ([f64; 7], [f64; 7]) {
     let state = simulation.state();
     let angle = |number: usize| {
         let seen = (orientation.inverse() * state.orientations[number - 1]) * Vector3::x();

@@ -1,0 +1,100 @@
+//! A step must not allocate: counted by the global allocator of this test program.
+#![allow(clippy::unwrap_used)] // test code
+#![allow(unsafe_code)] // a global allocator is an unsafe trait; this one only counts and hands on
+
+#[allow(dead_code)] // the reference solution is for another test
+mod problems {
+    pub mod andrews;
+    pub mod two_wheels;
+}
+
+use std::alloc::{GlobalAlloc, Layout, System as Allocator};
+use std::cell::Cell;
+
+use gearmesh_dynamics::{OutputGrid, Params, Simulation, System};
+use nalgebra::{UnitQuaternion, Vector3};
+use problems::{andrews, two_wheels};
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // The test harness allocates on other threads; only this one counts.
+    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+}
+
+// SAFETY: every call goes unchanged to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { Allocator.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Allocator.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { Allocator.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations() -> usize {
+    ALLOCATIONS.with(Cell::get)
+}
+
+#[test]
+fn the_counter_counts() {
+    let before = allocations();
+    let boxed = std::hint::black_box(Box::new(1));
+    assert_eq!(allocations() - before, 1);
+    drop(boxed);
+}
+
+#[test]
+fn steps_and_output_do_not_allocate() {
+    let squeezer = || andrews::mechanism(UnitQuaternion::identity(), Vector3::zeros());
+    let systems: [(&dyn Fn() -> System, f64); 2] =
+        [(&squeezer, 1e-5), (&two_wheels::system, 3.5e-5)];
+    for (system, step_s) in systems {
+        // The adaptive steps change, are refused and factorised anew on the way.
+        for params in [
+            Params::fixed(step_s),
+            Params::adaptive(100.0 * step_s, 1e-9, 1e-7),
+        ] {
+            let system = system();
+            let channels: Vec<usize> = system.elements().map(|_| 0).collect();
+            let mut counts = channels;
+            for (name, _) in system.channels() {
+                let index = system
+                    .elements()
+                    .position(|element| element == name)
+                    .unwrap();
+                counts[index] += 1;
+            }
+            let mut values = vec![0.0; counts.iter().sum()];
+            let mut simulation = Simulation::new(system, params).unwrap();
+            let mut grid = OutputGrid::new(1.7 * step_s, simulation.state());
+            simulation.step().unwrap();
+            let before = allocations();
+            simulation
+                .run(400.0 * step_s, |step| {
+                    grid.visit(step, |state, system| {
+                        system.sample(state, &counts, &mut values)
+                    });
+                    std::ops::ControlFlow::Continue(())
+                })
+                .unwrap();
+            assert_eq!(allocations() - before, 0);
+            assert!(simulation.info().steps > 20, "{:?}", simulation.info());
+            assert!(values.iter().any(|value| *value != 0.0));
+        }
+    }
+}

@@ -1,0 +1,402 @@
+//! Redundant and contradictory joints, long runs, step control, resumed runs, effects left out.
+#![allow(clippy::unwrap_used)] // test code
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+use gearmesh_dynamics::elements::{LinearBearing, SpringDamper, TorsionSpring};
+use gearmesh_dynamics::{
+    Body, BodyId, DynamicsError, Joint, JointKind, Marker, MarkerPair, Motion, OutputGrid, Params,
+    Simulation, System, TimeFunction,
+};
+use nalgebra::Vector3;
+
+fn revolute(name: &str, a: Marker, b: Marker) -> Joint {
+    Joint::new(name, JointKind::Revolute, a, b).unwrap()
+}
+
+fn door(hinges: &[f64]) -> System {
+    let mut body = Body::rigid("door", 20.0, [3.0, 1.0, 4.0]);
+    body.center_of_mass_m = Vector3::new(0.4, 0.0, 1.0);
+    let mut builder = System::builder();
+    let id = builder.body(body).unwrap();
+    for (index, &height) in hinges.iter().enumerate() {
+        let place = [0.0, 0.0, height];
+        builder.joint(revolute(
+            &format!("hinge {index}"),
+            Marker::ground(place),
+            Marker::at(id, place),
+        ));
+    }
+    builder.gravity([0.0, 1.0, -9.81]);
+    builder.build().unwrap()
+}
+
+fn finish(system: System, params: Params, end_s: f64) -> Simulation {
+    let mut simulation = Simulation::new(system, params).unwrap();
+    simulation
+        .run(end_s, |_| ControlFlow::Continue(()))
+        .unwrap();
+    simulation
+}
+
+#[test]
+fn redundant_hinges_are_named_and_solved_all_the_same() {
+    let two = door(&[0.2, 1.8]);
+    assert_eq!(two.redundant().len(), 1);
+    let redundancy = &two.redundant()[0];
+    assert_eq!(
+        (redundancy.joint.as_str(), redundancy.equations),
+        ("hinge 1", 5)
+    );
+    assert_eq!(redundancy.implied_by, ["hinge 0"]);
+    let params = Params::fixed(1e-3);
+    let [one, two] = [door(&[0.2]), two].map(|system| finish(system, params, 1.0));
+    assert!(one.state().orientations[0].angle_to(&two.state().orientations[0]) < 1e-10);
+}
+
+#[test]
+fn contradictory_joints_are_refused_by_name() {
+    let mut builder = System::builder();
+    let id = builder.body(Body::rigid("block", 1.0, [1.0; 3])).unwrap();
+    builder.joint(
+        Joint::new(
+            "left",
+            JointKind::Fixed,
+            Marker::ground([0.0; 3]),
+            Marker::at(id, [0.0; 3]),
+        )
+        .unwrap(),
+    );
+    builder.joint(
+        Joint::new(
+            "right",
+            JointKind::Fixed,
+            Marker::ground([0.1, 0.0, 0.0]),
+            Marker::at(id, [0.0; 3]),
+        )
+        .unwrap(),
+    );
+    let Err(DynamicsError::Contradiction {
+        joints, violation, ..
+    }) = builder.build()
+    else {
+        panic!("two places at once were accepted");
+    };
+    assert!(
+        joints.contains(&"left".to_owned()) && joints.contains(&"right".to_owned()),
+        "{joints:?}"
+    );
+    assert!((violation - 0.1).abs() < 1e-9);
+}
+
+#[test]
+fn a_chain_that_cannot_close_is_refused_by_name() {
+    let mut builder = System::builder();
+    let id = builder.body(Body::rigid("link", 1.0, [1.0; 3])).unwrap();
+    builder.joint(
+        Joint::new(
+            "near",
+            JointKind::Spherical,
+            Marker::ground([0.0; 3]),
+            Marker::at(id, [0.0; 3]),
+        )
+        .unwrap(),
+    );
+    builder.joint(
+        Joint::new(
+            "far",
+            JointKind::Spherical,
+            Marker::ground([2.0, 0.0, 0.0]),
+            Marker::at(id, [1.0, 0.0, 0.0]),
+        )
+        .unwrap(),
+    );
+    let error = builder.build().err().unwrap().to_string();
+    assert!(error.contains("near") && error.contains("far"), "{error}");
+}
+
+fn two_motors(second: TimeFunction) -> Result<Simulation, DynamicsError> {
+    let mut builder = System::builder();
+    let id = builder.body(Body::rigid("wheel", 1.0, [1.0; 3])).unwrap();
+    let (a, b) = (Marker::ground([0.0; 3]), Marker::at(id, [0.0; 3]));
+    builder.joint(revolute("axle", a, b));
+    let first = TimeFunction::Constant(2.0);
+    for (name, speed) in [("motor", first), ("other motor", second)] {
+        builder.joint(Joint::new(name, JointKind::Rotation(Motion::Speed(speed)), a, b).unwrap());
+    }
+    Simulation::new(builder.build()?, Params::fixed(1e-2))
+}
+
+#[test]
+fn motors_may_agree_but_not_differ() {
+    let mut agreed = two_motors(TimeFunction::Constant(2.0)).unwrap();
+    agreed.run(1.0, |_| ControlFlow::Continue(())).unwrap();
+    let error = two_motors(TimeFunction::Constant(3.0))
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(error.contains("`") || error.contains("motor"), "{error}");
+    // Alike at first, different later: found when it happens.
+    let later = TimeFunction::step(0.5, 2.0, 1.0, 3.0).unwrap();
+    let mut simulation = two_motors(later).unwrap();
+    let error = simulation
+        .run(2.0, |_| ControlFlow::Continue(()))
+        .unwrap_err();
+    assert!(
+        matches!(&error, DynamicsError::Contradiction { joints, time_s, .. }
+            if joints.contains(&"motor".to_owned()) && joints.contains(&"other motor".to_owned()) && *time_s > 0.5 && *time_s < 0.6),
+        "{error}"
+    );
+}
+
+#[test]
+fn names_and_bodies_are_checked() {
+    let mut builder = System::builder();
+    builder.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
+    builder.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
+    assert!(matches!(builder.build(), Err(DynamicsError::Name { name }) if name == "a"));
+    let mut other = System::builder();
+    let stranger: BodyId = {
+        let mut builder = System::builder();
+        builder.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
+        builder.body(Body::rigid("b", 1.0, [1.0; 3])).unwrap()
+    };
+    other.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
+    other.joint(revolute(
+        "axle",
+        Marker::ground([0.0; 3]),
+        Marker::at(stranger, [0.0; 3]),
+    ));
+    assert!(matches!(
+        other.build(),
+        Err(DynamicsError::UnknownBody {
+            body: 1,
+            count: 1,
+            ..
+        })
+    ));
+    assert!(Body::rigid("a", -1.0, [1.0; 3]).validate().is_err());
+}
+
+/// A rotor on two bearings, driven through a torsion spring by a body with prescribed speed.
+fn driven_rotor(speed_rad_per_s: f64) -> System {
+    let mut builder = System::builder();
+    let mut rotor = Body::rigid("rotor", 5.0, [0.02, 0.02, 0.01]);
+    rotor.angular_velocity_rad_per_s.z = speed_rad_per_s;
+    let rotor = builder.body(rotor).unwrap();
+    let mut driver = Body::rigid("driver", 1.0, [0.001; 3]);
+    driver.position_m.z = 0.3;
+    driver.angular_velocity_rad_per_s.z = speed_rad_per_s;
+    let driver = builder.body(driver).unwrap();
+    for (name, z) in [("left", -0.1), ("right", 0.1)] {
+        let bearing = LinearBearing {
+            radial_stiffness_n_per_m: 1e8,
+            axial_stiffness_n_per_m: 5e7,
+            radial_damping_n_s_per_m: 2e3,
+            axial_damping_n_s_per_m: 2e3,
+            ..LinearBearing::default()
+        };
+        let pair = MarkerPair {
+            a: Marker::ground([0.0, 0.0, z]),
+            b: Marker::at(rotor, [0.0, 0.0, z]),
+        };
+        builder.element(bearing.between(name, pair).unwrap());
+    }
+    let motor = (
+        Marker::ground([0.0, 0.0, 0.3]),
+        Marker::at(driver, [0.0; 3]),
+    );
+    builder.joint(revolute("axle", motor.0, motor.1));
+    let speed = Motion::Speed(TimeFunction::Constant(speed_rad_per_s));
+    builder.joint(Joint::new("motor", JointKind::Rotation(speed), motor.0, motor.1).unwrap());
+    let pair = MarkerPair {
+        a: Marker::at(driver, [0.0; 3]),
+        b: Marker::at(rotor, [0.0; 3]),
+    };
+    builder.element(
+        TorsionSpring::new(1e4, 1.0)
+            .between("coupling", pair)
+            .unwrap(),
+    );
+    builder.gravity([0.0, -9.81, 0.0]);
+    builder.build().unwrap()
+}
+
+#[test]
+fn reactions_converge_though_the_body_turns_far_from_where_the_matrix_was_made() {
+    // The door swings by more than a right angle; its weight is carried by moments of the hinge.
+    let mut simulation = Simulation::new(door(&[0.2]), Params::fixed(1e-4)).unwrap();
+    simulation
+        .run(2.0, |step| {
+            let moment = step.lambda[3].hypot(step.lambda[4]);
+            assert!(
+                (moment / (20.0 * 9.81 * 0.4) - 1.0).abs() < 0.5,
+                "{} s: {moment} N m",
+                step.to.time_s
+            );
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert!(simulation.state().orientations[0].angle() > 1.7);
+}
+
+#[test]
+fn a_minute_of_slow_rotation_does_not_drift() {
+    let speed = 10.0 / 60.0 * TAU;
+    let simulation = finish(driven_rotor(speed), Params::fixed(1e-3), 60.0);
+    let info = simulation.info();
+    // Ten turns of the driver, counted; the rotor follows and stays where its bearings hold it.
+    assert!((simulation.system().joints()[1].angle_rad() - 10.0 * TAU).abs() < 1e-9);
+    let z = simulation.state().velocity[5];
+    assert!((z - speed).abs() < 1e-7 * speed, "{z}");
+    let sag = 5.0 * 9.81 / 2e8;
+    assert!(
+        (simulation.state().positions_m[0].y + sag).abs() < 1e-5 * sag,
+        "{}",
+        simulation.state().positions_m[0].y
+    );
+    assert!(info.largest_violation < 1e-12, "{info:?}");
+    // One minute later there is as much energy as after one second: the bearings' rest and the spin.
+    assert!(
+        (info.energy.last.kinetic_j - 0.5 * 0.011 * speed * speed).abs() < 1e-8,
+        "{info:?}"
+    );
+}
+
+#[test]
+fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
+    let mut builder = System::builder();
+    let mut body = Body::rigid("bob", 1.0, [0.01; 3]);
+    body.position_m = Vector3::new(0.4, 0.0, 0.0);
+    body.velocity_m_per_s = Vector3::new(0.0, 30.0, 5.0);
+    let id = builder.body(body).unwrap();
+    let spring = SpringDamper {
+        stiffness_n_per_m: 1e6,
+        damping_n_s_per_m: 0.0,
+        free_length_m: 0.4,
+    };
+    let pair = MarkerPair {
+        a: Marker::ground([0.0; 3]),
+        b: Marker::at(id, [0.0; 3]),
+    };
+    builder.element(spring.between("spring", pair).unwrap());
+    let simulation = finish(
+        builder.build().unwrap(),
+        Params::adaptive(0.5, 1e-6, 1e-6),
+        0.5,
+    );
+    let info = simulation.info();
+    assert!(info.step_range_s.1 < 0.01 && info.steps > 100, "{info:?}");
+    assert!(
+        info.energy.largest_error_j < 1e-2 * info.energy.first.kinetic_j,
+        "{info:?}"
+    );
+}
+
+#[test]
+fn the_adaptive_step_follows_its_tolerance() {
+    let error = |tolerance: f64| {
+        let params = Params::adaptive(0.05, tolerance, tolerance);
+        let simulation = finish(door(&[0.2]), params, 3.0);
+        let fine = finish(door(&[0.2]), Params::fixed(5e-5), simulation.state().time_s);
+        // The reference runs a little past the end: bring it back along its speed.
+        let late = fine.state().time_s - simulation.state().time_s;
+        let spin = fine.state().velocity[5] * late;
+        let angle = fine.state().orientations[0].angle_to(&simulation.state().orientations[0]);
+        ((angle.abs() - spin.abs()).abs(), simulation.info().steps)
+    };
+    let ((coarse, few), (fine, many)) = (error(1e-7), error(1e-9));
+    assert!(fine < 0.2 * coarse && fine < 1e-4, "{coarse} {fine}");
+    // Steps go with the cube root of the tolerance: 100^(1/3) = 4.6.
+    let ratio = many as f64 / few as f64;
+    assert!((3.0..7.0).contains(&ratio), "{few} {many}");
+}
+
+#[test]
+fn a_resumed_run_gives_the_same_bits() {
+    for params in [Params::fixed(1e-3), Params::adaptive(1e-2, 1e-7, 1e-6)] {
+        for system in
+            [&|| driven_rotor(30.0) as System, &|| door(&[0.2, 1.8])] as [&dyn Fn() -> System; 2]
+        {
+            let whole = finish(system(), params, 0.4);
+            let first = finish(system(), params, 0.15);
+            let checkpoint = first.checkpoint();
+            let mut second = Simulation::resume(system(), params, &checkpoint).unwrap();
+            assert_eq!(second.checkpoint(), checkpoint);
+            second.run(0.4, |_| ControlFlow::Continue(())).unwrap();
+            assert_eq!(second.state(), whole.state());
+            assert_eq!(second.info(), whole.info());
+            assert_eq!(second.checkpoint(), whole.checkpoint());
+        }
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_system_is_refused() {
+    let checkpoint = finish(door(&[0.2]), Params::fixed(1e-3), 0.01).checkpoint();
+    let error = Simulation::resume(driven_rotor(1.0), Params::fixed(1e-3), &checkpoint)
+        .err()
+        .unwrap();
+    assert!(matches!(error, DynamicsError::Checkpoint { .. }), "{error}");
+    let mut damaged = checkpoint;
+    damaged.permutation[0] = 99;
+    assert!(Simulation::resume(door(&[0.2]), Params::fixed(1e-3), &damaged).is_err());
+}
+
+#[test]
+fn what_a_system_does_not_name_is_not_called() {
+    let plain = {
+        let mut builder = System::builder();
+        builder.body(Body::rigid("a", 1.0, [1.0; 3])).unwrap();
+        finish(builder.build().unwrap(), Params::fixed(1e-2), 1.0)
+    };
+    assert!(plain.system().calls().is_empty());
+    let rotor = finish(driven_rotor(3.0), Params::fixed(1e-2), 1.0);
+    let calls = rotor.system().calls();
+    let named: Vec<&str> = rotor.system().elements().collect();
+    assert_eq!(
+        named,
+        [
+            "left",
+            "right",
+            "coupling",
+            "weight of rotor",
+            "weight of driver"
+        ]
+    );
+    for call in &calls {
+        // The start takes three evaluations with tangents; then one for each Newton iteration.
+        assert_eq!(call.force, rotor.info().evaluations + 3, "{calls:?}");
+        assert_eq!(call.tangents, rotor.info().factorisations + 3, "{calls:?}");
+    }
+}
+
+#[test]
+fn output_on_a_uniform_grid_does_not_depend_on_the_steps() {
+    let sampled = |params: Params| {
+        let mut simulation = Simulation::new(door(&[0.2]), params).unwrap();
+        let mut grid = OutputGrid::new(0.01, simulation.state());
+        let mut angles = Vec::new();
+        simulation
+            .run(1.0, |step| {
+                grid.visit(step, |state, _| {
+                    if state.time_s < 1.0 + 1e-9 {
+                        angles.push((state.time_s, state.orientations[0].scaled_axis().z));
+                    }
+                });
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        angles
+    };
+    let fine = sampled(Params::fixed(1e-4));
+    let coarse = sampled(Params::adaptive(0.02, 1e-7, 1e-7));
+    assert_eq!((fine.len(), coarse.len()), (101, 101));
+    for ((t, a), (s, b)) in fine.iter().zip(&coarse) {
+        assert!(
+            (t - s).abs() < 1e-12 && (a - b).abs() < 2e-5,
+            "{t}: {a} {b}"
+        );
+    }
+}
