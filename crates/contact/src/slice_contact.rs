@@ -15,8 +15,7 @@ use crate::static_contact::ContactError;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
-/// Change of the roll angle \[rad\] over which the complementary energy is differenced. It is piecewise a low polynomial of the roll
-/// angle, so that the step matters only where it meets a roll station.
+/// Change of the roll angle \[rad\] over which the energy of the local laws is differenced: smooth but for kinks at the roll stations.
 const ROLL_STEP_RAD: f64 = 1e-5;
 
 /// What is given besides the separations.
@@ -52,7 +51,6 @@ pub struct SliceContact {
     /// Hertz contact of each touching slice, and the edge where it is one.
     hertz: Vec<(LineContact, Option<EdgeContact>)>,
     local: Vec<LocalLaw>,
-    block: Vec<f64>,
     work: Workspace,
 }
 
@@ -109,7 +107,6 @@ impl SliceContact {
             c: vec![0.0; capacity * capacity],
             hertz: Vec::with_capacity(capacity),
             local: Vec::with_capacity(capacity),
-            block: vec![0.0; slices * slices],
             work: Workspace::new(capacity),
         })
     }
@@ -250,48 +247,41 @@ impl SliceContact {
     /// # Errors
     /// [`LocalLawError`] where the moved slice has no local law.
     pub fn energy_by_roll(
-        &mut self,
+        &self,
         active: &[ContactLine],
         touching: &[ContactSlice],
         (line, gear): (usize, usize),
         floor_n: f64,
     ) -> Result<f64, LocalLawError> {
         let slices = self.slices();
-        let own = line * slices..(line + 1) * slices;
-        let mut energy = [0.0; 2];
-        for (energy, step) in energy.iter_mut().zip([ROLL_STEP_RAD, -ROLL_STEP_RAD]) {
-            let mut moved = touching[own.start];
+        let of_line = |number: usize| &self.work.forces()[number * slices..(number + 1) * slices];
+        let own = of_line(line);
+        let mut local = 0.0;
+        for step in [ROLL_STEP_RAD, -ROLL_STEP_RAD] {
+            let mut moved = touching[line * slices];
             match gear {
                 0 => moved.section.roll_1_rad += step,
                 _ => moved.section.roll_2_rad += step,
             }
             let law = self.law(self.line_contact(&moved), floor_n)?;
-            let forces = self.work.forces();
-            let local = forces[own.clone()].iter();
-            *energy += local.map(|f| law.complementary_energy(*f)).sum::<f64>();
-            let (compliance, place_of): (_, fn(&ContactLine) -> (usize, f64)) = match gear {
-                0 => (&self.compliance_1, |l| (l.tooth_1, l.roll_1_rad)),
-                _ => (&self.compliance_2, |l| (l.tooth_2, l.roll_2_rad)),
-            };
-            let (tooth, roll) = place_of(&moved.section);
-            let here = (tooth, compliance.place(roll));
-            for (number, other) in active.iter().enumerate() {
-                let (tooth_b, roll_b) = place_of(other);
-                let (there, weight) = if number == line {
-                    (here, 0.5)
-                } else {
-                    ((tooth_b, compliance.place(roll_b)), 1.0)
-                };
-                self.block.fill(0.0);
-                compliance.add_block(here, there, weight, &mut self.block, 0, slices);
-                let of_other = &forces[number * slices..(number + 1) * slices];
-                let rows = self.block.chunks_exact(slices);
-                *energy += (forces[own.clone()].iter().zip(rows))
-                    .map(|(force, row)| force * dot(row, of_other))
-                    .sum::<f64>();
-            }
+            let energy: f64 = own.iter().map(|f| law.complementary_energy(*f)).sum();
+            local += energy / (2.0 * step);
         }
-        Ok((energy[0] - energy[1]) / (2.0 * ROLL_STEP_RAD))
+        let compliance = match gear {
+            0 => &self.compliance_1,
+            _ => &self.compliance_2,
+        };
+        let place_of = |line: &ContactLine| match gear {
+            0 => (line.tooth_1, line.roll_1_rad),
+            _ => (line.tooth_2, line.roll_2_rad),
+        };
+        let (tooth, roll) = place_of(&active[line]);
+        let with_others = active.iter().enumerate().map(|(number, other)| {
+            let (tooth_b, roll_b) = place_of(other);
+            let there = (tooth_b, compliance.place(roll_b), of_line(number));
+            compliance.energy_rate((tooth, roll, own), there)
+        });
+        Ok(local + with_others.sum::<f64>())
     }
 
     fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>) {
@@ -325,7 +315,7 @@ impl SliceContact {
         let c = &mut self.c[..n * n];
         c.fill(0.0);
         for (i, a) in active.iter().enumerate() {
-            for (j, b) in active.iter().enumerate() {
+            for (j, b) in active.iter().enumerate().skip(i) {
                 let first = i * slices * n + j * slices;
                 for (gear, compliance, of) in [
                     (
@@ -353,7 +343,17 @@ impl SliceContact {
                 }
             }
         }
-        symmetrise(c, n);
+        // The blocks of two lines are each other's transpose; those on the diagonal are symmetric to rounding.
+        for row in 0..n {
+            for column in 0..row {
+                let same_line = row / slices == column / slices;
+                let above = c[column * n + row];
+                let mean = 0.5 * (c[row * n + column] + above);
+                let value = if same_line { mean } else { above };
+                c[row * n + column] = value;
+                c[column * n + row] = value;
+            }
+        }
     }
 
     /// C of slices that each have their own place, entry by entry.

@@ -203,8 +203,8 @@ impl Assembly<'_> {
         let (found, loads) = (&self.side.found, &self.side.loads);
         let sigma = self.side.flank.mirror();
         for (line, energy) in found.lines.iter().zip(&loads.energy_by_roll) {
-            for gear in 0..2 {
-                result.load += energy[gear] * line.roll_gradient[gear];
+            for (rate, gradient) in energy.iter().zip(&line.roll_gradient) {
+                result.load += *rate * gradient;
             }
         }
         for (i, contact) in found.contacts.iter().enumerate() {

@@ -94,6 +94,7 @@ impl FlankError for DeviationTable {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use gearmesh_geometry::FlankSide;

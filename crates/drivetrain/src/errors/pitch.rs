@@ -58,6 +58,7 @@ impl FlankError for PitchErrors {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

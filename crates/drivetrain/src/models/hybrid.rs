@@ -9,17 +9,24 @@
 //! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
+use gearmesh_contact::LocalContact;
 use gearmesh_contact::contact_lines::{ContactLine, ContactLines};
 use gearmesh_contact::contact_slices::ContactSlice;
-use gearmesh_contact::nlcp::{FLOOR_FRACTION, NlcpError};
+use gearmesh_contact::nlcp::{FLOOR_FRACTION, LocalLawError, NlcpError};
 use gearmesh_contact::slice_contact::{Given, Separations, SliceContact};
-use gearmesh_contact::{ContactError, LocalContact};
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
-use crate::mesh_kinematics::{FlankContacts, TeethLine};
+use crate::mesh_kinematics::{FlankContacts, TeethLine, ToothContact};
 use crate::teeth_model::{TeethLoads, TeethModel};
+
+/// A pair whose nearest slice is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
+/// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
+const OUT_OF_REACH: f64 = 3.0;
+
+/// A line that is left out.
+const NOWHERE: usize = usize::MAX;
 
 /// Separation \[m\] of a slice whose flank is gone.
 const GONE_M: f64 = 1.0;
@@ -29,6 +36,8 @@ const GONE_M: f64 = 1.0;
 pub struct ReducedTeeth {
     slices: SliceContact,
     floor_n: f64,
+    /// Number of each line among those that are solved for.
+    place: Vec<usize>,
     active: Vec<ContactLine>,
     touching: Vec<ContactSlice>,
     separation: Vec<f64>,
@@ -58,12 +67,12 @@ impl ReducedTeeth {
             extension: None,
             face_width_m: models[0].face_width_m,
         };
-        let slices =
-            SliceContact::new(lines, models[0], models[1], local).map_err(ContactError::from)?;
+        let slices = SliceContact::new(lines, models[0], models[1], local)?;
         let capacity = slices.capacity();
         let empty = || Vec::with_capacity(capacity);
         Ok(Self {
             floor_n: FLOOR_FRACTION * nominal_force_n / slices.slices() as f64,
+            place: Vec::with_capacity(capacity),
             active: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(capacity),
             separation: empty(),
@@ -80,12 +89,25 @@ impl ReducedTeeth {
         self.slices.slice_centres_m()
     }
 
-    /// Takes lines and separations of a pose.
+    /// Takes the lines within reach and the separations of a pose.
     fn take(&mut self, flanks: &FlankContacts) {
         self.active.clear();
         self.touching.clear();
         self.separation.clear();
-        for (number, line) in flanks.lines.iter().enumerate() {
+        self.place.clear();
+        let least = |contacts: &[ToothContact]| {
+            let gaps = contacts.iter().map(|contact| contact.gap_m);
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        let reach = -OUT_OF_REACH * least(&flanks.contacts);
+        for line in &flanks.lines {
+            let (first, count) = line.contacts;
+            if least(&flanks.contacts[first..first + count]) > reach {
+                self.place.push(NOWHERE);
+                continue;
+            }
+            let number = self.active.len();
+            self.place.push(number);
             let section = contact_line(line);
             self.active.push(section);
             let centres = self.slices.slice_centres_m().iter().enumerate();
@@ -98,10 +120,11 @@ impl ReducedTeeth {
                     section,
                 }));
         }
-        let slices = self.slices.slices();
         self.separation.resize(self.touching.len(), GONE_M);
         for contact in &flanks.contacts {
-            self.separation[contact.line * slices + contact.slice] = contact.gap_m;
+            if let Some(row) = row_of(&self.place, contact, self.slices.slices()) {
+                self.separation[row] = contact.gap_m;
+            }
         }
     }
 
@@ -109,16 +132,22 @@ impl ReducedTeeth {
         let (n, slices) = (flanks.contacts.len(), self.slices.slices());
         let size = self.touching.len();
         self.change.resize(size, 0.0);
+        self.unit.clear();
+        self.unit.resize(size, 0.0);
         for (j, contact) in flanks.contacts.iter().enumerate() {
+            let Some(row) = row_of(&self.place, contact, slices) else {
+                continue;
+            };
             if loads.normal_n[j] <= 0.0 {
                 continue;
             }
-            self.unit.clear();
-            self.unit.resize(size, 0.0);
-            self.unit[contact.line * slices + contact.slice] = -1.0;
+            self.unit[row] = -1.0;
             self.slices.apply_tangent(&self.unit, &mut self.change);
+            self.unit[row] = 0.0;
             for (i, other) in flanks.contacts.iter().enumerate() {
-                loads.stiffness_n_per_m[i * n + j] = self.change[other.line * slices + other.slice];
+                if let Some(row) = row_of(&self.place, other, slices) {
+                    loads.stiffness_n_per_m[i * n + j] = self.change[row];
+                }
             }
         }
     }
@@ -130,7 +159,11 @@ impl ReducedTeeth {
     ) -> Result<(), DrivetrainError> {
         let slices = self.slices.slices();
         for (number, line) in flanks.lines.iter().enumerate() {
-            let own = &self.slices.forces_n()[number * slices..(number + 1) * slices];
+            let place = self.place[number];
+            if place == NOWHERE {
+                continue;
+            }
+            let own = &self.slices.forces_n()[place * slices..(place + 1) * slices];
             if own.iter().all(|force| *force == 0.0) {
                 continue;
             }
@@ -138,13 +171,19 @@ impl ReducedTeeth {
                 // At the end of a flank the contact no longer walks.
                 if line.roll_rad[gear] == line.touching_roll_rad[gear] {
                     loads.energy_by_roll[number][gear] = (self.slices)
-                        .energy_by_roll(&self.active, &self.touching, (number, gear), self.floor_n)
-                        .map_err(|cause| local_law_error(line, cause))?;
+                        .energy_by_roll(&self.active, &self.touching, (place, gear), self.floor_n)
+                        .map_err(|cause| local_law_error(line.teeth, cause))?;
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Row of a contact in the problem; none if its line is left out.
+fn row_of(place: &[usize], contact: &ToothContact, slices: usize) -> Option<usize> {
+    let number = place[contact.line];
+    (number != NOWHERE).then(|| number * slices + contact.slice)
 }
 
 fn contact_line(line: &TeethLine) -> ContactLine {
@@ -159,13 +198,10 @@ fn contact_line(line: &TeethLine) -> ContactLine {
     }
 }
 
-fn local_law_error(
-    line: &TeethLine,
-    cause: gearmesh_contact::nlcp::LocalLawError,
-) -> DrivetrainError {
+fn local_law_error(teeth: [usize; 2], cause: LocalLawError) -> DrivetrainError {
     DrivetrainError::LocalLaw {
-        tooth_1: line.teeth[0],
-        tooth_2: line.teeth[1],
+        tooth_1: teeth[0],
+        tooth_2: teeth[1],
         cause,
     }
 }
@@ -192,7 +228,10 @@ impl TeethModel for ReducedTeeth {
         (self
             .slices
             .prepare(&self.active, &self.touching, self.floor_n))
-        .map_err(|(cause, slice)| local_law_error(&flanks.lines[slice / slices], cause))?;
+        .map_err(|(cause, slice)| {
+            let line = &self.active[slice / slices];
+            local_law_error([line.tooth_1, line.tooth_2], cause)
+        })?;
         let separations = Separations {
             separation_m: &self.separation,
             closing: &self.ones[..size],
@@ -201,7 +240,9 @@ impl TeethModel for ReducedTeeth {
         self.slices.solve(separations, Given::Approach(0.0))?;
         let forces = self.slices.forces_n();
         for (force, contact) in loads.normal_n.iter_mut().zip(&flanks.contacts) {
-            *force = forces[contact.line * slices + contact.slice];
+            if let Some(row) = row_of(&self.place, contact, slices) {
+                *force = forces[row];
+            }
         }
         loads.stored_j = self.slices.stored_energy_j();
         self.fill_tangent(flanks, loads);

@@ -109,6 +109,7 @@ impl TeethModel for Impact {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
