@@ -283,12 +283,14 @@ impl SliceCompliance {
         let n = self.slices;
         let mut rate = 0.0;
         for (sa, wa) in self.hats.share_rates(roll_a).shares() {
-            for (i, force) in forces_a.iter().enumerate() {
-                let row = &table[(sa * n + i) * size..][..size];
-                for (sb, wb) in place_b.shares() {
-                    let along = row[sb * n..].iter().zip(forces_b);
-                    rate += wa * wb * force * along.map(|(c, f)| c * f).sum::<f64>();
-                }
+            for (sb, wb) in place_b.shares() {
+                let first = sa * n * size + sb * n;
+                let rows = table[first..].chunks(size).zip(forces_a);
+                let work = rows.map(|(row, force)| {
+                    let along = row.iter().zip(forces_b);
+                    force * along.map(|(c, f)| c * f).sum::<f64>()
+                });
+                rate += wa * wb * work.sum::<f64>();
             }
         }
         if tooth_a == tooth_b && !self.spread.is_empty() {

@@ -48,6 +48,14 @@ pub enum DrivetrainError {
         /// Base helix angle.
         base_helix_deg: f64,
     },
+    /// A model without mass.
+    #[error(
+        "the model of gear `{gear}` has no mass and inertia: give a density in its [material] table and reduce it again, or state the body's mass"
+    )]
+    NoRigidBody {
+        /// Name of the gear.
+        gear: String,
+    },
     /// Errors of single teeth with a model that has no single teeth.
     #[error(
         "flank errors are given, but the iso6336 mesh is one spring that knows no single tooth: take another mesh model, or leave them out"

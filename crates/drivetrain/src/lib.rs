@@ -8,7 +8,7 @@
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
-//! | mass and inertia of a gear body | [`gear_inertia`] | `gear_inertia.rs` |
+//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
 //! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur gears.
 //! The theory is in docs/theory/gear_meshes.md.
@@ -18,6 +18,7 @@ pub mod error;
 pub mod errors;
 pub mod flank_error;
 pub mod friction;
+pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
 pub mod mesh_element;
@@ -32,6 +33,7 @@ pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_error::{FlankError, FlankPoint, Removed};
 pub use friction::Friction;
+pub use gear_body::gear_body;
 pub use gear_inertia::GearInertia;
 pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
 pub use mesh_element::MeshElement;

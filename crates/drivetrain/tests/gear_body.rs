@@ -83,3 +83,29 @@ fn bodies_have_the_mass_of_their_parts() {
     });
     assert!(slotted.centre_xy_m[0] < 0.0 && slotted.centre_xy_m[1].abs() < 1e-15);
 }
+
+/// From a model file: inertia brought from the reference point to the centre of mass, whose own Steiner part brings it back.
+#[test]
+fn bodies_come_from_the_model_file() {
+    let mut gear = gearmesh_model::synthetic::small_reduced_gear();
+    let rigid = gear.rigid_body.as_mut().unwrap();
+    rigid.reference_m = [0.0, 1e-3, -2e-3];
+    rigid.centre_m = [2e-3, 0.0, 1e-3];
+    let rigid = rigid.clone();
+    let body = gearmesh_drivetrain::gear_body(&gear).unwrap();
+    body.validate().unwrap();
+    assert_eq!(body.center_of_mass_m.as_slice(), rigid.centre_m);
+    let c = body.center_of_mass_m - nalgebra::Vector3::from(rigid.reference_m);
+    for i in 0..3 {
+        for j in 0..3 {
+            let own = if i == j { c.norm_squared() } else { 0.0 };
+            let back = body.inertia_kg_m2[(i, j)] + body.mass_kg * (own - c[i] * c[j]);
+            assert!((back - rigid.inertia_kg_m2[i][j]).abs() < 1e-15);
+        }
+    }
+    gear.rigid_body = None;
+    let refused = gearmesh_drivetrain::gear_body(&gear)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("density"), "{refused}");
+}

@@ -243,7 +243,7 @@ fn kinematic_meshes_keep_the_ratio() {
         ("gear 2", &pair.gear_2, pair.centre_distance_m),
     ] {
         let id = builder
-            .body(gear_body(name, gear, WIDTH, (x, 0.3, 0.0)))
+            .body(disc(name, gear, WIDTH, (x, 0.3, 0.0)))
             .unwrap();
         let shaft = MarkerPair {
             a: Marker::ground([x, 0.0, 0.0]),

@@ -175,7 +175,7 @@ pub fn moving(pose: &Pose, rates: &pose::Vector6) -> Pose {
 }
 
 /// A gear on a revolute joint: mass and inertia of a solid disc with a bore of 16 mm.
-pub fn gear_body(
+pub fn disc(
     name: &str,
     gear: &ToothGeometry,
     width_m: f64,
@@ -229,7 +229,7 @@ pub fn two_gears(
             -torque_2,
         ),
     ] {
-        let body = gear_body(name, gear, width_m, (x, angle, speed));
+        let body = disc(name, gear, width_m, (x, angle, speed));
         let id = builder.body(body).unwrap();
         let marker = Marker::at(id, [0.0; 3]);
         let housing = Marker::ground([x, 0.0, 0.0]);
