@@ -20,7 +20,7 @@ mesh = gearmesh.read_mesh(path)
 # Natural coordinates of the corners in VTK order, and which of them lies where scikit-fem's [0, 1]^3 has its k-th.
 corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 order = [np.flatnonzero(np.all(corners == at, axis=1))[0] for at in skfem.ElementHex1.doflocs]
-body = skfem.MeshHex(mesh["points"].T.copy(), mesh["hexes"].astype(np.int64)[:, order].T.copy())
+body = skfem.MeshHex(mesh["points"].T.copy(), mesh["cells"]["hex8"].astype(np.int64)[:, order].T.copy())
 assert np.array_equal(body.p.T, mesh["points"])
 element = skfem.ElementVector(skfem.ElementHex1())
 # Gauss rules of two points a direction for the stiffness and three for the mass, as in the Rust elements.

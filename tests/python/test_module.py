@@ -9,6 +9,9 @@ import pytest
 
 import gearmesh
 
+# meshio reads and writes fifteen-node wedges but lacks their dimension; the module adds it for itself in the same way.
+meshio._mesh.topological_dimension.setdefault("wedge15", 3)
+
 
 def block(shape=(3, 2, 2), lengths=(0.03, 0.0217, 1.0 / 70.0)):
     """A skewed brick of hexahedra with irrational coordinates: points, hexes."""
@@ -29,7 +32,7 @@ def mesh_file(tmp_path):
     path = tmp_path / "block.h5"
     sets = {"bore": np.flatnonzero(points[:, 2] == points[:, 2].min()), "last": [len(points) - 1]}
     fields = {"displacement": np.sin(points) * 1e-6, "temperature": points[:, :1] * 1e3}
-    gearmesh.write_mesh(path, points, hexes, point_sets=sets, point_fields=fields)
+    gearmesh.write_mesh(path, points, {"hex8": hexes}, point_sets=sets, point_fields=fields)
     return path
 
 
@@ -37,7 +40,7 @@ def test_write_and_read_mesh(mesh_file):
     points, hexes = block()
     mesh = gearmesh.read_mesh(mesh_file)
     assert np.array_equal(mesh["points"], points)
-    assert np.array_equal(mesh["hexes"], hexes)
+    assert np.array_equal(mesh["cells"]["hex8"], hexes)
     assert mesh["point_sets"]["last"].tolist() == [len(points) - 1]
     assert np.array_equal(mesh["point_fields"]["displacement"], np.sin(points) * 1e-6)
 
@@ -60,7 +63,7 @@ def test_roundtrip_through_format(mesh_file, tmp_path, extension, tolerance, lef
     back_file = tmp_path / "back.h5"
     gearmesh.import_mesh(out, back_file)
     mesh, back = gearmesh.read_mesh(mesh_file), gearmesh.read_mesh(back_file)
-    assert np.array_equal(back["hexes"], mesh["hexes"])
+    assert np.array_equal(back["cells"]["hex8"], mesh["cells"]["hex8"])
     assert np.abs(back["points"] - mesh["points"]).max() <= tolerance * np.abs(mesh["points"]).max()
     for name in set(mesh["point_sets"]) - left_out:
         assert np.array_equal(back["point_sets"][name], mesh["point_sets"][name]), name
@@ -136,8 +139,12 @@ def test_import_checks_the_elements(tmp_path):
     mirrored = points * [1, 1, -1]
     cases = {
         "Jacobian": [("hexahedron", hexes)],
-        "only hexahedra of 8 or 20 nodes": [("hexahedron", hexes), ("tetra", hexes[:2, [0, 1, 3, 4]])],
-        "no hexahedra of 8 or 20 nodes": [("quad", hexes[:, :4])],
+        "2 tetra cells; linear tetrahedra are far too stiff.*tetra10": [
+            ("hexahedron", hexes), ("tetra", hexes[:2, [0, 1, 3, 4]])
+        ],
+        "1 pyramid cells; allowed are": [("pyramid", hexes[:1, [0, 1, 2, 3, 4]])],
+        "both hex8 and tet10 elements": [("hexahedron", hexes), ("tetra10", hexes[:1, [0, 1, 3, 4, 5, 6, 7, 2, 2, 2]])],
+        "no volume elements": [("quad", hexes[:, :4])],
     }
     for message, cells in cases.items():
         meshio.Mesh(mirrored if message == "Jacobian" else points, cells).write(tmp_path / "in.vtu")
@@ -153,8 +160,80 @@ def test_import_joins_blocks_and_says_what_it_left_out(tmp_path):
     meshio.Mesh(points, cells, cell_data={"energy": energy}).write(tmp_path / "in.vtu")
     assert gearmesh.import_mesh(tmp_path / "in.vtu", tmp_path / "out.h5") == ["3 quad cells"]
     mesh = gearmesh.read_mesh(tmp_path / "out.h5")
-    assert np.array_equal(mesh["hexes"], hexes)
+    assert np.array_equal(mesh["cells"]["hex8"], hexes)
     assert np.array_equal(mesh["cell_fields"]["energy"][:, 0], np.arange(12.0))
+
+
+def mixed(quadratic):
+    """Two hexahedra, the second cut in two wedges, by meshio's names; a node of no element in front."""
+    points, hexes = block((2, 1, 1))
+    cells = {"hex": hexes[:1], "wedge": hexes[1][[[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]]]}
+    if quadratic:
+        edges = {
+            "hex": [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]],
+            "wedge": [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]],
+        }
+        of = {kind: np.sort(cells[kind][:, ends], axis=-1) for kind, ends in edges.items()}
+        every = np.unique(np.vstack([ends.reshape(-1, 2) for ends in of.values()]), axis=0)
+        number = {tuple(edge): len(points) + k for k, edge in enumerate(every.tolist())}
+        for kind, ends in of.items():
+            middles = np.array([[number[tuple(edge)] for edge in element] for element in ends.tolist()])
+            cells[kind] = np.hstack([cells[kind], middles])
+        points = np.vstack([points, points[every].mean(axis=1)])
+    points = np.vstack([[[9.0, 9.0, 9.0]], points])
+    names = ("hexahedron20", "wedge15") if quadratic else ("hexahedron", "wedge")
+    return points, [(name, cells[kind] + 1) for name, kind in zip(names, ("hex", "wedge"))]
+
+
+# meshio writes no gmsh file of several kinds of elements.
+@pytest.mark.parametrize("extension", [".vtu", ".vtk", ".inp"])
+@pytest.mark.parametrize("quadratic", [False, True])
+def test_hexahedra_and_wedges_go_through_formats(tmp_path, extension, quadratic):
+    points, cells = mixed(quadratic)
+    source = tmp_path / "in.vtu"
+    meshio.Mesh(points, cells).write(source)
+    assert gearmesh.import_mesh(source, tmp_path / "in.h5") == ["1 nodes of no volume element"]
+    mesh = gearmesh.read_mesh(tmp_path / "in.h5")
+    kinds = ["hex20", "wedge15"] if quadratic else ["hex8", "wedge6"]
+    assert list(mesh["cells"]) == kinds
+    for kind, (_, expected) in zip(kinds, cells):
+        assert np.array_equal(mesh["cells"][kind], expected - 1)
+    gearmesh.export_mesh(tmp_path / "in.h5", tmp_path / f"out{extension}")
+    gearmesh.import_mesh(tmp_path / f"out{extension}", tmp_path / "back.h5")
+    back = gearmesh.read_mesh(tmp_path / "back.h5")
+    assert np.array_equal(back["points"], mesh["points"])
+    for kind in kinds:
+        assert np.array_equal(back["cells"][kind], mesh["cells"][kind])
+    # Wedges numbered as VTK's own program does it, the lower triangle the other way round.
+    turn = [3, 4, 5, 0, 1, 2] + ([9, 10, 11, 6, 7, 8, 12, 13, 14] if quadratic else [])
+    meshio.Mesh(points, [cells[0], (cells[1][0], cells[1][1][:, turn])]).write(source)
+    gearmesh.import_mesh(source, tmp_path / "turned.h5")
+    assert np.array_equal(gearmesh.read_mesh(tmp_path / "turned.h5")["cells"][kinds[1]], mesh["cells"][kinds[1]])
+
+
+def test_sets_of_elements_become_sets_of_nodes(tmp_path):
+    points, hexes = block()
+    faces = hexes[:6, :4]  # below the first layer
+    bottom = np.unique(faces)
+    cells = [("hexahedron", hexes), ("quad", faces)]
+    # gmsh 2.2: numbers of physical groups; their names in field_data.
+    groups = [np.full(len(hexes), 1), np.full(len(faces), 2)]
+    tags = {"gmsh:physical": groups, "gmsh:geometrical": groups}
+    names = {"body": np.array([1, 3]), "bore": np.array([2, 2])}
+    meshio.gmsh.write(tmp_path / "in.msh", meshio.Mesh(points, cells, cell_data=tags, field_data=names), "2.2", True)
+    gearmesh.import_mesh(tmp_path / "in.msh", tmp_path / "out.h5")
+    sets = gearmesh.read_mesh(tmp_path / "out.h5")["point_sets"]
+    assert sets["bore"].tolist() == bottom.tolist()
+    assert sets["body"].tolist() == list(range(len(points)))
+    # Abaqus: *ELSET and *NSET.
+    lines = ["*NODE"] + [f"{n + 1}, " + ", ".join(map(repr, map(float, p))) for n, p in enumerate(points)]
+    lines += ["*ELEMENT, TYPE=C3D8"] + [f"{e + 1}, " + ", ".join(str(n + 1) for n in h) for e, h in enumerate(hexes)]
+    lines += ["*ELSET, ELSET=two", "1, 2", "*NSET, NSET=three", "1, 2, 3"]
+    (tmp_path / "in.inp").write_text("\n".join(lines) + "\n")
+    gearmesh.import_mesh(tmp_path / "in.inp", tmp_path / "out.h5")
+    sets = gearmesh.read_mesh(tmp_path / "out.h5")["point_sets"]
+    assert sets["two"].tolist() == np.unique(hexes[:2]).tolist()
+    assert sets["three"].tolist() == [0, 1, 2]
 
 
 def test_write_mesh_refuses_nonsense(tmp_path):
@@ -162,13 +241,15 @@ def test_write_mesh_refuses_nonsense(tmp_path):
     path = tmp_path / "bad.h5"
     for message, arguments in {
         "three are needed": (points[:, :2], hexes),
-        "8 or 20 are needed": (points, hexes[:, :4]),
+        "hex8 elements have 4 nodes; 8 are needed": (points, hexes[:, :4]),
         "indices start at 0": (points, hexes - 1),
         "refers to node": (points, hexes + 100),
         "finite": (np.where(points == points.max(), np.nan, points), hexes),
     }.items():
         with pytest.raises(ValueError, match=message):
-            gearmesh.write_mesh(path, *arguments)
+            gearmesh.write_mesh(path, arguments[0], {"hex8": arguments[1]})
+    with pytest.raises(ValueError, match='"brick"; allowed are hex8, hex20, tet10, wedge6, wedge15'):
+        gearmesh.write_mesh(path, points, {"brick": hexes})
     assert not path.exists()
 
 

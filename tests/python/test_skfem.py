@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
+import scipy.spatial
 import skfem
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
@@ -57,7 +58,7 @@ class Body:
     def __init__(self, path):
         self.path = path
         self.points, self.hexes, self.held = distorted_block()
-        gearmesh.write_mesh(path, self.points, self.hexes)
+        gearmesh.write_mesh(path, self.points, {"hex8": self.hexes})
         self.force = np.random.default_rng(21).normal(scale=100.0, size=self.points.shape)
 
     def stiffness(self, element):
@@ -163,7 +164,7 @@ class QuadraticBody(Body):
         self.points = np.vstack([corners, middles])
         self.hexes = np.hstack([hexes, len(corners) + of_element.reshape(-1, 12)])
         self.held = np.concatenate([held, len(corners) + np.flatnonzero(np.isin(edges, held).all(axis=1))])
-        gearmesh.write_mesh(path, self.points, self.hexes)
+        gearmesh.write_mesh(path, self.points, {"hex20": self.hexes})
         self.force = random.normal(scale=100.0, size=self.points.shape)
 
 
@@ -182,6 +183,71 @@ def serendipity(natural):
     ])
     monomials = lambda x: np.prod(x[..., None, :] ** powers, axis=-1)
     return np.linalg.solve(monomials(NODES_20).T, monomials(np.asarray(natural, dtype=float)))
+
+
+class TetrahedralBody(Body):
+    """The block cut in ten-node tetrahedra, with bent edges."""
+
+    def __init__(self, path):
+        self.path = path
+        corners, hexes, held = distorted_block()
+        random = np.random.default_rng(23)
+        # Six about the diagonal 0-6 of each brick.
+        cut = [[0, 1, 2, 6], [0, 5, 1, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 4, 5, 6], [0, 7, 4, 6]]
+        tets = hexes[:, cut].reshape(-1, 4)
+        ends = np.sort(tets[:, [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]], axis=-1).reshape(-1, 2)
+        edges, of_element = np.unique(ends, axis=0, return_inverse=True)
+        lengths = np.linalg.norm(np.diff(corners[edges], axis=1)[:, 0], axis=1)
+        self.straight = np.vstack([corners, corners[edges].mean(axis=1)])
+        bends = 0.05 * lengths[:, None] * random.uniform(-1.0, 1.0, (len(edges), 3))
+        self.points = self.straight + np.vstack([0.0 * corners, bends])
+        self.tets = np.hstack([tets, len(corners) + of_element.reshape(-1, 6)])
+        self.held = np.concatenate([held, len(corners) + np.flatnonzero(np.isin(edges, held).all(axis=1))])
+        gearmesh.write_mesh(path, self.points, {"tet10": self.tets})
+        self.force = random.normal(scale=100.0, size=self.points.shape)
+
+
+def tetrahedron_rule():
+    """Eight points of degree 3 (Yu 1984): two on each line from a corner to the centre."""
+    points, weights = [], []
+    for at, weight in ((0.3281633025163817, 0.1362178425370874), (0.1080472498984286, 0.1137821574629126)):
+        for corner in range(4):
+            volume = np.full(4, at)
+            volume[corner] = 1.0 - 3.0 * at
+            points.append(volume[1:])
+            weights.append(weight / 6.0)
+    return np.array(points).T, np.array(weights)
+
+
+class ScikitFemTet(ScikitFem):
+    """The ten-node tetrahedron by scikit-fem, nodes found by where they are."""
+
+    def __init__(self, body):
+        tree = scipy.spatial.cKDTree(body.straight)
+        used = np.unique(body.tets[:, :4])
+        assert np.array_equal(used, np.arange(len(used)))
+        curved = skfem.MeshTet2.from_mesh(skfem.MeshTet(body.straight[used].T.copy(), body.tets[:, :4].T.copy()))
+        distance, node = tree.query(curved.doflocs.T)
+        assert distance.max() < 1e-12
+        self.mesh = skfem.MeshTet2(body.points[node].T.copy(), curved.t)
+        element = skfem.ElementVector(skfem.ElementTetP2())
+        self.basis = skfem.Basis(self.mesh, element, quadrature=tetrahedron_rule())
+        # Three displacements at each vertex and edge, numbered through.
+        distance, node = scipy.spatial.cKDTree(body.points).query(self.basis.doflocs.T)
+        assert distance.max() < 1e-12
+        self.theirs = np.full(body.points.size, -1)
+        for dofs in (self.basis.nodal_dofs, self.basis.edge_dofs):
+            for axis in range(3):
+                self.theirs[3 * node[dofs[axis]] + axis] = dofs[axis]
+        assert (np.sort(self.theirs) == np.arange(body.points.size)).all()
+
+
+def test_tet10_stiffness_and_displacement_are_those_of_scikit_fem(tmp_path):
+    body = TetrahedralBody(tmp_path / "block.h5")
+    fem = ScikitFemTet(body)
+    assert len(body.tets) == 360
+    assert entrywise(body.stiffness("tet10"), fem.stiffness()) < TOLERANCE
+    assert in_norm(body.solve("tet10"), body.displacement_by_scipy(fem.stiffness())) < TOLERANCE
 
 
 class ScikitFem20(ScikitFem):
@@ -366,13 +432,13 @@ def test_hex20_strain_at_the_centres_is_that_of_scikit_fem(quadratic_body):
 
 def test_a_mesh_of_twenty_nodes_comes_back(quadratic_body):
     read = gearmesh.read_mesh(quadratic_body.path)
-    assert np.array_equal(read["hexes"], quadratic_body.hexes)
+    assert np.array_equal(read["cells"]["hex20"], quadratic_body.hexes)
 
 
 def test_an_element_takes_its_own_number_of_nodes(body, quadratic_body):
-    with pytest.raises(ValueError, match="8 nodes an element; hex20 has 20"):
+    with pytest.raises(ValueError, match="the elements hex8; hex20 is not among them"):
         body.stiffness("hex20")
-    with pytest.raises(ValueError, match="20 nodes an element; hex8 has 8"):
+    with pytest.raises(ValueError, match="the elements hex20; hex8 is not among them"):
         quadratic_body.stiffness("hex8")
 
 

@@ -4,8 +4,9 @@
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, ModeRange};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{MeshData, write_mesh};
+use gearmesh_model::{CellKind, MeshData, write_mesh};
 use gearmesh_reduction::{GearBody, Silent};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 const DENSITY: f64 = 7850.0;
@@ -15,7 +16,7 @@ fn gear() -> GearDefinition {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fe_models/gear2.toml");
     let text = std::fs::read_to_string(path).unwrap();
     let text = format!(
-        "{text}\n[mesh]\nelement = \"hex8\"\nflank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 5.0\naxial_mm = 6.0\n"
+        "{text}\n[mesh]\nelement = \"hex8\"\nflank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 5.0\naxial_mm = 11.5\n"
     );
     GearDefinition::from_document(&InputDocument::new("gear2.toml", text)).unwrap()
 }
@@ -38,7 +39,7 @@ fn frequencies_of_gear_2_are_those_of_scikit_fem() {
     let file = folder.join("gear.h5");
     let data = MeshData {
         points: body.mesh.nodes.clone(),
-        hexes: body.mesh.elements.connectivity().as_chunks().0.to_vec(),
+        cells: BTreeMap::from([(CellKind::Hex8, body.mesh.elements.connectivity().to_vec())]),
         point_sets: body.mesh.node_sets(&gear),
         ..MeshData::default()
     };

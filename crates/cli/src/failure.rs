@@ -71,9 +71,12 @@ impl From<gearmesh_reduction::ReductionError> for Failure {
             | ReductionError::NoDensity
             | ReductionError::ModesInPlaneStrain
             | ReductionError::NoModes { .. }
-            | ReductionError::Mesh(MeshError::NoCut { .. } | MeshError::Quality { .. }) => {
-                Self::input(error)
-            }
+            | ReductionError::Mesh(
+                MeshError::NoCut { .. }
+                | MeshError::Quality { .. }
+                | MeshError::MeshedElsewhere { .. },
+            ) => Self::input(error),
+            ReductionError::Imported(ref cause) if cause.is_input() => Self::input(error),
             _ => Self::work(error),
         }
     }

@@ -3,13 +3,15 @@
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
-use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::{GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_mesh::{ElementShape, GearMesh};
-use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_mesh};
+use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
-use gearmesh_reduction::{GearBody, ReductionOptions, reduce};
+use gearmesh_reduction::{
+    GearBody, Progress, ReductionOptions, read_body, reduce, reduce_imported,
+};
 use gearmesh_scene::{LoadedScene, SceneResult};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,6 +28,17 @@ pub fn reduced(
 ) -> Result<(ReducedGear, GearBody), Failure> {
     let bar = StageBar::new(&gear.name);
     let outcome = reduce(gear, &python()?, ReductionOptions { estimate_error }, &bar);
+    bar.finish();
+    Ok(outcome?)
+}
+
+/// Reads, checks and reduces a gear that was meshed elsewhere.
+pub fn reduced_import(gear: &GearDefinition, body: &MeshedBody) -> Result<ReducedGear, Failure> {
+    let bar = StageBar::new(&gear.name);
+    bar.stage("reading the mesh");
+    let folder = Scratch::new(tempfile::tempdir().map_err(Failure::work)?.keep());
+    let mesh = read_body(body, &python()?, &folder.path().join("mesh.h5"));
+    let outcome = mesh.and_then(|mesh| reduce_imported(gear, body, mesh, &bar));
     bar.finish();
     Ok(outcome?)
 }
@@ -72,11 +85,12 @@ pub fn export_mesh(
         cell_fields: fields.cell,
         ..MeshData::default()
     };
-    let connectivity = mesh.elements.connectivity();
-    match mesh.elements.shape() {
-        ElementShape::Hex8 => data.hexes = connectivity.as_chunks().0.to_vec(),
-        ElementShape::Hex20 => data.set_hexes_of_20(connectivity.as_chunks().0),
-    }
+    let kind = match mesh.elements.shape() {
+        ElementShape::Hex8 => CellKind::Hex8,
+        ElementShape::Hex20 => CellKind::Hex20,
+    };
+    data.cells
+        .insert(kind, mesh.elements.connectivity().to_vec());
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");

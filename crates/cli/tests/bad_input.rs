@@ -431,3 +431,54 @@ fn an_edge_radius_that_is_not_used_or_not_possible_is_refused() {
         &["found 0", "1 to 1000"],
     );
 }
+
+/// What a contour may not be.
+#[test]
+fn a_contour_that_cannot_be_is_explained() {
+    const CONTOUR: &str = "kind = \"contour\"
+hub_z_mm = [-8.0, 6.0]
+web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = [-1.0, 3.0] }]";
+    let sound = changed(SOLID, "kind = \"solid\"", CONTOUR);
+    for (change, at, parts) in [
+        (
+            ("[-1.0, 3.0]", "[-1.0, 7.0]"),
+            "web =",
+            &["blank.web.1.z_mm", "found 7", "-6 to 6 at the rim"][..],
+        ),
+        (
+            ("diameter_mm = 38.0", "diameter_mm = 18.0"),
+            "web =",
+            &[
+                "blank.web.0.diameter_mm",
+                "more than 14.000 and less than 18.000",
+            ],
+        ),
+        (
+            ("[-2.0, 2.0]", "[2.0, -2.0]"),
+            "web =",
+            &["blank.web.0.z_mm", "back < front"],
+        ),
+        (
+            ("[-8.0, 6.0]", "[-1.0, 6.0]"),
+            "hub_z_mm",
+            &["at or beyond the back of the web at the hub, -2"],
+        ),
+        (
+            ("[-1.0, 3.0]", "[-1.0, 6.0]"),
+            "hub_z_mm",
+            &["the web ends 0.000 mm inside the rim's face and 4.000 mm inside the hub's"],
+        ),
+        (
+            ("hub_z_mm = [-8.0, 6.0]\n", ""),
+            "[blank]",
+            &["blank.hub_z_mm: missing", "[back, front]"],
+        ),
+        (
+            ("kind = \"contour\"", "kind = \"solid\""),
+            "hub_z_mm",
+            &["only a blank of kind = \"contour\" uses it"],
+        ),
+    ] {
+        gear_refused(&sound, change, at, parts);
+    }
+}

@@ -160,7 +160,7 @@ fn modes_are_sorted_paired_and_drawn() {
 
     // The model file holds what [modes] and [hub] ask for.
     let tables = "[modes]\ncount = 3\n[hub]\nsupport = \"reference-point\"\n";
-    let gear = desk.file("both.toml", &format!("{with_density}\n{tables}"));
+    let gear = desk.file("both.toml", format!("{with_density}\n{tables}"));
     let model = desk.path("model.h5");
     let arguments = [
         "reduce",
@@ -189,7 +189,7 @@ fn modes_that_cannot_be_found_are_refused() {
     };
     refused(&[], "--count, --up-to-Hz, or [modes]");
     refused(&["--count", "0"], "--count: found 0");
-    refused(&["--up-to-Hz", "-3"], "--up-to-Hz");
+    refused(&["--up-to-Hz=-3"], "--up-to-Hz: found -3");
     refused(&["--count", "3"], "material.density_kg_per_m3");
     refused(&["--count", "3", "--up-to-Hz", "10"], "cannot be used with");
 }
@@ -227,8 +227,11 @@ fn reduce_prints_the_figures_of_its_checks() {
             figures["nodes"].as_u64().unwrap(),
         );
         assert!(dofs < 3 * nodes && dofs > 2 * nodes, "{figures}");
-        let error = number(&figures["further"]["compliance error estimate"]);
-        assert!(error > 0.0 && error < 0.1, "{figures}");
+        for teeth in ["loaded tooth", "other teeth"] {
+            let error =
+                number(&figures["further"][format!("mesh error of the deflection, {teeth}")]);
+            assert!(error > 0.0 && error < 0.1, "{figures}");
+        }
     }
     let names: Vec<_> = workshop().figures[1]["gauges"]
         .as_array()
@@ -327,13 +330,23 @@ fn compliance_at_another_tooth_is_smaller_and_has_no_local_part() {
         (
             number(&figures["rows"][0]["total_m"]),
             number(&figures["rows"][0]["local_m"]),
+            figures["mesh_error_relative"].as_f64(),
         )
     };
-    let (loaded, local) = total_at("2");
+    let (loaded, local, error) = total_at("2");
     assert!(local > 0.0);
-    let (ahead, local_ahead) = total_at("3");
-    let (behind, _) = total_at("1");
-    let (opposite, _) = total_at("11");
+    let (ahead, local_ahead, error_ahead) = total_at("3");
+    let (behind, ..) = total_at("1");
+    let (opposite, ..) = total_at("11");
+    // What the reduction said of the mesh.
+    let stated = &workshop().figures[1]["further"];
+    for (error, teeth) in [(error, "loaded tooth"), (error_ahead, "other teeth")] {
+        let name = format!("mesh error of the deflection, {teeth}");
+        assert!(
+            error.is_some() && error == stated[name].as_f64(),
+            "{error:?}"
+        );
+    }
     assert_eq!(local_ahead, 0.0);
     assert!(
         opposite < ahead && ahead < loaded && opposite > 0.0,

@@ -48,6 +48,11 @@ pub enum DrivetrainError {
         /// Base helix angle.
         base_helix_deg: f64,
     },
+    /// A body that is no sum of rings.
+    #[error(
+        "mass and inertia in closed form are for hub and web with plane faces: take those of a contour or an imported mesh from the reduced gear's model file, or state them"
+    )]
+    BodyWithoutClosedForm,
     /// A model without mass.
     #[error(
         "the model of gear `{gear}` has no mass and inertia: give a density in its [material] table and reduce it again, or state the body's mass"

@@ -46,13 +46,17 @@ impl GearInertia {
     /// Integrates a gear body of density `density_kg_per_m3`.
     ///
     /// # Errors
-    /// [`DrivetrainError::Value`] for a density or width that is not positive.
+    /// [`DrivetrainError::Value`] for a density or width that is not positive, [`DrivetrainError::BodyWithoutClosedForm`] for hub and web
+    /// with a contour or a body meshed elsewhere: take those from the model file.
     pub fn new(
         tooth: &ToothGeometry,
         blank: &Blank,
         face_width_m: f64,
         density_kg_per_m3: f64,
     ) -> Result<Self, DrivetrainError> {
+        if blank.contour.is_some() || blank.meshed.is_some() {
+            return Err(DrivetrainError::BodyWithoutClosedForm);
+        }
         positive("gear body", "the density in kg/m3", density_kg_per_m3)?;
         positive("gear body", "the face width in m", face_width_m)?;
         let (area, polar) = outline(tooth);

@@ -20,6 +20,8 @@ fn bodies_have_the_mass_of_their_parts() {
         bore_radius_m: 8e-3,
         web: None,
         openings: None,
+        contour: None,
+        meshed: None,
     };
     let of = |blank: &Blank| GearInertia::new(gear, blank, WIDTH, STEEL_DENSITY).unwrap();
     let disc = |r: f64| STEEL_DENSITY * PI * r * r * WIDTH;

@@ -10,8 +10,9 @@ mod andrews;
 mod two_wheels;
 
 use divan::Bencher;
-use gearmesh_dynamics::{Params, Simulation};
+use gearmesh_dynamics::{Params, Simulation, System};
 use nalgebra::{UnitQuaternion, Vector3};
+use two_wheels::Coupling;
 
 fn main() {
     divan::main();
@@ -19,9 +20,18 @@ fn main() {
 
 /// 50 steps a mesh period at 600 rpm with 57 teeth: 28 500 steps a second, 35 µs each in real time.
 #[divan::bench(sample_size = 50)]
-fn two_wheels_on_bearings(bencher: Bencher) {
-    let mut simulation =
-        Simulation::new(two_wheels::system(), Params::fixed(1.0 / 28_500.0)).unwrap();
+fn two_wheels_on_a_spring(bencher: Bencher) {
+    steps(bencher, two_wheels::system(Coupling::Spring));
+}
+
+/// The same wheels at speed: one joint equation, and factors that age as they turn.
+#[divan::bench(sample_size = 50)]
+fn two_wheels_spinning(bencher: Bencher) {
+    steps(bencher, two_wheels::system(Coupling::Ratio));
+}
+
+fn steps(bencher: Bencher, system: System) {
+    let mut simulation = Simulation::new(system, Params::fixed(1.0 / 28_500.0)).unwrap();
     bencher.bench_local(|| simulation.step().unwrap());
 }
 

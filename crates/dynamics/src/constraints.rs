@@ -2,15 +2,16 @@
 //!
 //! With M = LLᵀ, the rows of B̂ = B L⁻ᵀ are comparable whatever their units. Redundant equations are found by orthogonalising the
 //! rows one after the other in the order of the joints (twice, so that rounding does not hide a dependence): a row of which
-//! less than [`DEPENDENT`] is left follows from those before it. The order makes the answer repeatable and lets an earlier joint keep its equations,
+//! less than 1e-8 is left follows from those before it. The order makes the answer repeatable and lets an earlier joint keep its equations,
 //! which a QR with free choice of pivots would not. Dropped equations are watched, not solved.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// Share of a row of B̂ below which it counts as dependent on the rows before it. Rounding leaves about 1e-15, well-built
 /// mechanisms have more than 1e-3.
@@ -157,7 +158,7 @@ pub(crate) fn analyse(system: &mut System) -> Result<(), DynamicsError> {
     }
     let all: Vec<usize> = (0..system.equations()).collect();
     let (worst, violation) = largest(&equations.violation, &all);
-    if !(violation < CONSISTENT) {
+    if violation.is_nan() || violation >= CONSISTENT {
         return Err(contradiction(
             system,
             &metric,
@@ -281,7 +282,7 @@ pub(crate) fn project_velocity(
         .velocity
         .iter()
         .fold(1.0_f64, |most, v| most.max(v.abs()));
-    if !(violation < CONSISTENT * scale) {
+    if violation.is_nan() || violation >= CONSISTENT * scale {
         return Err(contradiction(
             system,
             &metric,

@@ -16,11 +16,12 @@ use faer::{Mat, Side};
 use nalgebra::{DMatrix, Matrix3};
 
 use crate::constraints::Metric;
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
 use crate::rotation::skew;
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// A damping matrix below this share of the frequencies, and an asymmetry of the stiffness below this share of it, is rounding.
 const ROUNDING: f64 = 1e-11;

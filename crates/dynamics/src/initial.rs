@@ -5,10 +5,11 @@
 //! [B  0 ] [λ] = [f̈ − (dB/dt) v                  ]
 //! ```
 
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::saddle::Saddle;
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// Accelerations and reactions at one motion.
 #[derive(Debug, Clone, PartialEq)]

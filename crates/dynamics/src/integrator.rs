@@ -15,13 +15,14 @@
 
 use nalgebra::Vector3;
 
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::Saddle;
 use crate::scheme::{Params, Scheme};
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
@@ -320,7 +321,7 @@ impl Integrator {
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
             let correction = delta.abs().max((inverse * push).abs());
             let ratio = correction / (tolerance * size[kind] + self.floor[kind]);
-            if !(ratio <= worst) {
+            if ratio.is_nan() || ratio > worst {
                 (worst, place) = (ratio, dof);
             }
             above = above.max(correction / self.floor[kind]);

@@ -150,7 +150,8 @@ impl Joint {
     }
 
     /// Couples the angles of two marker pairs about their z axes over any number of turns: Σ factor·angle stays what it is at the
-    /// start. For two wheels in mesh, the factors are their radii (both positive for external teeth on parallel z axes).
+    /// start. For two wheels in mesh, the factors are their radii (both positive for external teeth on parallel z axes); the reaction is
+    /// a torque on each, so bearings do not feel the force between the teeth.
     #[must_use]
     pub fn ratio(name: &str, first: (MarkerPair, f64), second: (MarkerPair, f64)) -> Self {
         let term = |pair, factor| Term {

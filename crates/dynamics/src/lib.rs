@@ -27,6 +27,7 @@ mod dense_lu;
 pub mod eigen;
 pub mod elements;
 pub mod energy;
+mod equations;
 pub mod error;
 mod inertia;
 pub mod initial;

@@ -12,10 +12,11 @@
 use faer::Mat;
 use nalgebra::Vector3;
 
+use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::rotation::skew;
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;

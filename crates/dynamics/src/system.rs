@@ -1,31 +1,22 @@
-//! The system: bodies, joints and force elements put together, and its equations at one motion.
-//!
-//! ```text
-//! inertia(q, v, v̇) + Bᵀλ − Q(q, v, t) = 0          residual, one entry for each degree of freedom
-//! φ(q) − offset − f(t) = 0,   B = ∂φ/∂q            violation, one entry for each equation of a joint
-//! ```
-
-use nalgebra::{Matrix3, SVector};
+//! The system: bodies, joints and force elements put together. Its equations are in `equations.rs`.
 
 use crate::body::{Body, BodyId, GROUND};
 use crate::builder::SystemBuilder;
 use crate::constraints::Redundancy;
 use crate::elements::{Channel, ForceElement, Loads, View};
 use crate::energy::Energy;
-use crate::error::DynamicsError;
-use crate::inertia::{Inertia, Motion, Tangents};
+use crate::inertia::Inertia;
 use crate::joint::Joint;
-use crate::matrix::Matrix;
 use crate::state::{BodyMotion, Layout, State};
 
 /// A force element at its place in the system.
 pub(crate) struct Slot {
     pub element: Box<dyn ForceElement>,
     /// System degree of freedom of each local one; `None` on the ground.
-    places: Vec<Option<usize>>,
-    loads: Loads,
-    force_calls: u64,
-    tangent_calls: u64,
+    pub places: Vec<Option<usize>>,
+    pub loads: Loads,
+    pub force_calls: u64,
+    pub tangent_calls: u64,
 }
 
 impl Slot {
@@ -57,54 +48,6 @@ pub struct Calls {
     pub force: u64,
     /// Those among them with tangents.
     pub tangents: u64,
-}
-
-/// Whether tangents are wanted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Detail {
-    Forces,
-    Tangents,
-}
-
-/// A motion at which the equations are evaluated.
-#[derive(Clone, Copy)]
-pub(crate) struct At<'a> {
-    pub state: &'a State,
-    pub acceleration: &'a [f64],
-    /// One for each joint equation, dropped ones included (zero).
-    pub lambda: &'a [f64],
-    pub load_factor: f64,
-}
-
-/// The equations at one motion.
-pub(crate) struct Equations {
-    pub residual: Vec<f64>,
-    pub violation: Vec<f64>,
-    /// d(violation)/dt
-    pub violation_rate: Vec<f64>,
-    pub mass: Matrix,
-    /// ∂residual/∂velocity
-    pub damping: Matrix,
-    /// ∂residual/∂increment
-    pub stiffness: Matrix,
-    /// Bᵀ: one column for each joint equation.
-    pub gradient: Matrix,
-}
-
-impl Equations {
-    pub(crate) fn new(system: &System) -> Self {
-        let (n, m) = (system.degrees_of_freedom(), system.equations());
-        let square = Matrix::zeros(n, n);
-        Self {
-            residual: vec![0.0; n],
-            violation: vec![0.0; m],
-            violation_rate: vec![0.0; m],
-            mass: square.clone(),
-            damping: square.clone(),
-            stiffness: square,
-            gradient: Matrix::zeros(n, m),
-        }
-    }
 }
 
 /// Bodies, joints and force elements; made by [`SystemBuilder`].
@@ -256,193 +199,6 @@ impl System {
         }
     }
 
-    /// Evaluates all equations.
-    pub(crate) fn evaluate(
-        &mut self,
-        at: At<'_>,
-        detail: Detail,
-        out: &mut Equations,
-    ) -> Result<(), DynamicsError> {
-        self.evaluate_without_elements(at, detail, out);
-        self.subtract_elements(at, detail, out)
-    }
-
-    /// Inertia and joints only: what mass matrix and constraints need.
-    pub(crate) fn evaluate_without_elements(
-        &mut self,
-        at: At<'_>,
-        detail: Detail,
-        out: &mut Equations,
-    ) {
-        self.refresh(at.state);
-        out.residual.fill(0.0);
-        if detail == Detail::Tangents {
-            out.mass.clear();
-            out.damping.clear();
-            out.stiffness.clear();
-            out.gradient.clear();
-        }
-        self.add_inertia(at, detail, out);
-        self.add_joints(at, detail, out);
-    }
-
-    fn add_inertia(&self, at: At<'_>, detail: Detail, out: &mut Equations) {
-        for (body, inertia) in self.inertias.iter().enumerate() {
-            let start = self.layout.start(BodyId(body)).unwrap_or_default();
-            let modes = self.layout.size(BodyId(body)) - 6;
-            let range = start..start + 6 + modes;
-            let first = self.layout.modal_start(body);
-            let motion = Motion {
-                body: &self.motions[body],
-                modal: &at.state.modal[first..first + modes],
-                velocity: &at.state.velocity[range.clone()],
-                acceleration: &at.acceleration[range.clone()],
-            };
-            inertia.add_forces(&motion, &mut out.residual[range]);
-            if detail == Detail::Tangents {
-                inertia.add_tangents(
-                    &motion,
-                    &mut Tangents {
-                        start,
-                        mass: &mut out.mass,
-                        damping: &mut out.damping,
-                        stiffness: &mut out.stiffness,
-                    },
-                );
-            }
-        }
-    }
-
-    fn add_joints(&self, at: At<'_>, detail: Detail, out: &mut Equations) {
-        let mut first = 0;
-        for joint in &self.joints {
-            let count = joint.equations();
-            let lambda = &at.lambda[first..first + count];
-            for equation in 0..count {
-                let prescribed = joint.prescribed(equation, at.state.time_s);
-                out.violation[first + equation] = -joint.offset(equation) - prescribed.value;
-                out.violation_rate[first + equation] = -prescribed.rate;
-            }
-            for (index, pair) in joint.pairs().iter().enumerate() {
-                let [a, b] = [pair.a.body, pair.b.body].map(|body| motion_of(&self.motions, body));
-                let motion = pair.motion(&a, &b);
-                let starts = [pair.a.body, pair.b.body].map(|body| self.layout.start(body));
-                for equation in 0..count {
-                    out.violation[first + equation] += joint.part(equation, index, &motion);
-                }
-                let reaction = joint.reaction(index, lambda, &motion);
-                for (start, half) in starts.iter().zip(reaction.as_slice().chunks(6)) {
-                    if let Some(start) = start {
-                        for (place, value) in out.residual[*start..].iter_mut().zip(half) {
-                            *place += value;
-                        }
-                    }
-                }
-                joint.rows(index, &motion, |row| {
-                    out.violation_rate[first + row.equation] += row.rate;
-                    if detail == Detail::Tangents {
-                        add_gradient(
-                            &mut out.gradient,
-                            first + row.equation,
-                            &starts,
-                            &row.gradient(),
-                        );
-                    }
-                });
-                if detail == Detail::Tangents {
-                    let jacobian = motion.jacobian();
-                    let tangent = joint.tangent(index, lambda, &motion, &jacobian);
-                    for (j, column) in starts.iter().enumerate() {
-                        for (i, row) in starts.iter().enumerate() {
-                            let (Some(row), Some(column)) = (row, column) else {
-                                continue;
-                            };
-                            for (k, l) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-                                let block: Matrix3<f64> =
-                                    tangent.fixed_view::<3, 3>(6 * i + k, 6 * j + l).into();
-                                out.stiffness.add3(row + k, column + l, &block);
-                            }
-                        }
-                    }
-                }
-            }
-            first += count;
-        }
-    }
-
-    fn subtract_elements(
-        &mut self,
-        at: At<'_>,
-        detail: Detail,
-        out: &mut Equations,
-    ) -> Result<(), DynamicsError> {
-        let view = view(&self.motions, &self.layout, at.state, at.load_factor);
-        for slot in &mut self.slots {
-            slot.loads.begin(detail == Detail::Tangents);
-            slot.force_calls += 1;
-            slot.element
-                .evaluate(&view, &mut slot.loads)
-                .map_err(|source| DynamicsError::Element {
-                    element: slot.element.name().to_owned(),
-                    time_s: at.state.time_s,
-                    source,
-                })?;
-            for (place, force) in slot.places.iter().zip(&slot.loads.force) {
-                if let Some(place) = place {
-                    out.residual[*place] -= force;
-                }
-            }
-            if detail == Detail::Tangents {
-                slot.tangent_calls += 1;
-                for (j, column) in slot.places.iter().enumerate() {
-                    let Some(column) = column else { continue };
-                    let by_position = slot.loads.by_position.column(j);
-                    let by_velocity = slot.loads.by_velocity.column(j);
-                    let stiffness = out.stiffness.column_mut(*column);
-                    let damping = out.damping.column_mut(*column);
-                    for (i, row) in slot.places.iter().enumerate() {
-                        if let Some(row) = row {
-                            stiffness[*row] -= by_position[i];
-                            damping[*row] -= by_velocity[i];
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// (dB/dt) v for every joint equation, from the derivative of Bᵀλ: for one unit of λ it is vᵀ ∂(Bᵀλ)/∂q v.
-    pub(crate) fn gradient_rate(&mut self, state: &State) -> Vec<f64> {
-        self.refresh(state);
-        let mut rates = Vec::with_capacity(self.equations());
-        for joint in &self.joints {
-            for equation in 0..joint.equations() {
-                let mut unit = vec![0.0; joint.equations()];
-                unit[equation] = 1.0;
-                let pairs = joint.pairs().iter().enumerate();
-                let terms = pairs.map(|(index, pair)| {
-                    let [a, b] =
-                        [pair.a.body, pair.b.body].map(|body| motion_of(&self.motions, body));
-                    let motion = pair.motion(&a, &b);
-                    let tangent = joint.tangent(index, &unit, &motion, &motion.jacobian());
-                    let mut velocity = SVector::<f64, 12>::zeros();
-                    for (half, motion) in [a, b].iter().enumerate() {
-                        velocity
-                            .fixed_rows_mut::<3>(6 * half)
-                            .copy_from(&motion.velocity_m_per_s);
-                        velocity
-                            .fixed_rows_mut::<3>(6 * half + 3)
-                            .copy_from(&motion.angular_velocity_rad_per_s);
-                    }
-                    velocity.dot(&(tangent * velocity))
-                });
-                rates.push(terms.sum());
-            }
-        }
-        rates
-    }
-
     /// f̈ of every joint equation, and ḟ.
     pub(crate) fn prescribed(
         &self,
@@ -509,23 +265,7 @@ impl System {
     }
 }
 
-fn add_gradient(
-    gradient: &mut Matrix,
-    column: usize,
-    starts: &[Option<usize>; 2],
-    values: &SVector<f64, 12>,
-) {
-    for (start, half) in starts.iter().zip(values.as_slice().chunks(6)) {
-        if let Some(start) = start {
-            let target = &mut gradient.column_mut(column)[*start..start + 6];
-            for (place, value) in target.iter_mut().zip(half) {
-                *place += value;
-            }
-        }
-    }
-}
-
-fn motion_of(motions: &[BodyMotion], body: BodyId) -> BodyMotion {
+pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> BodyMotion {
     if body == GROUND {
         BodyMotion::at_rest()
     } else {
@@ -533,7 +273,7 @@ fn motion_of(motions: &[BodyMotion], body: BodyId) -> BodyMotion {
     }
 }
 
-fn view<'a>(
+pub(crate) fn view<'a>(
     motions: &'a [BodyMotion],
     layout: &'a Layout,
     state: &'a State,

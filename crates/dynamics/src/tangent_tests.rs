@@ -8,11 +8,12 @@ use crate::elements::{
     AppliedLoad, Axes, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper,
     TorsionSpring,
 };
+use crate::equations::{At, Detail, Equations};
 use crate::joint::{Joint, JointKind, Motion};
 use crate::matrix::Matrix;
 use crate::relative_motion::{Marker, MarkerPair};
 use crate::state::State;
-use crate::system::{At, Detail, Equations, System};
+use crate::system::System;
 use crate::time_function::TimeFunction;
 
 struct Random(u64);

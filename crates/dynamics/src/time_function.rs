@@ -166,7 +166,7 @@ impl Step {
         let length = self.end_s - self.start_s;
         let x = (time_s - self.start_s) / length;
         let rise = self.to - self.from;
-        if x < 0.0 || x >= 1.0 {
+        if !(0.0..1.0).contains(&x) {
             let value = if x < 0.0 { self.from } else { self.to };
             return Derivatives {
                 value,

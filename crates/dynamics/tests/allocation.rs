@@ -14,6 +14,7 @@ use std::cell::Cell;
 use gearmesh_dynamics::{OutputGrid, Params, Simulation, System};
 use nalgebra::{UnitQuaternion, Vector3};
 use problems::{andrews, two_wheels};
+use two_wheels::Coupling;
 
 struct Counting;
 
@@ -60,9 +61,13 @@ fn the_counter_counts() {
 
 #[test]
 fn steps_and_output_do_not_allocate() {
-    let squeezer = || andrews::mechanism(UnitQuaternion::identity(), Vector3::zeros());
-    let systems: [(&dyn Fn() -> System, f64); 2] =
-        [(&squeezer, 1e-5), (&two_wheels::system, 3.5e-5)];
+    let squeezer: fn() -> System =
+        || andrews::mechanism(UnitQuaternion::identity(), Vector3::zeros());
+    let systems: [(fn() -> System, f64); 3] = [
+        (squeezer, 1e-5),
+        (|| two_wheels::system(Coupling::Spring), 3.5e-5),
+        (|| two_wheels::system(Coupling::Ratio), 3.5e-5),
+    ];
     for (system, step_s) in systems {
         // The adaptive steps change, are refused and factorised anew on the way.
         for params in [

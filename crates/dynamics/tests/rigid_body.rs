@@ -71,18 +71,16 @@ fn constant_torque_gives_linear_speed() {
 
 /// sn, cn, dn by descending Landen transformation (Abramowitz and Stegun 16.4).
 fn jacobi(u: f64, m: f64) -> [f64; 3] {
-    let mut means = vec![(1.0, m.sqrt())];
-    let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
-    while (a - b as f64).abs() > 1e-16 {
-        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
-        let c = 0.5 * (means[means.len() - 1].0 - (2.0 * a - means[means.len() - 1].0));
-        means.push((a, c));
-        if means.len() > 12 {
-            break;
-        }
+    // Arithmetic and geometric means with c = half their last difference.
+    let (mut a, mut b) = (1.0_f64, (1.0 - m).sqrt());
+    let mut means = Vec::new();
+    for _ in 0..8 {
+        let mean = 0.5 * (a + b);
+        means.push((mean, a - mean));
+        (a, b) = (mean, (a * b).sqrt());
     }
-    let mut phi = f64::powi(2.0, means.len() as i32 - 1) * a * u;
-    for (a, c) in means.iter().skip(1).rev() {
+    let mut phi = f64::powi(2.0, means.len() as i32) * a * u;
+    for (a, c) in means.iter().rev() {
         phi = 0.5 * (phi + (c / a * phi.sin()).asin());
     }
     [phi.sin(), phi.cos(), (1.0 - m * phi.sin().powi(2)).sqrt()]

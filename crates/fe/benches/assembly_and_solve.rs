@@ -4,7 +4,7 @@
 use divan::{Bencher, black_box};
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, QuadraticMesh, StiffnessMatrix, StructuredMesh,
+    DofMap, Factor, FeModel, HexElement, Material, StiffnessMatrix, StructuredMesh,
     assemble_stiffness, chord_middle,
 };
 
@@ -15,12 +15,9 @@ fn main() {
 fn block(elements: usize, element: HexElement) -> (FeModel, DofMap) {
     let mesh = StructuredMesh::block([elements; 3], [1.0; 3]);
     let steel = Material::new(210e9, 0.3).unwrap();
-    let model = if element == HexElement::Hex20 {
-        let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |_, ends| chord_middle(ends));
-        FeModel::new(mesh.nodes, mesh.hexes, steel, element).unwrap()
-    } else {
-        FeModel::new(mesh.nodes, mesh.hexes, steel, element).unwrap()
-    };
+    let model = mesh
+        .into_model(steel, element, |_, ends| chord_middle(ends))
+        .unwrap();
     let held: Vec<usize> = (0..model.node_count())
         .filter(|n| model.nodes()[*n][0] == 0.0)
         .collect();

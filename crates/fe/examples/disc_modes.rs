@@ -11,8 +11,8 @@ use std::io::Write;
 use std::time::Instant;
 
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, ModeSettings, QuadraticMesh, StructuredMesh,
-    arc_middle, assemble_mass, assemble_stiffness, natural_modes,
+    DofMap, Factor, HexElement, Material, ModeSettings, StructuredMesh, arc_middle, assemble_mass,
+    assemble_stiffness, natural_modes,
 };
 
 const BORE_M: f64 = 0.025;
@@ -30,12 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [around, radial, axial, count] = numbers;
     let ring = StructuredMesh::ring([around, radial, axial], [BORE_M, 0.075], 0.023);
     let steel = Material::new(206e9, 0.3)?;
-    let model = if element == HexElement::Hex20 {
-        let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
-        FeModel::new(mesh.nodes, mesh.hexes, steel, element)?
-    } else {
-        FeModel::new(ring.nodes, ring.hexes, steel, element)?
-    };
+    let model = ring.into_model(steel, element, |_, ends| arc_middle(ends))?;
     let bore: Vec<usize> = (0..model.node_count())
         .filter(|n| model.nodes()[*n][0].hypot(model.nodes()[*n][1]) < BORE_M * 1.000_001)
         .collect();

@@ -1,32 +1,74 @@
-//! The elements on offer, by name: stiffness, strain operator, volume of one hexahedron.
+//! The elements on offer, by name: stiffness, strain operator, volume of one hexahedron, tetrahedron or wedge.
 //!
 //! Degrees of freedom of an element: 3 i + a is the displacement of node i along axis a (x, y, z).
 
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
+use crate::isoparametric::{jacobian, point_gradients, stiffness};
 use crate::material::Material;
-use crate::quadrature::{GAUSS_2, GAUSS_3, WeightedPoint};
+use crate::quadrature::{GAUSS_2, GAUSS_3, TET_8, TET_14, WEDGE_6, WEDGE_18, WeightedPoint};
 use crate::stiffness_block::strain_columns;
-use crate::{hex8, hex8_incompatible, hex20};
+use crate::{hex8, hex8_incompatible, hex20, tet10, wedge6, wedge15};
 
 /// Strain per nodal displacement (1/m): rows xx, yy, zz, xy, yz, xz with engineering shear, `operator[row][3 i + a]`.
 pub type StrainOperator = [Vec<f64>; 6];
 
-/// Formulation of the hexahedron.
+/// Kind and formulation of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum HexElement {
-    /// Eight nodes, trilinear displacement, 2×2×2 Gauss points. Locks in bending.
+    /// Hexahedron of eight nodes, trilinear displacement, 2×2×2 Gauss points. Locks in bending.
     Hex8,
     /// [`HexElement::Hex8`] with three condensed bending modes (QM6). No locking in bending; the default.
     #[default]
     Hex8Incompatible,
-    /// Twenty nodes, quadratic displacement and edges (serendipity), 3×3×3 Gauss points.
+    /// Hexahedron of twenty nodes, quadratic displacement and edges (serendipity), 3×3×3 Gauss points.
     Hex20,
+    /// Tetrahedron of ten nodes, quadratic displacement and edges, eight points.
+    Tet10,
+    /// Wedge of six nodes beside hexahedra of eight, 3×2 points. Locks in bending.
+    Wedge6,
+    /// Wedge of fifteen nodes beside hexahedra of twenty (serendipity), 6×3 points.
+    Wedge15,
+}
+
+/// Evaluates an expression with the module that has the shape functions of an element.
+macro_rules! with_shape {
+    ($element:expr, $shape:ident => $value:expr) => {
+        match $element {
+            HexElement::Hex8 | HexElement::Hex8Incompatible => {
+                use crate::hex8 as $shape;
+                $value
+            }
+            HexElement::Hex20 => {
+                use crate::hex20 as $shape;
+                $value
+            }
+            HexElement::Tet10 => {
+                use crate::tet10 as $shape;
+                $value
+            }
+            HexElement::Wedge6 => {
+                use crate::wedge6 as $shape;
+                $value
+            }
+            HexElement::Wedge15 => {
+                use crate::wedge15 as $shape;
+                $value
+            }
+        }
+    };
 }
 
 impl HexElement {
     /// Every formulation.
-    pub const ALL: [Self; 3] = [Self::Hex8, Self::Hex8Incompatible, Self::Hex20];
+    pub const ALL: [Self; 6] = [
+        Self::Hex8,
+        Self::Hex8Incompatible,
+        Self::Hex20,
+        Self::Tet10,
+        Self::Wedge6,
+        Self::Wedge15,
+    ];
 
     /// The name in files and messages.
     pub const fn name(self) -> &'static str {
@@ -34,6 +76,9 @@ impl HexElement {
             Self::Hex8 => "hex8",
             Self::Hex8Incompatible => "hex8-incompatible",
             Self::Hex20 => "hex20",
+            Self::Tet10 => "tet10",
+            Self::Wedge6 => "wedge6",
+            Self::Wedge15 => "wedge15",
         }
     }
 
@@ -42,33 +87,61 @@ impl HexElement {
         Self::ALL.into_iter().find(|e| e.name() == name)
     }
 
-    /// Number of nodes, 8 or 20.
+    /// Number of nodes.
     pub const fn node_count(self) -> usize {
         self.natural_nodes().len()
     }
 
-    /// Natural coordinates of the nodes in VTK order; the corners are the first eight.
+    /// Natural coordinates of the nodes in VTK order, corners first.
     pub const fn natural_nodes(self) -> &'static [[f64; 3]] {
+        with_shape!(self, shape => &shape::NODES)
+    }
+
+    /// Natural coordinates of the centre: the mean of the corners.
+    pub const fn centre(self) -> [f64; 3] {
         match self {
-            Self::Hex8 | Self::Hex8Incompatible => &hex8::CORNERS,
-            Self::Hex20 => &hex20::NODES,
+            Self::Hex8 | Self::Hex8Incompatible | Self::Hex20 => [0.0; 3],
+            Self::Tet10 => [0.25; 3],
+            Self::Wedge6 | Self::Wedge15 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
         }
     }
 
-    /// The Gauss points of the stiffness with their weights, which sum to 8.
+    /// The nodes of each face: corners counter-clockwise seen from outside, then the nodes on the edges between them in
+    /// the same order.
+    pub const fn faces(self) -> &'static [&'static [usize]] {
+        match self {
+            Self::Hex8 | Self::Hex8Incompatible => &hex8::FACES,
+            Self::Hex20 => &hex20::FACES,
+            Self::Tet10 => &tet10::FACES,
+            Self::Wedge6 => &wedge6::FACES,
+            Self::Wedge15 => &wedge15::FACES,
+        }
+    }
+
+    /// The points of the stiffness with their weights, which sum to the volume of the reference shape.
     pub const fn integration_points(self) -> &'static [WeightedPoint] {
         match self {
             Self::Hex8 | Self::Hex8Incompatible => &GAUSS_2,
             Self::Hex20 => &GAUSS_3,
+            Self::Tet10 => &TET_8,
+            Self::Wedge6 => &WEDGE_6,
+            Self::Wedge15 => &WEDGE_18,
+        }
+    }
+
+    /// The points of the mass, exact where edges are straight (wedges: where the element is a prism), also for
+    /// integrals of smooth functions against the shape functions.
+    pub const fn mass_points(self) -> &'static [WeightedPoint] {
+        match self {
+            Self::Hex8 | Self::Hex8Incompatible | Self::Hex20 => &GAUSS_3,
+            Self::Tet10 => &TET_14,
+            Self::Wedge6 | Self::Wedge15 => &WEDGE_18,
         }
     }
 
     /// Shape functions at a natural point, one per node; the condensed modes are not among them.
     pub fn shape_functions(self, natural: [f64; 3]) -> Vec<f64> {
-        match self {
-            Self::Hex8 | Self::Hex8Incompatible => hex8::shape_functions(natural).to_vec(),
-            Self::Hex20 => hex20::shape_functions(natural).to_vec(),
-        }
+        with_shape!(self, shape => shape::shape_functions(natural).to_vec())
     }
 
     /// Position (m) of a natural point: x = Σ N_i x_i.
@@ -86,15 +159,13 @@ impl HexElement {
         coordinates: &[[f64; 3]],
         natural: [f64; 3],
     ) -> Result<f64, ElementError> {
-        match self {
-            Self::Hex8 | Self::Hex8Incompatible => {
-                Ok(hex8::jacobian(nodes(coordinates)?, natural)?.determinant)
-            }
-            Self::Hex20 => Ok(hex20::jacobian(nodes(coordinates)?, natural)?.determinant),
-        }
+        with_shape!(self, shape => {
+            let map = jacobian(nodes(coordinates)?, shape::natural_gradients, natural)?;
+            Ok(map.determinant)
+        })
     }
 
-    /// Volume (m³). The rule of the stiffness is exact where edges are straight.
+    /// Volume (m³). The rule of the stiffness is exact where edges are straight, and for curved tetrahedra.
     ///
     /// # Errors
     /// As [`HexElement::jacobian_determinant`], at a Gauss point.
@@ -114,18 +185,15 @@ impl HexElement {
         coordinates: &[[f64; 3]],
         material: &Material,
     ) -> Result<ElementMatrix, ElementError> {
-        let (lame, rule) = (material.lame(), self.integration_points());
-        match self {
-            Self::Hex8 => {
-                let blocks = hex8::stiffness(nodes(coordinates)?, lame, rule)?;
-                Ok(ElementMatrix::from_upper(24, |i, j| blocks.entry(i, j)))
-            }
-            Self::Hex8Incompatible => hex8_incompatible::stiffness(nodes(coordinates)?, lame),
-            Self::Hex20 => {
-                let blocks = hex20::stiffness(nodes(coordinates)?, lame, rule)?;
-                Ok(ElementMatrix::from_upper(60, |i, j| blocks.entry(i, j)))
-            }
+        if self == Self::Hex8Incompatible {
+            return hex8_incompatible::stiffness(nodes(coordinates)?, material.lame());
         }
+        let (lame, rule) = (material.lame(), self.integration_points());
+        with_shape!(self, shape => {
+            let blocks = stiffness(nodes(coordinates)?, shape::natural_gradients, lame, rule)?;
+            let size = 3 * self.node_count();
+            Ok(ElementMatrix::from_upper(size, |i, j| blocks.entry(i, j)))
+        })
     }
 
     /// Strain operator (6 × 3 nodes, 1/m) at a natural point: strain = operator · nodal displacements.
@@ -142,19 +210,14 @@ impl HexElement {
         material: &Material,
         natural: [f64; 3],
     ) -> Result<StrainOperator, ElementError> {
-        match self {
-            Self::Hex8 => {
-                let at = hex8::point_gradients(nodes(coordinates)?, natural)?;
-                Ok(compatible_strain_operator(&at.gradients))
-            }
-            Self::Hex8Incompatible => {
-                hex8_incompatible::strain_operator(nodes(coordinates)?, material.lame(), natural)
-            }
-            Self::Hex20 => {
-                let at = hex20::point_gradients(nodes(coordinates)?, natural)?;
-                Ok(compatible_strain_operator(&at.gradients))
-            }
+        if self == Self::Hex8Incompatible {
+            let nodes = nodes(coordinates)?;
+            return hex8_incompatible::strain_operator(nodes, material.lame(), natural);
         }
+        with_shape!(self, shape => {
+            let at = point_gradients(nodes(coordinates)?, shape::natural_gradients, natural)?;
+            Ok(compatible_strain_operator(&at.gradients))
+        })
     }
 
     /// Checks that the Jacobian is positive at the Gauss points, the nodes and the centre.
@@ -163,7 +226,7 @@ impl HexElement {
     /// surface and where a bad shape shows first.
     pub(crate) fn check_shape(self, coordinates: &[[f64; 3]]) -> Result<(), ElementError> {
         let gauss = self.integration_points().iter().map(|(point, _)| point);
-        for point in gauss.chain(self.natural_nodes()).chain(&[[0.0; 3]]) {
+        for point in gauss.chain(self.natural_nodes()).chain(&[self.centre()]) {
             self.jacobian_determinant(coordinates, *point)?;
         }
         Ok(())
@@ -196,22 +259,114 @@ pub(crate) fn compatible_strain_operator(gradients: &[[f64; 3]]) -> StrainOperat
 mod tests {
     use super::*;
     use crate::hex8::CORNERS;
-    use crate::hex20::EDGE_CORNERS;
 
-    /// A distorted hexahedron; with twenty nodes its edges are bent too.
+    /// A distorted element; its edges are bent where it has nodes on them.
     fn distorted(element: HexElement) -> Vec<[f64; 3]> {
-        let mut x = CORNERS.map(|c| c.map(|v| 0.01 * v)).to_vec();
-        x[6] = [0.014, 0.012, 0.013];
-        x[1] = [0.009, -0.012, -0.008];
-        x[3] = [-0.011, 0.008, -0.012];
-        if element == HexElement::Hex20 {
-            for (k, [a, b]) in EDGE_CORNERS.into_iter().enumerate() {
-                x.push(std::array::from_fn(|axis| {
-                    0.5 * (x[a][axis] + x[b][axis]) + 0.001 * ((3 * k + axis) as f64).sin()
-                }));
+        let moved = |k: usize| 0.06 * (1.7 * k as f64 + 0.4).sin();
+        let nodes = element.natural_nodes().iter().enumerate();
+        nodes
+            .map(|(i, x)| std::array::from_fn(|axis| 0.01 * (x[axis] + moved(3 * i + axis))))
+            .collect()
+    }
+
+    /// Conformance of every element: N_i is 1 at node i and 0 at the others, the N sum to 1, and the corners' mean is the
+    /// centre.
+    #[test]
+    fn shape_functions_are_nodal_and_sum_to_one() {
+        for element in HexElement::ALL {
+            for (i, node) in element.natural_nodes().iter().enumerate() {
+                for (j, value) in element.shape_functions(*node).iter().enumerate() {
+                    assert!(
+                        (value - f64::from(u8::from(i == j))).abs() < 1e-15,
+                        "{element:?}"
+                    );
+                }
+            }
+            let sum: f64 = element.shape_functions([0.3, 0.1, -0.7]).iter().sum();
+            assert!((sum - 1.0).abs() < 1e-14);
+            let corners = corner_count(element);
+            for axis in 0..3 {
+                let nodes = &element.natural_nodes()[..corners];
+                let mean = nodes.iter().map(|x| x[axis]).sum::<f64>() / corners as f64;
+                assert!((mean - element.centre()[axis]).abs() < 1e-15);
             }
         }
-        x
+    }
+
+    fn corner_count(element: HexElement) -> usize {
+        match element {
+            HexElement::Tet10 => 4,
+            HexElement::Wedge6 | HexElement::Wedge15 => 6,
+            _ => 8,
+        }
+    }
+
+    /// The Jacobian is the derivative of the position: its determinant equals that of central differences.
+    #[test]
+    fn gradients_equal_central_differences() {
+        let step = 1e-5;
+        for element in HexElement::ALL {
+            let x = distorted(element);
+            let at = [0.2, 0.3, 0.25];
+            let column = |k: usize| -> [f64; 3] {
+                let (mut plus, mut minus) = (at, at);
+                plus[k] += step;
+                minus[k] -= step;
+                let (p, m) = (
+                    element.position_at(&x, plus),
+                    element.position_at(&x, minus),
+                );
+                std::array::from_fn(|i| (p[i] - m[i]) / (2.0 * step))
+            };
+            let [a, b, c] = [column(0), column(1), column(2)];
+            let determinant = a[0] * (b[1] * c[2] - b[2] * c[1])
+                - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]);
+            let found = element.jacobian_determinant(&x, at).unwrap();
+            // No third derivative along one axis: rounding only, about 1e-16/step.
+            assert!((found / determinant - 1.0).abs() < 1e-9, "{element:?}");
+            let material = Material::new(210e9, 0.3).unwrap();
+            // Each column of the strain operator is the gradient of its shape function: read from the field x_j.
+            let b = element.strain_operator(&x, &material, at).unwrap();
+            for axis in 0..3 {
+                let stretch: f64 = (0..x.len())
+                    .map(|i| b[axis][3 * i + axis] * x[i][axis])
+                    .sum();
+                assert!((stretch - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// The faces close the element and face outwards: the volume is ∮ x·n dA/3, here by the corners' polygons.
+    #[test]
+    fn faces_are_closed_and_face_outwards() {
+        for element in HexElement::ALL {
+            let x = element.natural_nodes();
+            let mut flux = 0.0;
+            let mut edges = std::collections::BTreeMap::<[usize; 2], i32>::new();
+            for face in element.faces() {
+                let corners = if matches!(face.len(), 3 | 6) { 3 } else { 4 };
+                for k in 0..corners {
+                    let (a, b) = (face[k], face[(k + 1) % corners]);
+                    *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+                    if face.len() > corners {
+                        let middle = x[face[corners + k]];
+                        for axis in 0..3 {
+                            assert!((middle[axis] - 0.5 * (x[a][axis] + x[b][axis])).abs() < 1e-15);
+                        }
+                    }
+                }
+                for k in 1..corners - 1 {
+                    let [p, q, r] = [x[face[0]], x[face[k]], x[face[k + 1]]];
+                    flux += p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0])
+                        + p[2] * (q[0] * r[1] - q[1] * r[0]);
+                }
+            }
+            // Every edge is run through once in each direction.
+            assert!(edges.values().all(|sum| *sum == 0), "{element:?}");
+            let volume: f64 = element.integration_points().iter().map(|p| p.1).sum();
+            assert!((flux / 6.0 - volume).abs() < 1e-14, "{element:?}");
+        }
     }
 
     /// Conformance of every element: K = Σ |J| Bᵀ D B with its own strain operator. For the incompatible element
@@ -262,21 +417,26 @@ mod tests {
         }
     }
 
+    /// The frustum of the reference shape, its section scaled to one half from bottom to top: ∫ (3/4 − t/4)² dt over
+    /// −1 < t < 1 is 7/6 of a section for prisms. Straight edges: exact.
     #[test]
-    fn volume_of_a_cube_and_of_a_frustum() {
+    fn volume_of_the_reference_shape_and_of_a_frustum() {
         for element in HexElement::ALL {
             let nodes = element.natural_nodes();
-            let cube: Vec<_> = nodes.iter().map(|c| c.map(|v| 0.5 * v)).collect();
-            assert!((element.volume(&cube).unwrap() - 1.0).abs() < 1e-14);
-            // Square frustum, sides 2 and 1, height 3: V = h/3 (A + B + sqrt(AB)) = 7.
+            let whole: f64 = element.mass_points().iter().map(|p| p.1).sum();
+            assert!((element.volume(nodes).unwrap() / whole - 1.0).abs() < 1e-14);
+            if element == HexElement::Tet10 {
+                continue;
+            }
             let frustum: Vec<_> = nodes
                 .iter()
                 .map(|c| {
-                    let half = 0.75 - 0.25 * c[2];
-                    [half * c[0], half * c[1], 1.5 * c[2]]
+                    let scale = 0.75 - 0.25 * c[2];
+                    [scale * c[0], scale * c[1], c[2]]
                 })
                 .collect();
-            assert!((element.volume(&frustum).unwrap() - 7.0).abs() < 1e-13);
+            let expected = 7.0 / 12.0 * whole;
+            assert!((element.volume(&frustum).unwrap() / expected - 1.0).abs() < 1e-13);
         }
     }
 

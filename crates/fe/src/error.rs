@@ -5,13 +5,13 @@ use thiserror::Error;
 /// A failure inside one element.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ElementError {
-    /// The map from the reference cube to the element folds over or collapses.
+    /// The map from the reference shape to the element folds over or collapses.
     #[error(
         "the Jacobian determinant is {determinant_m3:e} m^3 at the natural point {natural:?}; it must be positive: \
-         order the nodes as bottom 0-3 counter-clockwise, top 4-7, or repair the shape"
+         number the nodes as VTK does, or repair the shape"
     )]
     JacobianNotPositive {
-        /// Natural coordinates of the point, each in [-1, 1].
+        /// Natural coordinates of the point.
         natural: [f64; 3],
         /// Determinant found (m³).
         determinant_m3: f64,
@@ -83,7 +83,7 @@ pub enum FeError {
         unknowns: usize,
     },
     /// The model has no elements.
-    #[error("the model has {nodes} nodes and no elements; give at least one hexahedron")]
+    #[error("the model has {nodes} nodes and no elements; give at least one element")]
     NoElements {
         /// Number of nodes given.
         nodes: usize,
@@ -97,6 +97,18 @@ pub enum FeError {
         found: usize,
         /// Nodes the element has.
         expected: usize,
+    },
+    /// The list of nodes of a block of elements is not a whole number of elements long.
+    #[error(
+        "the connectivity of the {element} elements has {found} entries; it must be a multiple of {per_element}"
+    )]
+    ConnectivityLength {
+        /// Name of the element.
+        element: &'static str,
+        /// Entries found.
+        found: usize,
+        /// Nodes of one element.
+        per_element: usize,
     },
     /// More nodes than 32-bit indices allow.
     #[error(

@@ -1,4 +1,4 @@
-//! The twenty-node serendipity hexahedron: reference coordinates, shape functions, gradients, stiffness.
+//! The twenty-node serendipity hexahedron: reference coordinates, shape functions, gradients.
 //!
 //! ```text
 //! corner      N_i = (1 + ξξ_i)(1 + ηη_i)(1 + ζζ_i)(ξξ_i + ηη_i + ζζ_i − 2)/8
@@ -13,12 +13,6 @@
 //! (N_i has degree 2), so the rule is exact there; with 2×2×2 points one element has six zero-energy modes too many.
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, section 3.7 (serendipity) and 3.8 (quadrature).
-
-use crate::error::ElementError;
-use crate::isoparametric::{Jacobian, PointGradients};
-use crate::material::LameParameters;
-use crate::quadrature::WeightedPoint;
-use crate::stiffness_block::{BlockStiffness, add_point_stiffness};
 
 /// Natural coordinates of the twenty nodes.
 pub(crate) const NODES: [[f64; 3]; 20] = [
@@ -60,6 +54,16 @@ pub const EDGE_CORNERS: [[usize; 2]; 12] = [
     [3, 7],
 ];
 
+/// The nodes of each face: corners counter-clockwise seen from outside, then the edges between them.
+pub(crate) const FACES: [&[usize]; 6] = [
+    &[0, 3, 2, 1, 11, 10, 9, 8],
+    &[4, 5, 6, 7, 12, 13, 14, 15],
+    &[0, 1, 5, 4, 8, 17, 12, 16],
+    &[1, 2, 6, 5, 9, 18, 13, 17],
+    &[2, 3, 7, 6, 10, 19, 14, 18],
+    &[3, 0, 4, 7, 11, 16, 15, 19],
+];
+
 /// Shape functions N_i(ξ, η, ζ).
 pub(crate) fn shape_functions(natural: [f64; 3]) -> [f64; 20] {
     std::array::from_fn(|i| {
@@ -98,47 +102,12 @@ fn corner_sum(node: usize, natural: [f64; 3]) -> f64 {
     (0..3).map(|k| natural[k] * NODES[node][k]).sum::<f64>() - 2.0
 }
 
-/// Jacobian at a natural point.
-///
-/// # Errors
-/// [`ElementError::JacobianNotPositive`].
-pub(crate) fn jacobian(
-    coordinates: &[[f64; 3]; 20],
-    natural: [f64; 3],
-) -> Result<Jacobian, ElementError> {
-    Jacobian::new(coordinates, &natural_gradients(natural), natural)
-}
-
-/// Gradients of the shape functions in physical coordinates at a natural point.
-///
-/// # Errors
-/// [`ElementError::JacobianNotPositive`].
-pub(crate) fn point_gradients(
-    coordinates: &[[f64; 3]; 20],
-    natural: [f64; 3],
-) -> Result<PointGradients<20>, ElementError> {
-    PointGradients::new(coordinates, &natural_gradients(natural), natural)
-}
-
-/// Stiffness by the given quadrature: K = Σ w |J| Bᵀ D B.
-pub(crate) fn stiffness(
-    coordinates: &[[f64; 3]; 20],
-    lame: LameParameters,
-    rule: &[WeightedPoint],
-) -> Result<Box<BlockStiffness<20>>, ElementError> {
-    let mut k = Box::new(BlockStiffness::zero());
-    for &(point, weight) in rule {
-        let at = point_gradients(coordinates, point)?;
-        add_point_stiffness(&mut k, &at.gradients, weight * at.determinant, lame);
-    }
-    Ok(k)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::quadrature::{GAUSS_2, GAUSS_3};
+    use crate::isoparametric::stiffness;
+    use crate::quadrature::{GAUSS_2, GAUSS_3, WeightedPoint};
 
     /// Corners moved, edges bent.
     fn distorted() -> [[f64; 3]; 20] {
@@ -212,7 +181,7 @@ mod tests {
 
     fn zero_modes(rule: &[WeightedPoint]) -> usize {
         let lame = crate::Material::new(210e9, 0.3).unwrap().lame();
-        let k = stiffness(&distorted(), lame, rule).unwrap();
+        let k = stiffness(&distorted(), natural_gradients, lame, rule).unwrap();
         let dense = faer::Mat::from_fn(60, 60, |i, j| k.entry(i, j));
         let eigenvalues = dense.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
         let largest = eigenvalues.iter().fold(0.0_f64, |m, v| m.max(v.abs()));

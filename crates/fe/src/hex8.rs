@@ -1,15 +1,9 @@
-//! The eight-node trilinear hexahedron: reference coordinates, shape functions, gradients, stiffness.
+//! The eight-node trilinear hexahedron: reference coordinates, shape functions, gradients.
 //!
 //! Node order (VTK hexahedron): bottom face 0-3 counter-clockwise seen from +ζ, top face 4-7 above it.
 //! Natural coordinates (ξ, η, ζ) run from −1 to 1.
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, sections 3.2, 3.3 and 3.8.
-
-use crate::error::ElementError;
-use crate::isoparametric::{Jacobian, PointGradients};
-use crate::material::LameParameters;
-use crate::quadrature::WeightedPoint;
-use crate::stiffness_block::{BlockStiffness, add_point_stiffness};
 
 /// Coordinates (m) of the eight nodes.
 pub(crate) type HexCoordinates = [[f64; 3]; 8];
@@ -26,6 +20,19 @@ pub const CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
+/// Natural coordinates of the nodes, under the name that all elements use.
+pub(crate) const NODES: [[f64; 3]; 8] = CORNERS;
+
+/// The nodes of each face, counter-clockwise seen from outside.
+pub(crate) const FACES: [&[usize]; 6] = [
+    &[0, 3, 2, 1],
+    &[4, 5, 6, 7],
+    &[0, 1, 5, 4],
+    &[1, 2, 6, 5],
+    &[2, 3, 7, 6],
+    &[3, 0, 4, 7],
+];
+
 /// Shape functions N_i(ξ, η, ζ) = (1 + ξ_i ξ)(1 + η_i η)(1 + ζ_i ζ)/8.
 pub(crate) fn shape_functions(natural: [f64; 3]) -> [f64; 8] {
     CORNERS.map(|corner| {
@@ -36,7 +43,7 @@ pub(crate) fn shape_functions(natural: [f64; 3]) -> [f64; 8] {
 }
 
 /// Derivatives ∂N_i/∂(ξ, η, ζ), one row per node.
-fn natural_gradients(natural: [f64; 3]) -> [[f64; 3]; 8] {
+pub(crate) fn natural_gradients(natural: [f64; 3]) -> [[f64; 3]; 8] {
     CORNERS.map(|corner| {
         let f: [f64; 3] = std::array::from_fn(|k| 0.5 * (1.0 + corner[k] * natural[k]));
         [
@@ -47,46 +54,13 @@ fn natural_gradients(natural: [f64; 3]) -> [[f64; 3]; 8] {
     })
 }
 
-/// Jacobian at a natural point.
-///
-/// # Errors
-/// [`ElementError::JacobianNotPositive`].
-pub(crate) fn jacobian(
-    coordinates: &HexCoordinates,
-    natural: [f64; 3],
-) -> Result<Jacobian, ElementError> {
-    Jacobian::new(coordinates, &natural_gradients(natural), natural)
-}
-
-/// Gradients of the shape functions in physical coordinates at a natural point.
-///
-/// # Errors
-/// [`ElementError::JacobianNotPositive`].
-pub(crate) fn point_gradients(
-    coordinates: &HexCoordinates,
-    natural: [f64; 3],
-) -> Result<PointGradients<8>, ElementError> {
-    PointGradients::new(coordinates, &natural_gradients(natural), natural)
-}
-
-/// Stiffness by the given quadrature: K = Σ w |J| Bᵀ D B.
-pub(crate) fn stiffness(
-    coordinates: &HexCoordinates,
-    lame: LameParameters,
-    rule: &[WeightedPoint],
-) -> Result<BlockStiffness<8>, ElementError> {
-    let mut k = BlockStiffness::zero();
-    for &(point, weight) in rule {
-        let at = point_gradients(coordinates, point)?;
-        add_point_stiffness(&mut k, &at.gradients, weight * at.determinant, lame);
-    }
-    Ok(k)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::error::ElementError;
+    use crate::isoparametric::{point_gradients, stiffness};
+    use crate::stiffness_block::BlockStiffness;
 
     fn distorted() -> HexCoordinates {
         let mut x = CORNERS;
@@ -111,7 +85,9 @@ mod tests {
         let x = distorted();
         let at = [0.2, -0.4, 0.6];
         let step = 1e-6;
-        let gradients = point_gradients(&x, at).unwrap().gradients;
+        let gradients = point_gradients(&x, natural_gradients, at)
+            .unwrap()
+            .gradients;
         for k in 0..3 {
             let (mut plus, mut minus) = (at, at);
             plus[k] += step;
@@ -142,9 +118,15 @@ mod tests {
     #[test]
     fn one_point_quadrature_has_hourglass_modes() {
         let lame = crate::Material::new(210e9, 0.3).unwrap().lame();
-        let reduced = stiffness(&distorted(), lame, &[([0.0; 3], 8.0)]).unwrap();
+        let reduced = stiffness(&distorted(), natural_gradients, lame, &[([0.0; 3], 8.0)]).unwrap();
         assert_eq!(zero_modes(&reduced), 18);
-        let full = stiffness(&distorted(), lame, &crate::quadrature::GAUSS_2).unwrap();
+        let full = stiffness(
+            &distorted(),
+            natural_gradients,
+            lame,
+            &crate::quadrature::GAUSS_2,
+        )
+        .unwrap();
         assert_eq!(zero_modes(&full), 6);
     }
 
@@ -156,7 +138,7 @@ mod tests {
         x.swap(2, 6);
         x.swap(3, 7);
         assert!(matches!(
-            point_gradients(&x, [0.0; 3]),
+            point_gradients(&x, natural_gradients, [0.0; 3]),
             Err(ElementError::JacobianNotPositive { .. })
         ));
     }

@@ -27,8 +27,8 @@ use nalgebra::SMatrix;
 use crate::element::{StrainOperator, compatible_strain_operator};
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
-use crate::hex8::{HexCoordinates, jacobian, point_gradients};
-use crate::isoparametric::Jacobian;
+use crate::hex8::{HexCoordinates, natural_gradients};
+use crate::isoparametric::{Jacobian, jacobian, point_gradients};
 use crate::material::LameParameters;
 use crate::quadrature::GAUSS_2;
 use crate::stiffness_block::{BlockStiffness, add_point_stiffness, strain_columns};
@@ -60,11 +60,11 @@ fn eliminate(
     coordinates: &HexCoordinates,
     lame: LameParameters,
 ) -> Result<Elimination, ElementError> {
-    let centre = jacobian(coordinates, [0.0; 3])?;
+    let centre = jacobian(coordinates, natural_gradients, [0.0; 3])?;
     let mut full = BlockStiffness::<11>::zero();
     // Every weight of the rule is 1.
     for (point, _) in GAUSS_2 {
-        let at = point_gradients(coordinates, point)?;
+        let at = point_gradients(coordinates, natural_gradients, point)?;
         let modes = mode_gradients(point, at.determinant, &centre);
         let gradients: [[f64; 3]; 11] =
             std::array::from_fn(|i| if i < 8 { at.gradients[i] } else { modes[i - 8] });
@@ -114,8 +114,8 @@ pub(crate) fn strain_operator(
     let amplitudes: ModeMatrix = lower
         .tr_solve_lower_triangular(&half_solved)
         .ok_or(ElementError::ModesNotPositiveDefinite)?;
-    let centre = jacobian(coordinates, [0.0; 3])?;
-    let at = point_gradients(coordinates, natural)?;
+    let centre = jacobian(coordinates, natural_gradients, [0.0; 3])?;
+    let at = point_gradients(coordinates, natural_gradients, natural)?;
     let modes = mode_gradients(natural, at.determinant, &centre);
     let mut b = compatible_strain_operator(&at.gradients);
     for (k, gradient) in modes.into_iter().enumerate() {

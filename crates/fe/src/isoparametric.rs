@@ -1,8 +1,13 @@
-//! The map from the cube [−1, 1]³ to an element, x = Σ N_i(ξ) x_i, and gradients through it.
+//! The map from a reference shape to an element, x = Σ N_i(ξ) x_i, gradients and stiffness through it.
+//!
+//! An element is given by its natural gradients ∂N_i/∂(ξ, η, ζ); the rest is the same for all.
 
 use crate::error::ElementError;
+use crate::material::LameParameters;
+use crate::quadrature::WeightedPoint;
+use crate::stiffness_block::{BlockStiffness, add_point_stiffness};
 
-/// The map from the reference cube to the element at one point.
+/// The map from the reference shape to the element at one point.
 pub(crate) struct Jacobian {
     /// det ∂x/∂ξ (m³).
     pub determinant: f64,
@@ -86,4 +91,46 @@ impl<const N: usize> PointGradients<N> {
             determinant: map.determinant,
         })
     }
+}
+
+/// Jacobian at a natural point of an element with these natural gradients.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`].
+pub(crate) fn jacobian<const N: usize>(
+    coordinates: &[[f64; 3]; N],
+    natural_gradients: impl Fn([f64; 3]) -> [[f64; 3]; N],
+    natural: [f64; 3],
+) -> Result<Jacobian, ElementError> {
+    Jacobian::new(coordinates, &natural_gradients(natural), natural)
+}
+
+/// Gradients of the shape functions in physical coordinates at a natural point.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`].
+pub(crate) fn point_gradients<const N: usize>(
+    coordinates: &[[f64; 3]; N],
+    natural_gradients: impl Fn([f64; 3]) -> [[f64; 3]; N],
+    natural: [f64; 3],
+) -> Result<PointGradients<N>, ElementError> {
+    PointGradients::new(coordinates, &natural_gradients(natural), natural)
+}
+
+/// Stiffness by the given quadrature: K = Σ w |J| Bᵀ D B.
+///
+/// # Errors
+/// [`ElementError::JacobianNotPositive`].
+pub(crate) fn stiffness<const N: usize>(
+    coordinates: &[[f64; 3]; N],
+    natural_gradients: impl Fn([f64; 3]) -> [[f64; 3]; N],
+    lame: LameParameters,
+    rule: &[WeightedPoint],
+) -> Result<Box<BlockStiffness<N>>, ElementError> {
+    let mut k = Box::new(BlockStiffness::zero());
+    for &(point, weight) in rule {
+        let at = point_gradients(coordinates, &natural_gradients, point)?;
+        add_point_stiffness(&mut k, &at.gradients, weight * at.determinant, lame);
+    }
+    Ok(k)
 }

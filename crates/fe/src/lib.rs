@@ -1,13 +1,13 @@
-//! Linear elasticity on hexahedra of eight and twenty nodes: elements, assembly, constraints, ordering, factorisation.
+//! Linear elasticity on hexahedra, tetrahedra and wedges: elements, assembly, constraints, ordering, factorisation.
 //!
-//! Arrays go in (node coordinates, hexahedra), arrays come out (stiffness, displacements, strain operators).
+//! Arrays go in (node coordinates, elements), arrays come out (stiffness, displacements, strain operators).
 //! The crate knows solids, not what they are used for. SI units throughout: m, N, Pa.
 //!
 //! # The chain
 //!
 //! ```text
-//! nodes, hexes, Material, HexElement -> FeModel            checked once: indices, Jacobians
-//! (QuadraticMesh puts nodes on the edges of eight-node hexahedra)
+//! nodes, elements, Material          -> FeModel            checked once: indices, Jacobians; one kind or several blocks
+//! (QuadraticMesh puts nodes on the edges of linear elements)
 //! fixed DOFs, RigidGroups            -> DofMap             constraints u = T q, full <-> free numbering
 //! FeModel + DofMap                   -> NodeGraph          which nodes share an element
 //!                                    -> assemble_stiffness sparse K over the free DOFs
@@ -47,11 +47,12 @@
 //! | --- | --- | --- | --- |
 //! | [`HexElement::Hex8Incompatible`] | the default; anything that bends | element stiffness about twice as dear, K and solves the same | strains jump a little more between elements; distorted elements lose part of the gain in bending |
 //! | [`HexElement::Hex8`] | comparison with codes that use the plain trilinear brick | cheapest | shear locking: a slab one element thick is far too stiff in bending |
-//!
 //! | [`HexElement::Hex20`] | curved bodies, stress, a few elements across a thickness | four times the nodes of the same elements as hex8; a fuller K at equal nodes | needs mid-edge nodes on the true surface to keep its order |
+//! | [`HexElement::Tet10`] | bodies that no hexahedra fill: fillets, drafts, anything meshed freely | about 1.4 nodes an element; more of them than hex20 at equal error | as hex20 |
+//! | [`HexElement::Wedge6`], [`HexElement::Wedge15`] | gaps in meshes of hex8 or hex20 | as those | Wedge6 locks as hex8 does |
 //!
-//! All pass the patch test on distorted meshes and have exactly six zero-energy modes. The eight-node elements
-//! converge with order 1 in the energy norm and order 2 in displacement, the twenty-node element with 2 and 3.
+//! All pass the patch test on distorted meshes, curved ones too, and have exactly six zero-energy modes. The linear
+//! elements converge with order 1 in the energy norm and order 2 in displacement, the quadratic ones with 2 and 3.
 //!
 //! # Which solve
 //!
@@ -70,9 +71,10 @@
 //!
 //! # Limits
 //!
-//! Small displacements, linear isotropic material, one material per model, hexahedra only, zero-displacement
-//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the Gauss points, the nodes or the centre
-//! are refused, so collapsed hexahedra (wedges) are not accepted. Nearly incompressible material locks in
+//! Small displacements, linear isotropic material, one material per model, zero-displacement
+//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the integration points, the
+//! nodes or the centre are refused, so collapsed hexahedra are not accepted: use wedges. Linear tetrahedra are not on offer:
+//! they are far too stiff in bending. Nearly incompressible material locks in
 //! [`HexElement::Hex8`] and has not been studied with the incompatible modes.
 
 mod assembly;
@@ -104,6 +106,9 @@ mod static_condensation;
 mod stiffness_block;
 mod structured;
 mod symmetric_product;
+mod tet10;
+mod wedge15;
+mod wedge6;
 
 pub use assembly::{
     SparseMatrix, StiffnessMatrix, assemble_stiffness, assemble_stiffness_with_graph,
@@ -120,7 +125,7 @@ pub use hex8::CORNERS;
 pub use hex20::EDGE_CORNERS;
 pub use mass::{assemble_mass, mass_product};
 pub use material::{LameParameters, Material, von_mises};
-pub use model::FeModel;
+pub use model::{ElementBlock, FeModel};
 pub use modes::{
     ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, search_modes,
     shifted_stiffness,
@@ -132,3 +137,5 @@ pub use rigid_group::{RigidGroup, rigid_motions};
 pub use static_condensation::{CondensedLoads, StaticCondensation};
 pub use structured::StructuredMesh;
 pub use symmetric_product::SymmetricRows;
+pub use tet10::TET_EDGE_CORNERS;
+pub use wedge15::WEDGE_EDGE_CORNERS;

@@ -1,7 +1,7 @@
 //! Consistent mass matrix: M_ij = ∫ ρ N_i N_j dV in each of the three directions.
 //!
-//! 3×3×3 Gauss points for every element: exact for any hexahedron with eight nodes and for straight-edged ones with
-//! twenty. The condensed modes of the incompatible element carry no mass: they are inner unknowns of its stiffness only.
+//! Integrated by [`HexElement::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
+//! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are inner unknowns of its stiffness only.
 
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
@@ -13,7 +13,6 @@ use crate::element_matrix::ElementMatrix;
 use crate::error::{ElementError, FeError};
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
-use crate::quadrature::GAUSS_3;
 
 impl HexElement {
     /// Mass (kg) from the coordinates (m) of the nodes and the density ρ (kg/m³).
@@ -27,7 +26,7 @@ impl HexElement {
     ) -> Result<ElementMatrix, ElementError> {
         let n = self.node_count();
         let mut scalar = vec![0.0; n * n];
-        for (point, weight) in GAUSS_3 {
+        for &(point, weight) in self.mass_points() {
             let volume = weight * self.jacobian_determinant(coordinates, point)?;
             let shape = self.shape_functions(point);
             for i in 0..n {
@@ -117,7 +116,7 @@ fn element_mass(
     density_kg_per_m3: f64,
 ) -> Result<ElementMatrix, FeError> {
     model
-        .element()
+        .element_of(element)
         .mass(&model.element_coordinates(element)?, density_kg_per_m3)
         .map_err(|source| FeError::Element { element, source })
 }

@@ -1,4 +1,4 @@
-//! The finite element model: nodes, hexahedra, material and element, checked once.
+//! The finite element model: nodes, elements in blocks of one kind, material, checked once.
 
 use rayon::prelude::*;
 
@@ -7,27 +7,48 @@ use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::material::Material;
 
-/// Nodes, hexahedra, one material, one element formulation. Valid by construction.
+/// Elements of one kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ElementBlock {
+    /// Kind and formulation.
+    pub element: HexElement,
+    /// Node indices, element by element in VTK order; as many an element as it has nodes.
+    pub nodes: Vec<u32>,
+}
+
+impl ElementBlock {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.nodes.len() / self.element.node_count()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+}
+
+/// Nodes, elements, one material. Valid by construction. Elements are numbered through all blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeModel {
     nodes: Vec<[f64; 3]>,
-    /// Node indices, element by element; their number an element is that of the formulation.
-    connectivity: Vec<u32>,
+    blocks: Vec<ElementBlock>,
+    /// Number of the first element of each block, and the number of all.
+    first: Vec<usize>,
     material: Material,
-    element: HexElement,
 }
 
 impl FeModel {
-    /// Checks and keeps a mesh.
+    /// Checks and keeps a mesh of one kind of element.
     ///
-    /// `nodes`: coordinates (m). `hexes`: node indices in VTK order (bottom 0-3 counter-clockwise, top 4-7, then for
-    /// twenty nodes the edges), `[u32; 8]` or `[u32; 20]` as the element demands.
+    /// `nodes`: coordinates (m). `elements`: node indices in VTK order, as many as the element has, for example
+    /// `[u32; 8]` or `[u32; 20]`.
     ///
     /// # Errors
-    /// [`FeError::NodesPerElement`] and those of [`FeModel::from_connectivity`].
+    /// [`FeError::NodesPerElement`], and as [`FeModel::from_blocks`].
     pub fn new<const N: usize>(
         nodes: Vec<[f64; 3]>,
-        hexes: Vec<[u32; N]>,
+        elements: Vec<[u32; N]>,
         material: Material,
         element: HexElement,
     ) -> Result<Self, FeError> {
@@ -38,77 +59,60 @@ impl FeModel {
                 expected: element.node_count(),
             });
         }
-        Self::from_connectivity(nodes, hexes.into_flattened(), material, element)
+        Self::from_connectivity(nodes, elements.into_flattened(), material, element)
     }
 
-    /// Checks and keeps a mesh whose node indices stand one element after the other in a flat list.
+    /// As [`FeModel::new`], with the node indices of all elements one after another.
     ///
     /// # Errors
-    /// [`FeError::SizeMismatch`] when the list does not hold whole elements, [`FeError::NoElements`], [`FeError::TooLarge`],
-    /// [`FeError::CoordinateNotFinite`], [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and
-    /// [`FeError::Element`] naming the first element whose Jacobian is not positive at all Gauss points, nodes and the centre.
+    /// As [`FeModel::from_blocks`].
     pub fn from_connectivity(
         nodes: Vec<[f64; 3]>,
         connectivity: Vec<u32>,
         material: Material,
         element: HexElement,
     ) -> Result<Self, FeError> {
-        if connectivity.is_empty() {
-            return Err(FeError::NoElements { nodes: nodes.len() });
-        }
-        let per_element = element.node_count();
-        if !connectivity.len().is_multiple_of(per_element) {
-            return Err(FeError::SizeMismatch {
-                what: "the connectivity",
-                found: connectivity.len(),
-                expected: connectivity.len().next_multiple_of(per_element),
-            });
-        }
-        let element_count = connectivity.len() / per_element;
-        // METIS counts in 32 bits; a third of that leaves room for three degrees of freedom per node.
-        let allowed = i32::MAX as usize / 3;
-        if nodes.len().max(element_count) > allowed {
-            return Err(FeError::TooLarge {
-                found: nodes.len().max(element_count),
-                allowed,
-            });
-        }
-        for (node, coordinates) in nodes.iter().enumerate() {
-            if !coordinates.iter().all(|v| v.is_finite()) {
-                return Err(FeError::CoordinateNotFinite {
-                    node,
-                    coordinates_m: *coordinates,
+        let block = ElementBlock {
+            element,
+            nodes: connectivity,
+        };
+        Self::from_blocks(nodes, vec![block], material)
+    }
+
+    /// Checks and keeps a mesh of one or several kinds of elements; empty blocks are left out. Elements that share a face
+    /// must agree on its nodes (hex8 with wedge6, hex20 with wedge15); that is not checked here.
+    ///
+    /// # Errors
+    /// [`FeError::ConnectivityLength`], [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
+    /// [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and [`FeError::Element`] naming the first
+    /// element whose Jacobian is not positive at all integration points, nodes and the centre.
+    pub fn from_blocks(
+        nodes: Vec<[f64; 3]>,
+        mut blocks: Vec<ElementBlock>,
+        material: Material,
+    ) -> Result<Self, FeError> {
+        blocks.retain(|block| !block.is_empty());
+        for block in &blocks {
+            let per_element = block.element.node_count();
+            if !block.nodes.len().is_multiple_of(per_element) {
+                return Err(FeError::ConnectivityLength {
+                    element: block.element.name(),
+                    found: block.nodes.len(),
+                    per_element,
                 });
             }
         }
-        let mut used = vec![false; nodes.len()];
-        for (element, own) in connectivity.chunks_exact(per_element).enumerate() {
-            for &node in own {
-                match used.get_mut(node as usize) {
-                    Some(flag) => *flag = true,
-                    None => {
-                        return Err(FeError::NodeOutOfRange {
-                            element,
-                            node,
-                            node_count: nodes.len(),
-                        });
-                    }
-                }
-            }
-        }
-        if let Some(node) = used.iter().position(|u| !u) {
-            return Err(FeError::NodeWithoutElement { node });
-        }
         let model = Self {
             nodes,
-            connectivity,
+            first: first_elements(&blocks),
+            blocks,
             material,
-            element,
         };
+        model.check_numbers()?;
         let broken = (0..model.element_count())
             .into_par_iter()
             .find_map_first(|e| {
-                let checked = element.check_shape(&model.gather(e));
+                let checked = model.element_of(e).check_shape(&model.gather(e));
                 checked.err().map(|source| (e, source))
             });
         match broken {
@@ -117,19 +121,59 @@ impl FeModel {
         }
     }
 
-    /// The same mesh with another formulation of as many nodes.
+    /// Checks sizes, coordinates and node indices.
+    fn check_numbers(&self) -> Result<(), FeError> {
+        let node_count = self.nodes.len();
+        if self.element_count() == 0 {
+            return Err(FeError::NoElements { nodes: node_count });
+        }
+        // METIS counts in 32 bits; a third of that leaves room for three degrees of freedom per node.
+        let allowed = i32::MAX as usize / 3;
+        let found = node_count.max(self.element_count());
+        if found > allowed {
+            return Err(FeError::TooLarge { found, allowed });
+        }
+        for (node, coordinates) in self.nodes.iter().enumerate() {
+            if !coordinates.iter().all(|v| v.is_finite()) {
+                return Err(FeError::CoordinateNotFinite {
+                    node,
+                    coordinates_m: *coordinates,
+                });
+            }
+        }
+        let mut used = vec![false; node_count];
+        for element in 0..self.element_count() {
+            for &node in self.element_nodes(element) {
+                let flag = used.get_mut(node as usize);
+                *flag.ok_or(FeError::NodeOutOfRange {
+                    element,
+                    node,
+                    node_count,
+                })? = true;
+            }
+        }
+        match used.iter().position(|u| !u) {
+            Some(node) => Err(FeError::NodeWithoutElement { node }),
+            None => Ok(()),
+        }
+    }
+
+    /// The same mesh with another formulation of as many nodes, all elements alike.
     ///
     /// # Errors
     /// [`FeError::NodesPerElement`].
-    pub fn with_element(self, element: HexElement) -> Result<Self, FeError> {
-        if element.node_count() != self.element.node_count() {
-            return Err(FeError::NodesPerElement {
-                element: element.name(),
-                found: self.element.node_count(),
-                expected: element.node_count(),
-            });
+    pub fn with_element(mut self, element: HexElement) -> Result<Self, FeError> {
+        for block in &mut self.blocks {
+            if element.node_count() != block.element.node_count() {
+                return Err(FeError::NodesPerElement {
+                    element: element.name(),
+                    found: block.element.node_count(),
+                    expected: element.node_count(),
+                });
+            }
+            block.element = element;
         }
-        Ok(Self { element, ..self })
+        Ok(self)
     }
 
     /// The part made of some elements, on its own; and the node of this model of each of its nodes, ascending.
@@ -150,11 +194,24 @@ impl FeModel {
         nodes.sort_unstable();
         nodes.dedup();
         let place = |n: u32| nodes.partition_point(|&other| other < n) as u32;
+        let mut blocks: Vec<ElementBlock> = Vec::new();
+        for e in elements {
+            let element = self.element_of(*e as usize);
+            if blocks.last().is_none_or(|block| block.element != element) {
+                blocks.push(ElementBlock {
+                    element,
+                    nodes: Vec::new(),
+                });
+            }
+            if let Some(block) = blocks.last_mut() {
+                block.nodes.extend(of_element(e).map(place));
+            }
+        }
         let model = Self {
             nodes: nodes.iter().map(|&n| self.nodes[n as usize]).collect(),
-            connectivity: elements.iter().flat_map(of_element).map(place).collect(),
+            first: first_elements(&blocks),
+            blocks,
             material: self.material,
-            element: self.element,
         };
         Ok((nodes, model))
     }
@@ -166,7 +223,22 @@ impl FeModel {
 
     /// Number of elements.
     pub fn element_count(&self) -> usize {
-        self.connectivity.len() / self.element.node_count()
+        self.first.last().copied().unwrap_or(0)
+    }
+
+    /// The block that an element belongs to, and its place in it.
+    fn block_of(&self, element: usize) -> (&ElementBlock, usize) {
+        // One kind is the usual case, and this is asked for every element in every loop.
+        let block = match self.blocks.len() {
+            1 => 0,
+            _ => self.first.partition_point(|&first| first <= element) - 1,
+        };
+        (&self.blocks[block], element - self.first[block])
+    }
+
+    /// The elements, by kind.
+    pub fn blocks(&self) -> &[ElementBlock] {
+        &self.blocks
     }
 
     /// Node indices of an element, VTK order.
@@ -174,8 +246,9 @@ impl FeModel {
     /// # Panics
     /// If `element` is not below [`FeModel::element_count`].
     pub fn element_nodes(&self, element: usize) -> &[u32] {
-        let n = self.element.node_count();
-        &self.connectivity[n * element..n * (element + 1)]
+        let (block, place) = self.block_of(element);
+        let n = block.element.node_count();
+        &block.nodes[n * place..n * (place + 1)]
     }
 
     /// The material.
@@ -183,9 +256,12 @@ impl FeModel {
         &self.material
     }
 
-    /// The element formulation.
-    pub fn element(&self) -> HexElement {
-        self.element
+    /// Kind and formulation of an element.
+    ///
+    /// # Panics
+    /// If `element` is not below [`FeModel::element_count`].
+    pub fn element_of(&self, element: usize) -> HexElement {
+        self.block_of(element).0.element
     }
 
     /// Number of nodes.
@@ -225,7 +301,7 @@ impl FeModel {
     /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
     pub fn element_stiffness(&self, element: usize) -> Result<ElementMatrix, FeError> {
         let coordinates = self.element_coordinates(element)?;
-        self.element
+        self.element_of(element)
             .stiffness(&coordinates, &self.material)
             .map_err(|source| FeError::Element { element, source })
     }
@@ -241,7 +317,7 @@ impl FeModel {
         natural: [f64; 3],
     ) -> Result<StrainOperator, FeError> {
         let coordinates = self.element_coordinates(element)?;
-        self.element
+        self.element_of(element)
             .strain_operator(&coordinates, &self.material, natural)
             .map_err(|source| FeError::Element { element, source })
     }
@@ -289,8 +365,9 @@ impl FeModel {
     /// # Errors
     /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
     pub fn element_volume(&self, element: usize) -> Result<f64, FeError> {
-        self.element
-            .volume(&self.element_coordinates(element)?)
+        self.check_element(element)?;
+        self.element_of(element)
+            .volume(&self.gather(element))
             .map_err(|source| FeError::Element { element, source })
     }
 
@@ -312,6 +389,15 @@ impl FeModel {
             .map(|node| self.nodes[*node as usize])
             .collect()
     }
+}
+
+/// Number of the first element of each block, and the number of all.
+fn first_elements(blocks: &[ElementBlock]) -> Vec<usize> {
+    let mut first = vec![0];
+    for block in blocks {
+        first.push(first[first.len() - 1] + block.len());
+    }
+    first
 }
 
 #[cfg(test)]

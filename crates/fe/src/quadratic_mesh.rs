@@ -1,56 +1,95 @@
-//! Twenty-node hexahedra from eight-node ones: one node more on every edge.
+//! Quadratic elements from linear ones: one node more on every edge.
 
 use std::collections::HashMap;
 
 use crate::hex20::EDGE_CORNERS;
+use crate::tet10::TET_EDGE_CORNERS;
+use crate::wedge15::WEDGE_EDGE_CORNERS;
 
-/// A mesh of twenty-node hexahedra in VTK node order.
+/// A mesh of quadratic elements of N nodes in VTK node order.
 #[derive(Debug, Clone, PartialEq)]
-pub struct QuadraticMesh {
+pub struct QuadraticMesh<const N: usize = 20> {
     /// Node coordinates (m): the corners with their old numbers, then the mid-edge nodes.
     pub nodes: Vec<[f64; 3]>,
-    /// Node indices of the hexahedra.
-    pub hexes: Vec<[u32; 20]>,
+    /// Node indices of the elements.
+    pub elements: Vec<[u32; N]>,
 }
 
-impl QuadraticMesh {
-    /// Adds a node on every edge of a mesh of eight-node hexahedra.
-    ///
-    /// `place(a, b)` gives the position (m) of the node between two corners, given with their node numbers: the middle
-    /// of the chord where an edge is straight, a point of the curve near its middle where the body is curved. It is
-    /// asked once per edge, the smaller node number first.
+impl QuadraticMesh<20> {
+    /// Twenty-node hexahedra. `place(a, b)` gives the position (m) of the node between two corners, given with their node
+    /// numbers: the middle of the chord where an edge is straight, a point of the curve near its middle where the body is
+    /// curved. It is asked once per edge, the smaller node number first.
     ///
     /// # Panics
     /// If an element names a node that does not exist, or the nodes pass 2³².
     pub fn new(
-        mut nodes: Vec<[f64; 3]>,
+        nodes: Vec<[f64; 3]>,
         hexes: &[[u32; 8]],
-        mut place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+        place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
     ) -> Self {
-        let mut on_edge: HashMap<[u32; 2], u32> = HashMap::new();
-        let hexes = hexes
-            .iter()
-            .map(|corners| {
-                let mut hex = [0; 20];
-                hex[..8].copy_from_slice(corners);
-                for (node, [a, b]) in hex[8..].iter_mut().zip(EDGE_CORNERS) {
-                    let mut edge = [corners[a], corners[b]];
-                    edge.sort_unstable();
-                    *node = *on_edge.entry(edge).or_insert_with(|| {
-                        nodes.push(place(edge, edge.map(|n| nodes[n as usize])));
-                        (nodes.len() - 1) as u32
-                    });
-                }
-                hex
-            })
-            .collect();
-        assert!(
-            u32::try_from(nodes.len()).is_ok(),
-            "node numbers of 32 bits"
-        );
-        Self { nodes, hexes }
+        with_edge_nodes(nodes, hexes, &EDGE_CORNERS, place)
     }
+}
 
+impl QuadraticMesh<10> {
+    /// Ten-node tetrahedra; `place` as in [`QuadraticMesh::new`].
+    ///
+    /// # Panics
+    /// As [`QuadraticMesh::new`].
+    pub fn of_tetrahedra(
+        nodes: Vec<[f64; 3]>,
+        tetrahedra: &[[u32; 4]],
+        place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+    ) -> Self {
+        with_edge_nodes(nodes, tetrahedra, &TET_EDGE_CORNERS, place)
+    }
+}
+
+impl QuadraticMesh<15> {
+    /// Fifteen-node wedges; `place` as in [`QuadraticMesh::new`].
+    ///
+    /// # Panics
+    /// As [`QuadraticMesh::new`].
+    pub fn of_wedges(
+        nodes: Vec<[f64; 3]>,
+        wedges: &[[u32; 6]],
+        place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+    ) -> Self {
+        with_edge_nodes(nodes, wedges, &WEDGE_EDGE_CORNERS, place)
+    }
+}
+
+fn with_edge_nodes<const C: usize, const N: usize>(
+    mut nodes: Vec<[f64; 3]>,
+    elements: &[[u32; C]],
+    edges: &[[usize; 2]],
+    mut place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+) -> QuadraticMesh<N> {
+    let mut on_edge: HashMap<[u32; 2], u32> = HashMap::new();
+    let elements = elements
+        .iter()
+        .map(|corners| {
+            let mut element = [0; N];
+            element[..C].copy_from_slice(corners);
+            for (node, &[a, b]) in element[C..].iter_mut().zip(edges) {
+                let mut edge = [corners[a], corners[b]];
+                edge.sort_unstable();
+                *node = *on_edge.entry(edge).or_insert_with(|| {
+                    nodes.push(place(edge, edge.map(|n| nodes[n as usize])));
+                    (nodes.len() - 1) as u32
+                });
+            }
+            element
+        })
+        .collect();
+    assert!(
+        u32::try_from(nodes.len()).is_ok(),
+        "node numbers of 32 bits"
+    );
+    QuadraticMesh { nodes, elements }
+}
+
+impl<const N: usize> QuadraticMesh<N> {
     /// Indices of the nodes whose coordinates satisfy a condition.
     pub fn nodes_where(&self, condition: impl Fn([f64; 3]) -> bool) -> Vec<usize> {
         (0..self.nodes.len())
@@ -92,7 +131,7 @@ mod tests {
         let mesh = QuadraticMesh::new(block.nodes, &block.hexes, |_, ends| chord_middle(ends));
         assert_eq!(mesh.nodes.len() - corners, 3 * n * (n + 1) * (n + 1));
         let steel = Material::new(210e9, 0.3).unwrap();
-        let model = FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20).unwrap();
+        let model = FeModel::new(mesh.nodes, mesh.elements, steel, HexElement::Hex20).unwrap();
         assert!((model.volume().unwrap() - 1.0).abs() < 1e-14);
     }
 
@@ -103,7 +142,7 @@ mod tests {
             let ring = StructuredMesh::ring([around, 1, 1], [1.0, 2.0], 1.0);
             let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
             let steel = Material::new(210e9, 0.3).unwrap();
-            let model = FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20).unwrap();
+            let model = FeModel::new(mesh.nodes, mesh.elements, steel, HexElement::Hex20).unwrap();
             (model.volume().unwrap() / (3.0 * std::f64::consts::PI) - 1.0).abs()
         };
         let order = (error(8) / error(16)).log2();

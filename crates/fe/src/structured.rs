@@ -2,6 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use crate::element::HexElement;
+use crate::error::FeError;
+use crate::material::Material;
+use crate::model::FeModel;
+use crate::quadratic_mesh::QuadraticMesh;
+
 /// A mesh of hexahedra in VTK node order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StructuredMesh {
@@ -49,6 +55,60 @@ impl StructuredMesh {
         (0..self.nodes.len())
             .filter(|&n| condition(self.nodes[n]))
             .collect()
+    }
+
+    /// A model of any kind of element: hexahedra as they are or cut in wedges or tetrahedra, with nodes on their edges
+    /// where `place` says (see [`QuadraticMesh::new`]) if the element has such.
+    ///
+    /// # Errors
+    /// As [`FeModel::new`].
+    pub fn into_model(
+        self,
+        material: Material,
+        element: HexElement,
+        place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
+    ) -> Result<FeModel, FeError> {
+        match element {
+            HexElement::Hex8 | HexElement::Hex8Incompatible => {
+                FeModel::new(self.nodes, self.hexes, material, element)
+            }
+            HexElement::Wedge6 => {
+                FeModel::new(self.nodes.clone(), self.wedges(), material, element)
+            }
+            HexElement::Hex20 => {
+                let mesh = QuadraticMesh::new(self.nodes, &self.hexes, place);
+                FeModel::new(mesh.nodes, mesh.elements, material, element)
+            }
+            HexElement::Tet10 => {
+                let mesh =
+                    QuadraticMesh::of_tetrahedra(self.nodes.clone(), &self.tetrahedra(), place);
+                FeModel::new(mesh.nodes, mesh.elements, material, element)
+            }
+            HexElement::Wedge15 => {
+                let mesh = QuadraticMesh::of_wedges(self.nodes.clone(), &self.wedges(), place);
+                FeModel::new(mesh.nodes, mesh.elements, material, element)
+            }
+        }
+    }
+
+    /// Every hexahedron cut in two wedges along the diagonal 0-2 of its bottom.
+    pub fn wedges(&self) -> Vec<[u32; 6]> {
+        let of = |h: &[u32; 8]| [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]].map(|w| w.map(|i| h[i]));
+        self.hexes.iter().flat_map(of).collect()
+    }
+
+    /// Every hexahedron cut in six tetrahedra about its diagonal 0-6; neighbours agree on the diagonals of faces.
+    pub fn tetrahedra(&self) -> Vec<[u32; 4]> {
+        const CUT: [[usize; 4]; 6] = [
+            [0, 1, 2, 6],
+            [0, 5, 1, 6],
+            [0, 2, 3, 6],
+            [0, 3, 7, 6],
+            [0, 4, 5, 6],
+            [0, 7, 4, 6],
+        ];
+        let of = |h: &[u32; 8]| CUT.map(|t| t.map(|i| h[i]));
+        self.hexes.iter().flat_map(of).collect()
     }
 
     fn build(

@@ -153,12 +153,8 @@ fn check_work(element: HexElement) {
     let mut twice_energy = 0.0;
     for e in 0..model.element_count() {
         let coordinates = model.element_coordinates(e).unwrap();
-        for (point, weight) in model.element().integration_points() {
-            let weight = weight
-                * model
-                    .element()
-                    .jacobian_determinant(&coordinates, *point)
-                    .unwrap();
+        for (point, weight) in element.integration_points() {
+            let weight = weight * element.jacobian_determinant(&coordinates, *point).unwrap();
             let strain = model.strain(e, *point, &full).unwrap();
             let stress = model.material().stress(&strain);
             twice_energy += weight * strain.iter().zip(stress).map(|(a, b)| a * b).sum::<f64>();

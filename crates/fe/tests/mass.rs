@@ -6,20 +6,17 @@ mod common;
 use common::{ELEMENTS, distorted_cube, nodes_where, steel};
 use faer::Col;
 use gearmesh_fe::{
-    DofMap, FeError, FeModel, HexElement, QuadraticMesh, RigidGroup, assemble_mass,
-    assemble_stiffness, chord_middle,
+    DofMap, FeError, FeModel, HexElement, RigidGroup, assemble_mass, assemble_stiffness,
+    chord_middle,
 };
 
 const DENSITY: f64 = 7800.0;
 
 /// The unit cube, elements distorted, edges straight.
 fn cube(element: HexElement) -> FeModel {
-    let mesh = distorted_cube(3);
-    if element == HexElement::Hex20 {
-        let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |_, ends| chord_middle(ends));
-        return FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap();
-    }
-    FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap()
+    distorted_cube(3)
+        .into_model(steel(), element, |_, ends| chord_middle(ends))
+        .unwrap()
 }
 
 /// Displacements of a motion with unit velocity along or about an axis through the origin: x, y, z, rotations.

@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 use common::{ELEMENTS, distorted_cube, model, nodes_where, steel};
 use faer::{Mat, Side};
 use gearmesh_fe::{
-    DofMap, Factor, FeError, FeModel, HexElement, Material, ModeSettings, NaturalModes,
-    QuadraticMesh, RigidGroup, SparseMatrix, StructuredMesh, arc_middle, assemble_mass,
-    assemble_stiffness, chord_middle, natural_modes, shifted_stiffness,
+    DofMap, Factor, FeError, FeModel, HexElement, Material, ModeSettings, NaturalModes, RigidGroup,
+    SparseMatrix, StructuredMesh, arc_middle, assemble_mass, assemble_stiffness, chord_middle,
+    natural_modes, shifted_stiffness,
 };
 
 const DENSITY: f64 = 7800.0;
@@ -56,12 +56,9 @@ fn straight_block(
     material: Material,
     element: HexElement,
 ) -> FeModel {
-    let mesh = StructuredMesh::block(counts, size);
-    if element == HexElement::Hex20 {
-        let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |_, ends| chord_middle(ends));
-        return FeModel::new(mesh.nodes, mesh.hexes, material, element).unwrap();
-    }
-    FeModel::new(mesh.nodes, mesh.hexes, material, element).unwrap()
+    StructuredMesh::block(counts, size)
+        .into_model(material, element, |_, ends| chord_middle(ends))
+        .unwrap()
 }
 
 #[test]
@@ -192,7 +189,9 @@ fn a_block_on_rollers_converges_with_twice_the_order_of_the_energy_norm() {
         };
         let (sizes, order) = match element {
             HexElement::Hex8 | HexElement::Hex8Incompatible => ([6, 12], 2.0),
-            HexElement::Hex20 => ([3, 6], 4.0),
+            HexElement::Wedge6 => ([8, 16], 2.0),
+            HexElement::Tet10 | HexElement::Wedge15 => ([5, 10], 4.0),
+            _ => ([3, 6], 4.0),
         };
         let [coarse, fine] = sizes.map(errors);
         for mode in 0..count {
@@ -255,12 +254,9 @@ fn torsion_of_a_disc_held_at_its_bore() {
     ] {
         let error = |counts: [usize; 3]| {
             let ring = StructuredMesh::ring(counts, [inner, outer], 0.01);
-            let model = if element == HexElement::Hex20 {
-                let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
-                FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap()
-            } else {
-                FeModel::new(ring.nodes, ring.hexes, steel(), element).unwrap()
-            };
+            let model = ring
+                .into_model(steel(), element, |_, ends| arc_middle(ends))
+                .unwrap();
             let bore = nodes_where(&model, |x| x[0].hypot(x[1]) < inner * 1.000_001);
             let fixed: Vec<usize> = bore.iter().flat_map(|n| [3 * n, 3 * n + 1]).collect();
             // Plane motion only: torsion has no displacement along z.

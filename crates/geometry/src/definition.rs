@@ -2,6 +2,7 @@
 
 use crate::microgeometry::Microgeometry;
 use crate::tooth::ToothGeometry;
+use std::path::PathBuf;
 
 /// Hand of a flank: the right flank faces clockwise seen from +z.
 #[derive(
@@ -78,8 +79,73 @@ pub struct Blank {
     pub bore_radius_m: f64,
     /// Hub, web and rim; `None` for a solid disc of full width.
     pub web: Option<Web>,
+    /// Faces of hub and web where they are no planes; `web` then describes the web at the rim.
+    pub contour: Option<Contour>,
     /// Openings through the web (or through the whole solid disc).
     pub openings: Option<Openings>,
+    /// Where the whole gear, teeth included, was meshed elsewhere; web and openings are not known then.
+    pub meshed: Option<MeshedBody>,
+}
+
+/// Axial contour of hub and web.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contour {
+    /// Back and front of the hub \[m\].
+    pub hub_z_m: [f64; 2],
+    /// Points from the hub to the rim, straight between them; at least two.
+    pub web: Vec<ContourPoint>,
+}
+
+/// Back and front of the web at one radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContourPoint {
+    /// Radius \[m\].
+    pub radius_m: f64,
+    /// Back and front \[m\].
+    pub z_m: [f64; 2],
+}
+
+/// A gear that was meshed elsewhere.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshedBody {
+    /// The mesh file, any format that meshio reads.
+    pub file: PathBuf,
+    /// Unit of its coordinates.
+    pub length_unit: LengthUnit,
+    /// Name of the set of nodes or elements on the bore.
+    pub bore_set: String,
+    /// Names of the sets on the flanks, `{tooth}` and `{side}` standing for the tooth's number and `right` or `left`.
+    pub flank_sets: String,
+}
+
+impl MeshedBody {
+    /// Name of the set on a flank.
+    pub fn flank_set(&self, tooth: usize, side: FlankSide) -> String {
+        self.flank_sets
+            .replace("{tooth}", &tooth.to_string())
+            .replace("{side}", side.name())
+    }
+}
+
+/// Unit of the coordinates in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+pub enum LengthUnit {
+    /// Metres.
+    #[serde(rename = "m")]
+    Metre,
+    /// Millimetres.
+    #[serde(rename = "mm")]
+    Millimetre,
+}
+
+impl LengthUnit {
+    /// Name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Metre => "m",
+            Self::Millimetre => "mm",
+        }
+    }
 }
 
 /// Hub and web of a thin-rimmed blank.
@@ -312,9 +378,14 @@ pub struct GearDefinition {
 }
 
 impl GearDefinition {
-    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth.
+    /// Number of equal sectors that the gear repeats in: gcd of teeth and openings, or the number of teeth;
+    /// one for a gear that was meshed elsewhere.
     pub fn sectors(&self) -> usize {
         let z = self.tooth.teeth;
+        // Nothing is known of how a mesh from elsewhere repeats.
+        if self.blank.meshed.is_some() {
+            return 1;
+        }
         self.blank
             .openings
             .map_or(z, |o| greatest_common_divisor(z, o.count()))

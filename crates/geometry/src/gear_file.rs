@@ -4,6 +4,7 @@
 //! for what the tables before it have settled, so the order in [`GearDefinition::from_document`] matters.
 
 mod blank_table;
+mod contour_table;
 mod gauge_table;
 mod hub_table;
 mod material_table;
@@ -14,7 +15,7 @@ mod openings_table;
 mod reduction_table;
 mod tooth_table;
 
-use crate::definition::GearDefinition;
+use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
 use serde::Deserialize;
@@ -71,6 +72,24 @@ impl GearDefinition {
             .check(document, &profile, tooth.face_width_m)?;
         let mesh = file.mesh.check(document, &tooth, &blank)?;
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
+        let hub_support = file.hub.support();
+        if blank.meshed.is_some() {
+            for (key, given) in [
+                (
+                    "material.density_kg_per_m3",
+                    material.density_kg_per_m3.is_some(),
+                ),
+                ("modes", file.modes.is_some()),
+                ("hub.support", hub_support != HubSupport::Fixed),
+            ] {
+                if given {
+                    return Err(document.error(
+                        key,
+                        "blank.kind = \"mesh\" is reduced at rest with its bore fixed and does not use it; remove it",
+                    ));
+                }
+            }
+        }
         let modes = file.modes;
         let modes = modes
             .map(|table| table.check(document, &material, mesh.plane_strain))

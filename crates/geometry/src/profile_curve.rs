@@ -213,6 +213,40 @@ impl ProfileCurve {
         }
     }
 
+    /// Arc length \[m\] of the point of the outline, below the tip land, that has the same radius as `point_m`, and the distance
+    /// \[m\] of the two along their circle, positive towards the tooth's centre line. On the root arc, where all points have one
+    /// radius, the point at the same angle and the radial distance, positive outwards of the root circle. The inverse of
+    /// [`ProfileCurve::point_at`] on the outline itself.
+    pub fn place_of(&self, point_m: [f64; 2]) -> (f64, f64) {
+        let t = &self.tooth;
+        let (radius, angle) = (point_m[0].hypot(point_m[1]), point_m[1].atan2(point_m[0]));
+        let arc_end = self.first_of(Piece::Fillet);
+        let space = t.trochoid.space_angle_rad;
+        let from_space = (angle - space) * t.root_radius_m;
+        if from_space < arc_end && radius < t.root_radius_m * (1.0 + 1e-3) {
+            return (from_space.max(0.0), radius - t.root_radius_m);
+        }
+        let radius_at = |s: f64| {
+            let p = self.point_at(s);
+            p[0].hypot(p[1])
+        };
+        // The radius grows from the fillet's start to the tip corner. Halving goes on to the last bit.
+        let (mut low, mut high) = (arc_end, self.tip_start_m());
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if radius_at(middle) < radius {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let p = self.point_at(high);
+        (high, (angle - p[1].atan2(p[0])) * radius)
+    }
+
     /// Arc length at which a quantity that grows along the samples for which it exists reaches `value`.
     fn interpolate(&self, quantity: impl Fn(&Sample) -> Option<f64>, value: f64) -> f64 {
         let mut last: Option<(f64, f64)> = None;

@@ -7,8 +7,11 @@ use crate::tooth_cell::{Pieces, graded, ring_radius_m};
 use gearmesh_geometry::{GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Growth of element length with the distance from the ring.
+/// Growth of element length with the distance from the ring, and from the hub.
 const GRADING: f64 = 0.35;
+/// Element length where the web meets the hub, as a share of the largest: stress is singular along that edge (see
+/// [`crate::layers`]), and most of a twisted web's deformation is there.
+const AT_HUB: f64 = 1.0 / 3.0;
 
 /// One sector of the body, ready for the mesher.
 #[derive(Debug, Clone)]
@@ -101,7 +104,14 @@ pub fn body_problem(
     let closed = sectors == 1;
     let ring = ring_radius_m(gear);
     let ring_size = ring * pitch / ring_per_tooth as f64;
-    let size = |r: f64| (ring_size + GRADING * (ring - r).abs()).min(gear.mesh.body_m);
+    let largest = gear.mesh.body_m;
+    let size = |r: f64| {
+        let from_ring = ring_size + GRADING * (ring - r).abs();
+        let from_hub = gear.blank.web.map_or(f64::INFINITY, |web| {
+            AT_HUB * largest + GRADING * (r - web.hub_radius_m).abs()
+        });
+        from_ring.min(from_hub).min(largest)
+    };
 
     // Circles that separate the regions, from the ring inwards, and whether the region below each is web only.
     let mut levels = vec![(ring, false)];
@@ -111,6 +121,14 @@ pub fn body_problem(
         } else {
             levels[0].1 = true;
         }
+        // Where the contour has a kink, nodes lie.
+        let kinks = gear.blank.contour.iter().flat_map(|contour| &contour.web);
+        let inner = kinks.map(|point| point.radius_m).rev();
+        levels.extend(
+            inner
+                .filter(|&r| r > web.hub_radius_m + 1e-9 && r < web.rim_inner_radius_m - 1e-9)
+                .map(|r| (r, true)),
+        );
         levels.push((web.hub_radius_m, false));
     }
     levels.push((gear.blank.bore_radius_m, false));

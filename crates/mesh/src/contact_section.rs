@@ -10,7 +10,7 @@
 //!
 //! with R the right and L the left outline, B the cut as the gear's own mesh has it, T the tip land.
 
-use crate::tooth_cell::{Pieces, ToothCell, graded};
+use crate::tooth_cell::{CutLine, Pieces, graded};
 use gearmesh_geometry::{ProfileCurve, ToothGeometry};
 
 /// How finely a [`ContactSection`] is meshed.
@@ -46,27 +46,18 @@ pub struct ContactSection {
 }
 
 impl ContactSection {
-    /// Meshes the tooth of `cell` for a load on the right flank at an arc length from the tooth space.
+    /// Meshes the tooth above a cut for a load on the right flank at an arc length from the tooth space.
     ///
     /// `centre_arc_m` is taken to lie on the involute; beyond its ends it is moved there.
     pub fn new(
         tooth: &ToothGeometry,
         curve: &ProfileCurve,
-        cell: &ToothCell,
+        cut: &CutLine,
         centre_arc_m: f64,
         grading: ContactGrading,
     ) -> Self {
-        let cut = Polyline::new(cell.cut.iter().map(|&n| cell.nodes[n]).collect());
-        let first = cell
-            .outline
-            .iter()
-            .position(|n| Some(n) == cell.cut.first())
-            .unwrap_or(0);
-        let (s_cut, s_end, s_tip) = (
-            cell.outline_arc_m[first],
-            curve.flank_end_m(),
-            curve.tip_start_m(),
-        );
+        let (s_cut, s_end, s_tip) = (cut.arc_m, curve.flank_end_m(), curve.tip_start_m());
+        let cut = Polyline::new(cut.points_m.clone());
         let s_centre = centre_arc_m.clamp(curve.flank_start_m(), s_end);
         let growing = |distance: f64| {
             (grading.smallest_m + grading.growth * distance.max(0.0)).min(grading.largest_m)

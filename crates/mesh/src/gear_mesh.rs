@@ -6,6 +6,7 @@
 use crate::MeshError;
 use crate::elements::{ElementList, ElementShape};
 use crate::face::{FaceShape, OutlineFace};
+use crate::heights::Heights;
 use crate::layers::Layers;
 use crate::python::PythonEnvironment;
 use crate::quality::{self, QualityReport};
@@ -46,9 +47,17 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
+        if let Some(body) = &gear.blank.meshed {
+            return Err(MeshError::MeshedElsewhere {
+                file: body.file.display().to_string(),
+            });
+        }
+        let layers = Layers::new(gear);
+        let heights = Heights::new(gear, &layers);
         Self::extruded(
             Section::new(gear, python)?,
-            Layers::new(gear),
+            layers,
+            &heights,
             Twist::new(gear),
             gear.mesh.min_scaled_jacobian,
         )
@@ -62,6 +71,7 @@ impl GearMesh {
         Self::extruded(
             self.section.clone(),
             Layers::single(width_m),
+            &Heights::default(),
             Twist::default(),
             0.0,
         )
@@ -70,6 +80,7 @@ impl GearMesh {
     fn extruded(
         section: Section,
         layers: Layers,
+        heights: &Heights,
         twist: Twist,
         min_scaled_jacobian: f64,
     ) -> Result<Self, MeshError> {
@@ -116,7 +127,7 @@ impl GearMesh {
                 let slot = &mut node_of[n * n_levels + level];
                 if *slot != NONE {
                     *slot = nodes.len() as u32;
-                    nodes.push(twist.point_m(*p, z));
+                    nodes.push(twist.point_m(*p, heights.z_m(p[0].hypot(p[1]), z)));
                 }
             }
         }

@@ -1,6 +1,16 @@
-//! Planes along the axis: aligned with the web's faces, about `axial_m` apart.
+//! Planes along the axis: aligned with the web's faces, about `axial_m` apart, closer at those faces.
+//!
+//! Where the web's face meets rim and hub the body has a sharp inner edge of 270°. Stress there is singular, and equal layers
+//! converge with little more than the first power of their thickness (2λ = 1.09, M. L. Williams, J. Appl. Mech. 19 (1952) 526).
+//! Layers that grow with the distance from the edge win that back.
 
+use crate::tooth_cell::{Pieces, graded};
 use gearmesh_geometry::GearDefinition;
+
+/// Thickness of the layers at the web's faces, as a share of `axial_m`.
+const AT_EDGE: f64 = 0.2;
+/// Growth of the thickness with the distance from there.
+const GROWTH: f64 = 0.5;
 
 /// The layers of a gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +43,8 @@ impl Layers {
         }
     }
 
-    /// Layers of a gear. The web has at least two, an even number over the whole width of a symmetric gear, so that
-    /// mid-face is a node plane. One layer in plane strain.
+    /// Layers of a gear. The web has an even number of them, so that its middle, mid-face of a symmetric gear, is a node
+    /// plane; so has a solid gear. One layer in plane strain.
     pub fn new(gear: &GearDefinition) -> Self {
         if gear.mesh.plane_strain {
             return Self::single(gear.tooth.face_width_m);
@@ -50,24 +60,33 @@ impl Layers {
         }
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        let edges = &breaks[1..breaks.len() - 1];
+        let thickness = |z: f64| {
+            let distances = edges.iter().map(|edge| (z - edge).abs());
+            let distance = distances.fold(f64::INFINITY, f64::min);
+            // Rounding must not add a layer where whole ones fit.
+            (1.0 + 1e-9) * axial.min(AT_EDGE * axial + GROWTH * distance)
+        };
         let mut planes = vec![breaks[0]];
         let mut web = 0..0;
         for pair in breaks.windows(2) {
             let (from, to) = (pair[0], pair[1]);
-            let inside = gear
-                .blank
-                .web
-                .is_none_or(|w| (0.5 * (from + to) - w.offset_m).abs() < 0.5 * w.thickness_m);
-            let wanted = ((to - from) / axial - 1e-9).ceil().max(1.0) as usize;
-            let n = if inside {
-                wanted.max(2).next_multiple_of(2)
-            } else {
-                wanted
+            let middle = 0.5 * (from + to);
+            let inside =
+                (gear.blank.web).is_none_or(|w| (middle - w.offset_m).abs() < 0.5 * w.thickness_m);
+            let any = Pieces {
+                least: 1,
+                even: false,
             };
+            let first = planes.len() - 1;
             if inside {
-                web = planes.len() - 1..planes.len() - 1 + n;
+                let half = graded(from, middle, thickness, any);
+                planes.extend(&half[1..]);
+                planes.extend(half.iter().rev().skip(1).map(|z| from + to - z));
+                web = first..planes.len() - 1;
+            } else {
+                planes.extend(&graded(from, to, thickness, any)[1..]);
             }
-            planes.extend((1..=n).map(|k| from + (to - from) * k as f64 / n as f64));
         }
         Self {
             planes_m: planes,

@@ -10,6 +10,7 @@
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
 //! | middles of sides, on the true curve | [`mid_sides`] | `mid_sides.rs` |
 //! | layers along the axis | [`layers`] | `layers.rs` |
+//! | their heights below the rim | [`heights`] | `heights.rs` |
 //! | element lists, faces on the outline | [`ElementList`], [`OutlineFace`] | `elements.rs`, `face.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
@@ -23,6 +24,7 @@ pub mod contact_section;
 pub mod elements;
 pub mod face;
 pub mod gear_mesh;
+pub mod heights;
 pub mod layers;
 pub mod mid_sides;
 pub mod plane_mesher;
@@ -35,6 +37,7 @@ pub mod twist;
 pub use elements::{ElementList, ElementShape};
 pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
+pub use tooth_cell::CutLine;
 
 /// Why no mesh could be made.
 #[derive(Debug, thiserror::Error)]
@@ -45,6 +48,15 @@ pub enum MeshError {
     /// gmsh failed or left triangles.
     #[error(transparent)]
     Plane(#[from] plane_mesher::PlaneMeshError),
+    /// The gear has a mesh already.
+    #[error(
+        "blank.kind = \"mesh\": {file} is the mesh of this gear, no other is made; `gearmesh reduce` checks and reduces it, fields and \
+         error estimates are not offered for it"
+    )]
+    MeshedElsewhere {
+        /// Its file.
+        file: String,
+    },
     /// Openings leave no place for the cut between two sectors.
     #[error(
         "no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"

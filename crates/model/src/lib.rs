@@ -3,7 +3,7 @@
 //! | to store | use |
 //! | --- | --- |
 //! | a reduced gear (compliance, gauges, provenance) | [`ReducedGear`], [`write_reduced_gear`], [`read_reduced_gear`] |
-//! | a hexahedral mesh with sets and fields | [`MeshData`], [`write_mesh`], [`read_mesh`] |
+//! | a mesh of volume elements with sets and fields | [`MeshData`], [`write_mesh`], [`read_mesh`] |
 //! | anything else made of named arrays (a result, a strain record) | [`DataTree`] with a [`FileFormat`] of your own |
 //!
 //! All three are the same kind of file: HDF5 with named arrays that carry their unit, axis labels and description,
@@ -15,6 +15,7 @@
 //! No other crate calls HDF5.
 
 mod atomic_file;
+mod cell_kind;
 mod data_tree;
 mod data_tree_file;
 mod data_tree_read;
@@ -37,6 +38,7 @@ pub mod synthetic;
 mod timestamp;
 
 pub use atomic_file::{wait_for_writes, write_text};
+pub use cell_kind::CellKind;
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use file_error::FileError;
 pub use mesh_data::{Field, MeshData, MeshDataError};

@@ -1,22 +1,18 @@
-//! A neutral hexahedral mesh: plain arrays for exchange between programs.
+//! A neutral mesh of volume elements: plain arrays for exchange between programs.
 
 use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-/// A mesh of 8- or 20-node hexahedra with node sets and fields.
-///
-/// Node order of a hexahedron as in VTK: 0-3 around its bottom face, counter-clockwise seen from the top; 4-7 above
-/// them. A 20-node hexahedron has a further node on every edge, in the order 0-1, 1-2, 2-3, 3-0, the same above, then
-/// 0-4, 1-5, 2-6, 3-7.
+use crate::cell_kind::CellKind;
+
+/// A mesh of volume elements with node sets and fields.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshData {
     /// Coordinates of the nodes in metres.
     pub points: Vec<[f64; 3]>,
-    /// Node indices of each element's corners.
-    pub hexes: Vec<[u32; 8]>,
-    /// Node indices on each element's edges; empty where all elements have eight nodes.
-    pub mid_edges: Vec<[u32; 12]>,
+    /// Node indices of the elements, kind by kind, element by element. Elements are numbered in this order.
+    pub cells: BTreeMap<CellKind, Vec<u32>>,
     /// Named sets of nodes.
     pub point_sets: BTreeMap<String, Vec<u32>>,
     /// Named fields, one row a node.
@@ -47,15 +43,28 @@ pub enum MeshDataError {
         /// Its coordinates.
         coordinates_m: [f64; 3],
     },
-    /// Some elements have mid-edge nodes and others have none.
+    /// A list of nodes is not a whole number of elements long.
     #[error(
-        "{found} elements of the mesh have mid-edge nodes, but there are {elements} elements; all or none must have them"
+        "the {kind} elements of the mesh list {found} nodes, which is no multiple of {per_element}"
     )]
-    MidEdgeCount {
-        /// How many rows of mid-edge nodes there are.
+    CellLength {
+        /// Kind of the elements.
+        kind: &'static str,
+        /// Length of the list.
         found: usize,
-        /// How many elements there are.
-        elements: usize,
+        /// Nodes of an element.
+        per_element: usize,
+    },
+    /// Linear and quadratic elements in one mesh: on a common face the quadratic one would have nodes that hang.
+    #[error(
+        "the mesh has both {linear} and {quadratic} elements, whose faces do not fit together; mesh all of the body with \
+         linear (hex8, wedge6) or all with quadratic elements (hex20, tet10, wedge15)"
+    )]
+    MixedOrder {
+        /// A linear kind found.
+        linear: &'static str,
+        /// A quadratic kind found.
+        quadratic: &'static str,
     },
     /// An element or a set refers to a node that does not exist.
     #[error(
@@ -85,62 +94,90 @@ pub enum MeshDataError {
     },
     /// An element is turned inside out, collapsed, or its nodes are in another order.
     #[error(
-        "element {element} of the mesh has a corner with Jacobian {jacobian_m3:.3e} m3 at its node {corner}; it must \
-        be positive: number its nodes as VTK does, or repair the mesh"
+        "element {element} of the mesh ({kind}) has a corner with Jacobian {jacobian_m3:.3e} m3 at its node {corner}, x {:.3} y \
+         {:.3} z {:.3} mm; it must be positive: number its nodes as VTK does, turn a mirrored mesh round, or repair it",
+        at_m[0] * 1e3, at_m[1] * 1e3, at_m[2] * 1e3
     )]
-    BadHexahedron {
+    BadCell {
         /// The element.
         element: usize,
-        /// The corner, 0 to 7.
+        /// Its kind.
+        kind: &'static str,
+        /// The corner.
         corner: usize,
         /// Triple product of the three edges that leave the corner.
         jacobian_m3: f64,
+        /// Where the corner is.
+        at_m: [f64; 3],
     },
 }
 
-/// Neighbours of each corner along the three natural directions, in right-handed order.
-const CORNER_EDGES: [[usize; 3]; 8] = [
-    [1, 3, 4],
-    [2, 0, 5],
-    [3, 1, 6],
-    [0, 2, 7],
-    [7, 5, 0],
-    [4, 6, 1],
-    [5, 7, 2],
-    [6, 4, 3],
-];
-
 impl MeshData {
-    /// The twenty nodes of each element; `None` where elements have eight.
-    pub fn hexes_of_20(&self) -> Option<Vec<[u32; 20]>> {
-        let rows = self.hexes.iter().zip(&self.mid_edges);
-        (!self.mid_edges.is_empty()).then(|| {
-            rows.map(|(corners, edges)| {
-                let mut hex = [0; 20];
-                hex[..8].copy_from_slice(corners);
-                hex[8..].copy_from_slice(edges);
-                hex
-            })
-            .collect()
+    /// Number of elements.
+    pub fn cell_count(&self) -> usize {
+        let blocks = self.cells.iter();
+        blocks
+            .map(|(kind, nodes)| nodes.len() / kind.node_count())
+            .sum()
+    }
+
+    /// Kind and nodes of each element.
+    pub fn iter_cells(&self) -> impl Iterator<Item = (CellKind, &[u32])> {
+        self.cells.iter().flat_map(|(&kind, nodes)| {
+            let elements = nodes.chunks_exact(kind.node_count());
+            elements.map(move |element| (kind, element))
         })
     }
 
-    /// Splits twenty-node hexahedra into corners and mid-edge nodes, in place of all elements.
-    pub fn set_hexes_of_20(&mut self, hexes: &[[u32; 20]]) {
-        self.hexes = hexes
+    /// Removes the nodes that belong to no element, from sets and fields too, and returns how many there were. The others keep
+    /// their order.
+    ///
+    /// # Panics
+    /// If an index or the length of a field is out of range; see [`MeshData::validate`].
+    pub fn remove_loose_points(&mut self) -> usize {
+        let mut used = vec![false; self.points.len()];
+        for &node in self.cells.values().flatten() {
+            used[node as usize] = true;
+        }
+        let mut next = 0;
+        let number: Vec<Option<u32>> = used
             .iter()
-            .map(|h| std::array::from_fn(|i| h[i]))
+            .map(|used| {
+                used.then(|| {
+                    next += 1;
+                    next - 1
+                })
+            })
             .collect();
-        self.mid_edges = hexes
-            .iter()
-            .map(|h| std::array::from_fn(|i| h[8 + i]))
-            .collect();
+        let loose = self.points.len() - next as usize;
+        if loose == 0 {
+            return 0;
+        }
+        let kept = |row: &usize| used[*row];
+        let rows = 0..self.points.len();
+        self.points = rows.clone().filter(kept).map(|n| self.points[n]).collect();
+        for node in self.cells.values_mut().flatten() {
+            *node = number[*node as usize].unwrap_or(0);
+        }
+        for set in self.point_sets.values_mut() {
+            *set = set.iter().filter_map(|n| number[*n as usize]).collect();
+        }
+        for field in self.point_fields.values_mut() {
+            let of_row = |n: usize| &field.values[n * field.components..(n + 1) * field.components];
+            field.values = rows
+                .clone()
+                .filter(kept)
+                .flat_map(of_row)
+                .copied()
+                .collect();
+        }
+        loose
     }
 
     /// Checks that indices, field lengths and coordinates make sense; says nothing about the shape of the elements.
     ///
     /// # Errors
-    /// [`MeshDataError`], except `BadHexahedron`.
+    /// [`MeshDataError`], except `BadCell` and `MixedOrder`.
     pub fn validate(&self) -> Result<(), MeshDataError> {
         let nodes = self.points.len();
         if let Some(node) = self
@@ -159,15 +196,17 @@ impl MeshData {
                 .copied()
                 .find(|&index| index as usize >= nodes)
         };
-        if !self.mid_edges.is_empty() && self.mid_edges.len() != self.hexes.len() {
-            return Err(MeshDataError::MidEdgeCount {
-                found: self.mid_edges.len(),
-                elements: self.hexes.len(),
-            });
+        for (kind, list) in &self.cells {
+            if !list.len().is_multiple_of(kind.node_count()) {
+                return Err(MeshDataError::CellLength {
+                    kind: kind.name(),
+                    found: list.len(),
+                    per_element: kind.node_count(),
+                });
+            }
         }
-        for (element, hex) in self.hexes.iter().enumerate() {
-            let mid_edges = self.mid_edges.get(element).map_or(&[][..], |m| m);
-            if let Some(found) = outside(hex).or_else(|| outside(mid_edges)) {
+        for (element, (_, cell)) in self.iter_cells().enumerate() {
+            if let Some(found) = outside(cell) {
                 return Err(MeshDataError::NodeOutOfRange {
                     item: format!("element {element}"),
                     found,
@@ -186,7 +225,7 @@ impl MeshData {
         }
         let rows = [
             (&self.point_fields, nodes, "point"),
-            (&self.cell_fields, self.hexes.len(), "cell"),
+            (&self.cell_fields, self.cell_count(), "cell"),
         ];
         for (fields, rows, kind) in rows {
             for (name, field) in fields {
@@ -209,34 +248,51 @@ impl MeshData {
         Ok(())
     }
 
-    /// Checks that the Jacobian is positive at every corner of every element: no element is inside out, collapsed or
-    /// numbered in another order.
+    /// Checks that faces fit together and that the Jacobian of the straight element is positive at every corner: no element is
+    /// inside out, collapsed or numbered in another order. What mid-edge nodes do to it is the finite element model's to
+    /// check.
     ///
     /// # Errors
-    /// [`MeshDataError::BadHexahedron`], and all of [`MeshData::validate`].
-    pub fn check_hexahedra(&self) -> Result<(), MeshDataError> {
+    /// [`MeshDataError::BadCell`], [`MeshDataError::MixedOrder`], and all of [`MeshData::validate`].
+    pub fn check_cells(&self) -> Result<(), MeshDataError> {
         self.validate()?;
-        for (element, hex) in self.hexes.iter().enumerate() {
-            let point = |corner: usize| self.points[hex[corner] as usize];
-            for (corner, edges) in CORNER_EDGES.iter().enumerate() {
-                let origin = point(corner);
-                let [a, b, c] = edges.map(|other| {
-                    let end = point(other);
-                    [end[0] - origin[0], end[1] - origin[1], end[2] - origin[2]]
-                });
-                let jacobian_m3 = a[0] * (b[1] * c[2] - b[2] * c[1])
-                    - a[1] * (b[0] * c[2] - b[2] * c[0])
-                    + a[2] * (b[0] * c[1] - b[1] * c[0]);
+        let of_order = |quadratic: bool| {
+            let mut blocks = self.cells.iter();
+            let found =
+                blocks.find(|(kind, list)| kind.is_quadratic() == quadratic && !list.is_empty());
+            found.map(|(kind, _)| kind.name())
+        };
+        if let (Some(linear), Some(quadratic)) = (of_order(false), of_order(true)) {
+            return Err(MeshDataError::MixedOrder { linear, quadratic });
+        }
+        for (element, (kind, cell)) in self.iter_cells().enumerate() {
+            for corner in 0..kind.corner_edges().len() {
+                let jacobian_m3 = self.corner_jacobian_m3(kind, cell, corner);
                 if jacobian_m3 <= 0.0 {
-                    return Err(MeshDataError::BadHexahedron {
+                    return Err(MeshDataError::BadCell {
                         element,
+                        kind: kind.name(),
                         corner,
                         jacobian_m3,
+                        at_m: self.points[cell[corner] as usize],
                     });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Triple product of the straight edges that leave a corner.
+    ///
+    /// # Panics
+    /// If the element has no such corner, or names a node that does not exist.
+    pub fn corner_jacobian_m3(&self, kind: CellKind, cell: &[u32], corner: usize) -> f64 {
+        let point = |k: usize| self.points[cell[k] as usize];
+        let origin = point(corner);
+        let [a, b, c] = kind.corner_edges()[corner]
+            .map(|k| std::array::from_fn::<f64, 3, _>(|axis| point(k)[axis] - origin[axis]));
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
     }
 }
 
@@ -249,13 +305,13 @@ mod tests {
     #[test]
     fn a_block_is_sound_and_its_mirror_image_is_not() {
         let mut mesh = block_mesh();
-        mesh.check_hexahedra().unwrap();
+        mesh.check_cells().unwrap();
         for point in &mut mesh.points {
             point[2] = -point[2];
         }
         assert!(matches!(
-            mesh.check_hexahedra(),
-            Err(MeshDataError::BadHexahedron {
+            mesh.check_cells(),
+            Err(MeshDataError::BadCell {
                 element: 0,
                 corner: 0,
                 ..
@@ -271,27 +327,32 @@ mod tests {
         for p in &mut mesh.points {
             *p = [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1], p[2]];
         }
-        mesh.check_hexahedra().unwrap();
+        mesh.check_cells().unwrap();
         // Two corners exchanged on one face break it.
-        mesh.hexes[1].swap(5, 6);
+        mesh.cells
+            .get_mut(&CellKind::Hex8)
+            .unwrap()
+            .swap(8 + 5, 8 + 6);
         assert!(matches!(
-            mesh.check_hexahedra(),
-            Err(MeshDataError::BadHexahedron { element: 1, .. })
+            mesh.check_cells(),
+            Err(MeshDataError::BadCell { element: 1, .. })
         ));
     }
 
     #[test]
     fn wrong_indices_and_lengths_are_named() {
         let mut mesh = block_mesh();
-        mesh.mid_edges = vec![[0; 12]; mesh.hexes.len() - 1];
+        mesh.cells.get_mut(&CellKind::Hex8).unwrap().pop();
         assert!(matches!(
             mesh.validate(),
-            Err(MeshDataError::MidEdgeCount {
-                found: 1,
-                elements: 2
+            Err(MeshDataError::CellLength {
+                kind: "hex8",
+                found: 15,
+                per_element: 8
             })
         ));
-        mesh.mid_edges.push([77; 12]);
+        let mut mesh = block_mesh();
+        mesh.cells.get_mut(&CellKind::Hex8).unwrap()[8] = 77;
         let message = mesh.validate().unwrap_err().to_string();
         assert!(
             message.contains("element 1") && message.contains("77"),
@@ -330,5 +391,69 @@ mod tests {
             mesh.validate(),
             Err(MeshDataError::NotFinitePoint { node: 3, .. })
         ));
+    }
+
+    /// Every corner of the reference shape of every kind is right-handed; the mirror image is at none.
+    #[test]
+    fn corners_of_all_kinds_are_right_handed() {
+        let prism = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+        let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+        for kind in CellKind::ALL {
+            let mut points = match kind {
+                CellKind::Hex8 | CellKind::Hex20 => [square(0.0), square(1.0)].concat(),
+                CellKind::Tet10 => [&prism(0.0)[..], &[[0.0, 0.0, 1.0]]].concat(),
+                CellKind::Wedge6 | CellKind::Wedge15 => [prism(0.0), prism(1.0)].concat(),
+            };
+            assert_eq!(points.len(), kind.corner_edges().len());
+            points.resize(kind.node_count(), [0.5; 3]);
+            let mut mesh = MeshData {
+                cells: BTreeMap::from([(kind, (0..points.len() as u32).collect())]),
+                points,
+                ..MeshData::default()
+            };
+            mesh.check_cells().unwrap();
+            mesh.points.iter_mut().for_each(|p| p[0] = -p[0]);
+            let (kind, cell) = mesh.iter_cells().next().unwrap();
+            for corner in 0..kind.corner_edges().len() {
+                assert!(mesh.corner_jacobian_m3(kind, cell, corner) < 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn loose_points_are_removed_everywhere() {
+        let mut mesh = block_mesh();
+        let expected = mesh.clone();
+        assert_eq!(mesh.remove_loose_points(), 0);
+        // One node more in front and one in the middle: every number shifts.
+        for place in [0, 5] {
+            mesh.points.insert(place, [9.0; 3]);
+            let shift = |n: &mut u32| *n += u32::from(*n as usize >= place);
+            mesh.cells.values_mut().flatten().for_each(shift);
+            mesh.point_sets.values_mut().flatten().for_each(shift);
+            for field in mesh.point_fields.values_mut() {
+                let at = place * field.components;
+                field
+                    .values
+                    .splice(at..at, std::iter::repeat_n(7.0, field.components));
+            }
+        }
+        mesh.point_sets.get_mut("bore").unwrap().push(5);
+        mesh.validate().unwrap();
+        assert_eq!(mesh.remove_loose_points(), 2);
+        assert_eq!(mesh, expected);
+    }
+
+    #[test]
+    fn faces_that_do_not_fit_together_are_refused() {
+        let mut mesh = block_mesh();
+        mesh.cells.insert(CellKind::Tet10, (0..10).collect());
+        assert_eq!(
+            mesh.check_cells(),
+            Err(MeshDataError::MixedOrder {
+                linear: "hex8",
+                quadratic: "tet10"
+            })
+        );
     }
 }

@@ -1,8 +1,9 @@
-//! The mesh file: nodes, hexahedra, node sets and fields as arrays of a [`DataTree`].
+//! The mesh file: nodes, elements by kind, node sets and fields as arrays of a [`DataTree`].
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::cell_kind::CellKind;
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::file_error::FileError;
 use crate::mesh_data::{Field, MeshData};
@@ -10,7 +11,7 @@ use crate::mesh_data::{Field, MeshData};
 /// Name and version of the mesh file.
 pub const MESH_FORMAT: FileFormat = FileFormat {
     name: "gearmesh mesh",
-    version: 1,
+    version: 2,
 };
 
 /// Writes a mesh, atomically. Names of sets and fields must not contain `/`.
@@ -40,22 +41,14 @@ pub fn write_mesh(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
     let axes = [("node", mesh.points.len()), ("xyz", 3)];
     let points = DataArray::new(Values::F64(points), &axes, "m", "coordinates of the nodes");
     tree.put("points", points.in_frame("right-handed, z along the axis"));
-    let hexes = mesh.hexes.as_flattened().to_vec();
-    let axes = [("element", mesh.hexes.len()), ("corner", 8)];
-    tree.put(
-        "hexes",
-        DataArray::new(
-            Values::U32(hexes),
-            &axes,
-            "1",
-            "node indices of the hexahedra in VTK order",
-        ),
-    );
-    if !mesh.mid_edges.is_empty() {
-        let nodes = Values::U32(mesh.mid_edges.as_flattened().to_vec());
-        let axes = [("element", mesh.mid_edges.len()), ("edge", 12)];
-        let meaning = "node indices on the edges of the hexahedra in VTK order";
-        tree.put("mid_edges", DataArray::new(nodes, &axes, "1", meaning));
+    for (kind, nodes) in &mesh.cells {
+        let axes = [
+            ("element", nodes.len() / kind.node_count()),
+            ("node", kind.node_count()),
+        ];
+        let meaning = "node indices of the elements, corners first";
+        let array = DataArray::new(Values::U32(nodes.clone()), &axes, "1", meaning);
+        tree.put(format!("cells/{}", kind.name()), array);
     }
     for (name, set) in &mesh.point_sets {
         let axes = [("member", set.len())];
@@ -83,13 +76,31 @@ pub fn write_mesh(path: &Path, mesh: &MeshData) -> Result<(), FileError> {
 pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
     let mut tree = DataTree::read(path, &MESH_FORMAT)?;
     let [nodes, _] = tree.shape(path, "points")?;
-    let [elements, _] = tree.shape(path, "hexes")?;
     let points = tree.take_f64(path, "points", &[nodes, 3])?;
-    let hexes = tree.take_u32(path, "hexes", &[elements, 8])?;
-    let mid_edges = match tree.arrays.contains_key("mid_edges") {
-        true => tree.take_u32(path, "mid_edges", &[elements, 12])?,
-        false => Vec::new(),
-    };
+    let mut cells = BTreeMap::new();
+    let mut elements = 0;
+    let kinds = tree.children("cells");
+    if kinds.is_empty() {
+        return Err(FileError::Missing {
+            path: path.to_owned(),
+            item: "cells".to_owned(),
+        });
+    }
+    for name in kinds {
+        let stored = format!("cells/{name}");
+        let Some(kind) = CellKind::from_name(&name) else {
+            return Err(FileError::InvalidName {
+                path: path.to_owned(),
+                item: "a kind of element",
+                name,
+                allowed: "hex8, hex20, tet10, wedge6, wedge15",
+            });
+        };
+        let [count, _] = tree.shape(path, &stored)?;
+        elements += count;
+        let nodes = tree.take_u32(path, &stored, &[count, kind.node_count()])?;
+        cells.insert(kind, nodes);
+    }
     let mut point_sets = BTreeMap::new();
     for name in tree.children("point_sets") {
         let stored = format!("point_sets/{name}");
@@ -98,8 +109,7 @@ pub fn read_mesh(path: &Path) -> Result<MeshData, FileError> {
     }
     let mesh = MeshData {
         points: points.as_chunks().0.to_vec(),
-        hexes: hexes.as_chunks().0.to_vec(),
-        mid_edges: mid_edges.as_chunks().0.to_vec(),
+        cells,
         point_sets,
         point_fields: take_fields(&mut tree, path, "point_fields", nodes)?,
         cell_fields: take_fields(&mut tree, path, "cell_fields", elements)?,
@@ -176,17 +186,18 @@ mod tests {
         write_mesh(&path, &mesh).unwrap();
         assert_eq!(read_mesh(&path).unwrap(), mesh);
 
-        // Twenty nodes an element come back as they went.
-        let hexes: Vec<[u32; 20]> = mesh
-            .hexes
-            .iter()
-            .map(|hex| std::array::from_fn(|i| hex[i % 8]))
-            .collect();
-        mesh.set_hexes_of_20(&hexes);
+        // Every kind of element comes back as it went.
+        mesh.cells = CellKind::ALL
+            .map(|kind| {
+                (
+                    kind,
+                    (0..2 * kind.node_count() as u32).map(|n| n % 12).collect(),
+                )
+            })
+            .into();
+        mesh.cell_fields.clear();
         write_mesh(&path, &mesh).unwrap();
-        let read = read_mesh(&path).unwrap();
-        assert_eq!(read, mesh);
-        assert_eq!(read.hexes_of_20().unwrap(), hexes);
+        assert_eq!(read_mesh(&path).unwrap(), mesh);
     }
 
     #[test]
@@ -230,7 +241,7 @@ mod tests {
         tree.write(&path, &MESH_FORMAT).unwrap();
         assert!(matches!(read_mesh(&path), Err(FileError::Missing { .. })));
         tree.put(
-            "hexes",
+            "cells/hex8",
             DataArray::new(
                 Values::U32(vec![1; 4]),
                 &[("element", 1), ("corner", 4)],
@@ -244,7 +255,7 @@ mod tests {
             Err(FileError::WrongShape { .. })
         ));
         tree.put(
-            "hexes",
+            "cells/hex8",
             DataArray::new(
                 Values::F64(vec![1.0; 8]),
                 &[("element", 1), ("corner", 8)],
@@ -255,7 +266,7 @@ mod tests {
         tree.write(&path, &MESH_FORMAT).unwrap();
         assert!(matches!(read_mesh(&path), Err(FileError::WrongType { .. })));
         tree.put(
-            "hexes",
+            "cells/hex8",
             DataArray::new(
                 Values::U32(vec![2; 8]),
                 &[("element", 1), ("corner", 8)],

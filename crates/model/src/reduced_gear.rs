@@ -109,8 +109,22 @@ pub struct ReductionChecks {
     pub symmetry: f64,
     /// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖.
     pub pattern_identity: f64,
-    /// Further checks by name, for example the residual of the solution.
+    /// Further checks by name, for example the residual of the solution; and what is known of the mesh's error.
     pub further: Vec<(String, f64)>,
+}
+
+impl ReductionChecks {
+    /// Name among the further checks of the mesh's estimated relative error in the deflection of the loaded tooth without its
+    /// near field, C_g, under a load over the whole width in the middle of the flank.
+    pub const LOADED_TOOTH_ERROR: &str = "mesh error of the deflection, loaded tooth";
+    /// The same of other teeth, C_hub: the largest at the next two on either side and the opposite one.
+    pub const OTHER_TEETH_ERROR: &str = "mesh error of the deflection, other teeth";
+
+    /// A further check by its name.
+    pub fn further(&self, name: &str) -> Option<f64> {
+        let found = self.further.iter().find(|(known, _)| known == name);
+        found.map(|(_, value)| *value)
+    }
 }
 
 /// A reduced gear body: linear compliance of all flanks, gauges, and where they come from.

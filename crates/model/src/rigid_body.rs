@@ -81,11 +81,9 @@ mod tests {
             inertia_kg_m2: [[2.0, 0.1, -0.2], [0.1, 3.0, 0.3], [-0.2, 0.3, 4.0]],
         };
         let matrix = body.mass_matrix();
-        for i in 0..6 {
-            for j in 0..6 {
-                assert_eq!(matrix[i][j], matrix[j][i]);
-            }
-        }
+        let transposed: [[f64; 6]; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i]));
+        assert_eq!(matrix, transposed);
         let back = RigidBody::from_mass_matrix(&matrix, body.reference_m);
         assert!((back.mass_kg - 3.0).abs() < 1e-15);
         for k in 0..3 {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::cell_kind::CellKind;
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
@@ -169,8 +170,7 @@ pub fn block_mesh() -> MeshData {
     };
     MeshData {
         points,
-        hexes: vec![hex(0), hex(1)],
-        mid_edges: Vec::new(),
+        cells: BTreeMap::from([(CellKind::Hex8, [hex(0), hex(1)].concat())]),
         point_sets: BTreeMap::from([("bore".to_owned(), vec![0, 3, 6, 9])]),
         point_fields: BTreeMap::from([("displacement".to_owned(), field)]),
         cell_fields: BTreeMap::new(),

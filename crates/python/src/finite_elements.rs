@@ -5,9 +5,10 @@
 use std::path::{Path, PathBuf};
 
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, ModeSettings, SparseMatrix, assemble_mass,
-    assemble_stiffness, natural_modes as search_modes,
+    DofMap, ElementBlock, Factor, FeModel, HexElement, Material, ModeSettings, SparseMatrix,
+    assemble_mass, assemble_stiffness, natural_modes as search_modes,
 };
+use gearmesh_model::CellKind;
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArray3, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -33,7 +34,8 @@ type NaturalModes<'py> = (
 /// Stiffness (N/m) of a body over all its degrees of freedom, nothing held: (data, row_indices, column_pointers).
 ///
 /// Both triangles are stored, by columns: scipy.sparse.csc_matrix takes the tuple as it is. Young's modulus in Pa;
-/// element is "hex8", "hex8-incompatible" or, for a mesh of twenty nodes an element, "hex20". Degree of freedom 3 n + a is the displacement of node n along axis a.
+/// element is "hex8", "hex8-incompatible", "hex20", "tet10", "wedge6" or "wedge15", one that the mesh has; other
+/// elements of the mesh keep the formulation of their kind. Degree of freedom 3 n + a is the displacement of node n along axis a.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, young_pa, poisson, element = "hex8-incompatible"))]
 pub(crate) fn stiffness<'py>(
@@ -154,10 +156,10 @@ pub(crate) fn solve<'py>(
 /// Strain (m, 6) of every element from the displacement (n, 3) in metres of its nodes.
 ///
 /// The columns are xx, yy, zz, xy, yz, xz with engineering shear. natural is the point of each element in its own
-/// coordinates, -1 to 1; the default is the centre. The condensed modes of "hex8-incompatible" are part of the
+/// coordinates (hexahedra -1 to 1, tetrahedra and triangles of wedges 0 to 1); the default is each element's centre. The condensed modes of "hex8-incompatible" are part of the
 /// strain; they vanish at the centre. The other arguments are those of stiffness.
 #[pyfunction]
-#[pyo3(signature = (mesh_h5, young_pa, poisson, element, displacement, natural = [0.0; 3]))]
+#[pyo3(signature = (mesh_h5, young_pa, poisson, element, displacement, natural = None))]
 pub(crate) fn strain<'py>(
     py: Python<'py>,
     mesh_h5: PathBuf,
@@ -165,9 +167,11 @@ pub(crate) fn strain<'py>(
     poisson: f64,
     element: &str,
     displacement: FloatRows<'py>,
-    natural: [f64; 3],
+    natural: Option<[f64; 3]>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    if !natural.iter().all(|x| (-1.0..=1.0).contains(x)) {
+    if let Some(natural) = natural
+        && !natural.iter().all(|x| (-1.0..=1.0).contains(x))
+    {
         return Err(PyValueError::new_err(format!(
             "the natural point is {natural:?}; its coordinates run from -1 to 1"
         )));
@@ -177,16 +181,20 @@ pub(crate) fn strain<'py>(
         let model = model(&mesh_h5, young_pa, poisson, element)?;
         check_node_rows("displacement", shape, &displacement, &model)?;
         (0..model.element_count())
-            .map(|e| model.strain(e, natural, &displacement).map_err(fe_error))
+            .map(|e| {
+                let at = natural.unwrap_or_else(|| model.element_of(e).centre());
+                model.strain(e, at, &displacement).map_err(fe_error)
+            })
             .collect::<PyResult<Vec<_>>>()
     })?;
     PyArray1::from_slice(py, rows.as_flattened()).reshape([rows.len(), 6])
 }
 
-/// The model of the body in a mesh file.
+/// The model of the body in a mesh file. The wedges beside hexahedra have the order of these, their formulation has no
+/// choice.
 fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult<FeModel> {
     let names = HexElement::ALL.map(|e| format!("{:?}", e.name()));
-    let element = HexElement::from_name(element).ok_or_else(|| {
+    let named = HexElement::from_name(element).ok_or_else(|| {
         let message = format!(
             "the element is {element:?}; it must be one of {}",
             names.join(", ")
@@ -195,11 +203,33 @@ fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult
     })?;
     let material = Material::new(young_pa, poisson).map_err(fe_error)?;
     let mesh = gearmesh_model::read_mesh(mesh_h5).map_err(file_error)?;
-    match mesh.hexes_of_20() {
-        Some(hexes) => FeModel::new(mesh.points, hexes, material, element),
-        None => FeModel::new(mesh.points, mesh.hexes, material, element),
+    let mut unused = true;
+    let blocks = mesh.cells.into_iter().map(|(kind, nodes)| {
+        let own = match kind {
+            CellKind::Hex8 => HexElement::Hex8,
+            CellKind::Hex20 => HexElement::Hex20,
+            CellKind::Tet10 => HexElement::Tet10,
+            CellKind::Wedge6 => HexElement::Wedge6,
+            CellKind::Wedge15 => HexElement::Wedge15,
+        };
+        // Eight nodes leave a choice.
+        let element = match (own, named) {
+            (HexElement::Hex8, HexElement::Hex8Incompatible) => named,
+            _ => own,
+        };
+        unused &= element != named;
+        ElementBlock { element, nodes }
+    });
+    let blocks: Vec<ElementBlock> = blocks.collect();
+    if unused {
+        let found: Vec<&str> = blocks.iter().map(|block| block.element.name()).collect();
+        let message = format!(
+            "the mesh has the elements {}; {element} is not among them",
+            found.join(", ")
+        );
+        return Err(PyValueError::new_err(message));
     }
-    .map_err(fe_error)
+    FeModel::from_blocks(mesh.points, blocks, material).map_err(fe_error)
 }
 
 fn shape(array: &FloatRows<'_>) -> [usize; 2] {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use gearmesh_model::{Field, MeshData, MeshDataError};
+use gearmesh_model::{CellKind, Field, MeshData, MeshDataError};
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -15,8 +15,9 @@ type FloatRows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 /// Reads a mesh file into a dict of NumPy arrays.
 ///
-/// Keys: points (n, 3) in metres, hexes (m, 8) or (m, 20) in VTK node order, point_sets {name: indices}, point_fields and
-/// cell_fields {name: (rows, components)}.
+/// Keys: points (n, 3) in metres, cells {kind: (m, nodes)} with the kinds hex8, hex20, tet10, wedge6, wedge15, point_sets
+/// {name: indices}, point_fields and cell_fields {name: (rows, components)}; the elements of cell_fields are those of cells,
+/// kind after kind.
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let mesh = py
@@ -27,12 +28,12 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
         "points",
         PyArray1::from_slice(py, mesh.points.as_flattened()).reshape([mesh.points.len(), 3])?,
     )?;
-    let elements = mesh.hexes.len();
-    let hexes = match mesh.hexes_of_20() {
-        Some(hexes) => PyArray1::from_vec(py, hexes.into_flattened()).reshape([elements, 20])?,
-        None => PyArray1::from_slice(py, mesh.hexes.as_flattened()).reshape([elements, 8])?,
-    };
-    result.set_item("hexes", hexes)?;
+    let cells = PyDict::new(py);
+    for (kind, nodes) in mesh.cells {
+        let shape = [nodes.len() / kind.node_count(), kind.node_count()];
+        cells.set_item(kind.name(), PyArray1::from_vec(py, nodes).reshape(shape)?)?;
+    }
+    result.set_item("cells", cells)?;
     let sets = PyDict::new(py);
     for (name, set) in mesh.point_sets {
         sets.set_item(name, PyArray1::from_vec(py, set))?;
@@ -52,17 +53,17 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     Ok(result)
 }
 
-/// Writes a mesh file from arrays: points (n, 3) in metres, hexes (m, 8) or (m, 20) in VTK node order, sets and fields
-/// by name.
+/// Writes a mesh file from arrays: points (n, 3) in metres, cells {kind: (m, nodes)} as read_mesh returns them, sets and
+/// fields by name.
 ///
-/// Fields are (rows, components). Every hexahedron must have a positive Jacobian at each corner.
+/// Fields are (rows, components). Every element must have a positive Jacobian at each corner.
 #[pyfunction]
-#[pyo3(signature = (path, points, hexes, point_sets = None, point_fields = None))]
+#[pyo3(signature = (path, points, cells, point_sets = None, point_fields = None))]
 pub(crate) fn write_mesh(
     py: Python<'_>,
     path: PathBuf,
     points: FloatRows<'_>,
-    hexes: PyArrayLike2<'_, i64, AllowTypeChange>,
+    cells: BTreeMap<String, PyArrayLike2<'_, i64, AllowTypeChange>>,
     point_sets: Option<BTreeMap<String, Vec<u32>>>,
     point_fields: Option<BTreeMap<String, FloatRows<'_>>>,
 ) -> PyResult<()> {
@@ -71,14 +72,17 @@ pub(crate) fn write_mesh(
         point_sets: point_sets.unwrap_or_default(),
         ..MeshData::default()
     };
-    match hexes.as_array().ncols() {
-        20 => mesh.set_hexes_of_20(&hex_rows(&hexes)?),
-        _ => mesh.hexes = hex_rows(&hexes)?,
+    for (name, rows) in cells {
+        let kind = CellKind::from_name(&name).ok_or_else(|| {
+            let names = CellKind::ALL.map(CellKind::name).join(", ");
+            PyValueError::new_err(format!("cells of the kind {name:?}; allowed are {names}"))
+        })?;
+        mesh.cells.insert(kind, cell_rows(kind, &rows)?);
     }
     for (name, array) in point_fields.unwrap_or_default() {
         mesh.point_fields.insert(name, field(&array));
     }
-    mesh.check_hexahedra().map_err(mesh_error)?;
+    mesh.check_cells().map_err(mesh_error)?;
     py.detach(|| gearmesh_model::write_mesh(&path, &mesh))
         .map_err(file_error)
 }
@@ -100,31 +104,31 @@ pub(crate) fn point_rows(array: &FloatRows<'_>, metres_per_unit: f64) -> PyResul
         .collect())
 }
 
-/// Node indices; the array must have N columns and hold no negative index.
-pub(crate) fn hex_rows<const N: usize>(
+/// Node indices, element by element; the array must have as many columns as the elements have nodes and hold no negative
+/// index.
+pub(crate) fn cell_rows(
+    kind: CellKind,
     array: &PyArrayLike2<'_, i64, AllowTypeChange>,
-) -> PyResult<Vec<[u32; N]>> {
+) -> PyResult<Vec<u32>> {
     let view = array.as_array();
-    if view.ncols() != N {
+    if view.ncols() != kind.node_count() {
         let message = format!(
-            "hexahedra have {} nodes; 8 or 20 are needed, (m, 8) or (m, 20)",
-            view.ncols()
+            "{} elements have {} nodes; {} are needed",
+            kind.name(),
+            view.ncols(),
+            kind.node_count()
         );
         return Err(PyValueError::new_err(message));
     }
-    let mut rows = Vec::with_capacity(view.nrows());
-    for (element, row) in view.rows().into_iter().enumerate() {
-        let mut hex = [0; N];
-        for (slot, &node) in hex.iter_mut().zip(row) {
-            *slot = u32::try_from(node).map_err(|_| {
-                PyValueError::new_err(format!(
-                    "element {element} refers to node {node}; indices start at 0"
-                ))
-            })?;
-        }
-        rows.push(hex);
-    }
-    Ok(rows)
+    let node = |(place, &node): (usize, &i64)| {
+        u32::try_from(node).map_err(|_| {
+            PyValueError::new_err(format!(
+                "element {} refers to node {node}; indices start at 0",
+                place / kind.node_count()
+            ))
+        })
+    };
+    view.iter().enumerate().map(node).collect()
 }
 
 /// A field without unit, one row a node or element.

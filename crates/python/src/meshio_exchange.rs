@@ -1,15 +1,16 @@
 //! Mesh files to and from the formats of other programs.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use gearmesh_model::MeshData;
+use gearmesh_model::{CellKind, MeshData};
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike2, PyArrayMethods};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PySlice};
 
 use crate::errors::file_error;
-use crate::mesh_arrays::{field, hex_rows, mesh_error, point_rows};
+use crate::mesh_arrays::{cell_rows, field, mesh_error, point_rows};
 use crate::meshio_format::MeshioFormat;
 
 /// A node set becomes a field of this name and the set's where the format has no sets.
@@ -65,13 +66,13 @@ pub(crate) fn export_mesh(
     let stored = stored
         .map_err(|error| format.explain(py, "read back", &out_path, error))?
         .0;
-    if stored.hexes.len() != mesh.hexes.len() || stored.points.len() != mesh.points.len() {
+    if stored.cell_count() != mesh.cell_count() || stored.points.len() != mesh.points.len() {
         return Err(PyValueError::new_err(format!(
-            "{}: {} files do not hold hexahedra ({} of {} came back); choose another format",
+            "{}: {} files do not hold these volume elements ({} of {} came back); choose another format",
             out_path.display(),
             format.name,
-            stored.hexes.len(),
-            mesh.hexes.len()
+            stored.cell_count(),
+            mesh.cell_count()
         )));
     }
     for entry in std::fs::read_dir(temporary.path()).map_err(disk)? {
@@ -86,10 +87,12 @@ pub(crate) fn export_mesh(
     Ok(names.into_iter().filter(|name| !kept(name)).collect())
 }
 
-/// Reads any format that meshio reads into a mesh file: hexahedra of 8 or 20 nodes, node sets and fields.
+/// Reads any format that meshio reads into a mesh file: volume elements, node sets and fields.
 ///
-/// length_unit is the unit of the coordinates in the file that is read, "m" or "mm". Fields named "set:..." become node
-/// sets. Surface, line and point cells are left out; returned is what was. Other volume cells raise ValueError.
+/// Volume elements are hexahedra of 8 or 20 nodes, tetrahedra of 10, wedges of 6 or 15; others raise ValueError. length_unit is
+/// the unit of the coordinates in the file that is read, "m" or "mm". Node sets are those of the file, fields named
+/// "set:...", and the nodes of its sets of elements (Abaqus *ELSET, gmsh physical groups), also of surface elements. These,
+/// line and point elements and nodes of no volume element are left out; returned is what was.
 #[pyfunction]
 #[pyo3(signature = (in_path, out_h5, length_unit = "m"))]
 pub(crate) fn import_mesh(
@@ -108,13 +111,13 @@ pub(crate) fn import_mesh(
     }
     let format = MeshioFormat::of(py, &in_path)?;
     let (mesh, left_out) = from_meshio(py, &format.read(py, &in_path)?, &format, metres_per_unit)?;
-    if mesh.hexes.is_empty() {
+    if mesh.cell_count() == 0 {
         return Err(PyValueError::new_err(format!(
-            "{}: there are no hexahedra of 8 or 20 nodes",
+            "{}: there are no volume elements",
             in_path.display()
         )));
     }
-    mesh.check_hexahedra().map_err(mesh_error)?;
+    mesh.check_cells().map_err(mesh_error)?;
     py.detach(|| gearmesh_model::write_mesh(&out_h5, &mesh))
         .map_err(file_error)?;
     Ok(left_out)
@@ -144,15 +147,6 @@ fn to_meshio<'py>(
         .map(|x| x / metres_per_unit)
         .collect();
     let points = PyArray1::<f64>::from_vec(py, points).reshape([mesh.points.len(), 3])?;
-    // meshio numbers both hexahedra as VTK does.
-    let quadratic = mesh.hexes_of_20();
-    let (cell_type, nodes) = match &quadratic {
-        Some(hexes) => ("hexahedron20", hexes.as_flattened()),
-        None => ("hexahedron", mesh.hexes.as_flattened()),
-    };
-    let hexes = nodes.iter().map(|&node| i64::from(node)).collect();
-    let hexes = PyArray1::<i64>::from_vec(py, hexes)
-        .reshape([mesh.hexes.len(), nodes.len() / mesh.hexes.len().max(1)])?;
     let (point_data, cell_data, point_sets) = (PyDict::new(py), PyDict::new(py), PyDict::new(py));
     for (name, set) in &mesh.point_sets {
         if format.has_point_sets() {
@@ -182,20 +176,36 @@ fn to_meshio<'py>(
                     .reshape([field.values.len() / components, components])?
                     .into_any(),
             };
-            // Cell data of meshio is a list with one array a block of cells; there is one block.
-            let array = if data.is(&cell_data) {
-                PyList::new(py, [array])?.into_any()
-            } else {
-                array
-            };
-            data.set_item(name, array)?;
+            if data.is(&point_data) {
+                data.set_item(name, array)?;
+                continue;
+            }
+            // Cell data of meshio is a list with one array a block of cells.
+            let (blocks, mut first) = (PyList::empty(py), 0);
+            for (kind, nodes) in &mesh.cells {
+                let next = first + nodes.len() / kind.node_count();
+                blocks.append(array.get_item(PySlice::new(
+                    py,
+                    first as isize,
+                    next as isize,
+                    1,
+                ))?)?;
+                first = next;
+            }
+            data.set_item(name, blocks)?;
         }
     }
     let options = PyDict::new(py);
     options.set_item("point_data", point_data)?;
     options.set_item("cell_data", cell_data)?;
     options.set_item("point_sets", point_sets)?;
-    let cells = PyList::new(py, [(cell_type, hexes)])?;
+    let cells = PyList::empty(py);
+    for (kind, nodes) in &mesh.cells {
+        let rows = nodes.iter().map(|&node| i64::from(node)).collect();
+        let shape = [nodes.len() / kind.node_count(), kind.node_count()];
+        let rows = PyArray1::<i64>::from_vec(py, rows).reshape(shape)?;
+        cells.append((meshio_name(*kind), rows))?;
+    }
     let outgoing = py
         .import("meshio")?
         .getattr("Mesh")?
@@ -208,7 +218,31 @@ fn to_meshio<'py>(
     Ok((outgoing, names.cloned().collect()))
 }
 
-/// The hexahedra, sets and fields of a `meshio.Mesh`, and in words what was left out.
+/// What meshio calls a kind of element. It numbers the nodes of all of them as [`CellKind`] says, whatever the format.
+const fn meshio_name(kind: CellKind) -> &'static str {
+    match kind {
+        CellKind::Hex8 => "hexahedron",
+        CellKind::Hex20 => "hexahedron20",
+        CellKind::Tet10 => "tetra10",
+        CellKind::Wedge6 => "wedge",
+        CellKind::Wedge15 => "wedge15",
+    }
+}
+
+/// Why a volume element of meshio is refused.
+fn refusal(kind: &str, count: usize) -> PyErr {
+    let advice = match kind {
+        "tetra" => {
+            "linear tetrahedra are far too stiff in bending: save the mesh with quadratic elements (second order, tetra10)"
+        }
+        _ => {
+            "allowed are hexahedra of 8 or 20 nodes, tetrahedra of 10, wedges of 6 or 15: mesh the body with them"
+        }
+    };
+    PyValueError::new_err(format!("{count} {kind} cells; {advice}"))
+}
+
+/// The elements, sets and fields of a `meshio.Mesh`, and in words what was left out.
 fn from_meshio(
     py: Python<'_>,
     incoming: &Bound<'_, PyAny>,
@@ -221,41 +255,28 @@ fn from_meshio(
         ..MeshData::default()
     };
     let mut left_out = Vec::new();
-    let mut hex_blocks = Vec::new();
-    let mut quadratic = Vec::new();
+    let mut blocks_of: BTreeMap<CellKind, Vec<usize>> = BTreeMap::new();
     for (block, cells) in incoming.getattr("cells")?.try_iter()?.enumerate() {
         let cells = cells?;
-        let kind: String = cells.getattr("type")?.extract()?;
+        let name: String = cells.getattr("type")?.extract()?;
         let data = cells.getattr("data")?;
-        if kind == "hexahedron" {
-            mesh.hexes.extend(hex_rows::<8>(&data.extract()?)?);
-            hex_blocks.push(block);
-        } else if kind == "hexahedron20" {
-            quadratic.extend(hex_rows::<20>(&data.extract()?)?);
-            hex_blocks.push(block);
+        let kind = CellKind::ALL.into_iter().find(|k| meshio_name(*k) == name);
+        if let Some(kind) = kind {
+            let rows = cell_rows(kind, &data.extract()?)?;
+            mesh.cells.entry(kind).or_default().extend(rows);
+            blocks_of.entry(kind).or_default().push(block);
         } else if cells.getattr("dim")?.extract::<usize>()? < 3 {
-            left_out.push(format!("{} {kind} cells", data.len()?));
+            left_out.push(format!("{} {name} cells", data.len()?));
         } else {
-            let message = format!(
-                "{} {kind} cells; only hexahedra of 8 or 20 nodes are allowed: mesh the body with them",
-                data.len()?
-            );
-            return Err(PyValueError::new_err(message));
+            return Err(refusal(&name, data.len()?));
         }
     }
-    if !quadratic.is_empty() {
-        if !mesh.hexes.is_empty() {
-            let message = format!(
-                "{} hexahedra of 8 and {} of 20 nodes; all must have the same number of nodes",
-                mesh.hexes.len(),
-                quadratic.len()
-            );
-            return Err(PyValueError::new_err(message));
-        }
-        mesh.set_hexes_of_20(&quadratic);
-    }
+    turn_wedges(&mut mesh);
     for (name, set) in incoming.getattr("point_sets")?.cast::<PyDict>()?.iter() {
         mesh.point_sets.insert(stored_name(&name)?, node_set(&set)?);
+    }
+    for (name, set) in element_sets(incoming)? {
+        mesh.point_sets.entry(name).or_insert(set);
     }
     // "gmsh:dim_tags", "nastran:ref" and the like are the format's own bookkeeping.
     let own = format!("{}:", format.name);
@@ -276,22 +297,111 @@ fn from_meshio(
             _ => drop(mesh.point_fields.insert(name, values)),
         }
     }
-    for (name, blocks) in incoming.getattr("cell_data")?.cast::<PyDict>()?.iter() {
+    for (name, data) in incoming.getattr("cell_data")?.cast::<PyDict>()?.iter() {
         let name = stored_name(&name)?;
         if name.starts_with(&own) {
             left_out.push(format!("cell data {name}"));
             continue;
         }
-        let hex_data = hex_blocks
-            .iter()
-            .map(|&block| blocks.get_item(block))
+        let blocks = blocks_of.values().flatten();
+        let of_cells = blocks
+            .map(|&block| data.get_item(block))
             .collect::<PyResult<Vec<_>>>()?;
-        if !hex_data.is_empty() {
-            let joined = numpy.call_method1("concatenate", (hex_data,))?;
+        if !of_cells.is_empty() {
+            let joined = numpy.call_method1("concatenate", (of_cells,))?;
             mesh.cell_fields.insert(name, field(&field_rows(&joined)?));
         }
     }
+    mesh.validate().map_err(mesh_error)?;
+    let loose = mesh.remove_loose_points();
+    if loose > 0 {
+        left_out.push(format!("{loose} nodes of no volume element"));
+    }
     Ok((mesh, left_out))
+}
+
+/// VTK's own program numbers the lower triangle of a wedge the other way round than Abaqus and gmsh; files of both kinds go by the
+/// same name. Where all wedges of a mesh are inside out, upper and lower triangle are exchanged.
+fn turn_wedges(mesh: &mut MeshData) {
+    for (kind, halves) in [
+        (CellKind::Wedge6, &[(0, 3)][..]),
+        (CellKind::Wedge15, &[(0, 3), (6, 9)][..]),
+    ] {
+        let Some(nodes) = mesh.cells.get(&kind) else {
+            continue;
+        };
+        let known = |cell: &[u32]| cell.iter().all(|n| (*n as usize) < mesh.points.len());
+        let mut cells = nodes.chunks_exact(kind.node_count());
+        if !cells.all(|cell| known(cell) && mesh.corner_jacobian_m3(kind, cell, 0) < 0.0) {
+            continue;
+        }
+        for cell in mesh
+            .cells
+            .get_mut(&kind)
+            .into_iter()
+            .flat_map(|nodes| nodes.chunks_exact_mut(kind.node_count()))
+        {
+            for &(low, high) in halves {
+                (0..3).for_each(|k| cell.swap(low + k, high + k));
+            }
+        }
+    }
+}
+
+/// The nodes of each named set of elements: meshio's `cell_sets`, and in gmsh's older format the physical groups, numbers of the
+/// elements whose names stand in `field_data`.
+fn element_sets(incoming: &Bound<'_, PyAny>) -> PyResult<BTreeMap<String, Vec<u32>>> {
+    let py = incoming.py();
+    let mut sets: BTreeMap<String, Vec<u32>> = BTreeMap::new();
+    let cells: Vec<Bound<'_, PyAny>> = incoming
+        .getattr("cells")?
+        .try_iter()?
+        .collect::<PyResult<_>>()?;
+    let mut add = |name: String, block: &Bound<'_, PyAny>, members: &Bound<'_, PyAny>| {
+        let rows = block.getattr("data")?.get_item(members)?;
+        let nodes: Vec<u32> = rows
+            .call_method0("ravel")?
+            .call_method0("tolist")?
+            .extract()?;
+        sets.entry(name).or_default().extend(nodes);
+        Ok::<(), PyErr>(())
+    };
+    for (name, by_block) in incoming.getattr("cell_sets")?.cast::<PyDict>()?.iter() {
+        let name = stored_name(&name)?;
+        if name.starts_with("gmsh:") {
+            continue;
+        }
+        for (block, members) in cells.iter().zip(by_block.try_iter()?) {
+            let members = members?;
+            if !members.is_none() && members.len()? > 0 {
+                let members = members.call_method1("astype", ("int64",))?;
+                add(name.clone(), block, &members)?;
+            }
+        }
+    }
+    let groups = incoming
+        .getattr("cell_data")?
+        .cast_into::<PyDict>()?
+        .get_item("gmsh:physical")?;
+    if let Some(groups) = groups {
+        for (name, number_and_dimension) in incoming.getattr("field_data")?.cast::<PyDict>()?.iter()
+        {
+            let [number, dimension]: [i64; 2] =
+                number_and_dimension.call_method0("tolist")?.extract()?;
+            for (block, of_cell) in cells.iter().zip(groups.try_iter()?) {
+                if block.getattr("dim")?.extract::<i64>()? == dimension {
+                    let numpy = py.import("numpy")?;
+                    let equal = numpy.call_method1("equal", (of_cell?, number))?;
+                    add(stored_name(&name)?, block, &equal)?;
+                }
+            }
+        }
+    }
+    for set in sets.values_mut() {
+        set.sort_unstable();
+        set.dedup();
+    }
+    Ok(sets)
 }
 
 /// One row a node or element, also for scalars.

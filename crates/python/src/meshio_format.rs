@@ -16,6 +16,10 @@ impl MeshioFormat {
     /// # Errors
     /// `ValueError` that lists the known extensions.
     pub fn of(py: Python<'_>, path: &Path) -> PyResult<Self> {
+        // meshio reads and writes fifteen-node wedges in several formats, but its table of dimensions lacks them.
+        py.import("meshio._mesh")?
+            .getattr("topological_dimension")?
+            .call_method1("setdefault", ("wedge15", 3))?;
         let table = py.import("meshio")?.getattr("extension_to_filetypes")?;
         let file_name = path
             .file_name()

@@ -5,7 +5,7 @@ use faer::Mat;
 use faer::sparse::Triplet;
 use gearmesh_fe::{DofOrdering, Factor, FeError, FeModel, HexElement, Material, StiffnessMatrix};
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
-use gearmesh_mesh::GearMesh;
+use gearmesh_mesh::CutLine;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection};
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,17 +15,17 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 /// The tooth above the cut under a Hertz pressure on its right flank, in plane strain.
 pub struct ContactProblem<'a> {
     gear: &'a GearDefinition,
-    mesh: &'a GearMesh,
+    cut: CutLine,
     curve: ProfileCurve,
     material: Material,
 }
 
 impl<'a> ContactProblem<'a> {
-    /// The problem of a gear's tooth; the mesh gives the place of its cut.
-    pub fn new(gear: &'a GearDefinition, mesh: &'a GearMesh, material: Material) -> Self {
+    /// The problem of a gear's tooth above a cut.
+    pub fn new(gear: &'a GearDefinition, cut: CutLine, material: Material) -> Self {
         Self {
             gear,
-            mesh,
+            cut,
             curve: ProfileCurve::new(&gear.profile),
             material,
         }
@@ -47,7 +47,7 @@ impl<'a> ContactProblem<'a> {
         let section = ContactSection::new(
             profile,
             &self.curve,
-            &self.mesh.section.cell,
+            &self.cut,
             self.curve.arc_length_at_roll_m(roll_rad),
             grading,
         );

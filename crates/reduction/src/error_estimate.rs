@@ -1,8 +1,11 @@
-//! Discretisation error of the reduced compliance and of the gauges, from a second, coarser mesh.
+//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from a second,
+//! coarser mesh.
 //!
 //! With all element lengths larger by s and an error of order p, the fine value's error is about
-//! |fine − coarse| / (s^p − 1). Compliance converges with p = 2, and so does the strain at element centres between which
-//! a gauge interpolates. Graded meshes are not similar to the last element, so that this is an estimate.
+//! |fine − coarse| / (s^p − 1). The strain at element centres between which a gauge interpolates converges with p = 2. So does
+//! the compliance of a smooth body; at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
+//! `gearmesh_mesh::layers`), and p = 1 is assumed for deflections. Graded meshes are not similar to the last element, so
+//! that this is an estimate.
 
 use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
@@ -16,11 +19,18 @@ use gearmesh_model::{FlankGrid, GaugeRows};
 
 /// Ratio of the element lengths.
 const COARSENING: f64 = 1.5;
+/// Order of the error of a deflection.
+const DEFLECTION_ORDER: i32 = 1;
+/// Order of the error of a gauge's reading.
+const GAUGE_ORDER: i32 = 2;
 
 /// Estimated relative errors.
 pub struct ErrorEstimate {
-    /// Of the compliance under a load over the whole width in the middle of the flank, C_g, own tooth.
-    pub compliance: f64,
+    /// Of the deflection under a load over the whole width in the middle of tooth 0's flank, C_g.
+    pub loaded_tooth: f64,
+    /// Of C_hub at the same place of other teeth: the largest of the next two on either side and the opposite one. Coarser layers
+    /// and coarser sections often change it in opposite senses, so that on a single tooth the difference may vanish by accident.
+    pub other_teeth: f64,
     /// Of each gauge's reading for loads on its own tooth.
     pub gauges: Vec<f64>,
 }
@@ -40,7 +50,7 @@ fn coarsened(gear: &GearDefinition) -> GearDefinition {
 
 /// Weights of a load over the whole width at a roll station, per load of one flank: the axial hats overlap, each inner
 /// one carries its share of the width.
-fn line_load(grid: &FlankGrid, station: usize) -> Vec<(usize, f64)> {
+pub(crate) fn line_load(grid: &FlankGrid, station: usize) -> Vec<(usize, f64)> {
     let n = grid.z_m.len();
     (0..n)
         .map(|j| {
@@ -104,21 +114,28 @@ pub fn estimate(
     let all = body.readings(&rows, &normals, &Silent);
     // Normal loads of a row's own tooth; the line load stands on tooth 0.
     let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
-    let hub: f64 = weights
-        .iter()
-        .map(|&(load, share)| share * own(0, 0)[load])
-        .sum();
     let readings: Vec<&[f64]> = gear
         .gauges
         .iter()
         .enumerate()
         .map(|(k, gauge)| own(k + 1, gauge.tooth))
         .collect();
-    let coarse_compliance = hub - compliance_of(&weights, |l, m| w[m * count + l]);
-    let fine_compliance = compliance_of(&weights, |l, m| {
-        c_hub[l * count + m] - c_tooth[l * count + m]
-    });
+    // Rows of C_hub are [tooth][flank of the response][load][response]; those of the first flank are asked for.
     let flanks = gear.reduction.flanks.len();
+    let block = |tooth: usize| &c_hub[tooth * flanks * count * count..][..count * count];
+    let deflection_error = |tooth: usize| {
+        let mut fine = compliance_of(&weights, |l, m| block(tooth)[l * count + m]);
+        let mut coarse: f64 = (weights.iter())
+            .map(|&(load, share)| share * own(0, tooth)[load])
+            .sum();
+        if tooth == 0 {
+            fine -= compliance_of(&weights, |l, m| c_tooth[l * count + m]);
+            coarse -= compliance_of(&weights, |l, m| w[m * count + l]);
+        }
+        (coarse / fine - 1.0).abs() / (COARSENING.powi(DEFLECTION_ORDER) - 1.0)
+    };
+    let teeth = gear.tooth.teeth;
+    let others = [1, teeth - 1, 2, teeth - 2, teeth / 2];
     // What a gauge reads under loads over the whole width, station by station.
     let by_station = |reading: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..grid.roll_angles_rad.len())
@@ -139,12 +156,12 @@ pub fn estimate(
             let coarse = by_station(&|load| coarse[load]);
             let difference: f64 = fine.iter().zip(&coarse).map(|(f, c)| (f - c).powi(2)).sum();
             let norm: f64 = fine.iter().map(|f| f * f).sum();
-            (difference / norm).sqrt() / (COARSENING * COARSENING - 1.0)
+            (difference / norm).sqrt() / (COARSENING.powi(GAUGE_ORDER) - 1.0)
         })
         .collect();
     Ok(ErrorEstimate {
-        compliance: (fine_compliance / coarse_compliance - 1.0).abs()
-            / (COARSENING * COARSENING - 1.0),
+        loaded_tooth: deflection_error(0),
+        other_teeth: others.map(deflection_error).into_iter().fold(0.0, f64::max),
         gauges: gauge_errors,
     })
 }

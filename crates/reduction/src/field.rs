@@ -71,7 +71,9 @@ pub fn fields(
         .map(|u| {
             let von_mises_pa = (0..body.mesh.elements.len())
                 .map(|e| {
-                    let strain = body.model.strain(e, [0.0; 3], &u)?;
+                    let strain = body
+                        .model
+                        .strain(e, body.model.element_of(e).centre(), &u)?;
                     Ok(von_mises(&body.model.material().stress(&strain)))
                 })
                 .collect::<Result<Vec<f64>, gearmesh_fe::FeError>>()?;

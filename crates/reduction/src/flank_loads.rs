@@ -10,8 +10,8 @@
 //! flank's area grows by the same factor 1/cos β_b everywhere and drops out of the unit loads.
 
 use crate::face_overlap::overlap_points;
+use crate::toothed_mesh::ToothedMesh;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
-use gearmesh_mesh::GearMesh;
 use gearmesh_model::FlankGrid;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -57,7 +57,7 @@ fn overlapping(stations: &[f64], range: [f64; 2]) -> impl Iterator<Item = usize>
 /// All unit loads on one flank of one tooth, numbered as [`FlankGrid::load`].
 pub fn flank_loads(
     gear: &GearDefinition,
-    mesh: &GearMesh,
+    mesh: &impl ToothedMesh,
     grid: &FlankGrid,
     tooth: usize,
     side: FlankSide,
@@ -74,7 +74,7 @@ pub fn flank_loads(
         .map(|&xi| curve.arc_length_at_roll_m(xi))
         .collect();
     let tooth_angle = TAU * tooth as f64 / gear.tooth.teeth as f64;
-    let twist = mesh.twist.teeth_rad_per_m;
+    let twist = mesh.twist_rad_per_m();
     let (helix_sin, helix_cos) = (r_b * twist).atan().sin_cos();
     let axial_part = -side.mirror() * helix_sin;
 

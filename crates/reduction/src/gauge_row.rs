@@ -11,9 +11,10 @@
 use crate::ReductionError;
 use crate::face_overlap::overlap_points;
 use crate::flank_loads::SparseVector;
+use crate::toothed_mesh::ToothedMesh;
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve};
-use gearmesh_mesh::{GearMesh, OutlineFace};
+use gearmesh_mesh::OutlineFace;
 use std::collections::BTreeMap;
 
 /// Layers whose edges differ by less are one \[m\].
@@ -32,7 +33,7 @@ struct Reading<'a> {
 /// [`ReductionError::EmptyGauge`] when no face lies under it.
 pub fn gauge_row(
     gear: &GearDefinition,
-    mesh: &GearMesh,
+    mesh: &impl ToothedMesh,
     model: &FeModel,
     gauge: &GaugeDefinition,
     tooth: usize,
@@ -59,7 +60,7 @@ pub fn gauge_row(
     }
     let mut row: BTreeMap<usize, f64> = BTreeMap::new();
     for reading in readings {
-        for (dof, value) in strain_row(mesh, model, reading.face, reading.natural)? {
+        for (dof, value) in strain_row(model, reading.face, reading.natural)? {
             *row.entry(dof).or_default() += reading.area_m2 / area * value;
         }
     }
@@ -116,13 +117,12 @@ fn between_centres(faces: &[OutlineFace], along: [f64; 2], across: [f64; 2]) -> 
 
 /// Strain along the profile at a point of a face, as weights of the nodal displacements.
 fn strain_row(
-    mesh: &GearMesh,
     model: &FeModel,
     face: &OutlineFace,
     natural: [f64; 2],
 ) -> Result<SparseVector, ReductionError> {
-    let element = mesh.elements.nodes(face.element);
-    let in_element = model.element().natural_nodes();
+    let element = model.element_nodes(face.element as usize);
+    let in_element = model.element_of(face.element as usize).natural_nodes();
     let shapes = face.shape.shapes(natural);
     let [_, d_xi, d_eta] = face.place_m(natural);
     let det = d_xi[0] * d_eta[1] - d_xi[1] * d_eta[0];
@@ -131,7 +131,7 @@ fn strain_row(
     for (&node, [n, n_xi, n_eta]) in face.nodes.iter().zip(shapes) {
         let along = (n_xi * d_eta[1] - n_eta * d_xi[1]) / det;
         for (axis, sum) in t.iter_mut().enumerate() {
-            *sum += along * mesh.nodes[node as usize][axis];
+            *sum += along * model.nodes()[node as usize][axis];
         }
         if let Some(k) = element.iter().position(|&other| other == node) {
             for (sum, coordinate) in inside.iter_mut().zip(in_element[k]) {

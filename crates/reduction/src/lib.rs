@@ -13,6 +13,8 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
+//! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs`, `imported_error.rs` |
+//! | what all of them ask of a mesh | `toothed_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
@@ -34,6 +36,9 @@ pub mod gauge_row;
 pub mod gear_body;
 pub mod gear_modes;
 mod harmonic_problem;
+pub mod import;
+pub mod imported_error;
+pub mod imported_mesh;
 pub mod mode_figures;
 pub mod near_field;
 mod part;
@@ -43,10 +48,12 @@ pub mod sector_substructure;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
 pub mod tooth_vectors;
+pub mod toothed_mesh;
 pub mod whole_gear;
 
 pub use gear_body::GearBody;
 pub use gear_modes::GearModes;
+pub use import::{read_body, reduce_imported};
 pub use mode_figures::GearMode;
 pub use reduce::{ReductionOptions, reduce};
 
@@ -62,6 +69,9 @@ pub enum ReductionError {
     /// The finite element model is not sound.
     #[error(transparent)]
     Fe(#[from] gearmesh_fe::FeError),
+    /// A mesh from elsewhere is not the gear's.
+    #[error(transparent)]
+    Imported(#[from] Box<imported_error::ImportedMeshError>),
     /// A gauge covers no element face.
     #[error(
         "gauge {name}: no element face lies under it; make it longer or wider, or refine mesh.fillet_mm"
@@ -98,6 +108,12 @@ pub enum ReductionError {
         /// What round-off explains.
         allowed: f64,
     },
+}
+
+impl From<imported_error::ImportedMeshError> for ReductionError {
+    fn from(error: imported_error::ImportedMeshError) -> Self {
+        Self::Imported(Box::new(error))
+    }
 }
 
 /// Where a long computation stands.

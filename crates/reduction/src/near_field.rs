@@ -11,8 +11,8 @@ use crate::flank_loads::{SparseVector, flank_loads};
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::{FlankSide, GearDefinition};
-use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::contact_section::ContactGrading;
+use gearmesh_mesh::{CutLine, GearMesh};
 use gearmesh_model::{FlankGrid, NearField};
 use rayon::prelude::*;
 
@@ -99,10 +99,27 @@ pub fn calibrate(
     model: &FeModel,
     grid: &FlankGrid,
 ) -> Result<NearField, ReductionError> {
+    let mut mesh_m2_per_n = Vec::new();
+    for &side in &gear.reduction.flanks {
+        mesh_m2_per_n.extend(mesh_compliance(gear, mesh, model, grid, side)?);
+    }
+    calibration(gear, mesh.section.cell.cut_line(), model, mesh_m2_per_n)
+}
+
+/// The calibration of a tooth above a cut with W, as [`mesh_compliance`] gives it for each loaded flank, at hand.
+///
+/// # Errors
+/// [`ReductionError`] when a section cannot be solved.
+pub fn calibration(
+    gear: &GearDefinition,
+    cut: CutLine,
+    model: &FeModel,
+    mesh_m2_per_n: Vec<f64>,
+) -> Result<NearField, ReductionError> {
     let module = gear.tooth.module_m;
     let half_width_m = HALF_WIDTH_IN_MODULES * module;
     let roll_angles_rad = places(gear);
-    let problem = ContactProblem::new(gear, mesh, *model.material());
+    let problem = ContactProblem::new(gear, cut, *model.material());
     let at_all = |factor: f64| -> Result<Vec<f64>, ReductionError> {
         roll_angles_rad
             .par_iter()
@@ -121,10 +138,6 @@ pub fn calibrate(
         .zip(&contact_m2_per_n)
         .map(|(fine, best)| (fine / best - 1.0).abs())
         .fold(0.0, f64::max);
-    let mut mesh_m2_per_n = Vec::new();
-    for &side in &gear.reduction.flanks {
-        mesh_m2_per_n.extend(mesh_compliance(gear, mesh, model, grid, side)?);
-    }
     Ok(NearField {
         half_width_m,
         roll_angles_rad,
@@ -154,7 +167,7 @@ pub fn mesh_compliance(
         layer.nodes.clone(),
         layer.elements.connectivity().to_vec(),
         *model.material(),
-        model.element(),
+        model.element_of(0),
     )?;
     let across = FlankGrid {
         roll_angles_rad: grid.roll_angles_rad.clone(),

@@ -8,14 +8,17 @@ use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::{Progress, ReductionError, Silent, flank_of};
+use faer::Mat;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{GaugeRows, Provenance, ReducedGear, ReductionChecks, utc_now};
+use gearmesh_model::{
+    FlankGrid, GaugeRows, NearField, Provenance, ReducedGear, ReductionChecks, utc_now,
+};
 use std::time::Instant;
 
 /// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
-const SYMMETRY_ALLOWED: f64 = 1e-10;
-const IDENTITY_ALLOWED: f64 = 1e-9;
+pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
+pub(crate) const IDENTITY_ALLOWED: f64 = 1e-9;
 /// Patterns on which the identity is checked: K is applied to each, which costs as much as a solve.
 const IDENTITY_SAMPLES: usize = 8;
 
@@ -55,8 +58,8 @@ pub fn reduce(
         .iter()
         .map(|&side| flank_loads(gear, &body.mesh, &grid, 0, side))
         .collect();
-    let (teeth, sectors, count) = (gear.tooth.teeth, gear.sectors(), grid.len());
-    let own = teeth / sectors;
+    let (teeth, count) = (gear.tooth.teeth, grid.len());
+    let own = teeth / gear.sectors();
     lap("loads");
 
     let deformation = Deformation::of(gear);
@@ -101,13 +104,7 @@ pub fn reduce(
         ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
         (ROWS_BY_FIELDS, rows_by_fields, IDENTITY_ALLOWED),
     ] {
-        if found.is_nan() || found > allowed {
-            return Err(ReductionError::Check {
-                check,
-                found,
-                allowed,
-            });
-        }
+        checked(check, found, allowed)?;
     }
     lap("checks");
 
@@ -126,10 +123,16 @@ pub fn reduce(
     further.extend(dynamics.checks);
     if options.estimate_error {
         let ErrorEstimate {
-            compliance,
+            loaded_tooth,
+            other_teeth,
             gauges: errors,
         } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
-        further.push(("compliance error estimate".to_string(), compliance));
+        for (name, error) in [
+            (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
+            (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
+        ] {
+            further.push((name.to_string(), error));
+        }
         for (gauge, error) in gauges.iter_mut().zip(errors) {
             gauge.error_estimate_relative = error;
         }
@@ -138,7 +141,48 @@ pub fn reduce(
     let mut effort = body.effort();
     let mode_solves = dynamics.solves.map(|solves| solves as f64);
     effort.extend(mode_solves.map(|solves| ("solves for natural modes".to_string(), solves)));
+    let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
+    let provenance = &mut reduced.provenance;
+    provenance.element = element_names(&body.model);
+    provenance.nodes = body.mesh.nodes.len();
+    provenance.elements = body.mesh.elements.len();
+    provenance.dofs = body.dofs.free_count();
+    provenance.stage_seconds = stage_seconds;
+    provenance.effort = effort;
+    reduced.checks = ReductionChecks {
+        symmetry,
+        pattern_identity,
+        further,
+    };
+    reduced.rigid_body = dynamics.rigid_body;
+    reduced.reference_point = dynamics.reference_point;
+    reduced.modes = dynamics.modes;
+    Ok((reduced, body))
+}
+
+/// Refuses a violation of an identity that round-off does not explain.
+pub(crate) fn checked(check: &'static str, found: f64, allowed: f64) -> Result<(), ReductionError> {
+    if found.is_nan() || found > allowed {
+        return Err(ReductionError::Check {
+            check,
+            found,
+            allowed,
+        });
+    }
+    Ok(())
+}
+
+/// The model of a gear from its computed parts; how they were computed and checked is still empty.
+pub(crate) fn assembled(
+    gear: &GearDefinition,
+    grid: FlankGrid,
+    c_hub: Vec<f64>,
+    c_tooth: Vec<f64>,
+    near_field: NearField,
+    gauges: Vec<GaugeRows>,
+) -> ReducedGear {
     let curve = ProfileCurve::new(&gear.profile);
+    let flanks = &gear.reduction.flanks;
     // Along a helical flank's normal the tooth is thinner by the cosine of the base helix.
     let helix_cos = gear.profile.base_helix_angle_rad().cos();
     let opposite: Vec<f64> = grid
@@ -146,11 +190,11 @@ pub fn reduce(
         .iter()
         .map(|&xi| helix_cos * curve.opposite_distance_m(xi))
         .collect();
-    let reduced = ReducedGear {
+    ReducedGear {
         name: gear.name.clone(),
         input_toml: gear.source.clone(),
-        teeth,
-        sectors,
+        teeth: gear.tooth.teeth,
+        sectors: gear.sectors(),
         base_radius_m: gear.profile.base_radius_m,
         face_width_m: gear.tooth.face_width_m,
         young_pa: gear.material.young_pa,
@@ -161,33 +205,44 @@ pub fn reduce(
         c_tooth,
         near_field: Some(near_field),
         gauges,
-        rigid_body: dynamics.rigid_body,
-        reference_point: dynamics.reference_point,
-        modes: dynamics.modes,
+        rigid_body: None,
+        reference_point: None,
+        modes: None,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),
             created_utc: utc_now(),
             threads: rayon::current_num_threads(),
-            element: body.model.element().name().into(),
-            nodes: body.mesh.nodes.len(),
-            elements: body.mesh.elements.len(),
-            dofs: body.dofs.free_count(),
-            stage_seconds,
-            effort,
+            element: String::new(),
+            nodes: 0,
+            elements: 0,
+            dofs: 0,
+            stage_seconds: Vec::new(),
+            effort: Vec::new(),
         },
         checks: ReductionChecks {
-            symmetry,
-            pattern_identity,
-            further,
+            symmetry: 0.0,
+            pattern_identity: 0.0,
+            further: Vec::new(),
         },
         grid,
-    };
-    Ok((reduced, body))
+    }
+}
+
+/// Names of the kinds of elements of a model.
+pub(crate) fn element_names(model: &gearmesh_fe::FeModel) -> String {
+    let names: Vec<&str> = model.blocks().iter().map(|b| b.element.name()).collect();
+    names.join(" + ")
 }
 
 /// From rows over all responses, `[s][f][l][t][f'][m]`, to blocks `[s][f][t][f'][l][m]`.
-fn by_blocks(rows: &[f64], own: usize, flanks: usize, teeth: usize, count: usize) -> Vec<f64> {
+pub(crate) fn by_blocks(
+    rows: &[f64],
+    own: usize,
+    flanks: usize,
+    teeth: usize,
+    count: usize,
+) -> Vec<f64> {
     let mut blocks = Vec::with_capacity(rows.len());
     for load_flank in 0..own * flanks {
         for response_flank in 0..teeth * flanks {
@@ -201,7 +256,13 @@ fn by_blocks(rows: &[f64], own: usize, flanks: usize, teeth: usize, count: usize
 }
 
 /// Largest |C_lm − C_ml| over the sector's own teeth, relative to the largest entry.
-fn asymmetry(rows: &[f64], own: usize, flanks: usize, teeth: usize, count: usize) -> f64 {
+pub(crate) fn asymmetry(
+    rows: &[f64],
+    own: usize,
+    flanks: usize,
+    teeth: usize,
+    count: usize,
+) -> f64 {
     let size = own * flanks * count;
     let row_length = teeth * flanks * count;
     let mut worst: f64 = 0.0;
@@ -248,17 +309,38 @@ fn pattern_identity(
     row_length: usize,
     c_tooth: &[f64],
 ) -> f64 {
+    pattern_identity_of(
+        submodel,
+        normals,
+        c_rows,
+        row_length,
+        c_tooth,
+        |loads, each| body.solve_each(loads, &Silent, each),
+        |patterns| body.energy_products(patterns),
+    )
+}
+
+/// As [`pattern_identity`], for any way to solve for loads and to take XᵀKX of fields.
+pub(crate) fn pattern_identity_of(
+    submodel: &ToothSubmodel,
+    normals: &[&SparseVector],
+    c_rows: &[f64],
+    row_length: usize,
+    c_tooth: &[f64],
+    solve_each: impl FnOnce(&[&SparseVector], &mut dyn FnMut(usize, &[f64])),
+    energy_products: impl FnOnce(&[Vec<f64>]) -> Mat<f64>,
+) -> f64 {
     let count = normals.len();
     let sampled: Vec<usize> = (0..count)
         .step_by(count.div_ceil(IDENTITY_SAMPLES))
         .collect();
     let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
     let mut patterns: Vec<Vec<f64>> = Vec::with_capacity(loads.len());
-    body.solve_each(&loads, &Silent, |k, u| {
+    solve_each(&loads, &mut |k, u| {
         let w = submodel.column(sampled[k], u.len());
         patterns.push(u.iter().zip(&w).map(|(u, w)| u - w).collect());
     });
-    let energy = body.energy_products(&patterns);
+    let energy = energy_products(&patterns);
     let (mut difference, mut norm) = (0.0, 0.0);
     for (a, load_a) in sampled.iter().enumerate() {
         for (b, load_b) in sampled.iter().enumerate() {
@@ -311,7 +393,7 @@ fn gauges(
         .collect()
 }
 
-fn describe(gauge: &gearmesh_geometry::GaugeDefinition) -> String {
+pub(crate) fn describe(gauge: &gearmesh_geometry::GaugeDefinition) -> String {
     let place = match gauge.position {
         gearmesh_geometry::RootPosition::TangentAngle(a) => {
             format!("{:.2} deg tangent", a.to_degrees())

@@ -6,10 +6,10 @@
 use crate::ReductionError;
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::part::Part;
+use crate::toothed_mesh::ToothedMesh;
 use faer::Mat;
 use gearmesh_fe::{DofMap, Factor, FeModel, assemble_stiffness};
 use gearmesh_geometry::{FlankSide, GearDefinition};
-use gearmesh_mesh::GearMesh;
 
 /// How a body may deform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Deformation {
     }
 }
 
-/// W on tooth 0 for the loads of one flank.
+/// W on a tooth for the loads of one flank.
 pub struct ToothSubmodel {
     /// Whole-gear degree of freedom of each submodel degree of freedom, ascending.
     full_dofs: Vec<usize>,
@@ -61,14 +61,28 @@ impl ToothSubmodel {
     /// [`ReductionError::Fe`] when the submodel is not held.
     pub fn new(
         model: &FeModel,
-        mesh: &GearMesh,
+        mesh: &impl ToothedMesh,
         side: FlankSide,
         loads: &[GridLoad],
         deformation: Deformation,
     ) -> Result<Self, ReductionError> {
-        let Part { nodes, model: part } = Part::new(model, &mesh.tooth_elements(0))?;
+        Self::of_tooth(model, mesh, (0, side), loads, deformation)
+    }
+
+    /// Solves the submodel of a tooth for the loads of one of its flanks.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when the submodel is not held.
+    pub fn of_tooth(
+        model: &FeModel,
+        mesh: &impl ToothedMesh,
+        (tooth, side): (usize, FlankSide),
+        loads: &[GridLoad],
+        deformation: Deformation,
+    ) -> Result<Self, ReductionError> {
+        let Part { nodes, model: part } = Part::new(model, &mesh.tooth_elements(tooth))?;
         let supports: Vec<usize> = mesh
-            .tooth_supports(0, side)
+            .tooth_supports(tooth, side)
             .into_iter()
             .filter_map(|n| nodes.binary_search(&n).ok())
             .collect();

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{
-    MESH, QUADRATIC, SLOTS, SOLID, THIN_RIM, body, difference, reduced, without_symmetry,
+    CONTOUR, MESH, QUADRATIC, SLOTS, SOLID, THIN_RIM, body, difference, reduced, without_symmetry,
 };
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
@@ -94,6 +94,11 @@ fn both_ways_agree(
 #[test]
 fn thin_rim_one_tooth_a_sector() {
     both_ways_agree((MESH, THIN_RIM), 18, 2 + 10, false);
+}
+
+#[test]
+fn a_contour_moves_the_layers() {
+    both_ways_agree((MESH, CONTOUR), 18, 2 + 10, false);
 }
 
 #[test]

@@ -40,7 +40,7 @@ const ROLLS: [f64; 5] = [0.25, 0.33, 0.40, 0.44, 0.469];
 fn the_contact_deflection_converges() {
     let gear = gear("");
     let (mesh, model) = meshed(&gear);
-    let problem = ContactProblem::new(&gear, &mesh, *model.material());
+    let problem = ContactProblem::new(&gear, mesh.section.cell.cut_line(), *model.material());
     let module = gear.tooth.module_m;
     let at = |roll: f64, factor: f64| {
         problem
@@ -74,7 +74,7 @@ fn the_places_are_dense_enough() {
     let field = calibrate(&gear, &mesh, &model, &flank_grid(&gear)).unwrap();
     println!("residual {:.2e}", field.residual);
     assert!(field.residual < 2e-3);
-    let problem = ContactProblem::new(&gear, &mesh, *model.material());
+    let problem = ContactProblem::new(&gear, mesh.section.cell.cut_line(), *model.material());
     let module = gear.tooth.module_m;
     let (r_b, end) = (gear.profile.base_radius_m, gear.profile.flank_end_roll_rad);
     let mut worst = [0.0f64; 2];
@@ -102,7 +102,7 @@ fn the_places_are_dense_enough() {
 fn the_load_width_enters_by_its_logarithm() {
     let gear = gear("");
     let (mesh, model) = meshed(&gear);
-    let problem = ContactProblem::new(&gear, &mesh, *model.material());
+    let problem = ContactProblem::new(&gear, mesh.section.cell.cut_line(), *model.material());
     let module = gear.tooth.module_m;
     let a0 = HALF_WIDTH_IN_MODULES * module;
     let k = 2.0 * (1.0 - POISSON * POISSON) / (PI * YOUNG);

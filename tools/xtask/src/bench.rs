@@ -2,6 +2,8 @@
 //!
 //! A list of cases, each a child process; one that fails or is too big tells why in its row and the next one runs.
 
+mod accuracy;
+mod accuracy_page;
 mod case;
 mod host;
 mod page;
@@ -18,6 +20,7 @@ use crate::error::XtaskError;
 use crate::prepare;
 use crate::steps::{cargo, run_checked};
 use crate::workspace::Workspace;
+pub use accuracy::accuracy_cost;
 use case::{measure, stages};
 use host::Host;
 use page::{Figures, MeshSize, Row, STATED_LOADS};
@@ -25,7 +28,7 @@ use page::{Figures, MeshSize, Row, STATED_LOADS};
 /// Which cases run, and with what.
 #[derive(Debug, PartialEq, Eq, Default)]
 pub struct Options {
-    /// The two smallest meshes only; the page then goes to `out/`.
+    /// The two coarsest meshes only; the page then goes to `out/`.
     pub quick: bool,
     /// This program with the Python of `GEARMESH_PYTHON`, nothing is built.
     pub program: Option<PathBuf>,

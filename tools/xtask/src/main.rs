@@ -1,4 +1,4 @@
-//! The project's own commands: `cargo xtask test`, `cargo xtask demo` and `cargo xtask bench`.
+//! The project's own commands: `cargo xtask test`, `demo`, `bench` and `accuracy-cost`.
 //!
 //! All begin with the same preparation ([`prepare::prepare`]), so that each works on a clean clone: the Python
 //! environment `.venv` from the locked requirements, the shared libraries that gmsh needs, the Python module.
@@ -33,6 +33,9 @@ Usage: cargo xtask <COMMAND>
                   time and memory of the offline stage beside other programs, into docs/benchmarks/offline.md
                   --quick     the two smallest meshes only, into out/offline-quick.md
                   --program   measures this program, with the Python in GEARMESH_PYTHON, and builds nothing
+  accuracy-cost [--quick] [--program PATH]
+                  error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
+                  the quick page into out/accuracy-cost-quick.md
   prepare         only makes what the others need
   help            this text
 
@@ -62,6 +65,7 @@ enum Command {
     Test(steps::Extent),
     Demo(Vec<String>),
     BenchOffline(bench::Options),
+    AccuracyCost(bench::Options),
     Prepare,
     Help,
 }
@@ -77,11 +81,15 @@ impl Command {
             ("demo", rest) => Ok(Self::Demo(rest.iter().map(|&arg| arg.to_owned()).collect())),
             ("test", []) => Ok(Self::Test(steps::Extent::Full)),
             ("test", ["--fast"]) => Ok(Self::Test(steps::Extent::Fast)),
-            ("bench", ["offline", rest @ ..]) => bench_options(rest).map(Self::BenchOffline),
-            ("prepare", []) => Ok(Self::Prepare),
-            ("help" | "--help" | "-h", _) | ("test" | "prepare" | "bench", ["--help" | "-h"]) => {
-                Ok(Self::Help)
+            ("bench", ["offline", rest @ ..]) => {
+                bench_options("bench offline", rest).map(Self::BenchOffline)
             }
+            ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
+                bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
+            }
+            ("prepare", []) => Ok(Self::Prepare),
+            ("help" | "--help" | "-h", _)
+            | ("test" | "prepare" | "bench" | "accuracy-cost", ["--help" | "-h"]) => Ok(Self::Help),
             ("test" | "prepare", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
@@ -91,8 +99,8 @@ impl Command {
     }
 }
 
-/// Reads what follows `bench offline`.
-fn bench_options(arguments: &[&str]) -> Result<bench::Options, String> {
+/// Reads what follows a command that measures.
+fn bench_options(command: &str, arguments: &[&str]) -> Result<bench::Options, String> {
     let mut options = bench::Options::default();
     let mut rest = arguments.iter();
     while let Some(&argument) = rest.next() {
@@ -102,7 +110,7 @@ fn bench_options(arguments: &[&str]) -> Result<bench::Options, String> {
                 let path = rest.next().ok_or("`--program` needs a path")?;
                 options.program = Some(path.into());
             }
-            other => return Err(format!("unknown argument `{other}` of `bench offline`")),
+            other => return Err(format!("unknown argument `{other}` of `{command}`")),
         }
     }
     Ok(options)
@@ -114,14 +122,18 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         return Ok(ExitCode::SUCCESS);
     }
     let workspace = Workspace::find()?;
-    if let Command::BenchOffline(options) = &command {
-        return bench::offline(&workspace, options);
+    match &command {
+        Command::BenchOffline(options) => return bench::offline(&workspace, options),
+        Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
+        _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
     match command {
         Command::Test(extent) => steps::test(&workspace, &venv, extent),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
-        Command::Prepare | Command::Help | Command::BenchOffline(_) => Ok(ExitCode::SUCCESS),
+        Command::Prepare | Command::Help | Command::BenchOffline(_) | Command::AccuracyCost(_) => {
+            Ok(ExitCode::SUCCESS)
+        }
     }
 }
 
@@ -165,6 +177,15 @@ mod tests {
         assert_eq!(
             parse("bench offline"),
             Ok(Command::BenchOffline(bench::Options::default()))
+        );
+        assert_eq!(
+            parse("accuracy-cost"),
+            Ok(Command::AccuracyCost(bench::Options::default()))
+        );
+        assert_eq!(parse("accuracy-cost --help"), Ok(Command::Help));
+        assert_eq!(
+            parse("accuracy-cost now"),
+            Err("unknown argument `now` of `accuracy-cost`".into())
         );
         assert_eq!(
             parse("bench offline --program"),

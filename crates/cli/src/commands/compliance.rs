@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::involute;
-use gearmesh_model::{Flank, read_reduced_gear};
+use gearmesh_model::{Flank, ReductionChecks, read_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
@@ -65,6 +65,12 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
             flank_deflection(&model, &load, at_tooth, local).map_err(Failure::input)?,
         ));
     }
+    // Made for a load on tooth 0; on others the body below may differ.
+    let mesh_error = model.checks.further(if at_tooth == a.tooth {
+        ReductionChecks::LOADED_TOOTH_ERROR
+    } else {
+        ReductionChecks::OTHER_TEETH_ERROR
+    });
     if a.json {
         let list: Vec<_> = rows
             .iter()
@@ -75,12 +81,16 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
             })
             .collect();
         console::json(
-            &json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "rows": list}),
+            &json!({"gear": model.name, "tooth": a.tooth, "at_tooth": at_tooth, "mesh_error_relative": mesh_error,
+                    "rows": list}),
         );
         return Ok(());
     }
+    let mesh_error = mesh_error.map_or(String::new(), |error| {
+        format!("; mesh error about {:.2} %", 100.0 * error)
+    });
     console::data(format!(
-        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}",
+        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}{mesh_error}",
         model.name, a.tooth
     ));
     let slices: Vec<String> = (0..model.grid.slices)

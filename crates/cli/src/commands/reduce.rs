@@ -10,7 +10,15 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
-    let (model, _) = offline::reduced(&gear, !arguments.no_error_estimate)?;
+    let model = match &gear.blank.meshed {
+        Some(body) => {
+            if !arguments.no_error_estimate {
+                console::note("no error estimate: the mesh is given, there is no coarser one");
+            }
+            offline::reduced_import(&gear, body)?
+        }
+        None => offline::reduced(&gear, !arguments.no_error_estimate)?.0,
+    };
     write_reduced_gear(&arguments.output, &model).map_err(Failure::work)?;
     if arguments.json {
         console::json(&figures(&model));

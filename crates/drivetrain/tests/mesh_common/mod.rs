@@ -185,6 +185,8 @@ pub fn disc(
         bore_radius_m: 8e-3,
         web: None,
         openings: None,
+        contour: None,
+        meshed: None,
     };
     let inertia = GearInertia::new(gear, &blank, width_m, 7850.0).unwrap();
     let (across, polar) = (inertia.across_kg_m2, inertia.polar_kg_m2);

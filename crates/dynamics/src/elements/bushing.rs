@@ -66,7 +66,7 @@ impl Bushing {
             };
             let asymmetry = (matrix - matrix.transpose()).norm();
             let scale = matrix.norm();
-            if !(asymmetry <= 1e-9 * scale) {
+            if asymmetry.is_nan() || asymmetry > 1e-9 * scale {
                 return Err(fault(
                     what,
                     asymmetry,

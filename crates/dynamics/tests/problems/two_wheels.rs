@@ -1,20 +1,33 @@
-//! Two wheels on linear bearings, a stiff spring and damper between points of their rims, a torque on the first and a brake on the
-//! second: the smallest system that looks like a pair of wheels in mesh, twelve degrees of freedom.
+//! Two wheels on linear bearings, coupled, with torques: the smallest system that looks like a pair of wheels in mesh,
+//! twelve degrees of freedom.
 
 use gearmesh_dynamics::elements::{AppliedLoad, Axes, Bushing, LinearBearing, LoadKind};
-use gearmesh_dynamics::{Body, Marker, MarkerPair, System, TimeFunction};
-use nalgebra::{UnitQuaternion, Vector3};
+use gearmesh_dynamics::{Body, Joint, Marker, MarkerPair, System, TimeFunction};
+use nalgebra::Vector3;
 
 /// Distance of the axes \[m\].
 const DISTANCE: f64 = 0.15;
 
-/// The system, its wheels held together by a six-component spring, on bearings that resist all but their spin.
-pub fn system() -> System {
+/// What holds the wheels together.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Coupling {
+    /// A six-component spring between their rims: they stand and quiver.
+    Spring,
+    /// A ratio of their angles: they spin at 600 rpm.
+    Ratio,
+}
+
+/// The system on bearings that resist all but the spin.
+pub fn system(coupling: Coupling) -> System {
     let mut builder = System::builder();
-    let mut rims = Vec::new();
+    let (mut rims, mut axles) = (Vec::new(), Vec::new());
     for (index, name) in ["first", "second"].into_iter().enumerate() {
+        let side = if index == 0 { 1.0 } else { -1.0 };
         let mut body = Body::rigid(name, 2.0, [3.2e-3, 3.2e-3, 6e-3]);
         body.position_m = Vector3::new(DISTANCE * index as f64, 0.0, 0.0);
+        if coupling == Coupling::Ratio {
+            body.angular_velocity_rad_per_s.z = side * 600.0 / 60.0 * std::f64::consts::TAU;
+        }
         let wheel = builder.body(body).unwrap();
         let bearing = LinearBearing {
             radial_stiffness_n_per_m: 2e8,
@@ -28,6 +41,7 @@ pub fn system() -> System {
             a: Marker::ground([DISTANCE * index as f64, 0.0, 0.0]),
             b: Marker::at(wheel, [0.0; 3]),
         };
+        axles.push(pair);
         builder.element(
             bearing
                 .between(&format!("bearing of {name}"), pair)
@@ -47,19 +61,24 @@ pub fn system() -> System {
             torque,
         );
         builder.element(load.unwrap());
-        let side = if index == 0 { 0.5 } else { -0.5 };
-        rims.push(
-            Marker::at(wheel, [side * DISTANCE, 0.0, 0.0]).oriented(UnitQuaternion::identity()),
-        );
+        rims.push(Marker::at(wheel, [0.5 * side * DISTANCE, 0.0, 0.0]));
     }
-    let mesh = Bushing::diagonal(
-        [1e7, 4e8, 1e7, 1e3, 1e3, 1e3],
-        [1e2, 2e3, 1e2, 0.1, 0.1, 0.1],
-    );
-    let pair = MarkerPair {
-        a: rims[0],
-        b: rims[1],
-    };
-    builder.element(mesh.between("mesh", pair).unwrap());
+    match coupling {
+        Coupling::Spring => {
+            let mesh = Bushing::diagonal(
+                [1e7, 4e8, 1e7, 1e3, 1e3, 1e3],
+                [1e2, 2e3, 1e2, 0.1, 0.1, 0.1],
+            );
+            let pair = MarkerPair {
+                a: rims[0],
+                b: rims[1],
+            };
+            builder.element(mesh.between("mesh", pair).unwrap());
+        }
+        Coupling::Ratio => {
+            builder.joint(Joint::ratio("mesh", (axles[0], 1.0), (axles[1], 1.0)));
+        }
+    }
+    builder.gravity([0.0, -9.81, 0.0]);
     builder.build().unwrap()
 }

@@ -1,9 +1,9 @@
 //! What the integration tests share: a steel, the element list, a distorted block.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use gearmesh_fe::{FeModel, HexElement, Material, QuadraticMesh, StructuredMesh, chord_middle};
+use gearmesh_fe::{FeModel, HexElement, Material, StructuredMesh, chord_middle};
 
-pub const ELEMENTS: [HexElement; 3] = HexElement::ALL;
+pub const ELEMENTS: [HexElement; 6] = HexElement::ALL;
 
 pub fn steel() -> Material {
     Material::new(210e9, 0.3).unwrap()
@@ -25,21 +25,29 @@ pub fn distorted_cube(n: usize) -> StructuredMesh {
     mesh
 }
 
-/// A model of a mesh in the unit cube. With twenty nodes the edges inside are bent by up to 0.07 of their length, those
+/// A model of a mesh in the unit cube. Edges of quadratic elements inside are bent by up to 0.07 of their length, those
 /// on the boundary are straight.
 pub fn model(mesh: StructuredMesh, element: HexElement) -> FeModel {
-    if element.node_count() == 8 {
-        return FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap();
-    }
-    let mesh = QuadraticMesh::new(mesh.nodes, &mesh.hexes, |numbers, [a, b]| {
+    let bent = |_, [a, b]: [[f64; 3]; 2]| {
         let middle = chord_middle([a, b]);
         let inside = middle.iter().all(|v| *v > 1e-9 && *v < 1.0 - 1e-9);
         let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
         let bend = if inside { 0.04 * length } else { 0.0 };
-        let seed = 12.9898 * f64::from(numbers[0]) + 78.233 * f64::from(numbers[1]);
+        let seed = 129.898 * middle[0] + 782.33 * middle[1] + 377.19 * middle[2];
         std::array::from_fn(|k| middle[k] + bend * (seed + 2.1 * k as f64).sin())
-    });
-    FeModel::new(mesh.nodes, mesh.hexes, steel(), element).unwrap()
+    };
+    mesh.into_model(steel(), element, bent).unwrap()
+}
+
+/// One distorted element of about the given half size, its edges bent where it has nodes on them.
+pub fn distorted_element(element: HexElement, half_size: f64) -> Vec<[f64; 3]> {
+    let nodes = element.natural_nodes();
+    let moved = |k: usize, by: f64| by * (1.7 * k as f64 + 0.4).sin();
+    nodes
+        .iter()
+        .enumerate()
+        .map(|(i, x)| std::array::from_fn(|axis| half_size * (x[axis] + moved(3 * i + axis, 0.06))))
+        .collect()
 }
 
 /// Indices of the nodes of a model whose coordinates satisfy a condition.

@@ -1,11 +1,13 @@
 //! `[blank]`: the body below the teeth.
 
+use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_kinks};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::definition::{Blank, ToothDefinition, Web};
+use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
 use serde::Deserialize;
+use std::path::Path;
 
 /// The keys of `[blank]`.
 #[derive(Deserialize)]
@@ -17,8 +19,14 @@ pub(super) struct BlankTable {
     rim_inner_diameter_mm: Option<f64>,
     web_thickness_mm: Option<f64>,
     web_offset_mm: Option<f64>,
+    hub_z_mm: Option<[f64; 2]>,
+    web: Option<Vec<WebPointTable>>,
     slots: Option<SlotsTable>,
     holes: Option<HolesTable>,
+    file: Option<String>,
+    length_unit: Option<LengthUnit>,
+    bore_set: Option<String>,
+    flank_sets: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -26,6 +34,8 @@ pub(super) struct BlankTable {
 enum BlankKind {
     Solid,
     ThinRim,
+    Contour,
+    Mesh,
 }
 
 /// What the teeth leave for the body.
@@ -52,27 +62,62 @@ impl BlankTable {
             width_mm: tooth.face_width_m / MM,
         };
         self.check_bore(&keys, &room)?;
+        let mut contour = None;
         let web = match self.kind {
             BlankKind::Solid => {
-                self.refuse_web_keys(&keys)?;
+                self.refuse_web_keys(&keys, "a solid blank")?;
                 None
             }
             BlankKind::ThinRim => Some(self.check_web(&keys, &room)?),
+            BlankKind::Contour => {
+                self.refuse_web_keys(&keys, "a blank given by its contour")?;
+                let (given, web) = self.check_contour(&keys, &room)?;
+                contour = Some(given);
+                Some(web)
+            }
+            BlankKind::Mesh => {
+                self.refuse_web_keys(&keys, "a blank that was meshed elsewhere")?;
+                self.refuse_contour_keys(&keys)?;
+                let meshed = self.check_meshed(document, &keys)?;
+                if tooth.helix_angle_rad != 0.0 {
+                    return Err(keys.error(
+                        "kind",
+                        "a mesh from elsewhere is read for spur gears only; set tooth.helix_angle_deg = 0 or choose another kind",
+                    ));
+                }
+                return Ok(Blank {
+                    bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
+                    web: None,
+                    contour: None,
+                    openings: None,
+                    meshed: Some(meshed),
+                });
+            }
         };
+        self.refuse_mesh_keys(&keys)?;
+        if contour.is_none() {
+            self.refuse_contour_keys(&keys)?;
+        }
         let (inner_mm, outer_mm) = web.map_or(
             (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
             |w| (w.hub_radius_m / MM, w.rim_inner_radius_m / MM),
         );
+        let openings = check_openings(
+            self.slots,
+            self.holes,
+            document,
+            (inner_mm, outer_mm),
+            tooth.module_m,
+        )?;
+        if let Some(contour) = &contour {
+            check_kinks(&keys, contour, openings.as_ref())?;
+        }
         Ok(Blank {
             bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
             web,
-            openings: check_openings(
-                self.slots,
-                self.holes,
-                document,
-                (inner_mm, outer_mm),
-                tooth.module_m,
-            )?,
+            contour,
+            openings,
+            meshed: None,
         })
     }
 
@@ -89,7 +134,95 @@ impl BlankTable {
         )
     }
 
-    fn refuse_web_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+    /// Where the mesh is and how its sets are called; the names are those that `gearmesh mesh` gives unless told otherwise.
+    fn check_meshed(
+        &self,
+        document: &InputDocument,
+        keys: &TableKeys,
+    ) -> Result<MeshedBody, InputError> {
+        for (key, given) in [
+            ("slots", self.slots.is_some()),
+            ("holes", self.holes.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(
+                    key,
+                    "a blank that was meshed elsewhere has its openings in the mesh; remove it",
+                ));
+            }
+        }
+        let file = self.file.as_deref().ok_or_else(|| {
+            keys.error(
+                "file",
+                "missing; a blank of kind \"mesh\" needs the name of its mesh file",
+            )
+        })?;
+        let flank_sets = self
+            .flank_sets
+            .as_deref()
+            .unwrap_or("tooth{tooth}_{side}_flank");
+        for part in ["{tooth}", "{side}"] {
+            if !flank_sets.contains(part) {
+                return Err(keys.error(
+                    "flank_sets",
+                    format!("found \"{flank_sets}\"; {part} must stand in it, as in \"tooth{{tooth}}_{{side}}_flank\""),
+                ));
+            }
+        }
+        // Beside the gear file, unless it is an absolute path.
+        let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
+        Ok(MeshedBody {
+            file: folder.join(file),
+            length_unit: self.length_unit.unwrap_or(LengthUnit::Metre),
+            bore_set: self.bore_set.clone().unwrap_or_else(|| "bore".into()),
+            flank_sets: flank_sets.into(),
+        })
+    }
+
+    fn check_contour(&self, keys: &TableKeys, room: &Room) -> Result<(Contour, Web), InputError> {
+        let hub_z_mm = self.hub_z_mm.ok_or_else(|| {
+            keys.error(
+                "hub_z_mm",
+                "missing; a contour needs [back, front] of its hub",
+            )
+        })?;
+        let room = ContourRoom {
+            bore_mm: self.bore_diameter_mm,
+            ring_mm: room.ring_diameter_mm,
+            width_mm: room.width_mm,
+        };
+        check_contour(keys, hub_z_mm, self.web.as_deref().unwrap_or(&[]), &room)
+    }
+
+    fn refuse_contour_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+        for (key, given) in [
+            ("hub_z_mm", self.hub_z_mm.is_some()),
+            ("web", self.web.is_some()),
+        ] {
+            if given {
+                return Err(
+                    keys.error(key, "only a blank of kind = \"contour\" uses it; remove it")
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse_mesh_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
+        for (key, given) in [
+            ("file", self.file.is_some()),
+            ("length_unit", self.length_unit.is_some()),
+            ("bore_set", self.bore_set.is_some()),
+            ("flank_sets", self.flank_sets.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(key, "only a blank of kind = \"mesh\" uses it; remove it"));
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse_web_keys(&self, keys: &TableKeys, blank: &str) -> Result<(), InputError> {
         for (key, value) in [
             ("hub_diameter_mm", self.hub_diameter_mm),
             ("rim_inner_diameter_mm", self.rim_inner_diameter_mm),
@@ -99,7 +232,7 @@ impl BlankTable {
             if value.is_some() {
                 return Err(keys.error(
                     key,
-                    "a solid blank does not use it; remove it or set kind = \"thin-rim\"",
+                    format!("{blank} does not use it; remove it or set kind = \"thin-rim\""),
                 ));
             }
         }

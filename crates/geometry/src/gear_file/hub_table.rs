@@ -15,6 +15,11 @@ pub(super) struct HubTable {
 }
 
 impl HubTable {
+    /// The support asked for, not yet checked.
+    pub(super) const fn support(&self) -> HubSupport {
+        self.support
+    }
+
     /// The support.
     pub(super) fn check(
         self,

@@ -41,6 +41,23 @@ impl MeshTable {
             )?;
             Ok::<f64, InputError>(size_mm * MM)
         };
+        if blank.meshed.is_some() {
+            for (key, given) in [
+                ("flank_mm", self.flank_mm.is_some()),
+                ("fillet_mm", self.fillet_mm.is_some()),
+                ("body_mm", self.body_mm.is_some()),
+                ("axial_mm", self.axial_mm.is_some()),
+                ("min_scaled_jacobian", self.min_scaled_jacobian.is_some()),
+                ("plane_strain", self.plane_strain),
+            ] {
+                if given {
+                    return Err(keys.error(
+                        key,
+                        "blank.kind = \"mesh\" has its elements in the mesh file and does not use it; remove it",
+                    ));
+                }
+            }
+        }
         if self.plane_strain && self.axial_mm.is_some() {
             return Err(keys.error(
                 "axial_mm",

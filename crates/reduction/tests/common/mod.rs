@@ -21,6 +21,17 @@ hub_diameter_mm = 20.0
 rim_inner_diameter_mm = 38.0
 web_thickness_mm = 4.0
 ";
+/// A conical web with a kink, off the middle, and a hub wider than the face on one side, narrower on the other.
+pub const CONTOUR: &str = "[blank]
+kind = \"contour\"
+bore_diameter_mm = 14.0
+hub_z_mm = [-8.0, 5.0]
+web = [
+  { diameter_mm = 20.0, z_mm = [-4.0, 1.0] },
+  { diameter_mm = 28.0, z_mm = [-2.5, 1.5] },
+  { diameter_mm = 38.0, z_mm = [-1.0, 2.0] },
+]
+";
 /// For [`THIN_RIM`]: sectors of six teeth.
 pub const SLOTS: &str = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
 

@@ -33,7 +33,14 @@ impl Host {
             Command::new("git")
                 .current_dir(root)
                 // The page itself is what this command changes.
-                .args(["status", "--porcelain", "--", ".", ":!docs/benchmarks"]),
+                .args([
+                    "status",
+                    "--porcelain",
+                    "--",
+                    ".",
+                    ":!docs/benchmarks",
+                    ":!docs/accuracy-cost.*",
+                ]),
         );
         Self {
             cpu: field(&read("/proc/cpuinfo"), "model name", ':').unwrap_or_else(unknown),

@@ -170,12 +170,12 @@ fn cells(figures: &Figures, all_loads: f64, reference_s: Option<f64>) -> Vec<Str
 }
 
 /// Text that stays in one cell.
-fn cell(text: &str) -> String {
+pub(super) fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
 /// `758043` as `758 043`.
-fn thousands(number: u64) -> String {
+pub(super) fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {

@@ -1,0 +1,295 @@
+//! The reduction of a gear that was meshed elsewhere.
+//!
+//! The whole gear is factorised and every tooth's own loads are solved: nothing is known of how the mesh repeats. Near field and
+//! C_tooth belong to a tooth's mesh and the model holds one of each; where teeth differ in mesh they are the means over the
+//! teeth, and the largest departure from them is kept as a check.
+//!
+//! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis and
+//! the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
+
+use crate::error_estimate::line_load;
+use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
+use crate::gauge_row::gauge_row;
+use crate::imported_error::{ImportedMeshError, PythonFailure};
+use crate::imported_mesh::ImportedMesh;
+use crate::near_field::calibration;
+use crate::reduce::{
+    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, assembled, asymmetry, by_blocks, checked, describe,
+    element_names,
+};
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::whole_gear::WholeGear;
+use crate::{Progress, ReductionError, flank_of};
+use gearmesh_fe::DofMap;
+use gearmesh_geometry::{FlankSide, GearDefinition, MeshedBody};
+use gearmesh_mesh::python::{PythonEnvironment, PythonError};
+use gearmesh_model::{FlankGrid, GaugeRows, MeshData, ReducedGear, read_mesh};
+use rayon::prelude::*;
+use std::path::Path;
+use std::time::Instant;
+
+const IMPORT_SCRIPT: &str = "import sys, gearmesh
+try:
+    gearmesh.import_mesh(sys.argv[1], sys.argv[2], sys.argv[3])
+except (ValueError, OSError) as error:
+    print(error, file=sys.stderr)
+    sys.exit(2 if isinstance(error, (ValueError, FileNotFoundError)) else 1)
+";
+
+/// Reads the mesh file of a definition; `scratch` is a file that may be written.
+///
+/// # Errors
+/// [`ReductionError::Imported`] when it cannot be read, or has elements that are not on offer.
+pub fn read_body(
+    body: &MeshedBody,
+    python: &PythonEnvironment,
+    scratch: &Path,
+) -> Result<MeshData, ReductionError> {
+    let arguments = [
+        &body.file.display().to_string(),
+        &scratch.display().to_string(),
+        body.length_unit.name(),
+    ];
+    let task = format!("reading {}", body.file.display());
+    python
+        .run(&task, IMPORT_SCRIPT, &arguments, b"")
+        .map_err(|error| match error {
+            PythonError::Failed { code, message, .. } => ImportedMeshError::Python(PythonFailure {
+                message,
+                input: code == Some(2),
+            })
+            .into(),
+            other => ReductionError::Mesh(other.into()),
+        })?;
+    read_mesh(scratch).map_err(|e| ImportedMeshError::Exchange(e.to_string()).into())
+}
+
+/// C_tooth and W of one tooth's flanks, one after another.
+struct ToothBlocks {
+    c_tooth: Vec<f64>,
+    plane: Vec<f64>,
+}
+
+/// Reduces a gear on a mesh from elsewhere. The mesh file, as [`read_body`] gives it, is checked against the definition.
+///
+/// # Errors
+/// [`ReductionError`] when the mesh is not the gear's, or not held, a gauge covers nothing, or an identity is violated by
+/// more than round-off explains.
+pub fn reduce_imported(
+    gear: &GearDefinition,
+    body: &MeshedBody,
+    mesh: MeshData,
+    progress: &dyn Progress,
+) -> Result<ReducedGear, ReductionError> {
+    let mut stage_seconds: Vec<(String, f64)> = Vec::new();
+    let mut clock = Instant::now();
+    let mut lap = |stages: &mut Vec<(String, f64)>, name: &str| {
+        stages.push((name.to_string(), clock.elapsed().as_secs_f64()));
+        clock = Instant::now();
+    };
+    progress.stage("checking the mesh");
+    let mesh = ImportedMesh::new(gear, body, mesh)?;
+    lap(&mut stage_seconds, "model");
+    let grid = flank_grid(gear);
+    let (flanks, teeth, count) = (&gear.reduction.flanks, gear.tooth.teeth, grid.len());
+    let loads: Vec<Vec<Vec<GridLoad>>> = (0..teeth)
+        .into_par_iter()
+        .map(|tooth| {
+            let of_side = |&side| flank_loads(gear, &mesh, &grid, tooth, side);
+            flanks.iter().map(of_side).collect()
+        })
+        .collect();
+    lap(&mut stage_seconds, "loads");
+
+    progress.stage("tooth submodels");
+    let blocks: Vec<ToothBlocks> = loads
+        .par_iter()
+        .enumerate()
+        .map(|(tooth, loads)| tooth_blocks(gear, &mesh, &grid, tooth, loads))
+        .collect::<Result<_, _>>()?;
+    let (c_tooth, _) = mean(blocks.iter().map(|b| &b.c_tooth[..]));
+    let (plane, spread) = mean(blocks.iter().map(|b| &b.plane[..]));
+    lap(&mut stage_seconds, "tooth submodel");
+    progress.stage("calibrating the near field");
+    let near_field = calibration(gear, mesh.cut.clone(), &mesh.model, plane)?;
+    lap(&mut stage_seconds, "near field");
+
+    let held: Vec<usize> = mesh.bore.iter().map(|&n| n as usize).collect();
+    let dofs = DofMap::with_fixed_nodes(mesh.model.node_count(), &held)?;
+    let whole = WholeGear::new(&mesh.model, &dofs, progress, &mut stage_seconds)?;
+    progress.stage("solving flank loads");
+    let mut clock = Instant::now();
+    let mut lap = |stages: &mut Vec<(String, f64)>, name: &str| {
+        stages.push((name.to_string(), clock.elapsed().as_secs_f64()));
+        clock = Instant::now();
+    };
+    let normals: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|load| &load.normal)
+        .collect();
+    let mut c_rows = Vec::with_capacity(normals.len() * normals.len());
+    whole.solve_each(&dofs, &normals, progress, |_, u| {
+        c_rows.par_extend(normals.par_iter().map(|v| dot(v, u)));
+    });
+    lap(&mut stage_seconds, "solve");
+
+    progress.stage("checking");
+    let symmetry = asymmetry(&c_rows, teeth, flanks.len(), teeth, count);
+    let first = (0, flanks[0]);
+    let deformation = Deformation::Spatial;
+    let submodel = ToothSubmodel::of_tooth(&mesh.model, &mesh, first, &loads[0][0], deformation)?;
+    let identity = crate::reduce::pattern_identity_of(
+        &submodel,
+        &normals[..count],
+        &c_rows,
+        normals.len(),
+        &blocks[0].c_tooth,
+        |loads, each| whole.solve_each(&dofs, loads, &crate::Silent, each),
+        |patterns| whole.energy_products(&dofs, patterns),
+    );
+    checked("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED)?;
+    checked("the pattern identity", identity, IDENTITY_ALLOWED)?;
+    let c_hub = by_blocks(&c_rows, teeth, flanks.len(), teeth, count);
+    lap(&mut stage_seconds, "checks");
+    let gauges = gauges(gear, &mesh, &loads, &whole, &dofs, progress)?;
+    lap(&mut stage_seconds, "gauges");
+    let effort = vec![
+        ("factorisations".to_string(), 1.0),
+        (
+            "right-hand sides".to_string(),
+            (normals.len() + gauges.len()) as f64,
+        ),
+        (
+            "DOF of the whole gear".to_string(),
+            dofs.free_count() as f64,
+        ),
+    ];
+    let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
+    let provenance = &mut reduced.provenance;
+    provenance.element = element_names(&mesh.model);
+    provenance.nodes = mesh.model.node_count();
+    provenance.elements = mesh.model.element_count();
+    provenance.dofs = dofs.free_count();
+    provenance.stage_seconds = stage_seconds;
+    provenance.effort = effort;
+    reduced.checks.symmetry = symmetry;
+    reduced.checks.pattern_identity = identity;
+    reduced.checks.further = vec![(
+        "spread of the near field over the teeth".to_string(),
+        spread,
+    )];
+    Ok(reduced)
+}
+
+/// C_tooth, `[flank][load][response]`, and W, `[flank][load station][response station]`, of one tooth.
+fn tooth_blocks(
+    gear: &GearDefinition,
+    mesh: &ImportedMesh,
+    grid: &FlankGrid,
+    tooth: usize,
+    loads: &[Vec<GridLoad>],
+) -> Result<ToothBlocks, ReductionError> {
+    let count = grid.len();
+    let mut blocks = ToothBlocks {
+        c_tooth: Vec::new(),
+        plane: Vec::new(),
+    };
+    for (&side, loads) in gear.reduction.flanks.iter().zip(loads) {
+        let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
+        let products = |deformation| {
+            ToothSubmodel::of_tooth(&mesh.model, mesh, (tooth, side), loads, deformation)
+                .map(|submodel| submodel.products(&rows))
+        };
+        // [response][load]; the file holds [load][response].
+        let spatial = products(Deformation::Spatial)?;
+        let spatial = (0..count * count).map(|k| spatial[(k % count) * count + k / count]);
+        blocks.c_tooth.extend(spatial);
+        let plane = products(Deformation::PlaneStrain)?;
+        let stations = grid.roll_angles_rad.len();
+        for load in 0..stations {
+            for response in 0..stations {
+                let sum: f64 = line_load(grid, load)
+                    .into_iter()
+                    .flat_map(|(l, a)| {
+                        line_load(grid, response)
+                            .into_iter()
+                            .map(move |(m, b)| (l, m, a * b))
+                    })
+                    .map(|(l, m, share)| share * plane[m * count + l])
+                    .sum();
+                // One newton over the width is a line load of 1/width.
+                blocks.plane.push(sum * gear.tooth.face_width_m);
+            }
+        }
+    }
+    Ok(blocks)
+}
+
+/// Mean of equally long lists, and the largest departure from it relative to the largest value.
+fn mean<'a>(lists: impl Iterator<Item = &'a [f64]> + Clone) -> (Vec<f64>, f64) {
+    let n = lists.clone().count() as f64;
+    let mut mean: Vec<f64> = Vec::new();
+    for list in lists.clone() {
+        mean.resize(list.len(), 0.0);
+        mean.iter_mut().zip(list).for_each(|(m, v)| *m += v / n);
+    }
+    let largest = mean.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let departure = lists
+        .flat_map(|list| list.iter().zip(&mean).map(|(v, m)| (v - m).abs()))
+        .fold(0.0, f64::max);
+    (mean, departure / largest)
+}
+
+/// One adjoint solution per gauge, read at the loads of every tooth; and gᵀW on its own tooth.
+fn gauges(
+    gear: &GearDefinition,
+    mesh: &ImportedMesh,
+    loads: &[Vec<Vec<GridLoad>>],
+    whole: &WholeGear,
+    dofs: &DofMap,
+    progress: &dyn Progress,
+) -> Result<Vec<GaugeRows>, ReductionError> {
+    let rows: Vec<SparseVector> = gear
+        .gauges
+        .iter()
+        .map(|g| gauge_row(gear, mesh, &mesh.model, g, g.tooth))
+        .collect::<Result<_, _>>()?;
+    let directions: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flatten()
+        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
+        .collect();
+    let mut adjoints: Vec<Vec<f64>> = Vec::new();
+    let references: Vec<&SparseVector> = rows.iter().collect();
+    whole.solve_each(dofs, &references, progress, |_, y| {
+        adjoints.push(directions.par_iter().map(|v| dot(v, y)).collect());
+    });
+    let own_tooth = |tooth: usize, row: &SparseVector| -> Result<Vec<f64>, ReductionError> {
+        let mut products = Vec::new();
+        for (&side, loads) in gear.reduction.flanks.iter().zip(&loads[tooth]) {
+            let place: (usize, FlankSide) = (tooth, side);
+            let submodel =
+                ToothSubmodel::of_tooth(&mesh.model, mesh, place, loads, Deformation::Spatial)?;
+            products.extend(submodel.products(&[row]));
+        }
+        Ok(products)
+    };
+    gear.gauges
+        .iter()
+        .zip(adjoints.into_iter().zip(&rows))
+        .map(|(gauge, (adjoint, row))| {
+            Ok(GaugeRows {
+                name: gauge.name.clone(),
+                tooth: gauge.tooth,
+                side: flank_of(gauge.side),
+                description: describe(gauge),
+                error_estimate_relative: 0.0,
+                adjoint,
+                own_tooth: own_tooth(gauge.tooth, row)?,
+            })
+        })
+        .collect()
+}

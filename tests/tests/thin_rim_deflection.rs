@@ -1,0 +1,151 @@
+//! What a thin rim adds to the deflection: the gear less the same gear with a solid blank, on the loaded tooth, the next two on either
+//! side and the opposite one. Converged on the default mesh, and the program's estimate of its error is of the right size.
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_model::{Flank, ReducedGear, ReductionChecks};
+use gearmesh_reduction::{ReductionOptions, Silent, reduce};
+use std::path::Path;
+
+/// Element lengths of the comparison over the default's.
+const REFINEMENT: f64 = 1.5;
+
+/// A gear with few loads, all default element lengths times `factor`; without gauges.
+fn reduced(text: &str, factor: f64, estimate_error: bool) -> ReducedGear {
+    let parse = |text: String| {
+        GearDefinition::from_document(&InputDocument::new("gear.toml", text)).unwrap()
+    };
+    let text = text.split("[[gauge]]").next().unwrap().replace(
+        "flanks = [\"right\"]",
+        "flanks = [\"right\"]\nslices = 2\nroll_stations = 3",
+    );
+    let defaults = parse(text.clone()).mesh;
+    let keys = [
+        ("flank", defaults.flank_m),
+        ("fillet", defaults.fillet_m),
+        ("body", defaults.body_m),
+        ("axial", defaults.axial_m),
+    ];
+    let lengths: String = (keys.iter())
+        .map(|(key, m)| format!("{key}_mm = {}\n", 1e3 * factor * m))
+        .collect();
+    let gear = parse(format!("{text}\n[mesh]\n{lengths}"));
+    let python = PythonEnvironment::find().unwrap();
+    reduce(&gear, &python, ReductionOptions { estimate_error }, &Silent)
+        .unwrap()
+        .0
+}
+
+/// Teeth from the loaded one at which the deflection is read.
+fn steps(teeth: usize) -> [usize; 6] {
+    [0, 1, teeth - 1, 2, teeth - 2, teeth / 2]
+}
+
+/// Deflection \[m/N\] in the middle of the flank at [`steps`] from `tooth`, uniform load there; C_g on the loaded tooth.
+fn deflections(gear: &ReducedGear, tooth: usize) -> [f64; 6] {
+    let grid = &gear.grid;
+    let (station, n) = (grid.roll_angles_rad.len() / 2, grid.z_m.len());
+    let share = |j: usize| if j == 0 || j == n - 1 { 0.5 } else { 1.0 } / (n - 1) as f64;
+    steps(gear.teeth).map(|step| {
+        let other = (tooth + step) % gear.teeth;
+        let block = gear.c_g_block(tooth, Flank::Right, other, Flank::Right);
+        (0..n * n)
+            .map(|k| {
+                let (i, j) = (k / n, k % n);
+                share(i)
+                    * share(j)
+                    * block[grid.load(station, i) * grid.len() + grid.load(station, j)]
+            })
+            .sum()
+    })
+}
+
+/// The same gear with a solid blank.
+fn solid(text: &str) -> String {
+    let (tooth, rest) = text.split_once("[blank]").unwrap();
+    let material = rest.split_once("[material]").unwrap().1;
+    let bore = rest
+        .lines()
+        .find(|l| l.starts_with("bore_diameter_mm"))
+        .unwrap();
+    format!("{tooth}[blank]\nkind = \"solid\"\n{bore}\n\n[material]{material}")
+}
+
+/// Prints what is still missing after the finer of two meshes by an error of first order, relative; the largest.
+fn missing(name: &str, coarse: [f64; 6], fine: [f64; 6]) -> f64 {
+    let shares: Vec<f64> = (coarse.iter().zip(&fine))
+        .map(|(c, f)| (f - c).abs() / (REFINEMENT - 1.0) / f)
+        .collect();
+    let text: Vec<String> = (fine.iter().zip(&shares))
+        .map(|(f, s)| format!("{:.4} ({:.2} %)", 1e9 * f, 100.0 * s))
+        .collect();
+    println!("{name}: {} nm/N", text.join(", "));
+    shares.into_iter().fold(0.0, f64::max)
+}
+
+fn less(a: [f64; 6], b: [f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn thin_less_solid_is_converged(text: &str, teeth: &[usize]) {
+    let blank = solid(text);
+    let thin = [REFINEMENT, 1.0].map(|factor| reduced(text, factor, false));
+    let solid = [REFINEMENT, 1.0].map(|factor| reduced(&blank, factor, false));
+    for &tooth in teeth {
+        let [coarse, fine] =
+            [0, 1].map(|k| less(deflections(&thin[k], tooth), deflections(&solid[k], tooth)));
+        let worst = missing(&format!("tooth {tooth}"), coarse, fine);
+        assert!(worst < 0.01, "tooth {tooth}: {worst}");
+    }
+}
+
+fn shipped(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fe_models");
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+#[test]
+#[ignore = "gear 2 and its solid blank on two meshes each: half a minute on two quiet cores; run with --ignored"]
+fn gear_2_is_converged_to_one_per_cent() {
+    thin_less_solid_is_converged(&shipped("gear2.toml"), &[0]);
+}
+
+/// Tooth 0 stands over a spoke, teeth 9 and 10 on either side of the middle of a slot.
+#[test]
+#[ignore = "gear 3 and its solid blank on two meshes each: a minute on two quiet cores; run with --ignored"]
+fn gear_3_is_converged_to_one_per_cent_over_a_spoke_and_over_a_slot() {
+    thin_less_solid_is_converged(&shipped("gear3.toml"), &[0, 9, 10]);
+}
+
+/// The program's estimate for a small thin rim against a mesh finer by 1.5, from which the error left is extrapolated.
+#[test]
+fn the_estimate_is_of_the_size_of_the_error() {
+    let small = "name = \"small\"\n[tooth]\nteeth = 18\nmodule_mm = 3.0\nface_width_mm = 15.0\n[blank]\nkind = \"thin-rim\"\n\
+                 bore_diameter_mm = 16.0\nhub_diameter_mm = 24.0\nrim_inner_diameter_mm = 40.0\nweb_thickness_mm = 5.0\n\
+                 [material]\nyoung_GPa = 210.0\npoisson = 0.3\n[reduction]\nflanks = [\"right\"]\n";
+    let default = reduced(small, 1.0, true);
+    let fine = reduced(small, 1.0 / REFINEMENT, false);
+    let (a, b) = (deflections(&default, 0), deflections(&fine, 0));
+    // Default to fine is a third of the default's length: of the error of first order, too.
+    let errors: Vec<f64> = (a.iter().zip(b))
+        .map(|(a, b)| ((b - a) / (1.0 - 1.0 / REFINEMENT) / b).abs())
+        .collect();
+    let stated = |name| default.checks.further(name).unwrap();
+    let others = errors[1..].iter().fold(0.0, |worst: f64, e| worst.max(*e));
+    for (estimate, error) in [
+        (stated(ReductionChecks::LOADED_TOOTH_ERROR), errors[0]),
+        (stated(ReductionChecks::OTHER_TEETH_ERROR), others),
+    ] {
+        println!(
+            "estimate {:.2} %, error {:.2} %",
+            100.0 * estimate,
+            100.0 * error
+        );
+        assert!(
+            estimate > error / 3.0 && estimate < 3.0 * error,
+            "{estimate} {error}"
+        );
+    }
+}
