@@ -9,6 +9,7 @@
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
+//! | forces of slices at given separations | [`SliceContact`] | `slice_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
@@ -27,6 +28,7 @@ pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod roll_shares;
 pub mod slice_compliance;
+pub mod slice_contact;
 pub mod slice_spread;
 pub mod static_contact;
 pub mod tip_contact;
@@ -36,5 +38,6 @@ pub use contact_slices::ContactSlice;
 pub use local_contact::LocalContact;
 pub use roll_shares::{RollHats, RollPlace};
 pub use slice_compliance::SliceCompliance;
+pub use slice_contact::SliceContact;
 pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};
 pub use tip_contact::{PathExtension, TipContact, TipGear};

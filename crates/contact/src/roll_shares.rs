@@ -17,6 +17,10 @@
 //!
 //! Hats are taken over the flank's area, r_b ξ dξ per width, as the loads are.
 
+/// Step \[rad\] over which shares are differenced; they are cubic between centroids some hundredths apart, so that 1e-5 of that is
+/// right to 1e-9.
+const RATE_STEP_RAD: f64 = 1e-6;
+
 /// The hats of the roll stations: their moments in roll angle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RollHats {
@@ -86,6 +90,25 @@ impl RollHats {
     /// Roll angles of the hats' centroids.
     pub fn centroids_rad(&self) -> &[f64] {
         &self.centroids_rad
+    }
+
+    /// How the shares at a roll angle change with it: `shares` are derivatives \[1/rad\]. Where one hat hands over to the next it is
+    /// the derivative of the side that has the stations of the place itself.
+    pub fn share_rates(&self, roll_rad: f64) -> RollPlace {
+        let here = self.place(roll_rad);
+        let on_same_stations = |step: f64| {
+            let there = self.place(roll_rad + step);
+            if there.first == here.first {
+                (there, step)
+            } else {
+                (here, 0.0)
+            }
+        };
+        let (after, ahead) = on_same_stations(RATE_STEP_RAD);
+        let (before, behind) = on_same_stations(-RATE_STEP_RAD);
+        let shares =
+            std::array::from_fn(|k| (after.shares[k] - before.shares[k]) / (ahead - behind));
+        RollPlace { shares, ..here }
     }
 
     /// Where a roll angle lies, and the shares of a force there.
@@ -175,6 +198,24 @@ mod tests {
                 share * sum / force
             })
             .sum()
+    }
+
+    #[test]
+    fn share_rates_are_the_slopes_of_the_shares() {
+        let hats = RollHats::new(&stations(9));
+        let c = hats.centroids_rad();
+        for k in 0..=40 {
+            // Beyond the outermost centroids, between them and on them.
+            let roll = c[0] - 0.01 + (c[8] - c[0] + 0.02) * f64::from(k) / 40.0;
+            let rates = hats.share_rates(roll);
+            let sum: f64 = rates.shares().map(|(_, rate)| rate).sum();
+            let moment: f64 = rates.shares().map(|(i, rate)| rate * c[i]).sum();
+            // No force appears, and its place moves with the roll angle.
+            assert!(
+                sum.abs() < 1e-8 && (moment - 1.0).abs() < 1e-8,
+                "{sum} {moment}"
+            );
+        }
     }
 
     #[test]

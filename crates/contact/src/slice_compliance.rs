@@ -267,6 +267,41 @@ impl SliceCompliance {
         }
     }
 
+    /// F_aᵀ (∂/∂ξ_a Φ_aᵀ C Φ_b) F_b \[J/rad\]: how the work of the forces on line b along the deflections of line a changes as a's place
+    /// `roll_a` moves. On one and the same line it is the change of ½ FᵀCF, the calibrated correction's part between neighbours
+    /// included.
+    pub fn energy_rate(
+        &self,
+        (tooth_a, roll_a, forces_a): (usize, f64, &[f64]),
+        (tooth_b, place_b, forces_b): (usize, RollPlace, &[f64]),
+    ) -> f64 {
+        let size = self.stations * self.slices;
+        let tooth = tooth_a % self.teeth_per_sector;
+        let response = (tooth_b + self.teeth - (tooth_a - tooth)) % self.teeth;
+        let block = tooth * self.teeth + response;
+        let table = &self.blocks[block * size * size..(block + 1) * size * size];
+        let n = self.slices;
+        let mut rate = 0.0;
+        for (sa, wa) in self.hats.share_rates(roll_a).shares() {
+            for (sb, wb) in place_b.shares() {
+                let first = sa * n * size + sb * n;
+                let rows = table[first..].chunks(size).zip(forces_a);
+                let work = rows.map(|(row, force)| {
+                    let along = row.iter().zip(forces_b);
+                    force * along.map(|(c, f)| c * f).sum::<f64>()
+                });
+                rate += wa * wb * work.sum::<f64>();
+            }
+        }
+        if tooth_a == tooth_b && !self.spread.is_empty() {
+            let step = 1e-6;
+            let [after, before] = [step, -step].map(|s| self.spread_at(self.place(roll_a + s)));
+            let unlike: f64 = forces_a.windows(2).map(|f| (f[1] - f[0]).powi(2)).sum();
+            rate -= 0.25 * (after - before) / step * unlike;
+        }
+        rate
+    }
+
     /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\]; zero where there is none.
     fn spread_at(&self, place: RollPlace) -> f64 {
         if self.spread.is_empty() {

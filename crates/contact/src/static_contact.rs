@@ -12,13 +12,9 @@ use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_slices::ContactSlice;
 use crate::hertz;
 use crate::local_contact::LocalContact;
-use crate::nlcp::{
-    ContactBody, EdgeContact, FLOOR_FRACTION, Info, LineContact, LocalLaw, LocalLawError,
-    NlcpError, Params, Problem, Workspace, solve_load, solve_position,
-};
-use crate::slice_compliance::{PlacedSlice, SliceCompliance};
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
+use crate::nlcp::{FLOOR_FRACTION, Info, LocalLawError, NlcpError};
+use crate::slice_contact::{Given, Separations, SliceContact};
+use gearmesh_model::{ReducedGear, ReducedGearError};
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,24 +109,15 @@ pub struct ContactState {
 /// Contact of two reduced gears, with all memory it needs.
 #[derive(Debug, Clone)]
 pub struct StaticContact {
-    lines: ContactLines,
-    compliance_1: SliceCompliance,
-    compliance_2: SliceCompliance,
-    options: ContactOptions,
-    params: Params,
+    slices: SliceContact,
+    friction: Option<Friction>,
     active: Vec<ContactLine>,
     touching: Vec<ContactSlice>,
-    placed: Vec<[PlacedSlice; 2]>,
     forces: Vec<f64>,
-    c: Vec<f64>,
-    /// Hertz contact of each touching slice, and the edge where it is one.
-    hertz: Vec<(LineContact, Option<EdgeContact>)>,
-    local: Vec<LocalLaw>,
     separation: Vec<f64>,
     closing: Vec<f64>,
     lever_2: Vec<f64>,
     lever_1: Vec<f64>,
-    work: Workspace,
 }
 
 impl StaticContact {
@@ -144,66 +131,29 @@ impl StaticContact {
         gear_2: &ReducedGear,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
-        if lines.pair.is_helical() && lines.extension.is_some() {
-            return Err(ContactError::HelicalExtension);
-        }
-        let flank = match lines.pair.flank {
-            FlankSide::Right => Flank::Right,
-            FlankSide::Left => Flank::Left,
-        };
-        for (gear, model, needed) in [
-            (1, gear_1, lines.pair.gear_1.teeth),
-            (2, gear_2, lines.pair.gear_2.teeth),
-        ] {
-            if model.teeth != needed {
-                return Err(ContactError::Teeth {
-                    gear,
-                    found: model.teeth,
-                    needed,
-                });
-            }
-        }
-        let compliance_1 = SliceCompliance::new(gear_1, flank, options.local)?;
-        let compliance_2 = SliceCompliance::new(gear_2, flank, options.local)?;
-        let (w1, w2) = (compliance_1.slice_width_m(), compliance_2.slice_width_m());
-        if compliance_1.slices() != compliance_2.slices() || (w1 - w2).abs() > 1e-9 * w1 {
-            return Err(ContactError::Slices {
-                slices_1: compliance_1.slices(),
-                slices_2: compliance_2.slices(),
-                width_1_mm: w1 * 1e3,
-                width_2_mm: w2 * 1e3,
-            });
-        }
-        let capacity = (lines.most_pairs() + 1) * compliance_1.slices();
+        let slices = SliceContact::new(lines, gear_1, gear_2, options.local)?;
+        let capacity = slices.capacity();
         Ok(Self {
-            lines,
-            compliance_1,
-            compliance_2,
-            options,
-            params: Params::default(),
+            slices,
+            friction: options.friction,
             active: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(capacity),
-            placed: Vec::with_capacity(capacity),
             forces: Vec::with_capacity(capacity),
-            c: vec![0.0; capacity * capacity],
-            hertz: Vec::with_capacity(capacity),
-            local: Vec::with_capacity(capacity),
             separation: Vec::with_capacity(capacity),
             closing: Vec::with_capacity(capacity),
             lever_2: Vec::with_capacity(capacity),
             lever_1: Vec::with_capacity(capacity),
-            work: Workspace::new(capacity),
         })
     }
 
     /// Slices per contact line.
     pub fn slices(&self) -> usize {
-        self.compliance_1.slices()
+        self.slices.slices()
     }
 
     /// Width of a slice \[m\].
     pub fn slice_width_m(&self) -> f64 {
-        self.compliance_1.slice_width_m()
+        self.slices.slice_width_m()
     }
 
     /// Contact lines of the last position, in the order of the forces.
@@ -228,7 +178,7 @@ impl StaticContact {
 
     /// Forgets the last solution: the next position starts cold.
     pub fn reset(&mut self) {
-        self.work.reset();
+        self.slices.reset();
     }
 
     /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the active slice with this number under a
@@ -238,36 +188,10 @@ impl StaticContact {
     /// # Panics
     /// If there is no such slice.
     pub fn hertz(&self, active_slice: usize, force_n: f64) -> (f64, f64) {
-        let (contact, edge) = self.hertz[active_slice];
+        let (contact, edge) = self.slices.hertz(active_slice);
         let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
         let a = contact.half_width_m(force_n) * share;
         (a, hertz::peak_pressure_pa(force_n / contact.width_m, a))
-    }
-
-    fn edge(&self, line: &ContactLine, contact: &LineContact) -> Option<EdgeContact> {
-        let (tilt_rad, radius_m) = self.lines.edge(line)?;
-        EdgeContact::new(contact, tilt_rad, radius_m)
-    }
-
-    fn line_contact(&self, slice: &ContactSlice) -> LineContact {
-        let line = &slice.section;
-        let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
-        let body = |compliance: &SliceCompliance, roll: f64| {
-            let (youngs_modulus_pa, poisson_ratio) = compliance.material();
-            ContactBody {
-                youngs_modulus_pa,
-                poisson_ratio,
-                depth_m: compliance.local_depth_m(roll, slice.share),
-            }
-        };
-        LineContact {
-            width_m: slice.share * self.slice_width_m() / helix_cos,
-            relative_radius_m: self.lines.relative_radius_m(line),
-            bodies: [
-                body(&self.compliance_1, line.roll_1_rad),
-                body(&self.compliance_2, line.roll_2_rad),
-            ],
-        }
     }
 
     /// Solves one position. Lines and forces are left in [`StaticContact::active_lines`] and
@@ -280,93 +204,51 @@ impl StaticContact {
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
-        self.lines.at(driver_angle_rad, &mut self.active);
-        let (centres, width) = (
-            self.compliance_1.slice_centres_m(),
-            self.compliance_1.slice_width_m(),
-        );
+        let lines = self.slices.lines();
+        lines.at(driver_angle_rad, &mut self.active);
+        let (centres, width) = (self.slices.slice_centres_m(), self.slices.slice_width_m());
         self.touching.clear();
         for line in self.active.iter().enumerate() {
-            self.lines
-                .push_slices(line, centres, width, &mut self.touching);
+            lines.push_slices(line, centres, width, &mut self.touching);
         }
-        let n = self.touching.len();
-        if self.lines.pair.is_helical() {
-            self.fill_compliance_by_slices();
-        } else {
-            self.fill_compliance_by_lines();
-        }
-
-        let base_2 = self.lines.pair.gear_2.base_radius_m;
-        let scale_force = match drive {
-            Drive::Torque(torque) => torque.abs() / (base_2 * n as f64),
-            Drive::TransmissionError(_) => 0.0,
-        };
-        let floor = FLOOR_FRACTION * scale_force.max(1.0);
-        self.hertz.clear();
-        self.local.clear();
         self.separation.clear();
         self.closing.clear();
         self.lever_1.clear();
         self.lever_2.clear();
-        let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
         for slice in &self.touching {
             let line = &slice.section;
-            let (hertz, law) = match last {
-                // The slices of a spur line are all alike.
-                Some((number, hertz, law))
-                    if number == slice.line && !self.lines.pair.is_helical() =>
-                {
-                    (hertz, law)
-                }
-                _ => {
-                    let contact = self.line_contact(slice);
-                    let edge = self.edge(line, &contact);
-                    let law = (self.options.local)
-                        .law(&contact, floor)
-                        .map_err(|cause| ContactError::LocalLaw {
-                            angle_deg: driver_angle_rad.to_degrees(),
-                            cause,
-                        })?
-                        .with_edge(edge);
-                    ((contact, edge), law)
-                }
-            };
-            last = Some((slice.line, hertz, law));
-            let friction = self.options.friction.map_or(0.0, |f| f.ratio(line.path_m));
-            let [lever_1, lever_2] = self.lines.lever_arms_m(line, friction);
-            self.hertz.push(hertz);
-            self.local.push(law);
-            self.separation
-                .push(self.lines.separation_m(line, slice.z_m));
-            self.closing.push(self.lines.closing(line));
+            let friction = self.friction.map_or(0.0, |f| f.ratio(line.path_m));
+            let [lever_1, lever_2] = lines.lever_arms_m(line, friction);
+            self.separation.push(lines.separation_m(line, slice.z_m));
+            self.closing.push(lines.closing(line));
             self.lever_1.push(lever_1);
             self.lever_2.push(lever_2);
         }
-        let nlcp = |cause| ContactError::Nlcp {
-            angle_deg: driver_angle_rad.to_degrees(),
-            cause,
+        let base_2 = lines.pair.gear_2.base_radius_m;
+        let axial_share_1 = lines.axial_share_1();
+        let scale_force = match drive {
+            Drive::Torque(torque) => torque.abs() / (base_2 * self.touching.len() as f64),
+            Drive::TransmissionError(_) => 0.0,
         };
-        let problem = Problem::new(
-            &self.c[..n * n],
-            &self.local,
-            &self.separation,
-            &self.closing,
-            &self.lever_2,
-        )
-        .map_err(nlcp)?;
-        let unloaded_m = -problem.first_contact();
-        let info = match drive {
-            Drive::Torque(torque) => solve_load(&problem, torque, &self.params, &mut self.work),
-            Drive::TransmissionError(te) => {
-                solve_position(&problem, -te, &self.params, &mut self.work)
-            }
-        }
-        .map_err(nlcp)?;
-        let forces = self.work.forces();
+        let floor = FLOOR_FRACTION * scale_force.max(1.0);
+        let angle_deg = driver_angle_rad.to_degrees();
+        (self.slices.prepare(&self.active, &self.touching, floor))
+            .map_err(|(cause, _)| ContactError::LocalLaw { angle_deg, cause })?;
+        let separations = Separations {
+            separation_m: &self.separation,
+            closing: &self.closing,
+            lever_m: &self.lever_2,
+        };
+        let given = match drive {
+            Drive::Torque(torque) => Given::Load(torque),
+            Drive::TransmissionError(te) => Given::Approach(-te),
+        };
+        let (first_contact, info) = (self.slices.solve(separations, given))
+            .map_err(|cause| ContactError::Nlcp { angle_deg, cause })?;
+        let forces = self.slices.forces_n();
         let torque_1_nm = forces.iter().zip(&self.lever_1).map(|(f, b)| f * b).sum();
-        let axial_force_1_n = self.lines.axial_share_1() * forces.iter().sum::<f64>();
-        let slices = self.compliance_1.slices();
+        let axial_force_1_n = axial_share_1 * forces.iter().sum::<f64>();
+        let slices = self.slices.slices();
         self.forces.clear();
         self.forces.resize(self.active.len() * slices, 0.0);
         for (slice, force) in self.touching.iter().zip(forces) {
@@ -374,96 +256,12 @@ impl StaticContact {
         }
         Ok(ContactState {
             transmission_error_m: -info.approach_m,
-            unloaded_m,
+            unloaded_m: -first_contact,
             torque_2_nm: info.load,
             torque_1_nm,
             axial_force_1_n,
             torque_rate_n: info.stiffness,
             info,
         })
-    }
-
-    /// C of slices that share the place of their line, block by block.
-    fn fill_compliance_by_lines(&mut self) {
-        let slices = self.slices();
-        let n = self.active.len() * slices;
-        let c = &mut self.c[..n * n];
-        c.fill(0.0);
-        for (i, a) in self.active.iter().enumerate() {
-            for (j, b) in self.active.iter().enumerate() {
-                let first = i * slices * n + j * slices;
-                for (gear, compliance, of) in [
-                    (
-                        0,
-                        &self.compliance_1,
-                        [(a.tooth_1, a.roll_1_rad), (b.tooth_1, b.roll_1_rad)],
-                    ),
-                    (
-                        1,
-                        &self.compliance_2,
-                        [(a.tooth_2, a.roll_2_rad), (b.tooth_2, b.roll_2_rad)],
-                    ),
-                ] {
-                    let [(tooth_a, roll_a), (tooth_b, roll_b)] = of;
-                    let places = (compliance.place(roll_a), compliance.place(roll_b));
-                    let along_normals = a.tilt_rad(gear).cos() * b.tilt_rad(gear).cos();
-                    compliance.add_block(
-                        (tooth_a, places.0),
-                        (tooth_b, places.1),
-                        along_normals,
-                        c,
-                        first,
-                        n,
-                    );
-                }
-            }
-        }
-        symmetrise(c, n);
-    }
-
-    /// C of slices that each have their own place, entry by entry.
-    fn fill_compliance_by_slices(&mut self) {
-        let n = self.touching.len();
-        let gears = [&self.compliance_1, &self.compliance_2];
-        self.placed.clear();
-        self.placed.extend(self.touching.iter().map(|s| {
-            let line = &s.section;
-            let placed = |gear: usize, tooth: usize, roll: f64| PlacedSlice {
-                tooth,
-                slice: s.slice,
-                place: gears[gear].place(roll),
-            };
-            [
-                placed(0, line.tooth_1, line.roll_1_rad),
-                placed(1, line.tooth_2, line.roll_2_rad),
-            ]
-        }));
-        let c = &mut self.c[..n * n];
-        for (i, a) in self.placed.iter().enumerate() {
-            for (j, b) in self.placed.iter().enumerate() {
-                c[i * n + j] =
-                    gears[0].between_slices(a[0], b[0]) + gears[1].between_slices(a[1], b[1]);
-            }
-        }
-        symmetrise(c, n);
-        if self.options.local == LocalContact::None {
-            // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
-            // compliance grows instead.
-            for (i, slice) in self.touching.iter().enumerate() {
-                c[i * n + i] /= slice.share;
-            }
-        }
-    }
-}
-
-/// The blocks between two teeth are stored for each of them as load and as response; they agree to the round-off of
-/// the reduction, and the solver wants them equal.
-fn symmetrise(c: &mut [f64], n: usize) {
-    for i in 0..n {
-        for j in 0..i {
-            let mean = 0.5 * (c[i * n + j] + c[j * n + i]);
-            c[i * n + j] = mean;
-            c[j * n + i] = mean;
-        }
     }
 }

@@ -70,6 +70,24 @@ impl Microgeometry {
         };
         profile + relief + lead
     }
+
+    /// ∂e/∂ξ \[m/rad\], the slope of [`Microgeometry::removed_m`] along the profile.
+    pub fn removed_slope_m_per_rad(&self, roll_rad: f64) -> f64 {
+        let profile = self.profile_crowning.map_or(0.0, |c| {
+            let span = self.tip_roll_rad - c.centre_roll_rad;
+            2.0 * c.amount_m * (roll_rad - c.centre_roll_rad) / (span * span)
+        });
+        let relief = self.tip_relief.map_or(0.0, |r| {
+            let span = self.tip_roll_rad - r.start_roll_rad;
+            let s = (roll_rad - r.start_roll_rad) / span;
+            match r.shape {
+                _ if s <= 0.0 => 0.0,
+                ReliefShape::Linear => r.amount_m / span,
+                ReliefShape::Parabolic => 2.0 * r.amount_m * s / span,
+            }
+        });
+        profile + relief
+    }
 }
 
 #[cfg(test)]
@@ -109,5 +127,10 @@ mod tests {
             "lead crowning plus half the slope"
         );
         assert!((relief.removed_m(0.1, -0.01) - 1e-6).abs() < 1e-18);
+        for (gear, roll) in [(&flank, 0.33), (&relief, 0.3), (&relief, 0.47)] {
+            let change = gear.removed_m(roll + 1e-6, 0.002) - gear.removed_m(roll - 1e-6, 0.002);
+            let slope = gear.removed_slope_m_per_rad(roll);
+            assert!((change / 2e-6 - slope).abs() < 1e-12, "{slope}");
+        }
     }
 }

@@ -362,8 +362,8 @@ impl LocalLaw {
         force_n * self.deflection(force_n) - self.complementary_energy(force_n)
     }
 
-    /// `∫₀^F δ dF` \[J\].
-    fn complementary_energy(&self, force_n: f64) -> f64 {
+    /// Complementary energy `∫₀^F δ dF` \[J\].
+    pub fn complementary_energy(&self, force_n: f64) -> f64 {
         if self.beta == 0.0 {
             return 0.5 * self.alpha * force_n * force_n;
         }

@@ -1,0 +1,408 @@
+//! The slices of two reduced gears that face each other: compliance, local laws and the forces at given separations.
+//!
+//! This is what the static contact and the gear mesh of a multibody system share: it is told which lines and slices face each other and
+//! how far apart they stand, and does not ask where that comes from.
+
+use crate::contact_lines::{ContactLine, ContactLines};
+use crate::contact_slices::ContactSlice;
+use crate::local_contact::LocalContact;
+use crate::nlcp::{
+    ContactBody, EdgeContact, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
+    Problem, Workspace, solve_load, solve_position,
+};
+use crate::slice_compliance::{PlacedSlice, SliceCompliance};
+use crate::static_contact::ContactError;
+use gearmesh_geometry::FlankSide;
+use gearmesh_model::{Flank, ReducedGear};
+
+/// Change of the roll angle \[rad\] over which the energy of the local laws is differenced: smooth but for kinks at the roll stations.
+const ROLL_STEP_RAD: f64 = 1e-5;
+
+/// What is given besides the separations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Given {
+    /// Load Σ b F \[N·m\]; the approach follows.
+    Load(f64),
+    /// Approach \[m\]; the load follows.
+    Approach(f64),
+}
+
+/// Separations of the slices, how fast they close, and the levers of their forces; see [`crate::nlcp`].
+#[derive(Debug, Clone, Copy)]
+pub struct Separations<'a> {
+    /// e \[m\], open positive.
+    pub separation_m: &'a [f64],
+    /// w.
+    pub closing: &'a [f64],
+    /// b \[m\].
+    pub lever_m: &'a [f64],
+}
+
+/// Two reduced gears in contact, with all memory that a solve needs.
+#[derive(Debug, Clone)]
+pub struct SliceContact {
+    lines: ContactLines,
+    compliance_1: SliceCompliance,
+    compliance_2: SliceCompliance,
+    local_contact: LocalContact,
+    params: Params,
+    placed: Vec<[PlacedSlice; 2]>,
+    c: Vec<f64>,
+    /// Hertz contact of each touching slice, and the edge where it is one.
+    hertz: Vec<(LineContact, Option<EdgeContact>)>,
+    local: Vec<LocalLaw>,
+    work: Workspace,
+}
+
+impl SliceContact {
+    /// Prepares the contact of two gears on the flanks that the pair names.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the models do not fit the pair or each other.
+    pub fn new(
+        lines: ContactLines,
+        gear_1: &ReducedGear,
+        gear_2: &ReducedGear,
+        local_contact: LocalContact,
+    ) -> Result<Self, ContactError> {
+        if lines.pair.is_helical() && lines.extension.is_some() {
+            return Err(ContactError::HelicalExtension);
+        }
+        let flank = match lines.pair.flank {
+            FlankSide::Right => Flank::Right,
+            FlankSide::Left => Flank::Left,
+        };
+        for (gear, model, needed) in [
+            (1, gear_1, lines.pair.gear_1.teeth),
+            (2, gear_2, lines.pair.gear_2.teeth),
+        ] {
+            if model.teeth != needed {
+                return Err(ContactError::Teeth {
+                    gear,
+                    found: model.teeth,
+                    needed,
+                });
+            }
+        }
+        let compliance_1 = SliceCompliance::new(gear_1, flank, local_contact)?;
+        let compliance_2 = SliceCompliance::new(gear_2, flank, local_contact)?;
+        let (w1, w2) = (compliance_1.slice_width_m(), compliance_2.slice_width_m());
+        if compliance_1.slices() != compliance_2.slices() || (w1 - w2).abs() > 1e-9 * w1 {
+            return Err(ContactError::Slices {
+                slices_1: compliance_1.slices(),
+                slices_2: compliance_2.slices(),
+                width_1_mm: w1 * 1e3,
+                width_2_mm: w2 * 1e3,
+            });
+        }
+        let slices = compliance_1.slices();
+        let capacity = (lines.most_pairs() + 1) * slices;
+        Ok(Self {
+            lines,
+            compliance_1,
+            compliance_2,
+            local_contact,
+            params: Params::default(),
+            placed: Vec::with_capacity(capacity),
+            c: vec![0.0; capacity * capacity],
+            hertz: Vec::with_capacity(capacity),
+            local: Vec::with_capacity(capacity),
+            work: Workspace::new(capacity),
+        })
+    }
+
+    /// Rigid kinematics of the pair.
+    pub fn lines(&self) -> &ContactLines {
+        &self.lines
+    }
+
+    /// Largest number of slices at once.
+    pub fn capacity(&self) -> usize {
+        self.work.capacity()
+    }
+
+    /// Slices per contact line.
+    pub fn slices(&self) -> usize {
+        self.compliance_1.slices()
+    }
+
+    /// Width of a slice \[m\].
+    pub fn slice_width_m(&self) -> f64 {
+        self.compliance_1.slice_width_m()
+    }
+
+    /// Axial centres of the slices \[m\].
+    pub fn slice_centres_m(&self) -> &[f64] {
+        self.compliance_1.slice_centres_m()
+    }
+
+    /// Forgets the last solution: the next solve starts cold.
+    pub fn reset(&mut self) {
+        self.work.reset();
+    }
+
+    /// Hertz contact of the slice with this number, and its edge.
+    ///
+    /// # Panics
+    /// If there is no such slice.
+    pub fn hertz(&self, slice: usize) -> (LineContact, Option<EdgeContact>) {
+        self.hertz[slice]
+    }
+
+    /// Normal forces \[N\] of the last solve, in the order of the slices.
+    pub fn forces_n(&self) -> &[f64] {
+        self.work.forces()
+    }
+
+    /// Change of the forces with the separations, see [`Workspace::apply_tangent`].
+    pub fn apply_tangent(&mut self, separation_change: &[f64], force_change: &mut [f64]) {
+        self.work.apply_tangent(separation_change, force_change);
+    }
+
+    /// Makes compliance and local laws of the slices that face each other. `floor_n`: force below which the logarithm of the local
+    /// law is continued by its tangent.
+    ///
+    /// # Errors
+    /// [`LocalLawError`] and the number of the slice that has no local law.
+    pub fn prepare(
+        &mut self,
+        active: &[ContactLine],
+        touching: &[ContactSlice],
+        floor_n: f64,
+    ) -> Result<(), (LocalLawError, usize)> {
+        if self.lines.pair.is_helical() {
+            self.fill_compliance_by_slices(touching);
+        } else {
+            self.fill_compliance_by_lines(active);
+        }
+        self.hertz.clear();
+        self.local.clear();
+        let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
+        for (number, slice) in touching.iter().enumerate() {
+            let (hertz, law) = match last {
+                // The slices of a spur line are all alike.
+                Some((line, hertz, law)) if line == slice.line && !self.lines.pair.is_helical() => {
+                    (hertz, law)
+                }
+                _ => {
+                    let hertz = self.line_contact(slice);
+                    let law = self.law(hertz, floor_n).map_err(|cause| (cause, number))?;
+                    (hertz, law)
+                }
+            };
+            last = Some((slice.line, hertz, law));
+            self.hertz.push(hertz);
+            self.local.push(law);
+        }
+        Ok(())
+    }
+
+    fn law(
+        &self,
+        (contact, edge): (LineContact, Option<EdgeContact>),
+        floor_n: f64,
+    ) -> Result<LocalLaw, LocalLawError> {
+        Ok(self.local_contact.law(&contact, floor_n)?.with_edge(edge))
+    }
+
+    /// Solves for the forces of the slices that were prepared; returns the approach at which the first would touch, and the solver's
+    /// figures. No allocation.
+    ///
+    /// # Errors
+    /// [`NlcpError`].
+    pub fn solve(&mut self, at: Separations<'_>, given: Given) -> Result<(f64, Info), NlcpError> {
+        let n = at.separation_m.len();
+        let problem = Problem::new(
+            &self.c[..n * n],
+            &self.local,
+            at.separation_m,
+            at.closing,
+            at.lever_m,
+        )?;
+        let info = match given {
+            Given::Load(load) => solve_load(&problem, load, &self.params, &mut self.work),
+            Given::Approach(approach) => {
+                solve_position(&problem, approach, &self.params, &mut self.work)
+            }
+        }?;
+        Ok((problem.first_contact(), info))
+    }
+
+    /// Elastic energy \[J\] of the last solve: ½ FᵀCF and that of the local laws.
+    pub fn stored_energy_j(&self) -> f64 {
+        let forces = self.work.forces();
+        let n = forces.len();
+        let quadratic: f64 = (forces.iter().zip(self.c.chunks_exact(n.max(1))))
+            .map(|(force, row)| force * dot(row, forces))
+            .sum();
+        let local: f64 = (self.local.iter().zip(forces))
+            .map(|(law, force)| law.stored_energy(*force))
+            .sum();
+        0.5 * quadratic + local
+    }
+
+    /// ∂/∂ξ (½ FᵀCF + Σ∫δ dF) \[J/rad\] at the forces of the last solve: how the complementary energy changes as the contact line
+    /// `line` walks over gear 0 or 1. Spur teeth on the path.
+    ///
+    /// # Errors
+    /// [`LocalLawError`] where the moved slice has no local law.
+    pub fn energy_by_roll(
+        &self,
+        active: &[ContactLine],
+        touching: &[ContactSlice],
+        (line, gear): (usize, usize),
+        floor_n: f64,
+    ) -> Result<f64, LocalLawError> {
+        let slices = self.slices();
+        let of_line = |number: usize| &self.work.forces()[number * slices..(number + 1) * slices];
+        let own = of_line(line);
+        let mut local = 0.0;
+        for step in [ROLL_STEP_RAD, -ROLL_STEP_RAD] {
+            let mut moved = touching[line * slices];
+            match gear {
+                0 => moved.section.roll_1_rad += step,
+                _ => moved.section.roll_2_rad += step,
+            }
+            let law = self.law(self.line_contact(&moved), floor_n)?;
+            let energy: f64 = own.iter().map(|f| law.complementary_energy(*f)).sum();
+            local += energy / (2.0 * step);
+        }
+        let compliance = match gear {
+            0 => &self.compliance_1,
+            _ => &self.compliance_2,
+        };
+        let place_of = |line: &ContactLine| match gear {
+            0 => (line.tooth_1, line.roll_1_rad),
+            _ => (line.tooth_2, line.roll_2_rad),
+        };
+        let (tooth, roll) = place_of(&active[line]);
+        let with_others = active.iter().enumerate().map(|(number, other)| {
+            let (tooth_b, roll_b) = place_of(other);
+            let there = (tooth_b, compliance.place(roll_b), of_line(number));
+            compliance.energy_rate((tooth, roll, own), there)
+        });
+        Ok(local + with_others.sum::<f64>())
+    }
+
+    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>) {
+        let line = &slice.section;
+        let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
+        let body = |compliance: &SliceCompliance, roll: f64| {
+            let (youngs_modulus_pa, poisson_ratio) = compliance.material();
+            ContactBody {
+                youngs_modulus_pa,
+                poisson_ratio,
+                depth_m: compliance.local_depth_m(roll, slice.share),
+            }
+        };
+        let contact = LineContact {
+            width_m: slice.share * self.slice_width_m() / helix_cos,
+            relative_radius_m: self.lines.relative_radius_m(line),
+            bodies: [
+                body(&self.compliance_1, line.roll_1_rad),
+                body(&self.compliance_2, line.roll_2_rad),
+            ],
+        };
+        let edge = (self.lines.edge(line))
+            .and_then(|(tilt_rad, radius_m)| EdgeContact::new(&contact, tilt_rad, radius_m));
+        (contact, edge)
+    }
+
+    /// C of slices that share the place of their line, block by block.
+    fn fill_compliance_by_lines(&mut self, active: &[ContactLine]) {
+        let slices = self.slices();
+        let n = active.len() * slices;
+        let c = &mut self.c[..n * n];
+        c.fill(0.0);
+        for (i, a) in active.iter().enumerate() {
+            for (j, b) in active.iter().enumerate().skip(i) {
+                let first = i * slices * n + j * slices;
+                for (gear, compliance, of) in [
+                    (
+                        0,
+                        &self.compliance_1,
+                        [(a.tooth_1, a.roll_1_rad), (b.tooth_1, b.roll_1_rad)],
+                    ),
+                    (
+                        1,
+                        &self.compliance_2,
+                        [(a.tooth_2, a.roll_2_rad), (b.tooth_2, b.roll_2_rad)],
+                    ),
+                ] {
+                    let [(tooth_a, roll_a), (tooth_b, roll_b)] = of;
+                    let places = (compliance.place(roll_a), compliance.place(roll_b));
+                    let along_normals = a.tilt_rad(gear).cos() * b.tilt_rad(gear).cos();
+                    compliance.add_block(
+                        (tooth_a, places.0),
+                        (tooth_b, places.1),
+                        along_normals,
+                        c,
+                        first,
+                        n,
+                    );
+                }
+            }
+        }
+        // The blocks of two lines are each other's transpose; those on the diagonal are symmetric to rounding.
+        for row in 0..n {
+            for column in 0..row {
+                let same_line = row / slices == column / slices;
+                let above = c[column * n + row];
+                let mean = 0.5 * (c[row * n + column] + above);
+                let value = if same_line { mean } else { above };
+                c[row * n + column] = value;
+                c[column * n + row] = value;
+            }
+        }
+    }
+
+    /// C of slices that each have their own place, entry by entry.
+    fn fill_compliance_by_slices(&mut self, touching: &[ContactSlice]) {
+        let n = touching.len();
+        let gears = [&self.compliance_1, &self.compliance_2];
+        self.placed.clear();
+        self.placed.extend(touching.iter().map(|s| {
+            let line = &s.section;
+            let placed = |gear: usize, tooth: usize, roll: f64| PlacedSlice {
+                tooth,
+                slice: s.slice,
+                place: gears[gear].place(roll),
+            };
+            [
+                placed(0, line.tooth_1, line.roll_1_rad),
+                placed(1, line.tooth_2, line.roll_2_rad),
+            ]
+        }));
+        let c = &mut self.c[..n * n];
+        for (i, a) in self.placed.iter().enumerate() {
+            for (j, b) in self.placed.iter().enumerate() {
+                c[i * n + j] =
+                    gears[0].between_slices(a[0], b[0]) + gears[1].between_slices(a[1], b[1]);
+            }
+        }
+        symmetrise(c, n);
+        if self.local_contact == LocalContact::None {
+            // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
+            // compliance grows instead.
+            for (i, slice) in touching.iter().enumerate() {
+                c[i * n + i] /= slice.share;
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The blocks between two teeth are stored for each of them as load and as response; they agree to the round-off of
+/// the reduction, and the solver wants them equal.
+fn symmetrise(c: &mut [f64], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            let mean = 0.5 * (c[i * n + j] + c[j * n + i]);
+            c[i * n + j] = mean;
+            c[j * n + i] = mean;
+        }
+    }
+}

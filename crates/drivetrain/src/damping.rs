@@ -1,0 +1,175 @@
+//! Damping of elastic teeth.
+//!
+//! Both kinds fade in with the penetration δ = −gap by s(δ) = STEP(δ, 0, 0, δ_full, 1): the force is continuous where teeth meet and
+//! nothing acts on teeth that are apart.
+//!
+//! | kind | law |
+//! | --- | --- |
+//! | proportional to stiffness | the teeth are a Kelvin-Voigt solid: they feel the gap g + τ s(δ) ġ |
+//! | viscous | F = max(0, F_elastic − c s(δ) ġ), c for each tooth pair, shared by its slices |
+//!
+//! Neither pulls. The first spends τ ġᵀ K s ġ (to first order in τ ġ/δ), the second c s ġ².
+
+use crate::error::{DrivetrainError, not_negative, positive};
+use crate::mesh_kinematics::FlankContacts;
+use crate::step::step;
+use crate::teeth_model::{TeethLoads, TeethModel};
+
+/// Kind and amount of damping.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Damping {
+    /// τ \[s\]: damping over stiffness.
+    StiffnessProportional {
+        /// τ \[s\].
+        time_s: f64,
+        /// δ_full \[m\].
+        full_depth_m: f64,
+    },
+    /// c \[N·s/m\] of a whole tooth pair.
+    Viscous {
+        /// c \[N·s/m\].
+        coefficient_n_s_per_m: f64,
+        /// δ_full \[m\].
+        full_depth_m: f64,
+    },
+}
+
+impl Damping {
+    fn validate(self) -> Result<Self, DrivetrainError> {
+        let owner = "mesh damping";
+        let depth = match self {
+            Self::StiffnessProportional {
+                time_s,
+                full_depth_m,
+            } => {
+                not_negative(owner, "the time in s", time_s)?;
+                full_depth_m
+            }
+            Self::Viscous {
+                coefficient_n_s_per_m,
+                full_depth_m,
+            } => {
+                not_negative(owner, "the coefficient in N s/m", coefficient_n_s_per_m)?;
+                full_depth_m
+            }
+        };
+        positive(owner, "the depth of full damping in m", depth)?;
+        Ok(self)
+    }
+}
+
+/// Elastic teeth with damping. Without damping use the model itself.
+#[derive(Debug, Clone)]
+pub struct Damped<M> {
+    teeth: M,
+    damping: Damping,
+    slices: usize,
+    felt: FlankContacts,
+    /// ∂(felt gap)/∂gap and ∂(felt gap)/∂(gap rate) of each contact.
+    felt_by: Vec<[f64; 2]>,
+}
+
+impl<M: TeethModel> Damped<M> {
+    /// Adds damping to teeth that have `slices` slices.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`].
+    pub fn new(teeth: M, damping: Damping, slices: usize) -> Result<Self, DrivetrainError> {
+        Ok(Self {
+            teeth,
+            damping: damping.validate()?,
+            slices,
+            felt: FlankContacts::default(),
+            felt_by: Vec::new(),
+        })
+    }
+
+    fn proportional(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+        [time_s, full_m]: [f64; 2],
+    ) -> Result<(), DrivetrainError> {
+        self.felt.lines.clone_from(&flanks.lines);
+        self.felt.contacts.clone_from(&flanks.contacts);
+        self.felt_by.clear();
+        for contact in &mut self.felt.contacts {
+            let (share, slope) = step(-contact.gap_m, [0.0, 0.0], [full_m, 1.0]);
+            let rate = contact.gap_rate_m_per_s;
+            contact.gap_m += time_s * share * rate;
+            self.felt_by
+                .push([1.0 - time_s * rate * slope, time_s * share]);
+        }
+        self.teeth.evaluate(&self.felt, loads)?;
+        let n = flanks.contacts.len();
+        for i in 0..n {
+            for j in 0..n {
+                let stiffness = &mut loads.stiffness_n_per_m[i * n + j];
+                let [by_gap, by_rate] = self.felt_by[j];
+                let damping = *stiffness * by_rate;
+                *stiffness *= by_gap;
+                loads.damping_n_s_per_m[i * n + j] = damping;
+                let rates = [i, j].map(|k| flanks.contacts[k].gap_rate_m_per_s);
+                loads.dissipated_w += rates[0] * damping * rates[1];
+            }
+            // The energy at the true gap, to first order in the difference to the felt one.
+            let felt_closer = self.felt_by[i][1] * flanks.contacts[i].gap_rate_m_per_s;
+            loads.stored_j += loads.normal_n[i] * felt_closer;
+        }
+        Ok(())
+    }
+
+    fn viscous(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+        [coefficient, full_m]: [f64; 2],
+    ) -> Result<(), DrivetrainError> {
+        self.teeth.evaluate(flanks, loads)?;
+        let n = flanks.contacts.len();
+        let each = coefficient / self.slices as f64;
+        for (i, contact) in flanks.contacts.iter().enumerate() {
+            let (share, slope) = step(-contact.gap_m, [0.0, 0.0], [full_m, 1.0]);
+            let rate = contact.gap_rate_m_per_s;
+            let damped = loads.normal_n[i] - each * share * rate;
+            if damped > 0.0 {
+                loads.dissipated_w += each * share * rate * rate;
+                loads.normal_n[i] = damped;
+                loads.stiffness_n_per_m[i * n + i] -= each * slope * rate;
+                loads.damping_n_s_per_m[i * n + i] += each * share;
+            } else {
+                loads.dissipated_w += loads.normal_n[i] * rate;
+                loads.normal_n[i] = 0.0;
+                loads.stiffness_n_per_m[i * n..][..n].fill(0.0);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<M: TeethModel> TeethModel for Damped<M> {
+    fn evaluate(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+    ) -> Result<(), DrivetrainError> {
+        match self.damping {
+            Damping::StiffnessProportional {
+                time_s,
+                full_depth_m,
+            } => self.proportional(flanks, loads, [time_s, full_depth_m]),
+            Damping::Viscous {
+                coefficient_n_s_per_m,
+                full_depth_m,
+            } => self.viscous(flanks, loads, [coefficient_n_s_per_m, full_depth_m]),
+        }
+    }
+
+    fn resolves_teeth(&self) -> bool {
+        self.teeth.resolves_teeth()
+    }
+
+    fn forget(&mut self) {
+        self.teeth.forget();
+    }
+}

@@ -1,0 +1,155 @@
+//! What can go wrong in setting up or evaluating a gear mesh.
+
+use gearmesh_contact::ContactError;
+use gearmesh_contact::nlcp::{LocalLawError, NlcpError};
+
+/// Error of this crate.
+#[derive(Debug, thiserror::Error)]
+pub enum DrivetrainError {
+    /// A number is out of its range.
+    #[error("{owner}: {what} is {found}; it must be {allowed}")]
+    Value {
+        /// Model, fault or effect.
+        owner: &'static str,
+        /// Name of the number with its unit.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A tooth that does not exist.
+    #[error("{owner}: there is no tooth {found}; the gear has teeth 0 to {last}")]
+    Tooth {
+        /// Fault.
+        owner: &'static str,
+        /// What was given.
+        found: usize,
+        /// Last tooth.
+        last: usize,
+    },
+    /// A list of the wrong length.
+    #[error("{owner}: {what} has {found} entries, {expected} are needed")]
+    Length {
+        /// Fault or model.
+        owner: &'static str,
+        /// Name of the list.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length needed.
+        expected: usize,
+    },
+    /// Helical teeth.
+    #[error(
+        "the mesh of helical gears in space is not modelled yet (base helix angle {base_helix_deg:.3} deg): use spur gears"
+    )]
+    Helical {
+        /// Base helix angle.
+        base_helix_deg: f64,
+    },
+    /// A body that is no sum of rings.
+    #[error(
+        "mass and inertia in closed form are for hub and web with plane faces: take those of a contour or an imported mesh from the reduced gear's model file, or state them"
+    )]
+    BodyWithoutClosedForm,
+    /// A model without mass.
+    #[error(
+        "the model of gear `{gear}` has no mass and inertia: give a density in its [material] table and reduce it again, or state the body's mass"
+    )]
+    NoRigidBody {
+        /// Name of the gear.
+        gear: String,
+    },
+    /// Errors of single teeth with a model that has no single teeth.
+    #[error(
+        "flank errors are given, but the iso6336 mesh is one spring that knows no single tooth: take another mesh model, or leave them out"
+    )]
+    UnusedFlankErrors,
+    /// The axes stand too far from parallel.
+    #[error(
+        "the gear axes stand {found_mrad:.2} mrad from parallel; the slices allow up to {allowed_mrad} mrad, and both z axes must point the same way"
+    )]
+    Misalignment {
+        /// Angle between the axes.
+        found_mrad: f64,
+        /// Largest angle allowed.
+        allowed_mrad: f64,
+    },
+    /// The base circles overlap.
+    #[error(
+        "the centre distance is {found_mm:.4} mm, not above the sum of the base radii {smallest_mm:.4} mm: no line of action; hold the gears apart"
+    )]
+    CentreDistance {
+        /// Centre distance.
+        found_mm: f64,
+        /// Sum of the base radii.
+        smallest_mm: f64,
+    },
+    /// The fillet foundation's fit is used outside its range.
+    #[error(
+        "analytic mesh, gear {gear}: {what} is {found:.4}, the fillet foundation of Sainsot, Velex and Duverger is fitted for {low} to {high} only; take another mesh model or change the bore"
+    )]
+    Foundation {
+        /// Gear 1 or 2.
+        gear: usize,
+        /// Ratio or angle.
+        what: &'static str,
+        /// Value.
+        found: f64,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// The two models do not fit each other or the pair.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// No local contact law.
+    #[error("contact of tooth {tooth_1} of gear 1 and tooth {tooth_2} of gear 2: {cause}")]
+    LocalLaw {
+        /// Tooth of gear 1.
+        tooth_1: usize,
+        /// Tooth of gear 2.
+        tooth_2: usize,
+        /// Cause.
+        cause: LocalLawError,
+    },
+    /// The slice forces were not found.
+    #[error("slice forces: {0}")]
+    Nlcp(#[from] NlcpError),
+}
+
+/// A number that must be positive and finite.
+pub(crate) fn positive(
+    owner: &'static str,
+    what: &'static str,
+    found: f64,
+) -> Result<f64, DrivetrainError> {
+    if found > 0.0 && found.is_finite() {
+        return Ok(found);
+    }
+    Err(DrivetrainError::Value {
+        owner,
+        what,
+        found,
+        allowed: "positive and finite",
+    })
+}
+
+/// A number that must be zero or positive, and finite.
+pub(crate) fn not_negative(
+    owner: &'static str,
+    what: &'static str,
+    found: f64,
+) -> Result<f64, DrivetrainError> {
+    if found >= 0.0 && found.is_finite() {
+        return Ok(found);
+    }
+    Err(DrivetrainError::Value {
+        owner,
+        what,
+        found,
+        allowed: "zero or positive, and finite",
+    })
+}

@@ -1,0 +1,51 @@
+//! A tooth broken off above a radius, over its whole width.
+
+use gearmesh_geometry::{ToothGeometry, involute};
+
+use super::check_tooth;
+use crate::error::DrivetrainError;
+use crate::flank_error::{FlankError, FlankPoint, Removed};
+
+/// No flank above a roll angle on one tooth, both sides. The force of a pair that reaches the edge ends abruptly, as it does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BrokenTooth {
+    tooth: usize,
+    from_roll_rad: f64,
+}
+
+impl BrokenTooth {
+    /// The tooth, and the radius above which it is gone \[m\]; a radius below the flank takes the whole tooth.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Tooth`], or [`DrivetrainError::Value`] for a radius not between 0 and the tip.
+    pub fn new(
+        gear: &ToothGeometry,
+        tooth: usize,
+        above_radius_m: f64,
+    ) -> Result<Self, DrivetrainError> {
+        let owner = "broken tooth";
+        check_tooth(owner, tooth, gear.teeth)?;
+        if !(above_radius_m > 0.0 && above_radius_m < gear.tip_radius_m) {
+            return Err(DrivetrainError::Value {
+                owner,
+                what: "the radius where it ends in m",
+                found: above_radius_m,
+                allowed: "positive and below the tip radius",
+            });
+        }
+        Ok(Self {
+            tooth,
+            from_roll_rad: involute::roll_angle_rad(above_radius_m, gear.base_radius_m),
+        })
+    }
+}
+
+impl FlankError for BrokenTooth {
+    fn removed(&self, at: FlankPoint) -> Removed {
+        if at.tooth == self.tooth && at.roll_rad > self.from_roll_rad {
+            Removed::EVERYTHING
+        } else {
+            Removed::default()
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Pitch errors: each flank of one side shifted along its normal.
+
+use gearmesh_geometry::FlankSide;
+
+use crate::error::DrivetrainError;
+use crate::flank_error::{FlankError, FlankPoint, Removed};
+
+/// Cumulative pitch deviations of the flanks of one side, given as material removed: a flank that stands back by f has +f.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PitchErrors {
+    side: FlankSide,
+    removed_m: Vec<f64>,
+}
+
+impl PitchErrors {
+    /// One value a tooth \[m\], along the flank normal, tooth 0 first.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Length`] unless there is one for each tooth, [`DrivetrainError::Value`] if one is not finite.
+    pub fn new(
+        side: FlankSide,
+        removed_m: Vec<f64>,
+        teeth: usize,
+    ) -> Result<Self, DrivetrainError> {
+        let owner = "pitch errors";
+        if removed_m.len() != teeth {
+            return Err(DrivetrainError::Length {
+                owner,
+                what: "the list",
+                found: removed_m.len(),
+                expected: teeth,
+            });
+        }
+        if let Some(&found) = removed_m.iter().find(|value| !value.is_finite()) {
+            return Err(DrivetrainError::Value {
+                owner,
+                what: "a deviation in m",
+                found,
+                allowed: "finite",
+            });
+        }
+        Ok(Self { side, removed_m })
+    }
+}
+
+impl FlankError for PitchErrors {
+    fn removed(&self, at: FlankPoint) -> Removed {
+        let depth_m = if at.side == self.side {
+            self.removed_m[at.tooth]
+        } else {
+            0.0
+        };
+        Removed {
+            depth_m,
+            slope_m_per_rad: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_tooth_and_side_has_its_own() {
+        let errors = PitchErrors::new(FlankSide::Left, vec![1e-6, -2e-6], 2).unwrap();
+        let at = |tooth, side| {
+            let (roll_rad, z_m) = (0.3, 0.0);
+            errors
+                .removed(FlankPoint {
+                    tooth,
+                    side,
+                    roll_rad,
+                    z_m,
+                })
+                .depth_m
+        };
+        assert_eq!(at(1, FlankSide::Left), -2e-6);
+        assert_eq!(at(1, FlankSide::Right), 0.0);
+        assert!(PitchErrors::new(FlankSide::Left, vec![0.0], 2).is_err());
+        assert!(PitchErrors::new(FlankSide::Left, vec![0.0, f64::NAN], 2).is_err());
+    }
+}

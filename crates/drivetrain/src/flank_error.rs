@@ -1,0 +1,59 @@
+//! Deviations of the flanks from the ideal involute: material removed, tooth by tooth.
+//!
+//! | kind | file |
+//! | --- | --- |
+//! | microgeometry, the same on all teeth | `gearmesh_geometry::Microgeometry` |
+//! | pitch errors | `errors/pitch.rs` |
+//! | measured profile and lead | `errors/deviation_table.rs` |
+//! | broken tooth | `errors/broken_tooth.rs` |
+//! | tip chip | `errors/tip_chip.rs` |
+//! | spall | `errors/spall.rs` |
+//! | eccentricity, which is no deviation of the flank but a place of the gear | `errors/eccentricity.rs` |
+
+use gearmesh_geometry::{FlankSide, Microgeometry};
+
+/// A point of a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankPoint {
+    /// Tooth.
+    pub tooth: usize,
+    /// Side of the tooth.
+    pub side: FlankSide,
+    /// Roll angle \[rad\].
+    pub roll_rad: f64,
+    /// Axial position from mid-face \[m\].
+    pub z_m: f64,
+}
+
+/// Material removed at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Removed {
+    /// Depth along the inward normal \[m\]; infinite where there is no flank.
+    pub depth_m: f64,
+    /// Its derivative by the roll angle \[m/rad\].
+    pub slope_m_per_rad: f64,
+}
+
+impl Removed {
+    /// No flank at all.
+    pub const EVERYTHING: Self = Self {
+        depth_m: f64::INFINITY,
+        slope_m_per_rad: 0.0,
+    };
+}
+
+/// A kind of gear error. The depth opens the gap of every slice it meets, and its slope turns the contact normal, so that a
+/// depth without steps keeps an undamped mesh conservative.
+pub trait FlankError: Send + Sync {
+    /// Material removed at a point.
+    fn removed(&self, at: FlankPoint) -> Removed;
+}
+
+impl FlankError for Microgeometry {
+    fn removed(&self, at: FlankPoint) -> Removed {
+        Removed {
+            depth_m: self.removed_m(at.roll_rad, at.z_m),
+            slope_m_per_rad: self.removed_slope_m_per_rad(at.roll_rad),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Gear pairs as force elements of a multibody system.
+//!
+//! | question | answer | file |
+//! | --- | --- | --- |
+//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs` |
+//! | what resists | the models | `teeth_model.rs`, `models/` |
+//! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
+//! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
+//! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
+//! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
+//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`] | `gear_inertia.rs`, `gear_body.rs` |
+//!
+//! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur gears.
+//! The theory is in docs/theory/gear_meshes.md.
+
+pub mod damping;
+pub mod error;
+pub mod errors;
+pub mod flank_error;
+pub mod friction;
+pub mod gear_body;
+pub mod gear_inertia;
+pub mod gear_mesh;
+pub mod mesh_element;
+pub mod mesh_kinematics;
+pub mod models;
+pub mod pose;
+pub mod step;
+pub mod teeth_model;
+pub mod tooth_compliance;
+
+pub use damping::{Damped, Damping};
+pub use error::DrivetrainError;
+pub use flank_error::{FlankError, FlankPoint, Removed};
+pub use friction::Friction;
+pub use gear_body::gear_body;
+pub use gear_inertia::GearInertia;
+pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
+pub use mesh_element::MeshElement;
+pub use mesh_kinematics::{FlankContacts, MeshKinematics, PathEnds};
+pub use models::analytic::BeamTeeth;
+pub use models::hybrid::ReducedTeeth;
+pub use models::impact::{Impact, PowerStiffness};
+pub use models::iso6336::{MeshSpring, SingleStiffness};
+pub use models::kinematic::kinematic_mesh;
+pub use pose::Pose;
+pub use teeth_model::{TeethLoads, TeethModel};
+pub use tooth_compliance::{BeamTooth, RootCrack};

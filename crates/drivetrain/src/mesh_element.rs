@@ -1,0 +1,169 @@
+//! A gear mesh between two bodies of a multibody system.
+
+use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
+use gearmesh_dynamics::relative_motion::PairTangent;
+use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMotion};
+use gearmesh_geometry::FlankSide;
+
+use nalgebra::SVector;
+
+use crate::gear_mesh::{GearMesh, MeshLoad};
+use crate::pose::Pose;
+
+impl From<&RelativeMotion> for Pose {
+    fn from(motion: &RelativeMotion) -> Self {
+        Self {
+            displacement_m: motion.displacement_m,
+            rotation: motion.rotation,
+            velocity_m_per_s: motion.velocity_m_per_s,
+            angular_velocity_rad_per_s: motion.angular_velocity_rad_per_s,
+        }
+    }
+}
+
+/// Generalised force of a mesh on its two bodies, and its tangents; order as in [`gearmesh_dynamics::elements::Loads`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairForce {
+    /// Force and moment on body 1, then on body 2.
+    pub force: SVector<f64, 12>,
+    /// ∂force/∂increments; zero unless asked for.
+    pub by_position: PairTangent,
+    /// ∂force/∂velocities; zero unless asked for.
+    pub by_velocity: PairTangent,
+}
+
+impl PairForce {
+    /// Brings a load from gear 1's frame to the bodies.
+    #[must_use]
+    pub fn new(mesh: &MeshLoad, motion: &RelativeMotion, tangents: bool) -> Self {
+        let mut on_pair = Self {
+            force: motion.generalised_force(&mesh.load),
+            by_position: PairTangent::zeros(),
+            by_velocity: PairTangent::zeros(),
+        };
+        if tangents {
+            let jacobian = motion.jacobian();
+            let along =
+                mesh.by_position * jacobian + mesh.by_velocity * motion.rate_jacobian(&jacobian);
+            on_pair.by_position =
+                jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &mesh.load);
+            on_pair.by_velocity = jacobian.tr_mul(&(mesh.by_velocity * jacobian));
+        }
+        on_pair
+    }
+}
+
+/// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
+///
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry.
+pub struct MeshElement {
+    name: String,
+    pair: MarkerPair,
+    bodies: [BodyId; 2],
+    mesh: GearMesh,
+}
+
+impl MeshElement {
+    /// Puts a mesh between gear 1 and gear 2.
+    #[must_use]
+    pub fn new(name: &str, [gear_1, gear_2]: [Marker; 2], mesh: GearMesh) -> Self {
+        Self {
+            name: name.to_owned(),
+            pair: MarkerPair {
+                a: gear_1,
+                b: gear_2,
+            },
+            bodies: [gear_1.body, gear_2.body],
+            mesh,
+        }
+    }
+
+    /// The mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &GearMesh {
+        &self.mesh
+    }
+
+    fn motion(&self, view: &View<'_>) -> RelativeMotion {
+        let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
+        self.pair.motion(&gear_1, &gear_2)
+    }
+}
+
+impl ForceElement for MeshElement {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let motion = self.motion(view);
+        let mesh = self
+            .mesh
+            .evaluate(&Pose::from(&motion), loads.wants_tangents())?;
+        loads.power = mesh.power;
+        let on_pair = PairForce::new(&mesh, &motion, loads.wants_tangents());
+        // Modal coordinates of gear 1 stand between the two.
+        let places = [0, 6 + view.modal(self.bodies[0]).len()];
+        for (half, place) in places.iter().enumerate() {
+            loads.add_force(*place, &on_pair.force.as_slice()[6 * half..6 * half + 6]);
+        }
+        if loads.wants_tangents() {
+            for column in 0..12 {
+                let to = places[column / 6] + column % 6;
+                for row in 0..12 {
+                    let at = places[row / 6] + row % 6;
+                    loads.add_by_position(at, to, on_pair.by_position[(row, column)]);
+                    loads.add_by_velocity(at, to, on_pair.by_velocity[(row, column)]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, _view: &View<'_>) {
+        self.mesh.forget();
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        let sides = self.mesh.flanks().map(|flank| match flank {
+            FlankSide::Right => "normal_force_right_N",
+            FlankSide::Left => "normal_force_left_N",
+        });
+        sides
+            .chain(["transmission_error_m", "loaded_pairs"])
+            .map(|name| Channel {
+                name: name.to_owned(),
+            })
+            .collect()
+    }
+
+    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
+        // What fails here has failed in the step itself, or will in the next one.
+        let pose = Pose::from(&self.motion(view));
+        if self.mesh.evaluate(&pose, false).is_err() {
+            out.fill(f64::NAN);
+            return;
+        }
+        let mut pairs = 0;
+        let sides = self.mesh.flanks().count();
+        for (place, flank) in out.iter_mut().zip(self.mesh.flanks()) {
+            let Some((found, forces)) = self.mesh.side(flank) else {
+                continue;
+            };
+            *place = forces.iter().sum();
+            let loaded =
+                |first: usize, count: usize| forces[first..first + count].iter().any(|f| *f > 0.0);
+            pairs += (found.lines.iter())
+                .filter(|line| loaded(line.contacts.0, line.contacts.1))
+                .count();
+        }
+        // A run must not depend on when it was looked at.
+        self.mesh.forget();
+        out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
+        out[sides + 1] = pairs as f64;
+    }
+}

@@ -1,0 +1,144 @@
+//! `analytic`: each pair of teeth two beams on their foundations in series with a Hertz contact, slices side by side.
+//!
+//! ```text
+//! c_pair(ξ₁, ξ₂) = c₁(ξ₁) + c₂(ξ₂) + c_h,   c_h = 2/(π b) Σ (1 − ν²)/E          F = −gap/c_pair where gap < 0
+//! ```
+//!
+//! Pairs share the load by their gaps only: the foundation does not couple neighbouring teeth, which makes the mesh too soft by their
+//! common part where two pairs carry. Sources: tooth_compliance.rs; Hertz linearised, Yang and Lin (1987).
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use gearmesh_geometry::Material;
+
+use crate::error::DrivetrainError;
+use crate::mesh_kinematics::FlankContacts;
+use crate::teeth_model::{TeethLoads, TeethModel};
+use crate::tooth_compliance::{BeamTooth, RootCrack, ToothCompliance};
+
+/// Compliance of the Hertz contact of two teeth over the width \[m/N\]; for equal materials 4(1 − ν²)/(πEb).
+#[must_use]
+pub fn hertz_m_per_n(materials: [Material; 2], face_width_m: f64) -> f64 {
+    let sum: f64 = (materials.iter())
+        .map(|m| (1.0 - m.poisson * m.poisson) / m.young_pa)
+        .sum();
+    2.0 * sum / (PI * face_width_m)
+}
+
+/// A gear's teeth: all alike but for those named.
+#[derive(Debug, Clone)]
+struct GearTeeth {
+    common: Arc<ToothCompliance>,
+    cracked: Vec<(usize, Arc<ToothCompliance>)>,
+}
+
+impl GearTeeth {
+    fn of(&self, tooth: usize) -> &ToothCompliance {
+        let own = self.cracked.iter().find(|(number, _)| *number == tooth);
+        own.map_or(&self.common, |(_, compliance)| compliance)
+    }
+}
+
+/// The teeth of both gears.
+#[derive(Debug, Clone)]
+pub struct BeamTeeth {
+    gears: [GearTeeth; 2],
+    hertz_m_per_n: f64,
+    slices: f64,
+}
+
+impl BeamTeeth {
+    /// Tabulates the teeth of two gears shared by `slices`; both sides of the teeth are alike. `cracks` are (tooth, crack) of each gear.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Foundation`] outside the range of the foundation's fit, [`DrivetrainError::Tooth`] for a crack in a tooth that
+    /// does not exist, [`DrivetrainError::Value`] for a crack off the fillet or too deep.
+    pub fn new(
+        gears: [BeamTooth<'_>; 2],
+        slices: usize,
+        cracks: [&[(usize, RootCrack)]; 2],
+    ) -> Result<Self, DrivetrainError> {
+        let width = gears[0].face_width_m.min(gears[1].face_width_m);
+        let teeth = |gear: &BeamTooth<'_>, cracks: &[(usize, RootCrack)]| {
+            let common = Arc::new(gear.table(None)?);
+            let mut cracked = Vec::new();
+            for &(tooth, crack) in cracks {
+                crate::errors::check_tooth("root crack", tooth, gear.tooth.teeth)?;
+                crack.check(gear.tooth)?;
+                cracked.push((tooth, Arc::new(gear.table(Some(crack))?)));
+            }
+            Ok::<_, DrivetrainError>(GearTeeth { common, cracked })
+        };
+        Ok(Self {
+            hertz_m_per_n: hertz_m_per_n(gears.map(|g| g.material), width),
+            gears: [teeth(&gears[0], cracks[0])?, teeth(&gears[1], cracks[1])?],
+            slices: slices as f64,
+        })
+    }
+
+    /// Stiffness \[N/m\] of one pair of teeth over the whole width.
+    #[must_use]
+    pub fn pair_stiffness_n_per_m(&self, teeth: [usize; 2], roll_rad: [f64; 2]) -> f64 {
+        let of = |i: usize| self.gears[i].of(teeth[i]).at(roll_rad[i]).0;
+        1.0 / (of(0) + of(1) + self.hertz_m_per_n)
+    }
+}
+
+impl TeethModel for BeamTeeth {
+    fn evaluate(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+    ) -> Result<(), DrivetrainError> {
+        let n = flanks.contacts.len();
+        for (number, line) in flanks.lines.iter().enumerate() {
+            let tooth = |i: usize| {
+                self.gears[i]
+                    .of(line.teeth[i])
+                    .at(line.touching_roll_rad[i])
+            };
+            let (of_1, of_2) = (tooth(0), tooth(1));
+            let stiffness = 1.0 / ((of_1.0 + of_2.0 + self.hertz_m_per_n) * self.slices);
+            let (first, count) = line.contacts;
+            for i in first..first + count {
+                let depth = -flanks.contacts[i].gap_m;
+                if depth > 0.0 {
+                    let force = stiffness * depth;
+                    loads.normal_n[i] = force;
+                    loads.stiffness_n_per_m[i * n + i] = stiffness;
+                    loads.stored_j += 0.5 * force * depth;
+                    let squared = 0.5 * self.slices * force * force;
+                    loads.energy_by_roll[number][0] += squared * of_1.1;
+                    loads.energy_by_roll[number][1] += squared * of_2.1;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tooth_compliance::foundation_coefficients;
+
+    #[test]
+    fn hertz_of_the_reference() {
+        let steel = Material {
+            young_pa: 206e9,
+            poisson: 0.3,
+            density_kg_per_m3: None,
+        };
+        let stiffness = 1.0 / hertz_m_per_n([steel; 2], 0.02);
+        assert!((stiffness / 3.555869e9 - 1.0).abs() < 1e-6, "{stiffness}");
+    }
+
+    #[test]
+    fn foundation_of_the_reference() {
+        let found = foundation_coefficients(0.0456584787, 3.4);
+        for (found, expected) in found.iter().zip([6.934136, 1.235276, 4.975634, 0.406207]) {
+            assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+}

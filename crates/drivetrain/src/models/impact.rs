@@ -1,0 +1,126 @@
+//! `impact`: F = K δ^e + STEP(δ, 0, 0, d_max, C_max) δ̇ on each pair of teeth, never pulling; δ is the penetration of rigid flanks along
+//! the real line of action.
+//!
+//! Source: the IMPACT function of MSC Adams, as used in seeds 002 and 003. The stiffness has the unit N/m^e: its exponent is part of the
+//! value. Damping is part of this law; friction is added by the mesh.
+
+use crate::error::{DrivetrainError, not_negative, positive};
+use crate::mesh_kinematics::FlankContacts;
+use crate::step::step;
+use crate::teeth_model::{TeethLoads, TeethModel};
+
+/// A contact stiffness with its exponent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerStiffness {
+    n_per_m_e: f64,
+    exponent: f64,
+}
+
+impl PowerStiffness {
+    /// K in N/mm^e, as such values are stated: F = K (δ/mm)^e.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] if K is not positive or e below 1.
+    pub fn n_per_mm_e(value: f64, exponent: f64) -> Result<Self, DrivetrainError> {
+        let owner = "impact mesh";
+        positive(owner, "the stiffness in N/mm^e", value)?;
+        if !(exponent >= 1.0 && exponent.is_finite()) {
+            return Err(DrivetrainError::Value {
+                owner,
+                what: "the exponent e",
+                found: exponent,
+                allowed: "at least 1 and finite",
+            });
+        }
+        Ok(Self {
+            n_per_m_e: value * 1e3_f64.powf(exponent),
+            exponent,
+        })
+    }
+
+    /// Force \[N\] and its slope \[N/m\] at a penetration ≥ 0 \[m\].
+    #[must_use]
+    pub fn force(&self, depth_m: f64) -> (f64, f64) {
+        // δ^(e−1) is finite at zero because e ≥ 1.
+        let root = self.n_per_m_e * depth_m.powf(self.exponent - 1.0);
+        (root * depth_m, root * self.exponent)
+    }
+}
+
+/// The law of a pair of teeth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    stiffness: PowerStiffness,
+    damping_n_s_per_m: f64,
+    full_depth_m: f64,
+    slices: f64,
+}
+
+impl Impact {
+    /// Stiffness, largest damping C_max \[N·s/m\], depth d_max \[m\] from which it acts in full; shared by so many slices.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] if the damping is negative or d_max not positive.
+    pub fn new(
+        stiffness: PowerStiffness,
+        damping_n_s_per_m: f64,
+        full_depth_m: f64,
+        slices: usize,
+    ) -> Result<Self, DrivetrainError> {
+        let owner = "impact mesh";
+        Ok(Self {
+            stiffness,
+            damping_n_s_per_m: not_negative(owner, "the damping in N s/m", damping_n_s_per_m)?,
+            full_depth_m: positive(owner, "the depth of full damping in m", full_depth_m)?,
+            slices: slices as f64,
+        })
+    }
+}
+
+impl TeethModel for Impact {
+    fn evaluate(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &mut TeethLoads,
+    ) -> Result<(), DrivetrainError> {
+        let n = flanks.contacts.len();
+        for (i, contact) in flanks.contacts.iter().enumerate() {
+            let depth = -contact.gap_m;
+            if depth <= 0.0 {
+                continue;
+            }
+            let rate = contact.gap_rate_m_per_s;
+            let (elastic, slope) = self.stiffness.force(depth);
+            let full = [self.full_depth_m, self.damping_n_s_per_m];
+            let (damping, damping_slope) = step(depth, [0.0, 0.0], full);
+            let force = (elastic - damping * rate) / self.slices;
+            loads.stored_j += elastic * depth / (self.stiffness.exponent + 1.0) / self.slices;
+            if force > 0.0 {
+                loads.normal_n[i] = force;
+                loads.stiffness_n_per_m[i * n + i] = (slope - damping_slope * rate) / self.slices;
+                loads.damping_n_s_per_m[i * n + i] = damping / self.slices;
+                loads.dissipated_w += damping * rate * rate / self.slices;
+            } else {
+                loads.dissipated_w += elastic * rate / self.slices;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Seed 002 after its unit is put right: 1e7 N/mm^2.2 gives 398 N at 10 µm, 1.5e8 gives 5972 N.
+    #[test]
+    fn the_unit_carries_the_exponent() {
+        for (k, force) in [(1e7, 398.1), (1.5e8, 5971.6)] {
+            let stiffness = PowerStiffness::n_per_mm_e(k, 2.2).unwrap();
+            assert!((stiffness.force(10e-6).0 - force).abs() < 0.1);
+        }
+        assert!(PowerStiffness::n_per_mm_e(1e7, 0.9).is_err());
+        assert!(PowerStiffness::n_per_mm_e(-1.0, 1.5).is_err());
+    }
+}

@@ -1,0 +1,298 @@
+//! Gaps, roll angles and their derivatives against the static scene's kinematics, against points on the flanks, and against differences.
+#![allow(clippy::unwrap_used)]
+
+mod mesh_common;
+
+use std::sync::Arc;
+
+use gearmesh_contact::tip_contact::{TipContact, TipGear};
+use gearmesh_contact::{ContactLine, ContactLines};
+use gearmesh_drivetrain::pose::Vector6;
+use gearmesh_drivetrain::*;
+use gearmesh_geometry::microgeometry::{ProfileCrowning, ReliefShape, TipRelief};
+use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment};
+use mesh_common::*;
+use nalgebra::{Vector2, Vector3};
+
+const SIDES: [FlankSide; 2] = [FlankSide::Right, FlankSide::Left];
+
+fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
+    let span = gear.tip_roll_rad - gear.form_roll_rad;
+    Microgeometry {
+        tip_roll_rad: gear.tip_roll_rad,
+        face_width_m: WIDTH,
+        profile_crowning: Some(ProfileCrowning {
+            amount_m: 8e-6,
+            centre_roll_rad: gear.form_roll_rad + 0.5 * span,
+        }),
+        tip_relief: Some(TipRelief {
+            amount_m: 20e-6,
+            start_roll_rad: gear.form_roll_rad + 0.7 * span,
+            shape: ReliefShape::Parabolic,
+        }),
+        lead_crowning_m: 5e-6,
+        flank_angle_m: 3e-6,
+    }
+}
+
+/// Both kinematics see the same pairs, roll angles and gaps, on parallel axes and, to first order, on tilted ones.
+#[test]
+fn gaps_are_those_of_the_static_scene() {
+    for (misalignment, tolerance) in [
+        (Misalignment::default(), 1e-15),
+        (
+            Misalignment {
+                inclination_rad: 2e-4,
+                deviation_rad: -3e-4,
+            },
+            // Second order in the tilt: base radius times (3.6e-4)².
+            8e-9,
+        ),
+    ] {
+        for side in SIDES {
+            let pair = GearPair {
+                misalignment,
+                ..spur_pair()
+            }
+            .on_flanks(side);
+            // On modified flanks the tilt also changes the roll angle, which the static scene leaves out.
+            let modified = |gear| match misalignment == Misalignment::default() {
+                true => microgeometry(gear),
+                false => Microgeometry::default(),
+            };
+            let lines = ContactLines {
+                microgeometry_1: modified(&pair.gear_1),
+                microgeometry_2: modified(&pair.gear_2),
+                extension: None,
+                face_width_m: WIDTH,
+                pair: pair.clone(),
+            };
+            let errors = [&lines.microgeometry_1, &lines.microgeometry_2]
+                .map(|m| vec![Arc::new(m.clone()) as Arc<dyn FlankError>]);
+            let kinematics = kinematics_with(&pair, errors, PathEnds::LineOfAction);
+            // Gear 2 tilts about the pitch point: away from gear 1 with z, and across so that loaded flanks open with z.
+            let sigma = side.mirror();
+            let tilt = Vector3::new(
+                sigma * misalignment.deviation_rad,
+                misalignment.inclination_rad,
+                0.0,
+            );
+            let mut seen = Vec::<ContactLine>::new();
+            let mut found = FlankContacts::default();
+            for k in 0..40 {
+                // At TE = 0 both have the same roll angle on gear 2; the static scene always takes that one.
+                let (theta, te) = (0.37 * f64::from(k), 0.0);
+                lines.at(theta, &mut seen);
+                let phi = angles(&pair, side, theta, te);
+                let pitch_point = Vector3::new(
+                    pair.centre_distance_m * pair.gear_1.base_radius_m
+                        / (pair.gear_1.base_radius_m + pair.gear_2.base_radius_m),
+                    0.0,
+                    0.0,
+                );
+                let from_axis_2 = pitch_point - Vector3::new(pair.centre_distance_m, 0.0, 0.0);
+                let shift = from_axis_2 - about(tilt, 1.0) * from_axis_2;
+                let at = pose(&pair, phi, shift, tilt);
+                kinematics.contacts(&at, side, &mut found).unwrap();
+                assert_eq!(found.lines.len(), seen.len(), "angle {theta}");
+                for line in &found.lines {
+                    let twin = seen
+                        .iter()
+                        .find(|l| [l.tooth_1, l.tooth_2] == line.teeth)
+                        .unwrap_or_else(|| panic!("teeth {:?}", line.teeth));
+                    // The same second order over the length of the line of action.
+                    let roll_tolerance = 1e-12 + 100.0 * tolerance;
+                    assert!((line.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
+                    let (first, count) = line.contacts;
+                    assert_eq!(count, SLICES);
+                    for contact in &found.contacts[first..first + count] {
+                        let z = found.planes[contact.slice].z_m;
+                        let expected = lines.separation_m(twin, z) + te;
+                        let off = contact.gap_m - expected;
+                        assert!(off.abs() < tolerance + 1e-16, "{off:e} at {theta}, z {z}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The gap is the distance of points: flank points at the roll angles found lie on one line, that far apart.
+#[test]
+fn flank_points_are_the_gap_apart() {
+    let pair = spur_pair();
+    let kinematics = kinematics(&pair);
+    let mut found = FlankContacts::default();
+    for side in SIDES {
+        let phi = angles(&pair, side, 1.234, 40e-6);
+        let shift = Vector3::new(0.3e-3, -0.2e-3, 0.0);
+        let at = pose(&pair, phi, shift, Vector3::zeros());
+        kinematics.contacts(&at, side, &mut found).unwrap();
+        assert!(!found.lines.is_empty());
+        for line in &found.lines {
+            let point = |gear: usize, tooth: &gearmesh_geometry::ToothGeometry| {
+                let turn = std::f64::consts::TAU * line.teeth[gear] as f64 / tooth.teeth as f64;
+                let p = tooth.flank_point_m(side, line.roll_rad[gear]);
+                let (sin, cos) = (turn + phi[gear]).sin_cos();
+                Vector2::new(cos * p[0] - sin * p[1], sin * p[0] + cos * p[1])
+            };
+            let centre = Vector2::new(pair.centre_distance_m + shift[0], shift[1]);
+            let apart = centre + point(1, &pair.gear_2) - point(0, &pair.gear_1);
+            assert!((apart.norm() - line.ideal_gap_m.abs()).abs() < 1e-14);
+            // w in the world
+            let plane = found.planes[SLICES / 2];
+            let normal = about(Vector3::z(), phi[0]) * plane.normal;
+            let along = apart.dot(&normal.xy());
+            assert!((along - line.ideal_gap_m).abs() < 1e-14, "{along}");
+        }
+    }
+}
+
+/// Gradients of gaps and roll angles, and the curvature of the gaps, against central differences.
+#[test]
+fn derivatives_agree_with_differences() {
+    let pair = spur_pair();
+    let errors = [&pair.gear_1, &pair.gear_2]
+        .map(|g| vec![Arc::new(microgeometry(g)) as Arc<dyn FlankError>]);
+    let kinematics = kinematics_with(&pair, errors, PathEnds::Extended);
+    let contacts = |at: &Pose, side| {
+        let mut found = FlankContacts::default();
+        kinematics.contacts(at, side, &mut found).unwrap();
+        found
+    };
+    for (side, theta) in [
+        (FlankSide::Right, 0.05),
+        (FlankSide::Left, 0.13),
+        (FlankSide::Right, 0.21),
+    ] {
+        let tilt = Vector3::new(3e-3, -2e-3, 0.0);
+        let phi = angles(&pair, side, theta, -5e-6);
+        let at = pose(&pair, phi, Vector3::new(1e-4, 2e-4, 1e-3), tilt);
+        let here = contacts(&at, side);
+        assert!(here.lines.len() >= 2 || theta < 0.1);
+        for direction in 0..6 {
+            let h = 1e-7;
+            let mut step = Vector6::zeros();
+            step[direction] = h;
+            let (after, before) = (
+                contacts(&moved(&at, &step), side),
+                contacts(&moved(&at, &-step), side),
+            );
+            for (i, contact) in here.contacts.iter().enumerate() {
+                let gap = (after.contacts[i].gap_m - before.contacts[i].gap_m) / (2.0 * h);
+                let off = gap - contact.gradient[direction];
+                assert!(off.abs() < 2e-9, "gap {i} by {direction}: {off:e}");
+                let line = &here.lines[contact.line];
+                for gear in 0..2 {
+                    let roll = |set: &FlankContacts| set.lines[contact.line].roll_rad[gear];
+                    let off = (roll(&after) - roll(&before)) / (2.0 * h)
+                        - line.roll_gradient[gear][direction];
+                    assert!(off.abs() < 1e-7, "roll by {direction}: {off:e}");
+                }
+            }
+            // Ideal flanks: the curvature leaves the microgeometry out.
+            let ideal = mesh_common::kinematics(&pair);
+            let gradients = |at: &Pose| {
+                let mut found = FlankContacts::default();
+                ideal.contacts(at, side, &mut found).unwrap();
+                found
+            };
+            let (after, before, base) = (
+                gradients(&moved(&at, &step)),
+                gradients(&moved(&at, &-step)),
+                gradients(&at),
+            );
+            for (i, contact) in base.contacts.iter().enumerate() {
+                let line = &base.lines[contact.line];
+                if (0..2).any(|g| line.roll_rad[g] > line.touching_roll_rad[g]) {
+                    continue;
+                }
+                let change = (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
+                let curvature =
+                    base.planes[contact.slice].gap_curvature(&at, side, pair.gear_2.base_radius_m);
+                let off = (change - curvature.column(direction)).norm();
+                assert!(
+                    off < 1e-6 * (1.0 + change.norm()),
+                    "{direction}: {off:e} of {change}"
+                );
+            }
+        }
+    }
+}
+
+/// Beyond the end of the path the parabola is the exact gap of the tip edge, to second order: its relative error falls with the angle.
+#[test]
+fn tip_edges_have_the_exact_gap_to_second_order() {
+    let pair = spur_pair();
+    let kinematics = kinematics(&pair);
+    let pitch = pair.pitch_1_rad();
+    let mut found = FlankContacts::default();
+    for (tip, base) in [
+        (TipGear::One, pair.roll_end_1_rad),
+        (TipGear::Two, pair.roll_start_1_rad),
+    ] {
+        let mut errors = Vec::new();
+        for share in [0.08, 0.04, 0.02] {
+            let sign = if tip == TipGear::One { 1.0 } else { -1.0 };
+            let roll = base + sign * share * pitch;
+            let theta = roll - pair.working_pressure_angle_rad.tan();
+            let exact = match tip {
+                TipGear::One => TipContact::new(&pair, tip, roll, pair.roll_2_rad(roll)),
+                TipGear::Two => TipContact::new(&pair, tip, pair.roll_2_rad(roll), roll),
+            };
+            let phi = angles(&pair, FlankSide::Right, theta, 0.0);
+            let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+            kinematics
+                .contacts(&at, FlankSide::Right, &mut found)
+                .unwrap();
+            let line = found.lines.iter().find(|l| l.teeth == [0, 0]).unwrap();
+            let gap = found.contacts[line.contacts.0].gap_m;
+            errors.push((gap / exact.gap_m - 1.0).abs());
+        }
+        assert!(errors[0] < 0.2, "{errors:?}");
+        for pair in errors.windows(2) {
+            let ratio = pair[0] / pair[1];
+            assert!((1.8..2.3).contains(&ratio), "{tip:?} {errors:?}");
+        }
+    }
+}
+
+/// Any number of turns, hunting teeth included: the pair is found from the angles alone.
+#[test]
+fn teeth_are_found_without_memory() {
+    let pair = spur_pair();
+    let kinematics = kinematics(&pair);
+    let mut found = FlankContacts::default();
+    for turn in [0i64, 1, 7, -3] {
+        let theta = std::f64::consts::TAU * turn as f64;
+        let phi = angles(&pair, FlankSide::Right, theta, 0.0);
+        let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+        kinematics
+            .contacts(&at, FlankSide::Right, &mut found)
+            .unwrap();
+        let expected = (-30 * turn).rem_euclid(41) as usize;
+        let at_pitch = found.lines.iter().find(|l| l.teeth[0] == 0).unwrap();
+        assert_eq!(at_pitch.teeth[1], expected, "turn {turn}");
+        assert!((at_pitch.ideal_gap_m).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn impossible_poses_are_refused() {
+    let pair = spur_pair();
+    let kinematics = kinematics(&pair);
+    let mut found = FlankContacts::default();
+    let mut refuse = |shift: Vector3<f64>, tilt: Vector3<f64>| {
+        let at = pose(&pair, [0.0; 2], shift, tilt);
+        let refused = kinematics.contacts(&at, FlankSide::Right, &mut found);
+        refused.unwrap_err().to_string()
+    };
+    let upside_down = refuse(Vector3::zeros(), Vector3::new(3.1, 0.0, 0.0));
+    assert!(upside_down.contains("same way"), "{upside_down}");
+    let tilted = refuse(Vector3::zeros(), Vector3::new(0.011, 0.0, 0.0));
+    assert!(tilted.contains("11.00 mrad"), "{tilted}");
+    let close = refuse(Vector3::new(-10e-3, 0.0, 0.0), Vector3::zeros());
+    assert!(close.contains("base radii"), "{close}");
+    let nan = refuse(Vector3::new(f64::NAN, 0.0, 0.0), Vector3::zeros());
+    assert!(nan.contains("NaN"), "{nan}");
+}

@@ -1,0 +1,256 @@
+//! Gear pairs, meshes and motions for the tests of gear meshes.
+#![allow(clippy::unwrap_used, dead_code, missing_docs, unused_imports)]
+
+#[path = "../../../contact/tests/pair_common/mod.rs"]
+pub mod pair_common;
+
+use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
+use gearmesh_drivetrain::*;
+use gearmesh_dynamics::Marker;
+use gearmesh_geometry::{FlankSide, GearPair, Material, ToothGeometry, involute};
+use gearmesh_model::{Flank, ReducedGear};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+pub const STEEL: Material = Material {
+    young_pa: 210e9,
+    poisson: 0.3,
+    density_kg_per_m3: Some(7850.0),
+};
+pub const WIDTH: f64 = 20e-3;
+pub const SLICES: usize = 5;
+
+/// 30/41 teeth, module 3 mm.
+pub fn spur_pair() -> GearPair {
+    pair_common::pair(
+        &pair_common::tooth(30, 0.2, 0.0),
+        &pair_common::tooth(41, -0.1, 0.0),
+    )
+}
+
+/// The made-up body of the contact tests with both flanks loaded; the two do not feel each other.
+pub fn made_up_gear(tooth: &ToothGeometry) -> ReducedGear {
+    let one = pair_common::made_up_gear(tooth, WIDTH, SLICES);
+    let block = one.grid.len() * one.grid.len();
+    let mut c_hub = Vec::new();
+    for load_flank in 0..2 {
+        for response in one.c_hub.chunks_exact(block) {
+            for response_flank in 0..2 {
+                let coupled = f64::from(load_flank == response_flank);
+                c_hub.extend(response.iter().map(|c| coupled * c));
+            }
+        }
+    }
+    ReducedGear {
+        flanks: vec![Flank::Right, Flank::Left],
+        c_hub,
+        c_tooth: one.c_tooth.repeat(2),
+        opposite_distance_m: one.opposite_distance_m.repeat(2),
+        ..one
+    }
+}
+
+pub fn slice_planes() -> Vec<f64> {
+    let width = WIDTH / SLICES as f64;
+    (0..SLICES)
+        .map(|k| (k as f64 + 0.5) * width - 0.5 * WIDTH)
+        .collect()
+}
+
+pub fn kinematics_with(
+    pair: &GearPair,
+    errors: [FlankErrors; 2],
+    ends: PathEnds,
+) -> MeshKinematics {
+    let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
+    MeshKinematics::new(gears, errors, pair.centre_distance_m, slice_planes(), ends).unwrap()
+}
+
+pub fn kinematics(pair: &GearPair) -> MeshKinematics {
+    kinematics_with(pair, [Vec::new(), Vec::new()], PathEnds::Extended)
+}
+
+pub fn beam_tooth(gear: usize, tooth: &ToothGeometry) -> BeamTooth<'_> {
+    BeamTooth {
+        gear,
+        tooth,
+        material: STEEL,
+        face_width_m: WIDTH,
+        bore_radius_m: 0.4 * tooth.root_radius_m,
+    }
+}
+
+pub fn impact() -> Impact {
+    let stiffness = PowerStiffness::n_per_mm_e(2e6, 1.5).unwrap();
+    Impact::new(stiffness, 3e3, 5e-6, SLICES).unwrap()
+}
+
+pub fn mesh_spring(pair: &GearPair) -> MeshSpring {
+    let middle = pair.working_pressure_angle_rad.tan();
+    MeshSpring::new(3e8, SLICES, middle)
+        .unwrap()
+        .with_sine(0.2, middle, pair.gear_1.teeth)
+        .unwrap()
+}
+
+pub fn beam_teeth(pair: &GearPair) -> BeamTeeth {
+    let gears = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
+    BeamTeeth::new(gears, SLICES, [&[], &[]]).unwrap()
+}
+
+pub fn reduced_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+    let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
+    let local = LocalContact::WeberBanaschek;
+    ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
+}
+
+/// What a model is called in messages.
+pub const MODELS: [&str; 4] = ["impact", "iso6336", "analytic", "hybrid"];
+
+pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
+    match name {
+        "impact" => Box::new(impact()),
+        "iso6336" => Box::new(mesh_spring(pair)),
+        "analytic" => Box::new(beam_teeth(pair)),
+        _ => Box::new(reduced_teeth(pair, side)),
+    }
+}
+
+/// A mesh of the test pair with both sides of the teeth.
+pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh {
+    let [right, left] = [FlankSide::Right, FlankSide::Left].map(|side| model(name, pair, side));
+    GearMesh::new(kinematics, FlankSide::Right, right)
+        .unwrap()
+        .with_side(FlankSide::Left, left)
+        .unwrap()
+}
+
+/// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel
+/// axes at the pair's centre distance, gear 2 on +x of the world.
+pub fn angles(pair: &GearPair, side: FlankSide, theta_1: f64, te_m: f64) -> [f64; 2] {
+    let alpha = pair.working_pressure_angle_rad;
+    let inv = involute::involute_function(alpha);
+    let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
+    let at = |gear: &ToothGeometry| gear.base_half_angle_rad - inv;
+    let theta_2 = (r1 * theta_1 + te_m) / r2;
+    let sigma = side.mirror();
+    [
+        sigma * (at(&pair.gear_1) - theta_1),
+        sigma * (at(&pair.gear_2) + theta_2) + std::f64::consts::PI,
+    ]
+}
+
+pub fn about(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    *UnitQuaternion::from_scaled_axis(axis * angle)
+        .to_rotation_matrix()
+        .matrix()
+}
+
+/// The pose of two gears whose bodies stand at polar angles φ in the world, gear 2 displaced and tilted from its place on +x.
+pub fn pose(pair: &GearPair, phi: [f64; 2], shift: Vector3<f64>, tilt: Vector3<f64>) -> Pose {
+    let [from_1, from_2] = phi.map(|angle| about(Vector3::z(), angle));
+    let to_1 = from_1.transpose();
+    let u = Vector3::new(pair.centre_distance_m, 0.0, 0.0) + shift;
+    Pose::at_rest(to_1 * u, to_1 * about(tilt, 1.0) * from_2)
+}
+
+/// A pose moved by an increment (δu, ϑ).
+pub fn moved(pose: &Pose, increment: &pose::Vector6) -> Pose {
+    let turn = Vector3::new(increment[3], increment[4], increment[5]);
+    Pose {
+        displacement_m: pose.displacement_m
+            + Vector3::new(increment[0], increment[1], increment[2]),
+        rotation: about(turn, 1.0) * pose.rotation,
+        ..*pose
+    }
+}
+
+/// A pose with rates.
+pub fn moving(pose: &Pose, rates: &pose::Vector6) -> Pose {
+    Pose {
+        velocity_m_per_s: Vector3::new(rates[0], rates[1], rates[2]),
+        angular_velocity_rad_per_s: Vector3::new(rates[3], rates[4], rates[5]),
+        ..*pose
+    }
+}
+
+/// A gear on a revolute joint: mass and inertia of a solid disc with a bore of 16 mm.
+pub fn disc(
+    name: &str,
+    gear: &ToothGeometry,
+    width_m: f64,
+    (x_m, angle_rad, speed_rad_per_s): (f64, f64, f64),
+) -> gearmesh_dynamics::Body {
+    let blank = gearmesh_geometry::Blank {
+        bore_radius_m: 8e-3,
+        web: None,
+        openings: None,
+        contour: None,
+        meshed: None,
+    };
+    let inertia = GearInertia::new(gear, &blank, width_m, 7850.0).unwrap();
+    let (across, polar) = (inertia.across_kg_m2, inertia.polar_kg_m2);
+    gearmesh_dynamics::Body {
+        position_m: Vector3::new(x_m, 0.0, 0.0),
+        orientation: UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, angle_rad)),
+        angular_velocity_rad_per_s: Vector3::new(0.0, 0.0, speed_rad_per_s),
+        ..gearmesh_dynamics::Body::rigid(name, inertia.mass_kg, [across, across, polar])
+    }
+}
+
+/// Two gears on fixed axes, gear 1 turning clockwise at `speed_1` with gear 2 at its ratio, torques `torque_2` on gear 2 against its
+/// motion and the balancing one on gear 1, right flanks pressed together by `-te_m`.
+pub fn two_gears(
+    pair: &GearPair,
+    mesh: GearMesh,
+    (speed_1, torque_2, te_m): (f64, f64, f64),
+    width_m: f64,
+) -> (gearmesh_dynamics::SystemBuilder, [Marker; 2]) {
+    use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind};
+    use gearmesh_dynamics::{Joint, JointKind, System, TimeFunction};
+    let phi = angles(pair, FlankSide::Right, 0.0, te_m);
+    let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
+    let a = pair.centre_distance_m;
+    let mut builder = System::builder();
+    let mut markers = Vec::new();
+    for (name, gear, x, angle, speed, torque) in [
+        (
+            "gear 1",
+            &pair.gear_1,
+            0.0,
+            phi[0],
+            -speed_1,
+            -torque_2 * ratio,
+        ),
+        (
+            "gear 2",
+            &pair.gear_2,
+            a,
+            phi[1],
+            speed_1 * ratio,
+            -torque_2,
+        ),
+    ] {
+        let body = disc(name, gear, width_m, (x, angle, speed));
+        let id = builder.body(body).unwrap();
+        let marker = Marker::at(id, [0.0; 3]);
+        let housing = Marker::ground([x, 0.0, 0.0]);
+        let joint = Joint::new(
+            &format!("bearing of {name}"),
+            JointKind::Revolute,
+            housing,
+            marker,
+        );
+        builder.joint(joint.unwrap());
+        if torque != 0.0 {
+            let axis = (Axes::World, [0.0, 0.0, 1.0]);
+            let load = TimeFunction::Constant(torque);
+            let name = format!("torque on {name}");
+            builder.element(AppliedLoad::new(&name, id, LoadKind::Torque, axis, load).unwrap());
+        }
+        markers.push(marker);
+    }
+    let markers = [markers[0], markers[1]];
+    builder.element(MeshElement::new("mesh", markers, mesh));
+    (builder, markers)
+}
