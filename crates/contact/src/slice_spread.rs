@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The second part ends it at about the depth h of the tooth; it matters on slices wider than that only. ⟨⟩ is the mean over
-//! the distances ρ across the line between force and deflection ([`Distances`]): under the Hertz pressure those from its middle;
+//! the distances ρ across the line between force and deflection (`Distances`): under the Hertz pressure those from its middle;
 //! between the hats those of two points of one hat each, scaled so that an endless line is as stiff as the hats on the mesh,
 //! ⟨ln ρ⟩_h = ⟨ln ρ⟩ + (c₀ − w_h)/k. The ends of a slice see ⟨ρ⟩ as well, which is why the shape matters.
 //! With s the uniform density of a slice force, f that of its hats ([`axial_shares`]),
