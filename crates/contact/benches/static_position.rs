@@ -68,9 +68,6 @@ fn model(gear: &GearDefinition) -> ReducedGear {
         c_hub,
         c_tooth: vec![0.0; n * n],
         gauges: Vec::new(),
-        rigid_body: None,
-        reference_point: None,
-        modes: None,
         provenance: Default::default(),
         checks: Default::default(),
     }
