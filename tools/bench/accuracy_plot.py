@@ -42,6 +42,7 @@ def main() -> None:
         axis.grid(which="both", linewidth=0.3)
         for scale in (axis.xaxis, axis.yaxis):
             scale.set_major_formatter("{x:g}")
+            scale.set_minor_formatter("")
     axes[0][0].set_ylabel("largest error of the deflection [%]")
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8)
