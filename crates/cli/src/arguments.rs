@@ -74,10 +74,10 @@ pub struct ReduceArguments {
 pub struct ModesArguments {
     /// Gear file with material.density_kg_per_m3
     pub gear: PathBuf,
-    /// So many modes, the lowest; instead of what the gear file says in [modes]
+    /// So many modes, the lowest; instead of what the gear file says
     #[arg(long, conflicts_with = "up_to_Hz")]
     pub count: Option<usize>,
-    /// All modes up to this frequency; instead of what the gear file says in [modes]
+    /// All modes up to this frequency; instead of what the gear file says
     #[arg(long = "up-to-Hz")]
     pub up_to_Hz: Option<f64>,
     /// Mesh file for the shapes, one point field a mode (vtu, ...)
