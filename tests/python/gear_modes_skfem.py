@@ -29,6 +29,10 @@ basis = skfem.Basis(body, element, intorder=5)
 m = skfem.BilinearForm(lambda u, v, w: density * sum(u[a] * v[a] for a in range(3))).assemble(basis)
 free = np.setdiff1d(np.arange(basis.N), basis.nodal_dofs[:, mesh["point_sets"]["bore"]].ravel())
 k, m = (matrix.tocsc()[free][:, free] for matrix in (k, m))
-squares = scipy.sparse.linalg.eigsh(k, count, m, sigma=0.0, v0=np.ones(len(free)), return_eigenvectors=False)
+# The default order of SuperLU is made for unsymmetric matrices and fills a solid's factor many times over.
+factor = scipy.sparse.linalg.splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+inverse = scipy.sparse.linalg.LinearOperator(k.shape, factor.solve)
+start = np.ones(len(free))
+squares = scipy.sparse.linalg.eigsh(k, count, m, sigma=0.0, OPinv=inverse, v0=start, return_eigenvectors=False)
 for square in np.sort(squares):
     print(repr(float(np.sqrt(square) / (2.0 * np.pi))))

@@ -16,7 +16,7 @@ fn gear() -> GearDefinition {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fe_models/gear2.toml");
     let text = std::fs::read_to_string(path).unwrap();
     let text = format!(
-        "{text}\n[mesh]\nelement = \"hex8\"\nflank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 5.0\naxial_mm = 11.5\n"
+        "{text}\n[mesh]\nelement = \"hex8\"\nflank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 5.0\naxial_mm = 23.0\n"
     );
     GearDefinition::from_document(&InputDocument::new("gear2.toml", text)).unwrap()
 }
