@@ -40,7 +40,15 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("rating", &["geometry", "contact"]),
     (
         "scene",
-        &["geometry", "model", "contact", "recovery", "signal"],
+        &[
+            "geometry",
+            "model",
+            "contact",
+            "dynamics",
+            "drivetrain",
+            "recovery",
+            "signal",
+        ],
     ),
     ("report", &["geometry", "model", "scene", "signal"]),
     (
