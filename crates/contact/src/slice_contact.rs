@@ -141,6 +141,29 @@ impl SliceContact {
         self.work.reset();
     }
 
+    /// Lets the next solve at a given approach start from these forces \[N\], one for each slice; see [`Workspace::start_from`].
+    pub fn start_from(&mut self, forces_n: &[f64]) {
+        self.work.start_from(forces_n);
+    }
+
+    /// Takes R Rᵀ from the compliance of the slices that were prepared: what `columns` quantities of R, `[slice][column]` \[√(m/N)\],
+    /// carry elsewhere, as the vibration modes of a gear body do.
+    pub fn subtract_from_compliance(&mut self, rows: &[f64], columns: usize) {
+        if columns == 0 {
+            return;
+        }
+        let n = rows.len() / columns;
+        for (i, a) in rows.chunks_exact(columns).enumerate() {
+            for (j, b) in rows.chunks_exact(columns).enumerate().take(i + 1) {
+                let shared = dot(a, b);
+                self.c[i * n + j] -= shared;
+                if i != j {
+                    self.c[j * n + i] -= shared;
+                }
+            }
+        }
+    }
+
     /// Hertz contact of the slice with this number, and its edge.
     ///
     /// # Panics

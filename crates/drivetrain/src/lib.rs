@@ -6,6 +6,7 @@
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
+//! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`] | `gear_inertia.rs`, `gear_body.rs` |
@@ -17,12 +18,14 @@ pub mod damping;
 pub mod error;
 pub mod errors;
 pub mod flank_error;
+pub mod flank_modes;
 pub mod friction;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
 pub mod mesh_element;
 pub mod mesh_kinematics;
+pub mod modal_loads;
 pub mod models;
 pub mod pose;
 pub mod step;
@@ -32,6 +35,7 @@ pub mod tooth_compliance;
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_error::{FlankError, FlankPoint, Removed};
+pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
 pub use gear_body::gear_body;
 pub use gear_inertia::GearInertia;

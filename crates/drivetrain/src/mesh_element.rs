@@ -7,6 +7,8 @@ use gearmesh_geometry::FlankSide;
 
 use nalgebra::SVector;
 
+use crate::error::DrivetrainError;
+use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::pose::Pose;
 
@@ -88,6 +90,74 @@ impl MeshElement {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
         self.pair.motion(&gear_1, &gear_2)
     }
+
+    /// The mesh at a motion of its bodies and their modes.
+    fn load(
+        &mut self,
+        view: &View<'_>,
+        motion: &RelativeMotion,
+        tangents: bool,
+    ) -> Result<MeshLoad, DrivetrainError> {
+        let counts = self.mesh.modal_loads().counts();
+        let mut modal = ModalMotion::default();
+        for (gear, body) in self.bodies.into_iter().enumerate() {
+            if counts[gear] == 0 {
+                continue;
+            }
+            modal.coordinates[gear] = view.modal(body);
+            modal.rates[gear] = view.modal_rates(body);
+            if modal.coordinates[gear].len() != counts[gear] {
+                return Err(DrivetrainError::Length {
+                    owner: "gear mesh",
+                    what: "the list of modes of a gear's body",
+                    found: modal.coordinates[gear].len(),
+                    expected: counts[gear],
+                });
+            }
+        }
+        self.mesh
+            .evaluate_modal(&Pose::from(motion), &modal, tangents)
+    }
+
+    /// Adds forces on modes and their tangents; `places`: where the bodies' degrees of freedom begin.
+    fn add_modal(&self, motion: &RelativeMotion, places: [usize; 2], loads: &mut Loads) {
+        let modal = self.mesh.modal_loads();
+        let [first, _] = modal.counts();
+        let place_of = |mode: usize| match mode.checked_sub(first) {
+            None => places[0] + 6 + mode,
+            Some(of_2) => places[1] + 6 + of_2,
+        };
+        for (mode, force) in modal.force.iter().enumerate() {
+            loads.add_force(place_of(mode), &[*force]);
+        }
+        if !loads.wants_tangents() {
+            return;
+        }
+        let jacobian = motion.jacobian();
+        let rate_jacobian = motion.rate_jacobian(&jacobian);
+        let count = modal.count();
+        for mode in 0..count {
+            let at = place_of(mode);
+            let by_pose = modal.force_by_pose[mode].transpose();
+            let by_rates = modal.force_by_rates[mode].transpose();
+            let row = by_pose * jacobian + by_rates * rate_jacobian;
+            let rate_row = by_rates * jacobian;
+            let column = jacobian.tr_mul(&modal.load_by_coordinates[mode]);
+            let rate_column = jacobian.tr_mul(&modal.load_by_rates[mode]);
+            for dof in 0..12 {
+                let other = places[dof / 6] + dof % 6;
+                loads.add_by_position(at, other, row[dof]);
+                loads.add_by_velocity(at, other, rate_row[dof]);
+                loads.add_by_position(other, at, column[dof]);
+                loads.add_by_velocity(other, at, rate_column[dof]);
+            }
+            for other in 0..count {
+                let to = place_of(other);
+                loads.add_by_position(at, to, modal.by_coordinates[mode * count + other]);
+                loads.add_by_velocity(at, to, modal.by_rates[mode * count + other]);
+            }
+        }
+    }
 }
 
 impl ForceElement for MeshElement {
@@ -101,17 +171,17 @@ impl ForceElement for MeshElement {
 
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
-        let mesh = self
-            .mesh
-            .evaluate(&Pose::from(&motion), loads.wants_tangents())?;
+        let tangents = loads.wants_tangents();
+        let mesh = self.load(view, &motion, tangents)?;
+        self.mesh.remember();
         loads.power = mesh.power;
-        let on_pair = PairForce::new(&mesh, &motion, loads.wants_tangents());
+        let on_pair = PairForce::new(&mesh, &motion, tangents);
         // Modal coordinates of gear 1 stand between the two.
         let places = [0, 6 + view.modal(self.bodies[0]).len()];
         for (half, place) in places.iter().enumerate() {
             loads.add_force(*place, &on_pair.force.as_slice()[6 * half..6 * half + 6]);
         }
-        if loads.wants_tangents() {
+        if tangents {
             for column in 0..12 {
                 let to = places[column / 6] + column % 6;
                 for row in 0..12 {
@@ -121,11 +191,18 @@ impl ForceElement for MeshElement {
                 }
             }
         }
+        if self.mesh.modal_loads().count() > 0 {
+            self.add_modal(&motion, places, loads);
+        }
         Ok(())
     }
 
-    fn commit(&mut self, _view: &View<'_>) {
-        self.mesh.forget();
+    fn save(&self, out: &mut Vec<f64>) {
+        self.mesh.save(out);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        self.mesh.restore(numbers);
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -143,8 +220,8 @@ impl ForceElement for MeshElement {
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
         // What fails here has failed in the step itself, or will in the next one.
-        let pose = Pose::from(&self.motion(view));
-        if self.mesh.evaluate(&pose, false).is_err() {
+        let motion = self.motion(view);
+        if self.load(view, &motion, false).is_err() {
             out.fill(f64::NAN);
             return;
         }
@@ -161,8 +238,6 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        // A run must not depend on when it was looked at.
-        self.mesh.forget();
         out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
         out[sides + 1] = pairs as f64;
     }

@@ -29,6 +29,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
 use crate::flank_error::{FlankError, FlankPoint};
+use crate::flank_modes::ModalRows;
 use crate::pose::{Pose, Vector6};
 
 /// 6×6 matrix on the increments of a pose.
@@ -107,6 +108,8 @@ pub struct FlankContacts {
     pub lines: Vec<TeethLine>,
     /// Their slices, line by line.
     pub contacts: Vec<ToothContact>,
+    /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
+    pub modal: [ModalRows; 2],
 }
 
 impl FlankContacts {
@@ -117,6 +120,7 @@ impl FlankContacts {
             planes: Vec::with_capacity(planes),
             lines: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
+            modal: [ModalRows::default(), ModalRows::default()],
         }
     }
 }
