@@ -153,7 +153,6 @@ impl FlankModes {
             let roll = line.touching_roll_rad[gear];
             let place = self.hats.place(roll);
             let walks = roll == line.roll_rad[gear];
-            let moving = walks.then(|| self.hats.share_rates(roll));
             let along = &line.roll_gradient[gear];
             let roll_rate = along.dot(pose_rates);
             let first = line.teeth[gear] * self.stations;
@@ -169,7 +168,7 @@ impl FlankModes {
                     add_scaled(shape, share, row(station));
                 }
                 let slope = &mut rows.slopes[number * modes..][..modes];
-                for (station, share) in moving.iter().flat_map(|moving| moving.shares()) {
+                for (station, share) in place.rates().filter(|_| walks) {
                     add_scaled(slope, share, row(station));
                 }
                 contact.gap_m += dot(shape, coordinates);

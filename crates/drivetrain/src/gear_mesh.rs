@@ -15,7 +15,7 @@ use gearmesh_model::ReducedGear;
 use crate::error::DrivetrainError;
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::{Friction, Sliding};
-use crate::mesh_kinematics::{FlankContacts, Matrix6, MeshKinematics};
+use crate::mesh_kinematics::{FlankContacts, Matrix6, MeshKinematics, PoseGeometry};
 use crate::modal_loads::{ContactChange, ModalLoads};
 use crate::pose::{Pose, Vector6};
 use crate::teeth_model::{TeethLoads, TeethModel};
@@ -68,6 +68,7 @@ struct Side {
 /// A mesh of two gears.
 pub struct GearMesh {
     kinematics: MeshKinematics,
+    at: PoseGeometry,
     sides: Vec<Side>,
     friction: Option<Friction>,
     modal: ModalLoads,
@@ -86,6 +87,7 @@ impl GearMesh {
     ) -> Result<Self, DrivetrainError> {
         let mesh = Self {
             kinematics,
+            at: PoseGeometry::default(),
             sides: Vec::new(),
             friction: None,
             modal: ModalLoads::default(),
@@ -254,9 +256,9 @@ impl GearMesh {
         self.modal.begin(tangents);
         let rates = pose.rates();
         let base_radii = [0, 1].map(|i| self.kinematics.gears()[i].base_radius_m);
+        self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
-            self.kinematics
-                .contacts(pose, side.flank, &mut side.found)?;
+            (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);

@@ -247,11 +247,7 @@ impl ReducedTeeth {
         }
     }
 
-    fn fill_energy(
-        &mut self,
-        flanks: &FlankContacts,
-        loads: &mut TeethLoads,
-    ) -> Result<(), DrivetrainError> {
+    fn fill_energy(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
         let slices = self.slices.slices();
         for (number, line) in flanks.lines.iter().enumerate() {
             let place = self.place[number];
@@ -265,14 +261,11 @@ impl ReducedTeeth {
             for gear in 0..2 {
                 // At the end of a flank the contact no longer walks.
                 if line.roll_rad[gear] == line.touching_roll_rad[gear] {
-                    loads.energy_by_roll[number][gear] = (self.slices)
-                        .energy_by_roll(&self.active, &self.touching, (place, gear), self.floor_n)
-                        .map_err(|cause| local_law_error(line.teeth, cause))?
+                    loads.energy_by_roll[number][gear] = (self.slices).energy_by_roll(place, gear)
                         - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
             }
         }
-        Ok(())
     }
 }
 
@@ -326,7 +319,7 @@ impl TeethModel for ReducedTeeth {
         let slices = self.slices.slices();
         (self
             .slices
-            .prepare(&self.active, &self.touching, self.floor_n))
+            .prepare_with_rates(&self.active, &self.touching, self.floor_n))
         .map_err(|(cause, slice)| {
             let line = &self.active[slice / slices];
             local_law_error([line.tooth_1, line.tooth_2], cause)
@@ -349,7 +342,8 @@ impl TeethModel for ReducedTeeth {
         if tangents {
             self.fill_tangent(flanks, loads);
         }
-        self.fill_energy(flanks, loads)
+        self.fill_energy(flanks, loads);
+        Ok(())
     }
 
     fn apply_stiffness(

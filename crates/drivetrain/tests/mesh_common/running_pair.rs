@@ -7,6 +7,7 @@ use gearmesh_dynamics::{Marker, MarkerPair, SystemBuilder, TimeFunction};
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment, ToothGeometry};
+use gearmesh_model::{NearField, ReducedGear};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -46,14 +47,39 @@ fn crowned(gear: &ToothGeometry) -> Arc<dyn FlankError> {
     })
 }
 
+/// The made-up gear with a near field of the usual size, so that the default local contact can be used.
+fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
+    let gear = made_up_gear(tooth);
+    let stations = gear.grid.roll_angles_rad.len();
+    let places = 12;
+    let (low, high) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
+    let mesh = |i: usize| {
+        let (a, b) = ((i / stations % stations) as f64, (i % stations) as f64);
+        9e-12 * (-0.1 * (a - b).abs()).exp()
+    };
+    ReducedGear {
+        near_field: Some(NearField {
+            half_width_m: 1e-4,
+            roll_angles_rad: (0..places)
+                .map(|k| low + (high - low) * k as f64 / (places - 1) as f64)
+                .collect(),
+            contact_m2_per_n: (0..places).map(|k| 1.4e-11 + 1e-13 * k as f64).collect(),
+            mesh_m2_per_n: (0..2 * stations * stations).map(mesh).collect(),
+            element_m: 1e-5,
+            residual: 1e-3,
+        }),
+        ..gear
+    }
+}
+
 /// The teeth of one side: `hybrid` with damping proportional to stiffness, or `impact`, which has its own and one plane.
 fn teeth(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
     if name == "impact" {
         let law = PowerStiffness::n_per_mm_e(4e6, 1.5).unwrap();
         return Box::new(Impact::new(law, 2e3, 5e-6, 1).unwrap());
     }
-    let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
-    let local = LocalContact::WeberBanaschek;
+    let models = [&pair.gear_1, &pair.gear_2].map(calibrated_gear);
+    let local = LocalContact::Calibrated;
     let teeth = ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 3000.0).unwrap();
     let damping = Damping::StiffnessProportional {
         time_s: 3e-6,
