@@ -257,8 +257,8 @@ impl SliceCompliance {
         }
     }
 
-    /// [`Self::line_block`] with its derivatives by the roll angles of both lines; on one and the same line each of them is half of
-    /// what the block changes by.
+    /// [`Self::line_block`] with its derivatives by the roll angles of both lines; on one and the same line `by_a` is half of what the
+    /// block changes by, and `by_b` is not made.
     pub fn line_block_with_rates(
         &self,
         (tooth_a, place_a): (usize, &RollPlace),
@@ -268,12 +268,16 @@ impl SliceCompliance {
         for values in [&mut out.value, &mut out.by_a, &mut out.by_b] {
             values.fill(0.0);
         }
-        (self.blocks).add_with_rates(self.pair(tooth_a, tooth_b), place_a, place_b, out);
-        if tooth_a == tooth_b && !self.spread.is_empty() {
+        let pair = self.pair(tooth_a, tooth_b);
+        if tooth_a != tooth_b {
+            self.blocks.add_with_rates(pair, place_a, place_b, out);
+            return;
+        }
+        self.blocks.add_own_with_rates(pair, place_a, out);
+        if !self.spread.is_empty() {
             let (term, rate) = self.spread_at(place_a);
             add_spread(&mut out.value, self.slices, term);
             add_spread(&mut out.by_a, self.slices, 0.5 * rate);
-            add_spread(&mut out.by_b, self.slices, 0.5 * rate);
         }
     }
 

@@ -50,6 +50,8 @@ pub struct SliceContact {
     /// Compliance of each gear between a line and another one after it, with its changes; only those of pairs of different lines and
     /// of lines with themselves in use.
     line_blocks: Vec<LineBlock>,
+    /// How the depths of the local logarithm grow with the roll angle, for each law that was made: the slices of a spur line share one.
+    depth_growths: Vec<[f64; 2]>,
     /// How the local law of each line changes with the roll angle on both gears.
     law_rates: Vec<[LawRate; 2]>,
     placed: Vec<[PlacedSlice; 2]>,
@@ -107,6 +109,7 @@ impl SliceContact {
         Ok(Self {
             places: Vec::with_capacity(most_lines),
             line_blocks: vec![LineBlock::new(slices); 2 * most_lines * most_lines],
+            depth_growths: Vec::with_capacity(capacity),
             law_rates: Vec::with_capacity(most_lines),
             lines,
             compliance_1,
@@ -229,25 +232,16 @@ impl SliceContact {
         self.law_rates.clear();
         for (number, line) in active.iter().enumerate() {
             let (contact, law) = (&self.hertz[number * slices].0, &self.local[number * slices]);
-            let share = touching[number * slices].share;
             let rates = std::array::from_fn(|gear| {
-                let (compliance, roll) = self.on_gear(gear, line);
-                let place = &self.places[number][gear];
-                let (_, depth_growth) = compliance.local_depth(roll, place, share);
-                let radius_growth = self.lines.relative_radius_growth(line, gear);
-                (self.local_contact).law_rate((contact, law), gear, [depth_growth, radius_growth])
+                let growths = [
+                    self.depth_growths[number][gear],
+                    self.lines.relative_radius_growth(line, gear),
+                ];
+                self.local_contact.law_rate((contact, law), gear, growths)
             });
             self.law_rates.push(rates);
         }
         Ok(())
-    }
-
-    /// Compliance of gear 0 or 1, and the roll angle of a line on it.
-    fn on_gear(&self, gear: usize, line: &ContactLine) -> (&SliceCompliance, f64) {
-        match gear {
-            0 => (&self.compliance_1, line.roll_1_rad),
-            _ => (&self.compliance_2, line.roll_2_rad),
-        }
     }
 
     fn find_places(&mut self, active: &[ContactLine]) {
@@ -265,6 +259,7 @@ impl SliceContact {
     ) -> Result<(), (LocalLawError, usize)> {
         self.hertz.clear();
         self.local.clear();
+        self.depth_growths.clear();
         let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
         for (number, slice) in touching.iter().enumerate() {
             let (hertz, law) = match last {
@@ -273,9 +268,12 @@ impl SliceContact {
                     (hertz, law)
                 }
                 _ => {
-                    let hertz = self.line_contact(slice);
-                    let law = self.law(hertz, floor_n).map_err(|cause| (cause, number))?;
-                    (hertz, law)
+                    let (contact, edge, growths) = self.line_contact(slice);
+                    let law = (self.local_contact.law(&contact, floor_n))
+                        .map_err(|cause| (cause, number))?
+                        .with_edge(edge);
+                    self.depth_growths.push(growths);
+                    ((contact, edge), law)
                 }
             };
             last = Some((slice.line, hertz, law));
@@ -283,14 +281,6 @@ impl SliceContact {
             self.local.push(law);
         }
         Ok(())
-    }
-
-    fn law(
-        &self,
-        (contact, edge): (LineContact, Option<EdgeContact>),
-        floor_n: f64,
-    ) -> Result<LocalLaw, LocalLawError> {
-        Ok(self.local_contact.law(&contact, floor_n)?.with_edge(edge))
     }
 
     /// Solves for the forces of the slices that were prepared; returns the approach at which the first would touch, and the solver's
@@ -355,28 +345,33 @@ impl SliceContact {
         local + with_others.sum::<f64>()
     }
 
-    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>) {
+    /// Hertz contact of a slice, its edge, and how the depths of both bodies grow with their roll angles.
+    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>, [f64; 2]) {
         let line = &slice.section;
         let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
-        let body = |compliance: &SliceCompliance, roll: f64| {
-            let (youngs_modulus_pa, poisson_ratio) = compliance.material();
+        let gears = [
+            (&self.compliance_1, line.roll_1_rad),
+            (&self.compliance_2, line.roll_2_rad),
+        ];
+        let depths = gears.map(|(compliance, roll)| {
+            compliance.local_depth(roll, &compliance.place(roll), slice.share)
+        });
+        let body = |gear: usize| {
+            let (youngs_modulus_pa, poisson_ratio) = gears[gear].0.material();
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
-                depth_m: compliance.local_depth_m(roll, slice.share),
+                depth_m: depths[gear].0,
             }
         };
         let contact = LineContact {
             width_m: slice.share * self.slice_width_m() / helix_cos,
             relative_radius_m: self.lines.relative_radius_m(line),
-            bodies: [
-                body(&self.compliance_1, line.roll_1_rad),
-                body(&self.compliance_2, line.roll_2_rad),
-            ],
+            bodies: [body(0), body(1)],
         };
         let edge = (self.lines.edge(line))
             .and_then(|(tilt_rad, radius_m)| EdgeContact::new(&contact, tilt_rad, radius_m));
-        (contact, edge)
+        (contact, edge, depths.map(|(_, growth)| growth))
     }
 
     /// C of slices that share the place of their line, block by block.

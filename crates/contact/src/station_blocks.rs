@@ -92,7 +92,23 @@ impl StationBlocks {
         }
     }
 
-    /// C_ab and its changes, added to `out`.
+    /// C_aa of a line with itself, and half of its change with the line's roll angle in `by_a`, added to `out`.
+    pub fn add_own_with_rates(&self, pair: usize, a: &RollPlace, out: &mut LineBlock) {
+        let (w, r) = (a.all_shares(), a.all_rates());
+        let n = self.size;
+        let (value, by_a) = (&mut out.value[..n], &mut out.by_a[..n]);
+        for k in 0..SHARES.min(self.stations) {
+            let [t0, t1, t2, t3] = self.row(pair, a.first() + k, a);
+            let (t0, t1, t2, t3) = (&t0[..n], &t1[..n], &t2[..n], &t3[..n]);
+            for i in 0..n {
+                let along = w[0] * t0[i] + w[1] * t1[i] + w[2] * t2[i] + w[3] * t3[i];
+                value[i] += w[k] * along;
+                by_a[i] += r[k] * along;
+            }
+        }
+    }
+
+    /// C_ab of two lines and its changes, added to `out`.
     pub fn add_with_rates(&self, pair: usize, a: &RollPlace, b: &RollPlace, out: &mut LineBlock) {
         let (w, r) = (b.all_shares(), b.all_rates());
         let n = self.size;

@@ -27,7 +27,11 @@ fn main() {
         let system = running_pair(&pair, running_mesh(name, &pair))
             .build()
             .unwrap();
-        let mut run = Simulation::new(system, Params::fixed(STEP_S)).unwrap();
+        let params = Params {
+            newton_tolerance: std::env::var("TOL").map_or(1e-10, |t| t.parse().unwrap()),
+            ..Params::fixed(STEP_S)
+        };
+        let mut run = Simulation::new(system, params).unwrap();
         for _ in 0..10 * STEPS_A_PERIOD {
             run.step().unwrap();
         }
