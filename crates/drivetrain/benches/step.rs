@@ -8,7 +8,7 @@ mod mesh_common;
 
 use std::time::Instant;
 
-use gearmesh_dynamics::{Params, Simulation};
+use gearmesh_dynamics::Simulation;
 use mesh_common::running_pair::*;
 
 const PERIODS: usize = 400;
@@ -27,11 +27,7 @@ fn main() {
         let system = running_pair(&pair, running_mesh(name, &pair))
             .build()
             .unwrap();
-        let params = Params {
-            newton_tolerance: std::env::var("TOL").map_or(1e-10, |t| t.parse().unwrap()),
-            ..Params::fixed(STEP_S)
-        };
-        let mut run = Simulation::new(system, params).unwrap();
+        let mut run = Simulation::new(system, params()).unwrap();
         for _ in 0..10 * STEPS_A_PERIOD {
             run.step().unwrap();
         }

@@ -9,7 +9,7 @@
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
-//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`] | `gear_inertia.rs`, `gear_body.rs` |
+//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
 //! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur gears.
 //! The theory is in docs/theory/gear_meshes.md.
@@ -37,7 +37,7 @@ pub use error::DrivetrainError;
 pub use flank_error::{FlankError, FlankPoint, Removed};
 pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
-pub use gear_body::gear_body;
+pub use gear_body::{gear_body, modal_gear_body, modes_up_to};
 pub use gear_inertia::GearInertia;
 pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
 pub use mesh_element::MeshElement;

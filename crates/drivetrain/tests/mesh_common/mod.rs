@@ -4,6 +4,7 @@
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 pub mod pair_common;
 
+pub mod modal_gear;
 pub mod running_pair;
 
 use gearmesh_contact::LocalContact;

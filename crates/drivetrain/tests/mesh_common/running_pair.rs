@@ -3,7 +3,7 @@
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::elements::{AppliedLoad, Axes, LinearBearing, LoadKind};
-use gearmesh_dynamics::{Marker, MarkerPair, SystemBuilder, TimeFunction};
+use gearmesh_dynamics::{Marker, MarkerPair, Params, SystemBuilder, TimeFunction};
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment, ToothGeometry};
@@ -20,6 +20,14 @@ pub const STEPS_A_PERIOD: usize = 50;
 /// Step of 50 to a mesh period \[s\].
 pub const STEP_S: f64 = TAU / SPEED / 57.0 / STEPS_A_PERIOD as f64;
 const TORQUE: f64 = 200.0;
+
+/// Newton to 1e-8 of the step's own motion, here 3e-12 m: four orders below the error of the step.
+pub fn params() -> Params {
+    Params {
+        newton_tolerance: 1e-8,
+        ..Params::fixed(STEP_S)
+    }
+}
 
 /// 57/57 teeth, module 2.6 mm, centre distance 150 mm.
 pub fn pair_a() -> GearPair {
