@@ -8,6 +8,7 @@
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
+//! | root strain at gauges while a run goes on | [`StrainGauges`] | `strain_gauges.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
@@ -29,6 +30,7 @@ pub mod modal_loads;
 pub mod models;
 pub mod pose;
 pub mod step;
+pub mod strain_gauges;
 pub mod teeth_model;
 pub mod tooth_compliance;
 
@@ -48,5 +50,6 @@ pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
 pub use pose::Pose;
+pub use strain_gauges::{ModalPart, StrainGauges};
 pub use teeth_model::{TeethLoads, TeethModel};
 pub use tooth_compliance::{BeamTooth, RootCrack};

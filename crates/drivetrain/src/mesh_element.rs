@@ -4,6 +4,7 @@ use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::relative_motion::PairTangent;
 use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMotion};
 use gearmesh_geometry::FlankSide;
+use gearmesh_model::ReducedGear;
 
 use nalgebra::SVector;
 
@@ -11,6 +12,7 @@ use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::pose::Pose;
+use crate::strain_gauges::{ModalPart, StrainGauges};
 
 impl From<&RelativeMotion> for Pose {
     fn from(motion: &RelativeMotion) -> Self {
@@ -57,12 +59,13 @@ impl PairForce {
 
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
-/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry.
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry; strain of each gauge.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
     bodies: [BodyId; 2],
     mesh: GearMesh,
+    gauges: Vec<StrainGauges>,
 }
 
 impl MeshElement {
@@ -77,7 +80,27 @@ impl MeshElement {
             },
             bodies: [gear_1.body, gear_2.body],
             mesh,
+            gauges: Vec::new(),
         }
+    }
+
+    /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and `…_method2_ustrain`.
+    ///
+    /// # Errors
+    /// As [`StrainGauges::new`].
+    ///
+    /// # Panics
+    /// If `gear` is neither 1 nor 2.
+    pub fn with_gauges(
+        mut self,
+        gear: usize,
+        model: &ReducedGear,
+        names: &[&str],
+        modal_part: ModalPart,
+    ) -> Result<Self, DrivetrainError> {
+        let gauges = StrainGauges::new(&self.mesh, gear, model, names, modal_part)?;
+        self.gauges.push(gauges);
+        Ok(self)
     }
 
     /// The mesh.
@@ -210,11 +233,19 @@ impl ForceElement for MeshElement {
             FlankSide::Right => "normal_force_right_N",
             FlankSide::Left => "normal_force_left_N",
         });
+        let strain = self.gauges.iter().flat_map(|gauges| {
+            let names = gauges.names().iter();
+            names.flat_map(|name| {
+                [1, 2].map(|method| {
+                    format!("strain_gear{}_{name}_method{method}_ustrain", gauges.gear())
+                })
+            })
+        });
         sides
             .chain(["transmission_error_m", "loaded_pairs"])
-            .map(|name| Channel {
-                name: name.to_owned(),
-            })
+            .map(str::to_owned)
+            .chain(strain)
+            .map(|name| Channel { name })
             .collect()
     }
 
@@ -240,5 +271,15 @@ impl ForceElement for MeshElement {
         }
         out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
         out[sides + 1] = pairs as f64;
+        let mut places = out[sides + 2..].iter_mut();
+        for gauges in &mut self.gauges {
+            let coordinates = view.modal(self.bodies[gauges.gear() - 1]);
+            for strain in gauges.read(&self.mesh, coordinates) {
+                let both = [strain.method_1, strain.method_2];
+                for (value, place) in both.into_iter().zip(places.by_ref()) {
+                    *place = 1e6 * value;
+                }
+            }
+        }
     }
 }

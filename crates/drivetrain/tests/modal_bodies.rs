@@ -137,6 +137,42 @@ fn modal_gears_at_rest_are_reduced_gears() {
     }
 }
 
+/// At rest a gauge on a `modal` gear reads what it reads on a `reduced` one, with all modes or some, by both methods.
+#[test]
+fn gauges_at_rest_read_as_on_reduced_gears() {
+    let pair = spur_pair();
+    let models = models(&pair);
+    let names = ["g0", "g1", "g5", "g7"];
+    let mut reduced = hybrid(&pair, &models, [0, 0], kinematics(&pair));
+    let part = ModalPart::Included;
+    for modes in [[COUNT, COUNT], [3, 2]] {
+        let mut modal = hybrid(&pair, &models, modes, kinematics(&pair));
+        for at in loaded_poses(&pair) {
+            reduced.evaluate(&at, false).unwrap();
+            let (eta, _) = at_rest(&mut modal, &at, modes);
+            for gear in [1, 2] {
+                let model = &models[gear - 1];
+                let own = match gear {
+                    1 => &eta[..modes[0]],
+                    _ => &eta[modes[0]..],
+                };
+                let gauges = |mesh, part| StrainGauges::new(mesh, gear, model, &names, part);
+                let expected = gauges(&reduced, part).unwrap().read(&reduced, &[]).to_vec();
+                let found = gauges(&modal, part).unwrap().read(&modal, own).to_vec();
+                let elsewhere = gauges(&modal, ModalPart::ElsewhereIncluded).unwrap();
+                let without = elsewhere.clone().read(&modal, own).to_vec();
+                for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                    let scale = expected.method_2.abs();
+                    assert!(scale > 1e-8);
+                    assert!((found.method_1 - expected.method_1).abs() < 1e-9 * scale);
+                    assert!((found.method_2 - expected.method_2).abs() < 1e-9 * scale);
+                    assert!((found.method_2 - without[k].method_2).abs() > 1e-3 * scale);
+                }
+            }
+        }
+    }
+}
+
 /// Loads on bodies and modes are minus the gradient of the teeth's energy at any vibration.
 #[test]
 fn loads_on_modes_follow_from_the_energy() {

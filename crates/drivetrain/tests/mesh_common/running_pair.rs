@@ -7,7 +7,7 @@ use gearmesh_dynamics::{Marker, MarkerPair, Params, SystemBuilder, TimeFunction}
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment, ToothGeometry};
-use gearmesh_model::{NearField, ReducedGear};
+use gearmesh_model::{Flank, GaugeRows, NearField, ReducedGear};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -55,8 +55,11 @@ fn crowned(gear: &ToothGeometry) -> Arc<dyn FlankError> {
     })
 }
 
-/// The made-up gear with a near field of the usual size, so that the default local contact can be used.
-fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
+/// Names of the gauges of [`calibrated_gear`].
+pub const GAUGES: [&str; 8] = ["g0", "g1", "g2", "g3", "g4", "g5", "g6", "g7"];
+
+/// The made-up gear with a near field of the usual size, so that the default local contact can be used, and gauges.
+pub fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
     let gear = made_up_gear(tooth);
     let stations = gear.grid.roll_angles_rad.len();
     let places = 12;
@@ -65,7 +68,22 @@ fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
         let (a, b) = ((i / stations % stations) as f64, (i % stations) as f64);
         9e-12 * (-0.1 * (a - b).abs()).exp()
     };
+    let loads = gear.grid.len();
+    let gauge = |number: usize| GaugeRows {
+        name: GAUGES[number].to_owned(),
+        tooth: number,
+        side: Flank::Right,
+        description: "made up".to_owned(),
+        error_estimate_relative: 0.01,
+        adjoint: (0..gear.teeth * 2 * loads * 3)
+            .map(|i| 1e-9 * (0.1 * (i + number) as f64).sin())
+            .collect(),
+        own_tooth: (0..2 * loads)
+            .map(|i| 1e-10 * (0.2 * (i + number) as f64).cos())
+            .collect(),
+    };
     ReducedGear {
+        gauges: (0..GAUGES.len()).map(gauge).collect(),
         near_field: Some(NearField {
             half_width_m: 1e-4,
             roll_angles_rad: (0..places)
@@ -122,8 +140,8 @@ pub fn running_mesh(name: &str, pair: &GearPair) -> GearMesh {
     .unwrap()
 }
 
-/// The system; gear 1 drives with as much torque as gear 2 is braked with.
-pub fn running_pair(pair: &GearPair, mesh: GearMesh) -> SystemBuilder {
+/// The system; gear 1 drives with as much torque as gear 2 is braked with. So many gauges are read on gear 2.
+pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBuilder {
     let phi = angles(pair, FlankSide::Right, 0.0, -12e-6);
     let mut builder = gearmesh_dynamics::System::builder();
     let bearing = LinearBearing {
@@ -153,6 +171,11 @@ pub fn running_pair(pair: &GearPair, mesh: GearMesh) -> SystemBuilder {
         builder.element(AppliedLoad::new(&name, id, LoadKind::Torque, axis, load).unwrap());
         marker
     });
-    builder.element(MeshElement::new("mesh", markers, mesh));
+    let model = calibrated_gear(&pair.gear_2);
+    let names = &GAUGES[..gauges];
+    let mesh = MeshElement::new("mesh", markers, mesh)
+        .with_gauges(2, &model, names, ModalPart::Included)
+        .unwrap();
+    builder.element(mesh);
     builder
 }
