@@ -34,8 +34,11 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
-    ("drivetrain", &["geometry", "model", "contact", "dynamics"]),
     ("recovery", &["model", "contact"]),
+    (
+        "drivetrain",
+        &["geometry", "model", "contact", "dynamics", "recovery"],
+    ),
     ("signal", &[]),
     ("rating", &["geometry", "contact"]),
     (
