@@ -563,20 +563,24 @@ fn tables_that_do_not_increase_are_refused_in_their_file() {
     );
 }
 
-/// A step that cannot resolve the contact is refused with advice.
+/// A step far beyond the frequency of a stiff, swinging spring is refused with advice, at the solver's table.
 #[test]
 fn a_step_that_is_too_large_is_refused_with_advice() {
     let scene = changed(
-        &text("scene_two_wheels.toml"),
-        "step_s = 2e-6",
-        "step_s = 2e-2",
+        &text("scene_pendulum.toml"),
+        "step_s = 1e-3",
+        "step_s = 0.5",
     );
     let scene = changed(
         &scene,
-        "stiffness_N_per_mm_e = 1e6",
-        "stiffness_N_per_mm_e = 1e12",
+        "mass_kg = 3.0",
+        "angular_velocity_rad_per_s = [0.0, 0.0, 90.0]\nmass_kg = 3.0",
     );
-    let scene = changed(&scene, "from = 0.0", "from = -1e4");
+    let scene = changed(
+        &scene,
+        "[[joint]]",
+        "[[spring]]\nname = \"stiff\"\nbody_2 = \"rod\"\nat_1_mm = [100.0, 700.0, 0.0]\nstiffness_N_per_mm = 1e6\n[[joint]]",
+    );
     let document = InputDocument::new("scene.toml", &*scene);
     let loaded = SystemScene::from_document(document, &fe_models())
         .unwrap()
@@ -609,6 +613,10 @@ fn files_that_are_no_scene_are_told_apart() {
     assert!(kind("title = \"x\"\n").contains("f.toml: no scene: it has neither [pair]"));
     assert!(
         kind("title = \"x\"\n[pair]\n[[body]]\n").contains("f.toml:3: body: a scene has [pair]")
+    );
+    assert!(
+        kind("title = \"x\"\nbody = []\n[run]\nkind = \"static\"\n")
+            .contains("f.toml:2: body: is empty")
     );
     let pair = text("pair_a.toml");
     let document = InputDocument::new("p.toml", pair);

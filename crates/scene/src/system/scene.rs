@@ -112,6 +112,9 @@ impl SystemScene {
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let tables: SystemTables = document.parse()?;
+        if tables.body.is_empty() {
+            return Err(document.error("body", "is empty; a scene has at least one body"));
+        }
         let run = tables.run.check(&document)?;
         let solver = tables.solver.check(&document, &run)?;
         let output = tables.output.check(&document, &run)?;

@@ -210,10 +210,9 @@ fn modes(
 }
 
 fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputError> {
-    let whose = if table.gear.is_some() {
-        "a stated mass and inertia belong together; a gear's"
-    } else {
-        "a body without gear"
+    let whose = match table.gear {
+        Some(_) => "a mass or inertia that is stated for a gear",
+        None => "a body without gear",
     };
     let mass = keys.needed("mass_kg", table.mass_kg, whose)?;
     let inertia = keys.needed("inertia_kg_m2", table.inertia_kg_m2.as_ref(), whose)?;
