@@ -1,15 +1,9 @@
-//! From a scene file to a result: which models, which effects, which torques and angles; nothing else is computed.
+//! From a scene file to a result: which models, which effects, which loads; nothing else is computed.
 //!
-//! `scene_file.rs` reads and checks, `plan.rs` says what will be computed, `run.rs` computes, `result.rs` keeps and
-//! stores, `warnings.rs` tells where the model's assumptions are strained.
+//! [`pair`]: scenes of one gear pair, static positions over a range of driver angles.
 
-pub mod plan;
-pub mod result;
-pub mod run;
-pub mod scene_file;
-pub mod warnings;
+pub mod pair;
 
-pub use plan::Plan;
-pub use result::{RESULT_FORMAT, SceneResult, StrainSeries};
-pub use run::{LoadedScene, RunError, load, run};
-pub use scene_file::Scene;
+pub use pair::{
+    LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,
+};
