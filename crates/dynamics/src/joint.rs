@@ -339,6 +339,19 @@ impl Joint {
         load
     }
 
+    /// Force \[N\] and moment \[N·m\] of the joint on the body of marker B of a pair, in B's origin and along A's axes; the body of A
+    /// feels the opposite. `lambda` holds the reactions of this joint's equations: −Σ λ ∂(equation)/∂(u, rotation).
+    #[must_use]
+    pub fn load(&self, pair: usize, lambda: &[f64], motion: &RelativeMotion) -> SVector<f64, 6> {
+        let mut load = SVector::<f64, 6>::zeros();
+        for (equation, lambda) in lambda.iter().enumerate() {
+            if *lambda != 0.0 {
+                load -= *lambda * self.unit_load(equation, pair, motion, None);
+            }
+        }
+        load
+    }
+
     /// Bᵀλ of one pair.
     pub(crate) fn reaction(
         &self,
@@ -346,13 +359,7 @@ impl Joint {
         lambda: &[f64],
         motion: &RelativeMotion,
     ) -> SVector<f64, 12> {
-        let mut load = SVector::<f64, 6>::zeros();
-        for (equation, lambda) in lambda.iter().enumerate() {
-            if *lambda != 0.0 {
-                load += *lambda * self.unit_load(equation, pair, motion, None);
-            }
-        }
-        motion.generalised_force(&load)
+        motion.generalised_force(&-self.load(pair, lambda, motion))
     }
 
     /// ∂(Bᵀλ)/∂increments of one pair.

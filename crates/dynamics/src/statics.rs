@@ -42,7 +42,9 @@ pub enum FreeMotions {
 /// Parameters of [`equilibrium`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticParams {
-    /// Equal steps in which applied loads and weights are brought up. Default 1.
+    /// Share of applied loads and weights that acts in the end. Default 1.
+    pub load_factor: f64,
+    /// Equal steps in which they are brought up. Default 1.
     pub load_steps: usize,
     /// Iterations in each. Default 100.
     pub most_iterations: usize,
@@ -55,6 +57,7 @@ pub struct StaticParams {
 impl Default for StaticParams {
     fn default() -> Self {
         Self {
+            load_factor: 1.0,
             load_steps: 1,
             most_iterations: 100,
             tolerance: 1e-12,
@@ -97,10 +100,23 @@ pub fn equilibrium(
     start: &State,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
+    system.begin(start);
+    next_equilibrium(system, start, params)
+}
+
+/// As [`equilibrium`], but joints and elements go on from the motion that they were last committed to: for a series of equilibria in
+/// which turns are counted and couplings hold.
+///
+/// # Errors
+/// As [`equilibrium`].
+pub fn next_equilibrium(
+    system: &mut System,
+    start: &State,
+    params: &StaticParams,
+) -> Result<Equilibrium, DynamicsError> {
     let (n, m) = (system.degrees_of_freedom(), system.equations());
     let mut equations = Equations::new(system);
     let mut state = start.clone();
-    system.begin(&state);
     let rest = vec![0.0; n];
     // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
     let mut lambda = system.accelerations(&state)?.lambda;
@@ -108,7 +124,7 @@ pub fn equilibrium(
     let mut held = Vec::new();
     let size = system.size_m();
     for step in 1..=params.load_steps.max(1) {
-        let load_factor = step as f64 / params.load_steps.max(1) as f64;
+        let load_factor = params.load_factor * step as f64 / params.load_steps.max(1) as f64;
         let mut iteration = 0;
         loop {
             iteration += 1;
