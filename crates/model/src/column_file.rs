@@ -85,7 +85,7 @@ pub fn write_columns(
 fn fill_columns(path: &Path, datasets: &[Dataset], log: &mut RowLog) -> Result<(), FileError> {
     let count = datasets.len();
     let block = (BLOCK_NUMBERS / count.max(1)).max(1);
-    let (mut rows, mut column) = (Vec::new(), Vec::with_capacity(block));
+    let (mut rows, mut column) = (Vec::new(), Vec::<f64>::with_capacity(block));
     let mut first = 0;
     while first < log.rows() {
         log.read(first, block, &mut rows)?;
@@ -95,7 +95,7 @@ fn fill_columns(path: &Path, datasets: &[Dataset], log: &mut RowLog) -> Result<(
             column.clear();
             column.extend(rows.iter().skip(place).step_by(count));
             dataset
-                .write_slice(&column[..], range.clone())
+                .write_slice::<_, f64, _, _>(&column, range.clone())
                 .map_err(|error| hdf5_error(path, "write a column to")(error))?;
         }
         first += read as u64;

@@ -91,7 +91,9 @@ impl DataTree {
             .create(temporary)
             .map_err(failed("create"))?;
         // The handle is closed on every way out; a refusal in between has precedence over one of closing.
-        let written = self.fill_open(path, &file, format).and_then(|()| more(&file));
+        let written = self
+            .fill_open(path, &file, format)
+            .and_then(|()| more(&file));
         let flushed = file.flush().map_err(failed("write"));
         let closed = file.close().map_err(failed("close"));
         written.and(flushed).and(closed)
