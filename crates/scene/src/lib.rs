@@ -1,8 +1,12 @@
 //! From a scene file to a result: which models, which effects, which loads; nothing else is computed.
 //!
-//! [`pair`]: scenes of one gear pair, static positions over a range of driver angles.
+//! | scene | how it is told | module |
+//! | --- | --- | --- |
+//! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
+//! | a multibody system | `[[body]]` | [`system`] |
 
 pub mod pair;
+pub mod system;
 
 pub use pair::{
     LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,

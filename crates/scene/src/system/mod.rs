@@ -1,0 +1,17 @@
+//! Scenes of multibody systems: bodies, joints, forces and gear meshes, each with its model; nothing else is computed.
+//!
+//! | step | type | file |
+//! | --- | --- | --- |
+//! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
+//! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
+
+pub mod built;
+pub(crate) mod names;
+pub mod scene;
+pub mod tables;
+
+pub use built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect};
+pub use scene::{SystemScene, SystemTables};
+pub use tables::output::Output;
+pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};
+pub use tables::solver::{Solver, Start};
