@@ -7,6 +7,7 @@
 
 pub mod pair;
 pub mod system;
+pub mod system_run;
 
 pub use pair::{
     LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,

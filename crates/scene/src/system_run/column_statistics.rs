@@ -58,14 +58,14 @@ impl ColumnStatistics {
         }
     }
 
-    /// Whether no row was taken.
-    pub fn is_empty(&self) -> bool {
-        self.rows == 0.0
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.columns.len()
     }
 
     /// Figures of each column; not a number without rows.
     pub fn figures(&self) -> Vec<Figures> {
-        let empty = self.is_empty();
+        let empty = self.rows == 0.0;
         let of = |&[mean, squares, least, largest]: &[f64; 4]| Figures {
             mean: if empty { f64::NAN } else { mean },
             deviation: (squares / self.rows).sqrt(),

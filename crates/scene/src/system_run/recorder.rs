@@ -48,8 +48,8 @@ pub enum Course {
 /// A moment to be recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
-    /// First column: time \[s\], or whatever the rows count.
-    pub abscissa: f64,
+    /// First columns: time \[s\], or whatever the rows go through.
+    pub abscissas: &'a [f64],
     /// State.
     pub state: &'a State,
     /// Reactions at the ends of the step.
@@ -106,12 +106,12 @@ fn plain(name: &str) -> String {
 }
 
 impl Recorder {
-    /// A recorder that begins at a state. `abscissa` describes the first column.
+    /// A recorder that begins at a state. `abscissas` describes the first columns.
     pub fn new(
         system: &System,
         state: &State,
         selection: &Selection,
-        abscissa: Column,
+        abscissas: Vec<Column>,
         course: Course,
     ) -> Self {
         let names: Vec<&str> = system.elements().collect();
@@ -121,7 +121,7 @@ impl Recorder {
             .map(|name| all.iter().filter(|(of, _)| of == name).count())
             .collect();
         let mut recorder = Self {
-            columns: vec![abscissa],
+            columns: abscissas,
             course,
             bodies: Vec::new(),
             pairs: Vec::new(),
@@ -278,7 +278,8 @@ impl Recorder {
                     self.column(format!("{group}/force_{axis}_N"), "N", text);
                 }
                 for axis in AXES {
-                    let text = "moment of the joint on body 2 in its marker, axes of the marker of body 1";
+                    let text =
+                        "moment of the joint on body 2 in its marker, axes of the marker of body 1";
                     self.column(format!("{group}/moment_{axis}_Nm"), "N m", text);
                 }
                 let text = "angle of body 2 about z of body 1's marker, turns counted";
@@ -304,10 +305,11 @@ impl Recorder {
 
     /// The row of a moment. Allocates nothing.
     pub fn row(&mut self, system: &mut System, at: &Moment<'_>) -> &[f64] {
-        let between = |ends: [&[f64]; 2], i: usize| (1.0 - at.share) * ends[0][i] + at.share * ends[1][i];
+        let between =
+            |ends: [&[f64]; 2], i: usize| (1.0 - at.share) * ends[0][i] + at.share * ends[1][i];
         let state = at.state;
         self.row.clear();
-        self.row.push(at.abscissa);
+        self.row.extend_from_slice(at.abscissas);
         for body in &self.bodies {
             let motion = system.body_motion(state, body.id);
             let wrapped = body_angles(&body.start, &motion.orientation, &motion.rotation);
@@ -320,7 +322,8 @@ impl Recorder {
                     .extend((body.dof..body.dof + 6).map(|i| between(at.acceleration, i)));
             }
             let (first, modes) = body.modal;
-            self.row.extend_from_slice(&state.modal[first..first + modes]);
+            self.row
+                .extend_from_slice(&state.modal[first..first + modes]);
         }
         for (i, lambda) in self.lambda.iter_mut().enumerate() {
             *lambda = between(at.lambda, i);
@@ -403,11 +406,7 @@ impl Recorder {
     }
 }
 
-fn relative(
-    system: &System,
-    state: &State,
-    markers: &MarkerPair,
-) -> RelativeMotion {
+fn relative(system: &System, state: &State, markers: &MarkerPair) -> RelativeMotion {
     let [a, b] = [markers.a.body, markers.b.body].map(|body| system.body_motion(state, body));
     markers.motion(&a, &b)
 }
@@ -415,4 +414,3 @@ fn relative(
 fn about_z(motion: &RelativeMotion) -> [f64; 1] {
     [motion.rotation[(1, 0)].atan2(motion.rotation[(0, 0)])]
 }
-
