@@ -42,9 +42,7 @@ pub enum FreeMotions {
 /// Parameters of [`equilibrium`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticParams {
-    /// Share of applied loads and weights that acts in the end. Default 1.
-    pub load_factor: f64,
-    /// Equal steps in which they are brought up. Default 1.
+    /// Equal steps in which applied loads and weights are brought up. Default 1.
     pub load_steps: usize,
     /// Iterations in each. Default 100.
     pub most_iterations: usize,
@@ -57,7 +55,6 @@ pub struct StaticParams {
 impl Default for StaticParams {
     fn default() -> Self {
         Self {
-            load_factor: 1.0,
             load_steps: 1,
             most_iterations: 100,
             tolerance: 1e-12,
@@ -124,7 +121,7 @@ pub fn next_equilibrium(
     let mut held = Vec::new();
     let size = system.size_m();
     for step in 1..=params.load_steps.max(1) {
-        let load_factor = params.load_factor * step as f64 / params.load_steps.max(1) as f64;
+        let load_factor = step as f64 / params.load_steps.max(1) as f64;
         let mut iteration = 0;
         loop {
             iteration += 1;

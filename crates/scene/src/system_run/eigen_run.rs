@@ -19,7 +19,7 @@ pub(super) fn run_eigen(
     let mut results = Vec::with_capacity(job.points.len());
     let mut bodies = Vec::new();
     for (number, point) in job.points.iter().enumerate() {
-        let system = (job.system_at)(point.speed_rad_per_s)?;
+        let system = (job.system_at)(point)?;
         bodies = system
             .bodies()
             .iter()
@@ -75,12 +75,8 @@ fn about(
             (simulation.into_system(), state, modes?)
         }
         None => {
-            let params = StaticParams {
-                load_factor: point.load_factor,
-                ..StaticParams::default()
-            };
             let start = system.start().clone();
-            let found = equilibrium(&mut system, &start, &params)?;
+            let found = equilibrium(&mut system, &start, &StaticParams::default())?;
             for motion in found.held {
                 notes.push(format!("nothing resists {motion}: held where it was"));
             }

@@ -20,8 +20,16 @@ pub struct StaticPoint {
     pub angle_rad: Option<f64>,
     /// Time at which loads and prescribed motions are taken \[s\].
     pub time_s: f64,
-    /// Share of loads and weights.
+    /// Share of the scene's loads.
     pub load_factor: f64,
+}
+
+/// A series of equilibria.
+pub struct StaticJob {
+    /// The points; those of one load factor stand together.
+    pub points: Vec<StaticPoint>,
+    /// Makes the system for a load factor.
+    pub system_at: Box<dyn Fn(f64) -> Result<System, SystemRunError>>,
 }
 
 /// An operating point whose natural frequencies are sought.
@@ -29,12 +37,9 @@ pub struct StaticPoint {
 pub struct EigenPoint {
     /// Speed of the varied motion \[rad/s\], if there is one.
     pub speed_rad_per_s: Option<f64>,
-    /// Share of loads and weights.
+    /// Share of the scene's loads.
     pub load_factor: f64,
 }
-
-/// Makes the system for a speed of the varied motion.
-pub type SystemAtSpeed = Box<dyn Fn(Option<f64>) -> Result<System, SystemRunError>>;
 
 /// A motion that settles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,8 +60,8 @@ pub struct EigenJob {
     pub settle: Option<Settling>,
     /// Highest frequency that is kept \[Hz\].
     pub most_frequency_hz: Option<f64>,
-    /// Makes a system of the same bodies.
-    pub system_at: SystemAtSpeed,
+    /// Makes the system for a point.
+    pub system_at: Box<dyn Fn(&EigenPoint) -> Result<System, SystemRunError>>,
 }
 
 /// A run in time from t = 0.
@@ -81,7 +86,7 @@ pub enum RunKind {
     /// A motion whose prescribed speed goes through the windows, measured in each.
     SpeedSweep(InTime),
     /// Equilibria, each found from the one before.
-    Static(Vec<StaticPoint>),
+    Static(StaticJob),
     /// Natural frequencies.
     Eigen(EigenJob),
 }

@@ -30,7 +30,7 @@ pub use eigen_run::participation;
 pub use error::SystemRunError;
 pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
-    RunOptions, Settling, StaticPoint, SystemAtSpeed,
+    RunOptions, Settling, StaticJob, StaticPoint,
 };
 pub use part_folder::PartFolder;
 pub use recorder::{Course, Moment, Recorder, Selection};
@@ -55,8 +55,8 @@ pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunEr
         RunKind::Transient(run) | RunKind::SpeedSweep(run) => {
             in_time::run_in_time(head, system, &selection, (name, run), options)
         }
-        RunKind::Static(points) => {
-            static_series::run_static(head, system, &selection, points, options)
+        RunKind::Static(job) => {
+            static_series::run_static(head, &system, &selection, job, options)
         }
         RunKind::Eigen(job) => eigen_run::run_eigen(head, job, options),
     }

@@ -237,7 +237,7 @@ pub(super) fn put_eigen(tree: &mut DataTree, bodies: &[String], results: &[Eigen
             text,
         );
         let scalar = |value: f64, unit: &str, text: &str| DataArray::scalar(value, unit, text);
-        let factor = scalar(result.point.load_factor, "1", "share of loads and weights");
+        let factor = scalar(result.point.load_factor, "1", "share of the scene's loads");
         tree.put(format!("{group}/load_factor"), factor);
         if let Some(speed) = result.point.speed_rad_per_s {
             let speed = scalar(speed, "rad/s", "speed of the varied motion");
