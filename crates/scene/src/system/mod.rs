@@ -5,11 +5,13 @@
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
 
+pub mod build;
 pub mod built;
 pub(crate) mod names;
 pub mod scene;
 pub mod tables;
 
+pub use build::{LoadedSystem, Variation};
 pub use built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect};
 pub use scene::{SystemScene, SystemTables};
 pub use tables::output::Output;
