@@ -4,8 +4,11 @@
 //! | --- | --- | --- |
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
+//!
+//! [`system_run`] runs multibody systems, [`study`] runs one of them again and again with keys that vary.
 
 pub mod pair;
+pub mod study;
 pub mod system;
 pub mod system_run;
 

@@ -284,7 +284,10 @@ fn equilibria_follow_a_driver_over_several_turns() {
     for ((angle, turn), moment) in values.iter().zip(turns).zip(moments) {
         assert!((turn - angle).abs() < 1e-11, "{turn} for {angle}");
         let expected = 50.0 * angle;
-        assert!((moment - expected).abs() < 1e-8 * 700.0, "{moment} for {angle}");
+        assert!(
+            (moment - expected).abs() < 1e-8 * 700.0,
+            "{moment} for {angle}"
+        );
     }
 }
 

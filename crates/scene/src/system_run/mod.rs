@@ -55,9 +55,7 @@ pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunEr
         RunKind::Transient(run) | RunKind::SpeedSweep(run) => {
             in_time::run_in_time(head, system, &selection, (name, run), options)
         }
-        RunKind::Static(job) => {
-            static_series::run_static(head, &system, &selection, job, options)
-        }
+        RunKind::Static(job) => static_series::run_static(head, &system, &selection, job, options),
         RunKind::Eigen(job) => eigen_run::run_eigen(head, job, options),
     }
 }
