@@ -206,7 +206,7 @@ fn the_dominant_frequency_is_that_of_the_load() {
     let found = &result.summaries(|name| name == wanted).unwrap()[0];
     assert!((found.dominant_hz.unwrap() - 37.0).abs() < 0.5, "{found:?}");
     // Amplitude over √2.
-    assert!((found.figures.deviation - 10.0 / 2.0_f64.sqrt()).abs() < 0.02);
+    assert!((found.figures.deviation - 10.0 * std::f64::consts::FRAC_1_SQRT_2).abs() < 0.02);
 }
 
 fn spring_on(pair: MarkerPair) -> gearmesh_dynamics::elements::MarkerElement<TorsionSpring> {
@@ -284,7 +284,10 @@ fn equilibria_follow_a_driver_over_several_turns() {
     for ((angle, turn), moment) in values.iter().zip(turns).zip(moments) {
         assert!((turn - angle).abs() < 1e-11, "{turn} for {angle}");
         let expected = 50.0 * angle;
-        assert!((moment - expected).abs() < 1e-8 * 700.0, "{moment} for {angle}");
+        assert!(
+            (moment - expected).abs() < 1e-8 * 700.0,
+            "{moment} for {angle}"
+        );
     }
 }
 
@@ -307,7 +310,7 @@ fn natural_frequencies_and_participations_have_their_closed_form() {
         }));
         builder.build().unwrap()
     };
-    let (j1, j2, k, c) = (0.5, 0.125, 50.0, 0.1);
+    let (j1, j2, k, c) = (0.5_f64, 0.125, 50.0, 0.1);
     let expected = (k * (j1 + j2) / (j1 * j2)).sqrt();
     let settling = Settling {
         time_s: 1e-2,

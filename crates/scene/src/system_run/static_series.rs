@@ -1,6 +1,8 @@
 //! `static`: equilibria, one after the other, each found from the one before; each load factor in a system of its own.
 
-use gearmesh_dynamics::{EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium};
+use gearmesh_dynamics::{
+    EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium,
+};
 use gearmesh_model::Column;
 use std::sync::atomic::Ordering;
 
