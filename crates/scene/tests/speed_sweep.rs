@@ -12,10 +12,10 @@ mod system_runs;
 
 use std::f64::consts::PI;
 
-use gearmesh_dynamics::elements::{ElementFailure, ForceElement, Loads, View};
 use gearmesh_dynamics::{
     Body, BodyId, Joint, JointKind, Marker, MarkerPair, Motion, Params, System, TimeFunction,
 };
+use gearmesh_dynamics::{ElementFailure, ForceElement, Loads, View};
 use gearmesh_scene::system::{Direction, Schedule, SpeedSweep, Start};
 use gearmesh_scene::system_run::*;
 use system_runs::*;

@@ -206,7 +206,7 @@ fn the_dominant_frequency_is_that_of_the_load() {
     let found = &result.summaries(|name| name == wanted).unwrap()[0];
     assert!((found.dominant_hz.unwrap() - 37.0).abs() < 0.5, "{found:?}");
     // Amplitude over √2.
-    assert!((found.figures.deviation - 10.0 / 2.0_f64.sqrt()).abs() < 0.02);
+    assert!((found.figures.deviation - 10.0 * std::f64::consts::FRAC_1_SQRT_2).abs() < 0.02);
 }
 
 fn spring_on(pair: MarkerPair) -> gearmesh_dynamics::elements::MarkerElement<TorsionSpring> {
@@ -310,7 +310,7 @@ fn natural_frequencies_and_participations_have_their_closed_form() {
         }));
         builder.build().unwrap()
     };
-    let (j1, j2, k, c) = (0.5, 0.125, 50.0, 0.1);
+    let (j1, j2, k, c) = (0.5_f64, 0.125, 50.0, 0.1);
     let expected = (k * (j1 + j2) / (j1 * j2)).sqrt();
     let settling = Settling {
         time_s: 1e-2,

@@ -41,7 +41,9 @@ impl RunJob {
             Run::Transient { end_s } => RunKind::Transient(in_time(*end_s, Vec::new())?),
             Run::SpeedSweep(sweep) => {
                 let plan = SpeedPlan::new(sweep);
-                let speed = plan.function().map_err(|e| scene.document.error("run", e))?;
+                let speed = plan
+                    .function()
+                    .map_err(|e| scene.document.error("run", e))?;
                 variation = varied(&sweep.motion, Motion::Speed(speed), 1.0);
                 RunKind::SpeedSweep(in_time(plan.end_s(), plan.windows().to_vec())?)
             }
@@ -139,7 +141,11 @@ fn series_in_time(series: MotionValues) -> Result<(String, Motion), DynamicsErro
 }
 
 /// Natural frequencies at every speed and load factor.
-fn eigen_job(loaded: &LoadedSystem, load_factors: &[f64], speeds: Option<MotionValues>) -> EigenJob {
+fn eigen_job(
+    loaded: &LoadedSystem,
+    load_factors: &[f64],
+    speeds: Option<MotionValues>,
+) -> EigenJob {
     let all: Vec<Option<f64>> = match &speeds {
         None => vec![None],
         Some(speeds) => speeds.values.iter().copied().map(Some).collect(),
@@ -181,7 +187,13 @@ fn refuse_functions(loaded: &LoadedSystem, motion: &str) -> Result<(), InputErro
         let problem = "found a function of time; with run.angles_deg loads and other motions must be numbers, which run.load_factors multiply";
         Err(document.error(&key, problem))
     };
-    for (i, LoadTable { torque_Nm, force_N, .. }) in tables.load.iter().enumerate() {
+    for (
+        i,
+        LoadTable {
+            torque_Nm, force_N, ..
+        },
+    ) in tables.load.iter().enumerate()
+    {
         for (key, function) in [("torque_Nm", torque_Nm), ("force_N", force_N)] {
             if !is_constant(function) {
                 return varies(format!("load.{i}.{key}"));

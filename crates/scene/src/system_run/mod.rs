@@ -2,7 +2,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | what is to be run | [`RunJob`] | `job.rs` |
+//! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
 //! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs` |
 //! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
@@ -14,6 +14,7 @@ mod column_statistics;
 mod counted_angles;
 mod eigen_run;
 mod error;
+mod from_scene;
 mod in_time;
 mod job;
 mod part_folder;
