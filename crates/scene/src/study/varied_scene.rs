@@ -18,10 +18,8 @@ pub fn varied(
     case: &Case,
     folder: &Path,
 ) -> Result<SystemScene, InputError> {
-    if case.settings.is_empty() {
-        return SystemScene::from_document(scene.clone(), folder);
-    }
-    let mut root: toml::Value = scene.parse()?;
+    let given: toml::Value = scene.parse()?;
+    let mut root = given.clone();
     for setting in &case.settings {
         for key in &setting.keys {
             let place = find(&mut root, key)
@@ -39,6 +37,9 @@ pub fn varied(
             }
             *place = setting.value.clone();
         }
+    }
+    if root == given {
+        return SystemScene::from_document(scene.clone(), folder);
     }
     let text = toml::to_string(&root).map_err(|error| scene.error("", error))?;
     let name = format!("{} with {}", scene.file, case.name());
