@@ -155,12 +155,28 @@ pub struct PlanArguments {
 pub struct RunArguments {
     /// Scene file
     pub scene: PathBuf,
-    /// Result file
+    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the command is repeated
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Discard an unfinished run and begin anew
+    #[arg(long)]
+    pub restart: bool,
+    /// Wall time between checkpoints of a multibody run
+    #[arg(long, default_value = "10", value_parser = positive)]
+    pub checkpoint_s: f64,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A number of seconds that is more than zero.
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "no number".to_owned())?;
+    if value > 0.0 && value < 1e9 {
+        Ok(value)
+    } else {
+        Err("allowed is more than 0, less than 1e9".to_owned())
+    }
 }
 
 /// `gearmesh recover`.

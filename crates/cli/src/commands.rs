@@ -11,3 +11,4 @@ pub mod recover;
 pub mod reduce;
 pub mod report;
 pub mod run;
+pub mod run_system;
