@@ -35,6 +35,8 @@ pub enum Command {
     Report(ReportArguments),
     /// Check a gear file, scene, model or result
     Check(CheckArguments),
+    /// Print the JSON Schema of scene or gear files
+    Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
 }
@@ -236,6 +238,22 @@ pub struct ReportArguments {
 pub struct CheckArguments {
     /// Gear file, scene, model or result
     pub file: PathBuf,
+}
+
+/// `gearmesh schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// Kind of file
+    pub kind: SchemaKind,
+}
+
+/// A kind of file that has a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SchemaKind {
+    /// Scenes: of a gear pair, or of a multibody system
+    Scene,
+    /// Gears
+    Gear,
 }
 
 /// `gearmesh demo`.

@@ -12,3 +12,4 @@ pub mod reduce;
 pub mod report;
 pub mod run;
 pub mod run_system;
+pub mod schema;

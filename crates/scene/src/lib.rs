@@ -4,11 +4,16 @@
 //! | --- | --- | --- |
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
+//!
+//! [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them.
 
 pub mod pair;
+pub mod scene_file;
+pub mod schema;
 pub mod system;
 pub mod system_run;
 
 pub use pair::{
     LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,
 };
+pub use scene_file::SceneFile;
