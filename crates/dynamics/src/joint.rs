@@ -201,6 +201,12 @@ impl Joint {
         self.angles[0].committed_rad()
     }
 
+    /// Largest magnitude of its counted angles at the last accepted step \[rad\].
+    pub(crate) fn largest_angle_rad(&self) -> f64 {
+        let angles = self.angles.iter().map(RelativeAngle::committed_rad);
+        angles.fold(0.0, |most, angle| most.max(angle.abs()))
+    }
+
     /// Whether the joint has an angle whose turns are counted.
     fn counts_turns(&self) -> bool {
         let mut terms = self.equations.iter().flat_map(|equation| &equation.terms);

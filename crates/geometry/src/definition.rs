@@ -6,7 +6,17 @@ use std::path::PathBuf;
 
 /// Hand of a flank: the right flank faces clockwise seen from +z.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum FlankSide {
@@ -128,7 +138,7 @@ impl MeshedBody {
 }
 
 /// Unit of the coordinates in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
 pub enum LengthUnit {
     /// Metres.
     #[serde(rename = "m")]
@@ -255,7 +265,7 @@ pub enum ModeRange {
 }
 
 /// How the bore is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HubSupport {
     /// Fixed.
@@ -266,7 +276,9 @@ pub enum HubSupport {
 }
 
 /// Finite element of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum ElementKind {
     /// Eight nodes, full integration.
@@ -297,7 +309,7 @@ pub struct MeshSettings {
 }
 
 /// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.

@@ -18,6 +18,7 @@ mod tooth_table;
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -26,8 +27,14 @@ const MM: f64 = 1e-3;
 /// A micrometre in metres.
 const UM: f64 = 1e-6;
 
-/// The keys of a gear file.
-#[derive(Deserialize)]
+/// JSON Schema (draft 2020-12) of gear files. What depends on other keys is checked when the file is read.
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(GearFile)
+}
+
+/// A gear file.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(title = "gearmesh gear")]
 #[serde(deny_unknown_fields)]
 struct GearFile {
     name: String,

@@ -155,10 +155,10 @@ impl RowLog {
         Ok(())
     }
 
-    fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> FileError + use<> {
-        let path = path.to_owned();
+    /// Owns the path only when something failed.
+    fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> FileError {
         move |source| FileError::Io {
-            path,
+            path: path.to_owned(),
             action,
             source,
         }

@@ -5,9 +5,12 @@
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
-//! [`system_run`] runs multibody systems, [`study`] runs one of them again and again with keys that vary.
+//! [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
+//! them again and again with keys that vary.
 
 pub mod pair;
+pub mod scene_file;
+pub mod schema;
 pub mod study;
 pub mod system;
 pub mod system_run;
@@ -15,3 +18,4 @@ pub mod system_run;
 pub use pair::{
     LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,
 };
+pub use scene_file::SceneFile;

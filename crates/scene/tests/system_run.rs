@@ -134,7 +134,8 @@ fn rows_stand_on_a_uniform_grid_to_the_end() {
 /// Adaptive and fixed steps agree, and so do the columns with each other: the reaction carries weight and inertia.
 #[test]
 fn adaptive_steps_give_the_motion_of_small_fixed_ones() {
-    let [fixed, adaptive] = [Params::fixed(1e-4), adaptive()].map(|params| {
+    let fine = Params::adaptive(5e-3, 1e-9, 1e-9);
+    let [fixed, adaptive] = [Params::fixed(1e-4), fine].map(|params| {
         let desk = Desk::new();
         desk.run(job(driven_pendulum(), transient(params, 1.0, 1e-2)))
     });

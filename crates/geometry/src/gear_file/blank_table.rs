@@ -6,11 +6,12 @@ use super::{MM, TableKeys};
 use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
 /// The keys of `[blank]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BlankTable {
     kind: BlankKind,
@@ -29,7 +30,7 @@ pub(super) struct BlankTable {
     flank_sets: Option<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum BlankKind {
     Solid,

@@ -3,13 +3,14 @@
 use super::{MM, TableKeys};
 use crate::definition::{Contour, ContourPoint, Openings, Web};
 use crate::input::InputError;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Lengths that differ by less are equal \[mm\].
 const SAME_MM: f64 = 1e-6;
 
 /// One point of the contour: where the web has this diameter, it reaches from back to front.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WebPointTable {
     diameter_mm: f64,

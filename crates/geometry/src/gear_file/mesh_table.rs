@@ -3,10 +3,11 @@
 use super::{MM, TableKeys};
 use crate::definition::{Blank, ElementKind, MeshSettings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[mesh]`.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshTable {
     element: Option<ElementKind>,

@@ -3,30 +3,42 @@
 use gearmesh_contact::{ContactOptions, Friction, LocalContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct SceneTable {
+pub(crate) struct SceneTable {
+    /// Title in prints and reports.
     title: String,
+    /// The gears and how they stand.
     pair: PairTable,
+    /// Model of the teeth.
     mesh: MeshTable,
+    /// Torques and angles.
     run: RunTable,
+    /// Gauges to read.
     #[serde(default)]
     gauges: GaugesTable,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PairTable {
+    /// Reduced model (.h5) of the driving gear, relative to the scene.
     gear_1: PathBuf,
+    /// Reduced model of the driven gear.
     gear_2: PathBuf,
+    /// Centre distance.
     centre_distance_mm: f64,
+    /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
     flank: FlankSide,
+    /// Axis error in the plane of the axes; 0 where not given.
     #[serde(default)]
     inclination_mrad: f64,
+    /// Axis error across the plane of the axes; 0 where not given.
     #[serde(default)]
     deviation_mrad: f64,
 }
@@ -35,13 +47,13 @@ fn default_flank() -> FlankSide {
     FlankSide::Right
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MeshModel {
     Hybrid,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum LocalTable {
     None,
@@ -49,36 +61,42 @@ enum LocalTable {
     Calibrated,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum PathTable {
     LineOfAction,
     Extended,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MeshTable {
     #[allow(dead_code)]
     model: MeshModel,
+    /// Local contact; "calibrated" where not given.
     local: Option<LocalTable>,
+    /// Ends of the path of contact; "line-of-action" where not given.
     path: Option<PathTable>,
+    /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,
+    /// Tooth friction; none where not given.
     friction: Option<FrictionTable>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum FrictionModel {
     Coulomb,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FrictionTable {
     #[allow(dead_code)]
     model: FrictionModel,
+    /// Coefficient.
     coefficient: f64,
+    /// Distance from the pitch point within which friction turns round; 20 where not given.
     #[serde(default = "default_reversal")]
     reversal_um: f64,
 }
@@ -90,22 +108,28 @@ fn default_reversal() -> f64 {
 /// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
 const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 struct RunTable {
+    /// Torques on gear 2.
     torques_Nm: Vec<f64>,
+    /// First driver angle; 0 where not given.
     #[serde(default)]
     start_deg: f64,
+    /// Pitches of gear 1 to run through.
     pitches: usize,
+    /// Positions per pitch.
     points_per_pitch: usize,
 }
 
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 struct GaugesTable {
+    /// Gauges of gear 1, by name.
     #[serde(default)]
     gear_1: Vec<String>,
+    /// Gauges of gear 2, by name.
     #[serde(default)]
     gear_2: Vec<String>,
 }

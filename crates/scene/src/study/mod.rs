@@ -14,5 +14,5 @@ mod study_file;
 mod varied_scene;
 
 pub use cases::{CaseResult, Selected, StudyError, StudyOutcome, run_study};
-pub use study_file::{Case, Design, Setting, Study};
+pub use study_file::{Case, Design, ParameterTable, Setting, Study, StudyTables};
 pub use varied_scene::varied;

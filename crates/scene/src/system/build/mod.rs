@@ -22,7 +22,7 @@ mod start;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use gearmesh_dynamics::{DynamicsError, Motion, System, SystemBuilder};
+use gearmesh_dynamics::{Motion, System, SystemBuilder};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
@@ -34,7 +34,7 @@ use self::shafts::PlacedShaft;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
-use super::tables::body::{BodyTable, Flexibility};
+use super::tables::body::Flexibility;
 use super::tables::gear_mesh::MeshModel;
 
 /// A scene whose gears have been read. Systems can be built from it again and again.
@@ -181,7 +181,7 @@ impl LoadedSystem {
         }
         self.add_gravity(&bodies, &mut builder, &mut parts)?;
         self.check_output(&bodies, &parts)?;
-        let system = builder.build().map_err(|e| self.located(&e, &parts))?;
+        let system = builder.build().map_err(|e| self.scene.complaint(&e))?;
         for redundancy in system.redundant() {
             let (joint, count) = (&redundancy.joint, redundancy.equations);
             parts.notes.push(format!(
@@ -225,51 +225,7 @@ impl LoadedSystem {
 
     /// Names of bodies, of joints with motions, and of force elements must differ among each other.
     fn refuse_repeated_names(&self) -> Result<(), InputError> {
-        let tables = &self.scene.tables;
-        let mut bodies: Vec<(String, String)> = Vec::new();
-        let mut joints = Vec::new();
-        let mut elements = Vec::new();
-        macro_rules! collect {
-            ($list:ident, $into:ident, $name:expr) => {
-                for (i, table) in tables.$list.iter().enumerate() {
-                    $into.push((format!("{}.{i}", stringify!($list)), $name(table)));
-                }
-            };
-        }
-        collect!(body, bodies, |t: &BodyTable| t.name.clone());
-        collect!(shaft, bodies, |t: &super::tables::shaft::ShaftTable| t
-            .name
-            .clone());
-        collect!(joint, joints, |t: &super::tables::joint::JointTable| t
-            .name
-            .clone());
-        collect!(motion, joints, super::tables::joint::MotionTable::name);
-        collect!(load, elements, super::tables::load::LoadTable::name);
-        collect!(
-            spring,
-            elements,
-            |t: &super::tables::connection::SpringTable| t.name.clone()
-        );
-        collect!(
-            torsion_spring,
-            elements,
-            |t: &super::tables::connection::TorsionSpringTable| t.name.clone()
-        );
-        collect!(
-            bushing,
-            elements,
-            |t: &super::tables::connection::BushingTable| t.name.clone()
-        );
-        collect!(
-            bearing,
-            elements,
-            |t: &super::tables::connection::BearingTable| t.name.clone()
-        );
-        collect!(
-            gear_mesh,
-            elements,
-            |t: &super::tables::gear_mesh::GearMeshTable| t.name.clone()
-        );
+        let [bodies, joints, elements] = self.scene.named_tables();
         for (what, names) in [
             ("body or shaft", bodies),
             ("joint or motion", joints),
@@ -443,35 +399,6 @@ impl LoadedSystem {
             }
         }
         Ok(())
-    }
-
-    /// An error of the system at the table that it is about: the first joint that it names.
-    fn located(&self, error: &DynamicsError, parts: &Parts) -> InputError {
-        let document = &self.scene.document;
-        let DynamicsError::Contradiction { joints, .. } = error else {
-            return document.error("", error);
-        };
-        let tables = &self.scene.tables;
-        let key = joints.first().and_then(|name| {
-            let motion = tables
-                .motion
-                .iter()
-                .position(|table| table.name() == *name)
-                .map(|i| format!("motion.{i}"));
-            let joint = tables
-                .joint
-                .iter()
-                .position(|table| table.name == *name)
-                .map(|i| format!("joint.{i}"));
-            let mesh = tables
-                .gear_mesh
-                .iter()
-                .position(|table| table.name == *name)
-                .map(|i| format!("gear_mesh.{i}"));
-            motion.or(joint).or(mesh)
-        });
-        debug_assert!(parts.joints.iter().any(|part| joints.contains(&part.name)));
-        document.error(&key.unwrap_or_default(), error)
     }
 }
 

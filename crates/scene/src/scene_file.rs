@@ -1,0 +1,79 @@
+//! A scene file of either kind, told apart by what it holds.
+
+use std::path::Path;
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use crate::pair::Scene;
+use crate::system::SystemScene;
+
+/// A scene that has been read and checked.
+#[derive(Debug, Clone)]
+pub enum SceneFile {
+    /// One gear pair, static positions.
+    Pair(Box<Scene>),
+    /// A multibody system.
+    System(Box<SystemScene>),
+}
+
+/// The tables that tell the kinds of files apart.
+#[derive(Deserialize)]
+struct Marks {
+    pair: Option<IgnoredAny>,
+    body: Option<IgnoredAny>,
+    tooth: Option<IgnoredAny>,
+}
+
+impl SceneFile {
+    /// Whether a document is meant as a scene: it has `[pair]` or `[[body]]`.
+    ///
+    /// # Errors
+    /// [`InputError`] for a document that is no TOML.
+    pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
+        let marks: Marks = document.parse()?;
+        Ok(marks.pair.is_some() || marks.body.is_some())
+    }
+
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, key, what was found and what is allowed.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_document(InputDocument::read(path)?, folder)
+    }
+
+    /// Checks a scene that is already in memory; other files are relative to `folder`.
+    ///
+    /// # Errors
+    /// As [`SceneFile::read`].
+    pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        let marks: Marks = document.parse()?;
+        match (marks.pair, marks.body) {
+            (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
+            (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
+            (Some(_), Some(_)) => Err(document.error(
+                "body",
+                "a scene has [pair] (one gear pair, static positions) or [[body]] (a multibody system), not both",
+            )),
+            (None, None) if marks.tooth.is_some() => {
+                Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))
+            }
+            (None, None) => Err(document.error(
+                "",
+                "no scene: it has neither [pair] (one gear pair, static positions) nor [[body]] (a multibody system)",
+            )),
+        }
+    }
+
+    /// Title in prints and reports.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Pair(scene) => &scene.title,
+            Self::System(scene) => &scene.title,
+        }
+    }
+}
