@@ -151,6 +151,7 @@ impl TeethModel for MeshSpring {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         let from_middle = |roll: f64| (roll - self.middle_roll_rad).abs();
