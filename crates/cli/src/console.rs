@@ -55,7 +55,9 @@ impl RunBar {
     /// A bar for a kind of run.
     pub fn new(title: &str) -> Self {
         let bar = ProgressBar::new(10_000);
-        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {percent_precise} %, {eta} to go") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} {bar:30} {percent_precise} %, {eta} to go")
+        {
             bar.set_style(style);
         }
         let now = Instant::now();

@@ -11,6 +11,7 @@
 
 pub mod comparison;
 mod comparison_table;
+mod min_max;
 pub mod page;
 pub mod quantity;
 pub mod record;
@@ -18,7 +19,6 @@ mod record_data;
 pub mod scene_comparison;
 pub mod scene_page;
 mod system_page;
-mod min_max;
 
 pub use comparison::{
     ComparisonError, HarmonicComparison, SeriesComparison, compare, compare_with_column,

@@ -107,7 +107,9 @@ pub fn scene_page(
             page = page.section(section);
         }
     }
-    let pairs = chapters.iter().map(|c| (&c.result.version, &c.result.created_utc));
+    let pairs = chapters
+        .iter()
+        .map(|c| (&c.result.version, &c.result.created_utc));
     let others = systems.iter().map(|r| (&r.version, &r.created_utc));
     let made: Vec<String> = pairs
         .chain(others)

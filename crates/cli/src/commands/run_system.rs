@@ -198,7 +198,9 @@ fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let head = chosen.iter().map(|name| format!("{:>26}", short(name)));
     let mut lines = vec![head.collect::<Vec<_>>().join(" ")];
     for row in 0..result.rows.rows() {
-        let cells = values.iter().map(|column| format!("{:>26.8e}", column[row]));
+        let cells = values
+            .iter()
+            .map(|column| format!("{:>26.8e}", column[row]));
         lines.push(cells.collect::<Vec<_>>().join(" "));
     }
     Ok(lines)
@@ -238,7 +240,8 @@ fn modes(result: &SystemResult, found: &EigenResult) -> Vec<String> {
 
 /// The figures for machines.
 fn figures(result: &SystemResult) -> Result<Value, Failure> {
-    let mut value = json!({"title": result.head.title, "kind": result.kind, "notes": result.head.notes});
+    let mut value =
+        json!({"title": result.head.title, "kind": result.kind, "notes": result.head.notes});
     if let Some(record) = &result.record {
         let entries = record
             .entries()

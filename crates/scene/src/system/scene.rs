@@ -116,10 +116,17 @@ impl SystemScene {
         let solver = tables.solver.check(&document, &run)?;
         let output = tables.output.check(&document, &run)?;
         if let Some(name) = run.varied_motion() {
-            let names: Vec<String> = tables.motion.iter().map(MotionTable::name).collect();
-            if !names.iter().any(|known| known == name) {
-                let keys = TableKeys::new(&document, "run");
-                return Err(keys.error("motion", super::names::unknown("motion", name, &names)));
+            let keys = TableKeys::new(&document, "run");
+            let named = tables.motion.iter().find(|table| table.name() == name);
+            let motion = named.ok_or_else(|| {
+                let names: Vec<String> = tables.motion.iter().map(MotionTable::name).collect();
+                keys.error("motion", super::names::unknown("motion", name, &names))
+            })?;
+            if motion.angle_deg.is_none() && motion.speed_rpm.is_none() {
+                let problem = format!(
+                    "`{name}` drives a place along an axis; allowed is a motion with angle_deg or speed_rpm"
+                );
+                return Err(keys.error("motion", problem));
             }
         }
         Ok(Self {
