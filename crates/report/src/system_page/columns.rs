@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{Figures, SystemResult};
+use gearmesh_model::{Column, FileError};
+use gearmesh_scene::system_run::SystemResult;
 
 use crate::page::{Section, Text};
 
 /// Charts of one section; what is left out is named.
 pub(super) const MOST_CHARTS: usize = 24;
+
+/// What varies by less, over the largest value of its unit, is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Suffixes of column names, longest first where one ends another, and their units.
 const UNITS: [(&str, &str); 15] = [
@@ -161,15 +164,57 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         group.columns.push((column.name.clone(), curve));
     }
     order.sort_by_key(|key| key.0);
-    order.iter().filter_map(|key| groups.remove(key)).collect()
+    let mut groups: Vec<Group> = order.iter().filter_map(|key| groups.remove(key)).collect();
+    for group in &mut groups {
+        if let ([(column, curve)], true) = (&group.columns[..], group.is_of_elements()) {
+            let owner = column.split('/').nth(1).unwrap_or_default();
+            group.title = format!("{owner}, {curve}");
+        }
+    }
+    groups
 }
 
-pub(super) fn varies(figures: &[Figures]) -> impl Fn(usize) -> bool + '_ {
-    |place| {
-        figures
-            .get(place)
-            .is_some_and(|f| f.peak_to_peak() > 1e-9 * f.mean.abs().max(1e-12))
+impl Group {
+    /// Whether all columns are channels of force elements.
+    pub(super) fn is_of_elements(&self) -> bool {
+        let mut columns = self.columns.iter();
+        columns.all(|(column, _)| column.starts_with("elements/"))
     }
+}
+
+/// Brings lengths to µm or mm where they are that small; gives the unit.
+pub(super) fn scaled<'a>(
+    unit: &'static str,
+    curves: impl Iterator<Item = &'a mut Vec<f64>>,
+) -> &'static str {
+    if unit != "m" {
+        return unit;
+    }
+    let curves: Vec<&mut Vec<f64>> = curves.collect();
+    let values = curves.iter().flat_map(|curve| curve.iter());
+    let largest = values.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let (unit, factor) = match largest {
+        x if x < 1e-3 => ("µm", 1e6),
+        x if x < 1.0 => ("mm", 1e3),
+        _ => ("m", 1.0),
+    };
+    curves.into_iter().flatten().for_each(|x| *x *= factor);
+    unit
+}
+
+/// Whether a column of a transient result varies by more than rounding, measured by the largest value that has its unit.
+pub(super) fn varies(r: &SystemResult) -> impl Fn(usize) -> bool {
+    let unit = |column: &Column| split_unit(&column.name).1;
+    let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
+    for (column, f) in r.rows.columns().iter().zip(&r.statistics) {
+        let most = largest.entry(unit(column)).or_default();
+        *most = most.max(f.largest.abs()).max(f.least.abs());
+    }
+    let columns = r.rows.columns().iter().zip(&r.statistics);
+    let varying: Vec<bool> = columns
+        .map(|(column, f)| f.peak_to_peak() > ROUNDING * largest[unit(column)])
+        .collect();
+    move |place| varying.get(place).is_some_and(|varies| *varies)
 }
 
 pub(super) fn left_out(section: Section, groups: &[Group]) -> Section {

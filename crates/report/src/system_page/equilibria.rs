@@ -3,7 +3,7 @@
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::SystemResult;
 
-use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, split_unit};
+use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled, split_unit};
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
 
 pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
@@ -40,13 +40,18 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
             } else {
                 group.title.clone()
             };
-            let y = Axis::new(quantity(group.unit), group.unit);
+            let of_rows = |(column, _): &(String, String)| {
+                let values = r.rows.read(column)?;
+                Ok::<_, FileError>(rows.iter().map(|&row| values[row]).collect())
+            };
+            let columns = group.columns.iter().map(of_rows);
+            let mut curves: Vec<Vec<f64>> = columns.collect::<Result<_, _>>()?;
+            let unit = scaled(group.unit, curves.iter_mut());
+            let y = Axis::new(quantity(group.unit), unit);
             let mut chart = LineChart::new(title, axis.clone(), y)
                 .x_values(rows.iter().map(|&row| x[row]).collect());
-            for (column, curve) in &group.columns {
-                let values = r.rows.read(column)?;
-                let values = rows.iter().map(|&row| values[row]).collect();
-                chart = chart.series(LineSeries::new(curve.clone(), values));
+            for ((_, name), values) in group.columns.iter().zip(curves) {
+                chart = chart.series(LineSeries::new(name.clone(), values));
             }
             section = section.push(chart);
         }

@@ -5,8 +5,8 @@ use gearmesh_scene::system_run::{RunRecord, SystemResult};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
-    MOST_CHARTS, groups, is_prominent, left_out, mesh_frequencies, quantity, readable, short,
-    split_unit, varies,
+    MOST_CHARTS, groups, is_prominent, left_out, mesh_frequencies, quantity, readable, scaled,
+    short, split_unit, varies,
 };
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
@@ -53,18 +53,22 @@ pub(super) fn columns_table(r: &SystemResult) -> Result<Table, FileError> {
 pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
     let times = r.rows.read("time_s")?;
     let x = min_max::abscissas(&times);
-    let groups = groups(r, varies(&r.statistics));
+    let groups = groups(r, varies(r));
     let mut section = Section::new(format!("{}: time histories", r.head.title));
     for group in groups.iter().take(MOST_CHARTS) {
+        let read = |(column, _): &(String, String)| r.rows.read(column);
+        let columns = group.columns.iter().map(read);
+        let mut curves = columns.collect::<Result<Vec<_>, _>>()?;
+        curves.iter_mut().for_each(|y| *y = min_max::values(y));
+        let unit = scaled(group.unit, curves.iter_mut());
         let mut chart = LineChart::new(
             group.title.clone(),
             Axis::new("time", "s"),
-            Axis::new(quantity(group.unit), group.unit),
+            Axis::new(quantity(group.unit), unit),
         )
         .x_values(x.clone());
-        for (column, curve) in &group.columns {
-            let values = min_max::values(&r.rows.read(column)?);
-            chart = chart.series(LineSeries::new(curve.clone(), values));
+        for ((_, name), values) in group.columns.iter().zip(curves) {
+            chart = chart.series(LineSeries::new(name.clone(), values));
         }
         section = section.push(chart);
     }
@@ -86,7 +90,7 @@ pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
         "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over the whole run.",
     ));
     let mut charts = 0;
-    for group in groups(r, varies(&r.statistics)) {
+    for group in groups(r, varies(r)) {
         let of_elements = group.columns.iter().all(|(c, _)| is_prominent(c));
         if !of_elements || charts == MOST_CHARTS {
             continue;
@@ -117,17 +121,21 @@ pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
         if shown < 4 {
             continue;
         }
+        if curves
+            .iter()
+            .all(|(_, values)| values[1..shown].iter().all(|v| *v == 0.0))
+        {
+            continue;
+        }
+        let unit = scaled(group.unit, curves.iter_mut().map(|(_, values)| values));
         let strongest = curves
             .iter()
             .flat_map(|(_, values)| values[1..shown].iter().copied())
             .fold(0.0, f64::max);
-        if strongest <= 0.0 {
-            continue;
-        }
         let mut chart = LineChart::new(
             group.title.clone(),
             Axis::new("frequency", "Hz"),
-            Axis::new("amplitude", group.unit),
+            Axis::new("amplitude", unit),
         )
         .y_scale(AxisScale::Logarithmic)
         .x_values(min_max::abscissas(&lines[1..shown]));
