@@ -243,7 +243,7 @@ name = "two"
 gear = "two.toml"
 mass_kg = 2.0
 inertia_kg_m2 = [1e-2, 1e-2, {j2}]
-position_mm = [105.0, 0.0, 0.0]
+position_mm = [105.3, 0.0, 0.0]
 [[joint]]
 name = "axle one"
 kind = "revolute"

@@ -9,6 +9,9 @@ use super::result::SystemResult;
 /// Longest series that is transformed: the last so many rows.
 const LONGEST: usize = 1 << 20;
 
+/// What varies by less, over its mean, is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Lines of the spectrum that belong to the mean under the Hann window.
 const MEAN_LINES: f64 = 3.0;
 
@@ -45,7 +48,7 @@ impl SystemResult {
         let interval_s = self.interval_s()?;
         let columns = self.rows.columns().iter().zip(&self.statistics);
         let summary = |(column, figures): (&gearmesh_model::Column, &Figures)| {
-            let varies = figures.peak_to_peak() > 1e-12 * figures.mean.abs();
+            let varies = figures.peak_to_peak() > ROUNDING * figures.mean.abs();
             let dominant_hz = if varies && !is_progressive(&column.name) {
                 dominant_hz(&self.rows.read(&column.name)?, interval_s)
             } else {
