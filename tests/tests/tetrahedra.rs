@@ -22,16 +22,16 @@ kind = \"contour\"
 bore_diameter_mm = 12.0
 hub_z_mm = [-8.0, 6.0]
 web = [
-  { diameter_mm = 18.0, z_mm = [-3.0, 2.0], fillet_radius_mm = 3.0 },
-  { diameter_mm = 34.0, z_mm = [-2.0, 2.0], fillet_radius_mm = 2.0 },
+  { diameter_mm = 18.0, z_mm = [-3.0, 2.0], fillet_radius_mm = 2.0 },
+  { diameter_mm = 34.0, z_mm = [-2.0, 2.0], fillet_radius_mm = 1.5 },
 ]
-holes = { count = 2, pitch_circle_diameter_mm = 26.5, diameter_mm = 1.6, phase_deg = 50.0 }
+holes = { count = 2, pitch_circle_diameter_mm = 26.5, diameter_mm = 2.8, phase_deg = 50.0 }
 [material]
 young_GPa = 210.0
 poisson = 0.3
 [mesh]
 flank_mm = 3.0
-fillet_mm = 1.5
+fillet_mm = 0.8
 body_mm = 6.0
 axial_mm = 6.0
 [reduction]

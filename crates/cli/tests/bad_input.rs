@@ -535,14 +535,6 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
             ],
         ),
         (
-            (
-                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0",
-                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0\n[mesh]\nelement = \"tet10\"\nplane_strain = true",
-            ),
-            "plane_strain",
-            &["mesh.plane_strain", "quadrilaterals"],
-        ),
-        (
             ("hub_z_mm = [-8.0, 6.0]\n", ""),
             "[blank]",
             &["blank.hub_z_mm: missing", "[back, front]"],
@@ -555,4 +547,10 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
     ] {
         gear_refused(&sound, change, at, parts);
     }
+    gear_refused(
+        SOLID,
+        ("axial_mm = 3.0", "element = \"tet10\"\nplane_strain = true"),
+        "plane_strain",
+        &["mesh.plane_strain", "meshed in quadrilaterals"],
+    );
 }

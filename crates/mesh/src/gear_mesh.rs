@@ -21,14 +21,6 @@ use std::ops::RangeInclusive;
 
 const NONE: u32 = u32::MAX;
 
-/// A node of a face: section node, arc length \[m\], level.
-#[derive(Debug, Clone, Copy)]
-struct FacePlace {
-    n: usize,
-    arc: f64,
-    level: usize,
-}
-
 /// A meshed gear.
 #[derive(Debug, Clone)]
 pub struct GearMesh {
@@ -207,7 +199,7 @@ impl GearMesh {
     }
 
     /// Elements that a quad has in a layer.
-    fn in_brick(&self) -> u32 {
+    pub(crate) fn in_brick(&self) -> u32 {
         match self.elements.shape() {
             ElementShape::Hex8 | ElementShape::Hex20 => 1,
             ElementShape::Tet10 => tet_split::TETRAHEDRA as u32,
@@ -328,21 +320,7 @@ impl GearMesh {
                 let step = if middle.is_some() { 2 } else { 1 };
                 let (low, high) = (step * layer, step * (layer + 1));
                 if let (Some(m), ElementShape::Tet10) = (middle, self.elements.shape()) {
-                    let place = |n: usize, arc: f64, level: usize| FacePlace { n, arc, level };
-                    let corners = [
-                        place(a, arcs[0], low),
-                        place(b, arcs[1], low),
-                        place(b, arcs[1], high),
-                        place(a, arcs[0], high),
-                    ];
-                    let middles = [
-                        place(m, 0.5 * (arcs[0] + arcs[1]), low),
-                        place(b, arcs[1], low + 1),
-                        place(m, 0.5 * (arcs[0] + arcs[1]), high),
-                        place(a, arcs[0], low + 1),
-                        place(m, 0.5 * (arcs[0] + arcs[1]), low + 1),
-                    ];
-                    faces.extend(self.triangles(corners, middles, element));
+                    faces.extend(self.split_faces([a, m, b], arcs, layer, element));
                     continue;
                 }
                 let mut places = vec![
@@ -378,50 +356,6 @@ impl GearMesh {
             }
         }
         faces
-    }
-
-    /// The two triangles of a rectangle of the outline in front of a split brick whose first element is given: corners
-    /// counter-clockwise on the unrolled outline from below, middles of the sides after each of them and of the rectangle. The
-    /// diagonal is the one that the elements have.
-    fn triangles(
-        &self,
-        corners: [FacePlace; 4],
-        middles: [FacePlace; 5],
-        first: u32,
-    ) -> Vec<OutlineFace> {
-        let node = |p: FacePlace| self.node(p.n, p.level).unwrap_or(NONE);
-        // Corner numbers of both triangles and, after each corner, the middle of the side that follows.
-        let cuts = [
-            [[0, 1, 2, 0, 1, 4], [0, 2, 3, 4, 2, 3]],
-            [[0, 1, 3, 0, 4, 3], [1, 2, 3, 1, 2, 4]],
-        ];
-        cuts.into_iter()
-            .flatten()
-            .filter_map(|[a, b, c, ab, bc, ca]| {
-                let places = [
-                    corners[a],
-                    corners[b],
-                    corners[c],
-                    middles[ab],
-                    middles[bc],
-                    middles[ca],
-                ];
-                let nodes: Vec<u32> = places.iter().map(|&p| node(p)).collect();
-                let behind = (first..first + self.in_brick()).find(|&e| {
-                    let own = &self.elements.nodes(e)[..self.elements.shape().corner_count()];
-                    nodes[..3].iter().all(|n| own.contains(n))
-                })?;
-                Some(OutlineFace {
-                    shape: FaceShape::Triangle6,
-                    nodes,
-                    element: behind,
-                    places_m: places
-                        .iter()
-                        .map(|p| [p.arc, self.levels_m[p.level]])
-                        .collect(),
-                })
-            })
-            .collect()
     }
 
     /// Elements of the tooth-only submodel: the tooth above the cut.

@@ -14,7 +14,8 @@
 //! | their heights below the rim | [`heights`] | `heights.rs` |
 //! | element lists, faces on the outline | [`ElementList`], [`OutlineFace`] | `elements.rs`, `face.rs` |
 //! | bricks split into tetrahedra, teeth of them | [`tet_split`], `tet_mesh.rs` | `tet_split.rs`, `tet_mesh.rs` |
-//! | a body of tetrahedra, with fillets | [`solid_body`], [`solid_mesher`] | `solid_body.rs`, `solid_mesher.rs`, `solid_mesher.py` |
+//! | a body of tetrahedra, with fillets | [`solid_problem`], [`solid_mesher`] | `solid_problem.rs`, `solid_mesher.rs`, `solid_mesher.py` |
+//! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
@@ -36,6 +37,7 @@ pub mod quality;
 pub mod section;
 pub mod solid_body;
 pub mod solid_mesher;
+pub mod solid_problem;
 mod tet_mesh;
 pub mod tet_split;
 pub mod tooth_cell;

@@ -219,9 +219,8 @@ mod tests {
     fn a_tetrahedron_is_judged_by_its_edges() {
         let mut nodes = TET_NODES.map(|[x, y, z]| [2.0 * x + 0.3 * y, y, z + 0.1 * x]);
         assert!((tetrahedron_jacobian(&nodes) - 1.0).abs() < 1e-14);
-        for k in 0..3 {
-            nodes[4][k] += 0.25 * (nodes[1][k] - nodes[0][k]);
-        }
+        let [from, to] = [nodes[0], nodes[1]];
+        nodes[4] = [0, 1, 2].map(|k| nodes[4][k] + 0.25 * (to[k] - from[k]));
         assert!(tetrahedron_jacobian(&nodes).abs() < 1e-14);
         nodes.swap(0, 1);
         assert_eq!(tetrahedron_jacobian(&nodes), -1.0);

@@ -9,6 +9,7 @@ use crate::ReductionError;
 use crate::contact_problem::ContactProblem;
 use crate::error_estimate::line_load;
 use crate::flank_loads::{SparseVector, flank_loads};
+use crate::gear_body::model_of;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition};
@@ -149,17 +150,18 @@ pub fn calibration(
     })
 }
 
-/// The same from the tooth of a spatial mesh that is no stack of equal layers: loads uniform over the width, no node moves along
-/// the axis, and the mean over the width is taken (docs/theory/imported_mesh.md).
-fn spatial_mesh_compliance(
+/// The same from a tooth in tetrahedra, which is no stack of layers with one field: all of its width, not twisted, loads uniform over
+/// it, no node moves along the axis, and the mean over the width is taken (docs/theory/imported_mesh.md).
+fn mean_mesh_compliance(
     gear: &GearDefinition,
     mesh: &GearMesh,
-    model: &FeModel,
     grid: &FlankGrid,
     side: FlankSide,
 ) -> Result<Vec<f64>, ReductionError> {
-    let loads = flank_loads(gear, mesh, grid, 0, side);
-    let submodel = ToothSubmodel::new(model, mesh, side, &loads, Deformation::PlaneStrain)?;
+    let teeth = mesh.straight_teeth();
+    let model = model_of(gear, &teeth)?;
+    let loads = flank_loads(gear, &teeth, grid, 0, side);
+    let submodel = ToothSubmodel::new(&model, &teeth, side, &loads, Deformation::PlaneStrain)?;
     let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
     let products = submodel.products(&rows);
     Ok(line_compliance(grid, &products, gear.tooth.face_width_m))
@@ -199,7 +201,7 @@ pub fn mesh_compliance(
     side: FlankSide,
 ) -> Result<Vec<f64>, ReductionError> {
     if gear.mesh.element == ElementKind::Tet10 {
-        return spatial_mesh_compliance(gear, mesh, model, grid, side);
+        return mean_mesh_compliance(gear, mesh, grid, side);
     }
     // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
     let width_m = gear.mesh.flank_m;

@@ -287,8 +287,25 @@ fn a_solid_gear_deflects_as_one_of_hexahedra() {
     }
 }
 
+/// A helical gear in tetrahedra against one in hexahedra: twisted teeth, straight ones for the near field.
+#[test]
+fn a_helical_gear_deflects_as_one_of_hexahedra() {
+    let [tetrahedra, quadratic] = ["tet10", "hex20"].map(|element| {
+        let mesh = format!(
+            "element = \"{element}\"\nflank_mm = 1.8\nfillet_mm = 0.8\nbody_mm = 4.5\naxial_mm = 3.0\n"
+        );
+        deflections(&gear(&mesh, SOLID, 15.0))
+    });
+    for k in 0..2 {
+        let off = tetrahedra[k] / quadratic[k] - 1.0;
+        println!("{k}: {off}");
+        assert!(off.abs() < 4e-3, "{tetrahedra:?} {quadratic:?}");
+    }
+}
+
 /// Fillets of radius ρ stiffen; as ρ falls the deflection rises to that of the sharp contour in moved layers of hexahedra.
 #[test]
+#[ignore = "five gears with small elements in their fillets, half a minute"]
 fn small_fillets_lead_to_the_sharp_contour() {
     let mesh = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 3.0\naxial_mm = 3.0\n";
     let tetrahedra = format!("element = \"tet10\"\n{mesh}");

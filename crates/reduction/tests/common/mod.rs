@@ -15,7 +15,7 @@ pub const QUADRATIC: &str =
 
 /// Tetrahedra, likewise.
 pub const TETRAHEDRA: &str =
-    "element = \"tet10\"\nflank_mm = 3.0\nfillet_mm = 1.5\nbody_mm = 8.0\naxial_mm = 6.0\n";
+    "element = \"tet10\"\nflank_mm = 3.0\nfillet_mm = 0.8\nbody_mm = 8.0\naxial_mm = 6.0\n";
 
 pub const SOLID: &str = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
 pub const THIN_RIM: &str = "[blank]
