@@ -17,7 +17,10 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
             }
             offline::reduced_import(&gear, body)?
         }
-        None => offline::reduced(&gear, !arguments.no_error_estimate)?.0,
+        None => {
+            offline::note_element(&gear);
+            offline::reduced(&gear, !arguments.no_error_estimate)?.0
+        }
     };
     write_reduced_gear(&arguments.output, &model).map_err(Failure::work)?;
     if arguments.json {
