@@ -36,8 +36,18 @@ pub struct ParameterTable {
     /// Keys of the scene that all take the value: dotted paths, items of lists by number from 0: "gear_mesh.0.exponent".
     pub keys: Vec<String>,
     /// Numbers or texts, one case each.
-    #[schemars(with = "Vec<serde_json::Value>")]
+    #[schemars(with = "Vec<ValueSchema>")]
     pub values: Vec<toml::Value>,
+}
+
+/// What a value may be.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[allow(dead_code)]
+enum ValueSchema {
+    Number(f64),
+    Text(String),
+    Truth(bool),
 }
 
 /// How the parameters are combined.
