@@ -252,13 +252,48 @@ fn bodies_that_cannot_be_are_refused() {
             "`{place}{part}` is not in\n{complaint}"
         );
     }
+    let folder = tempfile::tempdir().unwrap();
+    let gear = changed(
+        &text("gear1.toml"),
+        "density_kg_per_m3 = 7850.0  # for the dynamics\n",
+        "",
+    );
+    std::fs::write(folder.path().join("gear1.toml"), gear).unwrap();
+    let complaint = build_in(&text("scene_two_wheels.toml"), folder.path())
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(
+        complaint.contains("body.0.gear: ")
+            && complaint.contains("gear1.toml has no density, hence no mass: give"),
+        "{complaint}"
+    );
+    let modal = "gear = \"gear1.toml\"\nposition_mm";
     refused(
         (
-            "[[body]]\nname = \"pinion\"\ngear = \"gear1.toml\"\nmass_kg = 1.9                                # the gear file states no density\ninertia_kg_m2 = [3.4e-3, 3.4e-3, 6.6e-3]",
-            "[[body]]\nname = \"pinion\"\ngear = \"gear1.toml\"",
+            modal,
+            "gear = \"gear1.toml\"\nflexibility = \"modal\"\nposition_mm",
         ),
-        "gear =",
-        &["has no density, hence no mass"],
+        "flexibility",
+        &["body.1.flexibility: is \"modal\", which needs a reduced gear (.h5) with modes"],
+    );
+    refused(
+        (
+            modal,
+            "gear = \"gear1.toml\"\nmodal_damping_ratio = 0.01\nposition_mm",
+        ),
+        "modal_damping_ratio",
+        &[
+            "body.1.modal_damping_ratio: is not used where flexibility is not given, only by \"modal\"",
+        ],
+    );
+    refused(
+        (
+            modal,
+            "gear = \"gear1.toml\"\nflexibility = \"reduced\"\nposition_mm",
+        ),
+        "flexibility",
+        &["body.1.flexibility: is \"reduced\", which hybrid meshes can feel only"],
     );
 }
 
@@ -330,7 +365,7 @@ fn gears_that_do_not_fit_are_refused() {
             "name = \"wheel\"\ngear = \"gear1.toml\"",
             "name = \"wheel\"\ngear = \"other.toml\"",
         );
-        let complaint = build_in(&scene, folder.path()).unwrap_err().to_string();
+        let complaint = build_in(&scene, folder.path()).err().unwrap().to_string();
         assert!(complaint.contains(part), "{complaint}");
     }
 }
@@ -514,14 +549,14 @@ fn tables_that_do_not_increase_are_refused_in_their_file() {
         ("", "rig.csv: is empty"),
     ] {
         std::fs::write(folder.path().join("rig.csv"), table).unwrap();
-        let complaint = build_in(&scene, folder.path()).unwrap_err().to_string();
+        let complaint = build_in(&scene, folder.path()).err().unwrap().to_string();
         assert!(
             complaint.contains(expected),
             "`{expected}` is not in\n{complaint}"
         );
     }
     std::fs::remove_file(folder.path().join("rig.csv")).unwrap();
-    let complaint = build_in(&scene, folder.path()).unwrap_err().to_string();
+    let complaint = build_in(&scene, folder.path()).err().unwrap().to_string();
     assert!(
         complaint.contains("rig.csv: cannot read the file"),
         "{complaint}"

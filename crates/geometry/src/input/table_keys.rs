@@ -54,7 +54,8 @@ impl<'a> TableKeys<'a> {
     }
 
     /// Complains about keys that are given but not used by the chosen kind. Each key comes with whether it is given and the kinds
-    /// that use it; `word` is the key that chooses the kind.
+    /// that use it; `word` is the key that chooses the kind, which is empty
+    /// where that key is not given.
     ///
     /// # Errors
     /// [`InputError`] for the first such key.
@@ -66,12 +67,14 @@ impl<'a> TableKeys<'a> {
         for (key, given, users) in keys {
             if *given && !users.contains(&kind) {
                 let others: Vec<String> = users.iter().map(|user| format!("\"{user}\"")).collect();
+                let chosen = match kind {
+                    "" => format!("where {word} is not given"),
+                    kind => format!("by {word} = \"{kind}\""),
+                };
+                let others = others.join(", ");
                 return Err(self.error(
                     key,
-                    format!(
-                        "is not used by {word} = \"{kind}\", only by {}; remove it",
-                        others.join(", ")
-                    ),
+                    format!("is not used {chosen}, only by {others}; remove it"),
                 ));
             }
         }

@@ -66,7 +66,7 @@ pub struct BuiltMesh {
     pub frequency_hz: f64,
 }
 
-/// A gauge on a reduced gear.
+/// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and `…_method2_ustrain`.
 #[derive(Debug, Clone)]
 pub struct BuiltGauge {
     /// Name as in the model.

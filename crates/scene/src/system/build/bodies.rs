@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
 use gearmesh_dynamics::state::BodyMotion;
 use gearmesh_dynamics::{Body, BodyId, GROUND, Marker};
 use gearmesh_geometry::InputError;
@@ -11,7 +12,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use super::gears::Gear;
 use crate::system::names;
 use crate::system::tables::MM;
-use crate::system::tables::body::BodyTable;
+use crate::system::tables::body::{BodyTable, Flexibility};
 
 /// The world in scene files.
 pub(super) const GROUND_NAME: &str = "ground";
@@ -23,6 +24,8 @@ pub(super) struct PlacedBody {
     /// Where mass and inertia come from.
     pub source: String,
     pub gear: Option<Arc<Gear>>,
+    /// Natural modes that the body has; none unless it is modal.
+    pub modes: usize,
     /// Nobody has said where it is.
     pub place_is_free: bool,
     /// Nobody has said how far it is turned about its z.
@@ -60,6 +63,7 @@ impl PlacedBody {
         if let Some(velocity) = table.velocity_mm_per_s {
             body.velocity_m_per_s = vector(keys, "velocity_mm_per_s", velocity, MM)?;
         }
+        let mode_count = modes(table, keys, gear.as_deref(), &mut body)?;
         let mut turn_is_free = true;
         if let Some(angles) = &table.cardan_deg {
             let angle = |i: usize| angles.get(i).copied().unwrap_or(0.0);
@@ -103,9 +107,11 @@ impl PlacedBody {
             .map_err(|e| keys.error(fault_key(table), e))?;
         Ok(Self {
             source: match &gear {
+                Some(gear) if mode_count > 0 => format!("{}, {mode_count} modes", gear.source()),
                 Some(gear) => gear.source(),
                 None => "mass and inertia as stated".to_string(),
             },
+            modes: mode_count,
             body,
             place_is_free: table.position_mm.is_none(),
             turn_is_free,
@@ -145,6 +151,62 @@ fn fault_key(table: &BodyTable) -> &'static str {
         (_, Some(_)) => "inertia_kg_m2",
         _ => "",
     }
+}
+
+/// Gives a modal body its modes; how many they are.
+fn modes(
+    table: &BodyTable,
+    keys: &TableKeys<'_>,
+    gear: Option<&Gear>,
+    body: &mut Body,
+) -> Result<usize, InputError> {
+    let word = table.flexibility.map_or("", Flexibility::name);
+    keys.refuse_unused(
+        ("flexibility", word),
+        &[
+            ("modes_up_to_Hz", table.modes_up_to_hz.is_some(), &["modal"]),
+            (
+                "modal_damping_ratio",
+                table.modal_damping_ratio.is_some(),
+                &["modal"],
+            ),
+        ],
+    )?;
+    if table.flexibility != Some(Flexibility::Modal) {
+        return Ok(0);
+    }
+    let model = gear.and_then(|gear| gear.model.as_deref()).ok_or_else(|| {
+        keys.error(
+            "flexibility",
+            "is \"modal\", which needs a reduced gear (.h5) with modes",
+        )
+    })?;
+    let ratio = table.modal_damping_ratio.unwrap_or(0.0);
+    let allowed = "0 to below 1";
+    keys.require(
+        "modal_damping_ratio",
+        ratio,
+        (0.0..1.0).contains(&ratio),
+        allowed,
+    )?;
+    let count = match table.modes_up_to_hz {
+        Some(up_to_hz) => {
+            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
+        }
+        None => model
+            .modal_basis()
+            .map_err(|e| keys.error("flexibility", e))?
+            .count(),
+    };
+    if count == 0 {
+        return Err(keys.error(
+            "modes_up_to_Hz",
+            "no mode of the model lies below; raise it, or write flexibility = \"reduced\"",
+        ));
+    }
+    let modal = modal_gear_body(model, count, ratio).map_err(|e| keys.error("flexibility", e))?;
+    body.modes = modal.modes;
+    Ok(count)
 }
 
 fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputError> {

@@ -9,8 +9,8 @@ use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh, Impact,
-    MeshElement, MeshKinematics, MeshSpring, PathEnds, Pose, PowerStiffness, ReducedTeeth,
-    SingleStiffness, TeethModel, kinematic_mesh,
+    MeshElement, MeshKinematics, MeshSpring, ModalPart, PathEnds, Pose, PowerStiffness,
+    ReducedTeeth, SingleStiffness, TeethModel, kinematic_mesh,
 };
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
@@ -20,6 +20,7 @@ use gearmesh_model::ReducedGear;
 use super::bodies::{Bodies, Frame};
 use super::gears::Gear;
 use super::parts::Parts;
+use crate::system::built::BuiltGauge;
 use crate::system::tables::gear_mesh::{
     DampingTable, EccentricityTable, FlanksWord, FrictionTable, GearMeshTable, LocalWord,
     MeshModel, PathWord,
@@ -117,7 +118,10 @@ impl PreparedMesh {
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
         } else {
-            prepared.mesh = Some(scene.mesh(&prepared.sides)?);
+            prepared.mesh = Some(scene.modal(
+                scene.mesh(&prepared.sides)?,
+                numbers.map(|number| bodies.list[number].modes),
+            )?);
         }
         scene.effects(parts);
         Ok(prepared)
@@ -128,8 +132,15 @@ impl PreparedMesh {
         pose(bodies, self.bodies, &self.seats)
     }
 
-    /// Adds the mesh to the system.
-    pub(super) fn add(self, bodies: &Bodies, builder: &mut SystemBuilder, parts: &mut Parts) {
+    /// Adds the mesh to the system, with the gauges that read its slice forces.
+    pub(super) fn add(
+        self,
+        bodies: &Bodies,
+        gauges: &[BuiltGauge],
+        keys: &TableKeys<'_>,
+        builder: &mut SystemBuilder,
+        parts: &mut Parts,
+    ) -> Result<(), InputError> {
         let ends = self.bodies.map(Some);
         match self.mesh {
             Some(mesh) => {
@@ -137,7 +148,30 @@ impl PreparedMesh {
                     body: bodies.id(ends[i]),
                     ..self.seats[i]
                 });
-                builder.element(MeshElement::new(&self.name, markers, mesh));
+                let mut element = MeshElement::new(&self.name, markers, mesh);
+                for gear in [1, 2] {
+                    let on_gear = |gauge: &&BuiltGauge| {
+                        gauge
+                            .meshes
+                            .iter()
+                            .any(|(mesh, number)| *mesh == self.name && *number == gear)
+                    };
+                    let own: Vec<&BuiltGauge> = gauges.iter().filter(on_gear).collect();
+                    let Some(first) = own.first() else {
+                        continue;
+                    };
+                    // Strain by the modes is counted once, with the gear's first mesh.
+                    let modal = if first.meshes[0].0 == self.name {
+                        ModalPart::Included
+                    } else {
+                        ModalPart::ElsewhereIncluded
+                    };
+                    let names: Vec<&str> = own.iter().map(|gauge| gauge.name.as_str()).collect();
+                    element = element
+                        .with_gauges(gear, &first.model, &names, modal)
+                        .map_err(|e| keys.error("", e))?;
+                }
+                builder.element(element);
                 let kind = match self.model {
                     MeshModel::Kinematic => "kinematic mesh",
                     MeshModel::Impact => "impact mesh",
@@ -159,6 +193,7 @@ impl PreparedMesh {
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }
         }
+        Ok(())
     }
 }
 
@@ -476,6 +511,22 @@ impl SceneMesh<'_> {
             None => mesh,
             Some(friction) => mesh.with_friction(friction),
         })
+    }
+
+    /// Lets the gears vibrate in their modes. Other models than `hybrid` do not feel them.
+    fn modal(&self, mut mesh: GearMesh, modes: [usize; 2]) -> Result<GearMesh, InputError> {
+        if self.table.model != MeshModel::Hybrid {
+            return Ok(mesh);
+        }
+        let models = self.models()?;
+        for gear in 0..2 {
+            if modes[gear] > 0 {
+                mesh = mesh
+                    .with_modes(gear + 1, models[gear], modes[gear])
+                    .map_err(self.fault())?;
+            }
+        }
+        Ok(mesh)
     }
 
     fn impact(&self, slices: usize) -> Result<Impact, InputError> {

@@ -177,7 +177,9 @@ impl LoadedSystem {
         let gauges = self.gauges(&bodies, &meshes)?;
         let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
         for mesh in meshes {
-            mesh.add(&bodies, &mut builder, &mut parts);
+            let key = mesh.key.clone();
+            let keys = TableKeys::new(document, &key);
+            mesh.add(&bodies, &gauges, &keys, &mut builder, &mut parts)?;
         }
         self.add_gravity(&bodies, &mut builder, &mut parts)?;
         self.check_output(&bodies, &parts)?;
@@ -264,8 +266,14 @@ impl LoadedSystem {
                 .find(|mesh| mesh.model == MeshModel::Hybrid && mesh.bodies.contains(&i));
             let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
                 (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
-                (Flexibility::Rigid, Some(mesh), _) => format!("is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"", mesh.name),
-                (Flexibility::Reduced, None, _) => "is \"reduced\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"".to_string(),
+                (Flexibility::Rigid, Some(mesh), _) => format!(
+                    "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
+                    mesh.name
+                ),
+                (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
+                    "is \"{}\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"",
+                    flexibility.name()
+                ),
                 _ => continue,
             };
             return Err(keys.error("flexibility", problem));
@@ -362,7 +370,13 @@ impl LoadedSystem {
                 i,
             );
         }
-        parts.effect("weight", Some(format!("[{}, {}, {}] m/s2", gravity[0], gravity[1], gravity[2])));
+        parts.effect(
+            "weight",
+            Some(format!(
+                "[{}, {}, {}] m/s2",
+                gravity[0], gravity[1], gravity[2]
+            )),
+        );
         Ok(())
     }
 

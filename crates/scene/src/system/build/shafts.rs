@@ -88,6 +88,7 @@ impl PlacedShaft {
                 body,
                 source: format!("shaft `{}`", table.name),
                 gear: None,
+                modes: 0,
                 place_is_free: false,
                 turn_is_free: false,
                 speed_is_free: omega.is_none(),

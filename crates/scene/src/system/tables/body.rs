@@ -21,8 +21,14 @@ pub struct BodyTable {
     pub inertia_kg_m2: Option<Vec<f64>>,
     /// Centre of mass from the body's origin, body axes; from the gear, or [0, 0, 0].
     pub centre_of_mass_mm: Option<[f64; 3]>,
-    /// Gears: "rigid", or "reduced" where the static patterns of the model give way in `hybrid` meshes; what the meshes need where not given.
+    /// Gears: "rigid"; "reduced", the static patterns of the model give way in `hybrid` meshes; "modal", its natural modes vibrate, too, and carry
+    /// their inertia. Rigid or reduced, as the meshes need, where not given.
     pub flexibility: Option<Flexibility>,
+    /// `modal`: modes up to this frequency; all of the model where not given.
+    #[serde(rename = "modes_up_to_Hz")]
+    pub modes_up_to_hz: Option<f64>,
+    /// `modal`: damping ratio of all modes; none where not given.
+    pub modal_damping_ratio: Option<f64>,
     /// Origin of the body in the world; [0, 0, 0], or the seat on a shaft.
     pub position_mm: Option<[f64; 3]>,
     /// Cardan angles: turned about x, then the new y, then the new z. With two angles, or none, a mesh may turn gear 2 about its z so that the
@@ -45,6 +51,8 @@ pub enum Flexibility {
     Rigid,
     /// By the static patterns of its model.
     Reduced,
+    /// By its natural modes and, beside them, its static patterns: Craig-Bampton.
+    Modal,
 }
 
 impl Flexibility {
@@ -54,6 +62,7 @@ impl Flexibility {
         match self {
             Self::Rigid => "rigid",
             Self::Reduced => "reduced",
+            Self::Modal => "modal",
         }
     }
 }
