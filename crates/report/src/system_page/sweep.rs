@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult};
+use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult, is_prominent, split_unit};
 
-use super::columns::{MOST_CHARTS, is_prominent, quantity, readable, split_unit};
+use super::columns::{MOST_CHARTS, quantity, readable};
 use super::transient::run_table;
 use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
 
@@ -33,17 +33,14 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
         };
         speeds.iter().map(at).collect()
     };
-    let varies = |column: &usize| {
-        let figures = sweep.figures.iter().map(|f| &f[*column]);
-        figures.fold(0.0_f64, |most, f| most.max(f.peak_to_peak())) > 0.0
-    };
+    let varying = sweep.varying();
     let interesting = |name: &str| {
         is_prominent(name)
             || name.starts_with("joints/") && matches!(split_unit(name).1, "N" | "N·m")
             || name.starts_with("bodies/") && split_unit(name).1 == "m"
     };
     let mut chosen: Vec<usize> = (0..sweep.columns.len())
-        .filter(|c| interesting(&sweep.columns[*c]) && varies(c))
+        .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
         .collect();
     chosen.sort_by_key(|c| !sweep.columns[*c].starts_with("elements/"));
     for &column in chosen.iter().take(MOST_CHARTS) {
