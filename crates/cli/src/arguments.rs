@@ -35,7 +35,9 @@ pub enum Command {
     Report(ReportArguments),
     /// Check a gear file, scene, model or result
     Check(CheckArguments),
-    /// Print the JSON Schema of scene or gear files
+    /// Run a multibody scene again and again with some of its keys changed
+    Study(StudyArguments),
+    /// Print the JSON Schema of scene, study or gear files
     Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
@@ -240,6 +242,19 @@ pub struct CheckArguments {
     pub file: PathBuf,
 }
 
+/// `gearmesh study`.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// Study file
+    pub study: PathBuf,
+    /// Folder for the results and study.csv; what is there already is not run again
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `gearmesh schema`.
 #[derive(Debug, Args)]
 pub struct SchemaArguments {
@@ -252,6 +267,8 @@ pub struct SchemaArguments {
 pub enum SchemaKind {
     /// Scenes: of a gear pair, or of a multibody system
     Scene,
+    /// Parameter studies
+    Study,
     /// Gears
     Gear,
 }

@@ -13,3 +13,4 @@ pub mod report;
 pub mod run;
 pub mod run_system;
 pub mod schema;
+pub mod study;

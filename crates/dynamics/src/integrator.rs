@@ -8,7 +8,8 @@
 //! [B T                    0 ] [βh² δλ ]  = − [violation   ]        μ = (1 − α_m)/(1 − α_f)
 //! ```
 //!
-//! The factors are kept from step to step and made anew, at the present iterate, when the step length has changed or corrections shrink
+//! The factors are kept from step to step, what a step's own corrections tell about their error is used within it (`secants.rs`), and they
+//! are made anew, at the present iterate, when the step length has changed or corrections shrink
 //! too slowly.
 //!
 //! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
@@ -22,6 +23,7 @@ use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::Saddle;
 use crate::scheme::{Params, Scheme};
+use crate::secants::Secants;
 use crate::state::State;
 use crate::system::System;
 
@@ -84,6 +86,8 @@ pub(crate) struct Integrator {
     floor: [f64; KINDS],
     /// 1 + the largest counted angle \[rad\] at the start of the step: what multiplies the floor.
     revolved: f64,
+    /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
+    reach: (f64, f64),
     matrix: Matrix,
     turned: Matrix,
     increment: Vec<f64>,
@@ -93,6 +97,7 @@ pub(crate) struct Integrator {
     inverse_mass: Vec<f64>,
     right: Vec<f64>,
     right_joints: Vec<f64>,
+    secants: Secants,
     pub effort: Effort,
 }
 
@@ -114,6 +119,7 @@ impl Integrator {
             projector: Saddle::new(&diagonal, &system.kept),
             kinds: kinds.collect(),
             floor: [ROUNDING * size, ROUNDING, ROUNDING * size * heaviest.sqrt()],
+            reach: (size, heaviest.sqrt()),
             matrix: Matrix::zeros(n, n),
             revolved: 1.0,
             turned: Matrix::zeros(n, m),
@@ -124,6 +130,7 @@ impl Integrator {
             inverse_mass: diagonal.iter().map(|mass| 1.0 / mass).collect(),
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
+            secants: Secants::new(&diagonal, m),
             effort: Effort::default(),
         }
     }
@@ -150,6 +157,7 @@ impl Integrator {
         self.revolved = 1.0 + angles.fold(0.0, f64::max);
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut place) = (f64::INFINITY, 0);
+        self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
             let detail = if stale {
@@ -172,6 +180,7 @@ impl Integrator {
                         StepFailure::Singular
                     });
                 }
+                self.secants.reset();
                 stale = false;
             }
             for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
@@ -186,6 +195,7 @@ impl Integrator {
                 &mut self.delta,
                 &mut self.mu,
             );
+            self.secants.improve(&mut self.delta, &mut self.mu);
             let (ratio, largest, above_floor) =
                 self.measure(system, from, h, params.newton_tolerance);
             if !ratio.is_finite() {
@@ -322,6 +332,10 @@ impl Integrator {
         {
             size[kind] = size[kind].max(increment.abs()).max(h * velocity.abs());
         }
+        // A turn moves places, too: what hardly moves in a system that spins need not be exact to a share of its own small motion.
+        let (arm, root_mass) = self.reach;
+        size[0] = size[0].max(arm * size[1]);
+        size[2] = size[2].max(root_mass * size[0]);
         let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
         let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {

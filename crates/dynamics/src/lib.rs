@@ -39,6 +39,7 @@ pub mod relative_motion;
 pub mod rotation;
 mod saddle;
 pub mod scheme;
+mod secants;
 pub mod simulation;
 pub mod state;
 pub mod statics;

@@ -48,7 +48,7 @@ pub use file_error::FileError;
 pub use mesh_data::{Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;
-pub use near_field::NearField;
+pub use near_field::{ContactCurve, NearField};
 pub use reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};

@@ -362,7 +362,7 @@ impl LoadedSystem {
                 i,
             );
         }
-        parts.effect("weight", Some(format!("{gravity:?} m/s2")));
+        parts.effect("weight", Some(format!("[{}, {}, {}] m/s2", gravity[0], gravity[1], gravity[2])));
         Ok(())
     }
 
