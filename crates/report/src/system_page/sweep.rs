@@ -8,6 +8,9 @@ use super::columns::{MOST_CHARTS, quantity, readable};
 use super::transient::run_table;
 use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
 
+/// What is drawn over the speed: name and value.
+type Figure = (&'static str, fn(&Figures) -> f64);
+
 pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
@@ -51,7 +54,7 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
             Axis::new(quantity(unit), unit),
         )
         .x_values(speeds.clone());
-        let figures: [(&str, fn(&Figures) -> f64); 4] = [
+        let figures: [Figure; 4] = [
             ("peak to peak", Figures::peak_to_peak),
             ("RMS about the mean", |f| f.deviation),
             ("mean", |f| f.mean),

@@ -33,7 +33,7 @@ pub use eigen_run::participation;
 pub use error::SystemRunError;
 pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
-    RunOptions, Settling, StaticJob, StaticPoint,
+    RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use part_folder::PartFolder;
 pub use recorder::{Course, Moment, Recorder, Selection};
