@@ -26,6 +26,7 @@ const MOST_BODIES: usize = 3;
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
     let job = RunJob::from_scene(loaded)?;
     job.head.notes.iter().for_each(console::note);
+    let resumes = job.kind.resumes();
     let bar = RunBar::new(job.kind.name());
     let progress = |advance: Advance| {
         if advance.resumed {
@@ -49,7 +50,11 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     );
     bar.finish();
     if outcome? == Outcome::Stopped {
-        console::error("interrupted; the same command goes on from here, --restart begins anew");
+        console::error(if resumes {
+            "interrupted; the same command goes on from here, --restart begins anew"
+        } else {
+            "interrupted; nothing is written"
+        });
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);

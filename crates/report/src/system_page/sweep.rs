@@ -15,9 +15,6 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
     ));
-    if let Some(record) = &r.record {
-        section = section.push(run_table(record));
-    }
     let rpm = |speed: f64| speed * 60.0 / TAU;
     let mut speeds: Vec<f64> = sweep
         .windows
@@ -76,6 +73,9 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
             }
         }
         section = section.push(chart);
+    }
+    if let Some(record) = &r.record {
+        section = section.push(run_table(record));
     }
     section
 }

@@ -218,10 +218,9 @@ pub(super) fn run_table(record: &RunRecord) -> Table {
         .column("unit", Align::Left);
     for (name, unit, value) in record.entries() {
         let (stem, _) = split_unit(name);
-        let value = if unit == "1" {
-            format!("{value}")
-        } else {
-            short(value)
+        let (value, unit) = match unit {
+            "1" => (format!("{value}"), ""),
+            _ => (short(value), unit),
         };
         table = table.row([stem.replace('_', " "), value, unit.to_owned()]);
     }

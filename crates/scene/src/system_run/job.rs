@@ -104,6 +104,11 @@ impl RunKind {
             Self::Eigen(_) => "eigen",
         }
     }
+
+    /// Whether an unfinished run can go on.
+    pub fn resumes(&self) -> bool {
+        matches!(self, Self::Transient(_) | Self::SpeedSweep(_))
+    }
 }
 
 /// A gear mesh, for the frequencies that a reader looks for.
