@@ -45,7 +45,7 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
     if let Some(record) = &r.record {
         figures = figures
             .figure("simulated", format!("{:.4}", record.simulated_s), "s")
-            .figure("real-time factor", short(record.real_time_factor()), "1")
+            .figure("real-time factor", short(record.real_time_factor()), "")
             .figure("steps", format!("{}", record.steps), "")
             .figure(
                 "joints hold to",
@@ -55,7 +55,7 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
             .figure(
                 "energy error",
                 format!("{:.1e}", record.relative_energy_error()),
-                "of the largest energy",
+                "relative",
             );
     }
     for (name, hz) in mesh_frequencies(r)? {
@@ -68,8 +68,8 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
     if r.kind == "transient" {
         section = section.push(transient::columns_table(r)?);
     }
-    for note in &r.head.notes {
-        section = section.push(Text::note(note.clone()));
+    if !r.head.notes.is_empty() {
+        section = section.push(Text::preformatted(r.head.notes.join("\n")));
     }
     Ok(section)
 }

@@ -23,13 +23,17 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             Err(FileError::WrongFormat { .. }) => {
                 match SystemResult::open(path) {
                     Ok(result) => {
+                        let (columns, rows) = (result.rows.columns().len(), result.rows.rows());
+                        let size = if rows > 0 {
+                            format!(", {columns} columns x {rows} rows")
+                        } else {
+                            String::new()
+                        };
                         console::data(format!(
-                            "{}: result of `{}`, {}, {} columns x {} rows, sound",
+                            "{}: result of `{}`, {}{size}, sound",
                             path.display(),
                             result.head.title,
-                            result.kind,
-                            result.rows.columns().len(),
-                            result.rows.rows()
+                            result.kind
                         ));
                         run_system::table(&result)?
                             .into_iter()

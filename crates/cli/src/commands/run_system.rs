@@ -7,7 +7,7 @@ use crate::interrupt;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
     Advance, ColumnSummary, EigenResult, Outcome, RunJob, RunOptions, RunRecord, SystemResult,
-    run as run_job,
+    is_prominent, run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -26,6 +26,7 @@ const MOST_BODIES: usize = 3;
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
     let job = RunJob::from_scene(loaded)?;
     job.head.notes.iter().for_each(console::note);
+    let resumes = job.kind.resumes();
     let bar = RunBar::new(job.kind.name());
     let progress = |advance: Advance| {
         if advance.resumed {
@@ -49,7 +50,11 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     );
     bar.finish();
     if outcome? == Outcome::Stopped {
-        console::error("interrupted; the same command goes on from here, --restart begins anew");
+        console::error(if resumes {
+            "interrupted; the same command goes on from here, --restart begins anew"
+        } else {
+            "interrupted; nothing is written"
+        });
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);
@@ -107,11 +112,6 @@ fn effort(r: &RunRecord) -> Vec<String> {
     ]
 }
 
-/// Columns that a reader asks for first: channels of force elements, then speeds.
-fn is_prominent(name: &str) -> bool {
-    name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
-}
-
 fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut found = result.summaries(is_prominent).map_err(Failure::work)?;
     found.sort_by_key(|column| !column.name.starts_with("elements/"));
@@ -150,11 +150,11 @@ fn sweep(result: &SystemResult) -> Vec<String> {
     let Some(sweep) = &result.sweep else {
         return Vec::new();
     };
-    let names = sweep.columns.iter().enumerate();
-    let chosen: Vec<(usize, &String)> = names
-        .filter(|(_, name)| is_prominent(name))
-        .take(MOST_COLUMNS)
-        .collect();
+    let varying = sweep.varying();
+    let mut chosen: Vec<(usize, &String)> = sweep.columns.iter().enumerate().collect();
+    chosen.retain(|(place, name)| varying[*place] && is_prominent(name));
+    chosen.sort_by_key(|(_, name)| !name.starts_with("elements/"));
+    chosen.truncate(MOST_COLUMNS);
     let mut head = format!("{:>12} {:>5}", "speed rpm", "way");
     for (_, name) in &chosen {
         head += &format!(" {:>30}", format!("pk-pk {}", short(name)));

@@ -3,43 +3,13 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use gearmesh_model::{Column, FileError};
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_model::FileError;
+use gearmesh_scene::system_run::{SystemResult, split_unit};
 
 use crate::page::{Section, Text};
 
 /// Charts of one section; what is left out is named.
 pub(super) const MOST_CHARTS: usize = 24;
-
-/// What varies by less, over the largest value of its unit, is rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// Suffixes of column names, longest first where one ends another, and their units.
-const UNITS: [(&str, &str); 15] = [
-    ("_rad_per_s2", "rad/s²"),
-    ("_rad_per_s", "rad/s"),
-    ("_m_per_s2", "m/s²"),
-    ("_m_per_s", "m/s"),
-    ("_sqrt_kg_m", "√kg·m"),
-    ("_N_per_m", "N/m"),
-    ("_ustrain", "µε"),
-    ("_Nm", "N·m"),
-    ("_N", "N"),
-    ("_Pa", "Pa"),
-    ("_J", "J"),
-    ("_W", "W"),
-    ("_rad", "rad"),
-    ("_m", "m"),
-    ("_s", "s"),
-];
-
-/// A column's name without its unit, and the unit.
-pub(super) fn split_unit(name: &str) -> (&str, &'static str) {
-    let found = UNITS
-        .iter()
-        .find_map(|(suffix, unit)| Some((name.strip_suffix(suffix)?, *unit)));
-    found.unwrap_or((name, ""))
-}
 
 pub(super) fn quantity(unit: &str) -> &'static str {
     match unit {
@@ -60,16 +30,14 @@ pub(super) fn quantity(unit: &str) -> &'static str {
 
 /// Three to four digits.
 pub(super) fn short(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&value.abs()) {
         format!("{value:.3e}")
     } else {
         let digits = (3 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 6);
         format!("{value:.*}", digits as usize)
     }
-}
-
-pub(super) fn is_prominent(name: &str) -> bool {
-    name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
 }
 
 /// `elements/mesh/normal_force_right` as `mesh: normal force right`.
@@ -202,18 +170,9 @@ pub(super) fn scaled<'a>(
     unit
 }
 
-/// Whether a column of a transient result varies by more than rounding, measured by the largest value that has its unit.
+/// Whether a column of a transient result varies by more than rounding.
 pub(super) fn varies(r: &SystemResult) -> impl Fn(usize) -> bool {
-    let unit = |column: &Column| split_unit(&column.name).1;
-    let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
-    for (column, f) in r.rows.columns().iter().zip(&r.statistics) {
-        let most = largest.entry(unit(column)).or_default();
-        *most = most.max(f.largest.abs()).max(f.least.abs());
-    }
-    let columns = r.rows.columns().iter().zip(&r.statistics);
-    let varying: Vec<bool> = columns
-        .map(|(column, f)| f.peak_to_peak() > ROUNDING * largest[unit(column)])
-        .collect();
+    let varying = r.varying();
     move |place| varying.get(place).is_some_and(|varies| *varies)
 }
 

@@ -1,9 +1,9 @@
 //! Static series over an angle or a load factor.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::system_run::{SystemResult, split_unit};
 
-use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled, split_unit};
+use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
 
 pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
@@ -29,10 +29,13 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
     }
     let mut groups = groups(r, |_| true);
     groups.retain(|group| !group.title.starts_with("Angular"));
-    let increasing = |rows: &[usize]| rows.windows(2).all(|w| x[w[1]] > x[w[0]]);
+    for (_, rows) in &mut legs {
+        rows.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+        rows.dedup_by(|a, b| x[*a].to_bits() == x[*b].to_bits());
+    }
     for group in groups.iter().take(MOST_CHARTS) {
         for (factor, rows) in &legs {
-            if rows.len() < 2 || !increasing(rows) {
+            if rows.len() < 2 {
                 continue;
             }
             let title = if varied && legs.len() > 1 {

@@ -2,19 +2,19 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult};
+use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult, is_prominent, split_unit};
 
-use super::columns::{MOST_CHARTS, is_prominent, quantity, readable, split_unit};
+use super::columns::{MOST_CHARTS, quantity, readable};
 use super::transient::run_table;
 use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
+
+/// What is drawn over the speed: name and value.
+type Figure = (&'static str, fn(&Figures) -> f64);
 
 pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
     ));
-    if let Some(record) = &r.record {
-        section = section.push(run_table(record));
-    }
     let rpm = |speed: f64| speed * 60.0 / TAU;
     let mut speeds: Vec<f64> = sweep
         .windows
@@ -33,17 +33,14 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
         };
         speeds.iter().map(at).collect()
     };
-    let varies = |column: &usize| {
-        let figures = sweep.figures.iter().map(|f| &f[*column]);
-        figures.fold(0.0_f64, |most, f| most.max(f.peak_to_peak())) > 0.0
-    };
+    let varying = sweep.varying();
     let interesting = |name: &str| {
         is_prominent(name)
             || name.starts_with("joints/") && matches!(split_unit(name).1, "N" | "N·m")
             || name.starts_with("bodies/") && split_unit(name).1 == "m"
     };
     let mut chosen: Vec<usize> = (0..sweep.columns.len())
-        .filter(|c| interesting(&sweep.columns[*c]) && varies(c))
+        .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
         .collect();
     chosen.sort_by_key(|c| !sweep.columns[*c].starts_with("elements/"));
     for &column in chosen.iter().take(MOST_CHARTS) {
@@ -54,7 +51,7 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
             Axis::new(quantity(unit), unit),
         )
         .x_values(speeds.clone());
-        let figures: [(&str, fn(&Figures) -> f64); 4] = [
+        let figures: [Figure; 4] = [
             ("peak to peak", Figures::peak_to_peak),
             ("RMS about the mean", |f| f.deviation),
             ("mean", |f| f.mean),
@@ -76,6 +73,9 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
             }
         }
         section = section.push(chart);
+    }
+    if let Some(record) = &r.record {
+        section = section.push(run_table(record));
     }
     section
 }

@@ -1,12 +1,11 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{RunRecord, SystemResult};
+use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, split_unit};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
-    MOST_CHARTS, groups, is_prominent, left_out, mesh_frequencies, quantity, readable, scaled,
-    short, split_unit, varies,
+    MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, short, varies,
 };
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
@@ -219,10 +218,9 @@ pub(super) fn run_table(record: &RunRecord) -> Table {
         .column("unit", Align::Left);
     for (name, unit, value) in record.entries() {
         let (stem, _) = split_unit(name);
-        let value = if unit == "1" {
-            format!("{value}")
-        } else {
-            short(value)
+        let (value, unit) = match unit {
+            "1" => (format!("{value}"), ""),
+            _ => (short(value), unit),
         };
         table = table.row([stem.replace('_', " "), value, unit.to_owned()]);
     }

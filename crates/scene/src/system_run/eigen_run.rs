@@ -19,7 +19,7 @@ pub(super) fn run_eigen(
     let mut results = Vec::with_capacity(job.points.len());
     let mut bodies = Vec::new();
     for (number, point) in job.points.iter().enumerate() {
-        let system = (job.system_at)(point)?;
+        let system = (job.system_at)(*point)?;
         bodies = system
             .bodies()
             .iter()

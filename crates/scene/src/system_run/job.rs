@@ -24,12 +24,15 @@ pub struct StaticPoint {
     pub load_factor: f64,
 }
 
+/// Makes the system that a point of a series needs.
+pub type SystemAt<P> = Box<dyn Fn(P) -> Result<System, SystemRunError>>;
+
 /// A series of equilibria.
 pub struct StaticJob {
     /// The points; those of one load factor stand together.
     pub points: Vec<StaticPoint>,
     /// Makes the system for a load factor.
-    pub system_at: Box<dyn Fn(f64) -> Result<System, SystemRunError>>,
+    pub system_at: SystemAt<f64>,
 }
 
 /// An operating point whose natural frequencies are sought.
@@ -61,7 +64,7 @@ pub struct EigenJob {
     /// Highest frequency that is kept \[Hz\].
     pub most_frequency_hz: Option<f64>,
     /// Makes the system for a point.
-    pub system_at: Box<dyn Fn(&EigenPoint) -> Result<System, SystemRunError>>,
+    pub system_at: SystemAt<EigenPoint>,
 }
 
 /// A run in time from t = 0.
@@ -100,6 +103,11 @@ impl RunKind {
             Self::Static(_) => "static",
             Self::Eigen(_) => "eigen",
         }
+    }
+
+    /// Whether an unfinished run can go on.
+    pub fn resumes(&self) -> bool {
+        matches!(self, Self::Transient(_) | Self::SpeedSweep(_))
     }
 }
 

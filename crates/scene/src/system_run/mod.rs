@@ -8,8 +8,9 @@
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
-//! | its figures at a glance | [`ColumnSummary`] | `summary.rs` |
+//! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
 
+mod column_names;
 mod column_statistics;
 mod counted_angles;
 mod eigen_run;
@@ -26,12 +27,13 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
+pub use column_names::{is_prominent, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use eigen_run::participation;
 pub use error::SystemRunError;
 pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
-    RunOptions, Settling, StaticJob, StaticPoint,
+    RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use part_folder::PartFolder;
 pub use recorder::{Course, Moment, Recorder, Selection};

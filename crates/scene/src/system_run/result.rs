@@ -8,6 +8,7 @@ use gearmesh_model::{
     write_columns,
 };
 
+use super::column_names::varying;
 use super::column_statistics::Figures;
 use super::job::{EigenPoint, MeshRecord, RunHead};
 use super::run_record::RunRecord;
@@ -64,6 +65,27 @@ pub struct SystemResult {
     pub eigen: Vec<EigenResult>,
     /// Names of the bodies, in the order of the participations.
     pub bodies: Vec<String>,
+}
+
+impl SweepResult {
+    /// Which columns vary by more than rounding in some window.
+    #[must_use]
+    pub fn varying(&self) -> Vec<bool> {
+        let of_window = |figures: &Vec<Figures>| {
+            let columns = self.columns.iter().zip(figures);
+            varying(columns.map(|(name, f)| (name.as_str(), f.least, f.largest)))
+        };
+        let none = vec![false; self.columns.len()];
+        self.figures
+            .iter()
+            .map(of_window)
+            .fold(none, |mut all, window| {
+                all.iter_mut()
+                    .zip(window)
+                    .for_each(|(all, here)| *all |= here);
+                all
+            })
+    }
 }
 
 const FIGURES: [(&str, &str); 4] = [

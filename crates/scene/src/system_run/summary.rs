@@ -1,16 +1,14 @@
 //! Figures of the columns of a transient result at a glance.
 
-use gearmesh_model::FileError;
+use gearmesh_model::{Column, FileError};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
+use super::column_names::varying;
 use super::column_statistics::Figures;
 use super::result::SystemResult;
 
 /// Longest series that is transformed: the last so many rows.
 const LONGEST: usize = 1 << 20;
-
-/// What varies by less, over its mean, is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// Lines of the spectrum that belong to the mean under the Hann window.
 const MEAN_LINES: f64 = 3.0;
@@ -37,6 +35,13 @@ impl SystemResult {
         Ok((times.last().copied().unwrap_or(f64::NAN) - times[0]) / steps as f64)
     }
 
+    /// Which columns of a transient result vary by more than rounding.
+    #[must_use]
+    pub fn varying(&self) -> Vec<bool> {
+        let columns = self.rows.columns().iter().zip(&self.statistics);
+        varying(columns.map(|(column, f)| (column.name.as_str(), f.least, f.largest)))
+    }
+
     /// Columns of a transient result whose names `wanted` accepts.
     ///
     /// # Errors
@@ -47,8 +52,7 @@ impl SystemResult {
     ) -> Result<Vec<ColumnSummary>, FileError> {
         let interval_s = self.interval_s()?;
         let columns = self.rows.columns().iter().zip(&self.statistics);
-        let summary = |(column, figures): (&gearmesh_model::Column, &Figures)| {
-            let varies = figures.peak_to_peak() > ROUNDING * figures.mean.abs();
+        let summary = |((column, figures), varies): ((&Column, &Figures), bool)| {
             let dominant_hz = if varies && !is_progressive(&column.name) {
                 dominant_hz(&self.rows.read(&column.name)?, interval_s)
             } else {
@@ -61,7 +65,8 @@ impl SystemResult {
             })
         };
         columns
-            .filter(|(column, _)| wanted(&column.name))
+            .zip(self.varying())
+            .filter(|((column, _), _)| wanted(&column.name))
             .map(summary)
             .collect()
     }
