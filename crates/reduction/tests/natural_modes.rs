@@ -58,7 +58,11 @@ web_offset_mm = 2.0
 const SLOTS: &str = "slots = { count = 3, inner_radius_mm = 12.0, outer_radius_mm = 17.0, width_deg = 60.0, phase_deg = 60.0, corner_radius_mm = 1.5 }\n";
 
 fn gear(blank: &str, reduction: &str, tables: &str) -> GearDefinition {
-    let text = SMALL.replace("[reduction]", &format!("[reduction]\n{reduction}"));
+    gear_like(SMALL, blank, reduction, tables)
+}
+
+fn gear_like(small: &str, blank: &str, reduction: &str, tables: &str) -> GearDefinition {
+    let text = small.replace("[reduction]", &format!("[reduction]\n{reduction}"));
     let text = format!("{text}\n{blank}\n{tables}");
     GearDefinition::from_document(&InputDocument::new("small.toml", text)).unwrap()
 }
@@ -96,8 +100,13 @@ fn groups(modes: &GearModes, readings: &[Vec<f64>]) -> Vec<Mat<f64>> {
 
 /// Both ways find the same modes; the nodal diameters are those of the harmonics.
 fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
+    both_ways_agree_like(SMALL, blank, teeth_per_sector);
+}
+
+fn both_ways_agree_like(small: &str, blank: &str, teeth_per_sector: usize) {
     let count = 6;
-    let (cyclic_gear, whole_gear) = (gear(blank, "", ""), gear(blank, "symmetry = \"off\"", ""));
+    let cyclic_gear = gear_like(small, blank, "", "");
+    let whole_gear = gear_like(small, blank, "symmetry = \"off\"", "");
     let (cyclic_body, whole_body) = (body(&cyclic_gear), body(&whole_gear));
     let (cyclic, there) = modes(&cyclic_gear, &cyclic_body, ModeRange::Count(count));
     let (whole, here) = modes(&whole_gear, &whole_body, ModeRange::Count(count));
@@ -145,6 +154,19 @@ fn both_ways_agree(blank: &str, teeth_per_sector: usize) {
 #[test]
 fn solid_gear() {
     both_ways_agree(SOLID, 1);
+}
+
+#[test]
+fn helical_solid_gear() {
+    let helix = "helix_angle_deg = 20.0\nhand = \"left\"\nface_width_mm";
+    both_ways_agree_like(&SMALL.replace("face_width_mm", helix), SOLID, 1);
+}
+
+#[test]
+#[ignore = "a whole gear of quadratic elements, a minute"]
+fn quadratic_elements() {
+    let mesh = "[mesh]\nelement = \"hex20\"\n";
+    both_ways_agree_like(&SMALL.replace("[mesh]\n", mesh), THIN_RIM, 1);
 }
 
 #[test]
