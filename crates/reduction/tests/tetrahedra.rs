@@ -263,6 +263,7 @@ fn deflections(gear: &GearDefinition) -> [f64; 2] {
 
 /// The same solid gear in three elements: no part of the way from mesh to figures is common to both but the algebra.
 #[test]
+#[ignore = "four gears, half a minute"]
 fn a_solid_gear_deflects_as_one_of_hexahedra() {
     let mesh = |element: &str, size: f64| {
         format!(
