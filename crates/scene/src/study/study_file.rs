@@ -165,10 +165,10 @@ impl Study {
     }
 
     fn case_count(&self) -> Option<usize> {
-        let counts = self.tables.parameter.iter().map(|p| p.values.len());
+        let mut counts = self.tables.parameter.iter().map(|p| p.values.len());
         match self.tables.design {
             Design::OneAtATime => Some(1 + counts.sum::<usize>()),
-            Design::Grid => counts.fold(Some(1_usize), |all, own| all?.checked_mul(own)),
+            Design::Grid => counts.try_fold(1_usize, usize::checked_mul),
         }
     }
 
