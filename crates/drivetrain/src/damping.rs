@@ -6,7 +6,7 @@
 //! | kind | law |
 //! | --- | --- |
 //! | proportional to stiffness | the teeth are a Kelvin-Voigt solid: they feel the gap g + τ s(δ) ġ |
-//! | viscous | F = max(0, F_elastic − c s(δ) ġ), c for each tooth pair, shared by its slices |
+//! | viscous | F = max(0, F_elastic − c s(δ) ġ), c for each tooth pair, shared by its slices; for the whole mesh where the model has no single teeth (`iso6336`) |
 //!
 //! Neither pulls. The first spends τ ġᵀ K s ġ (to first order in τ ġ/δ), the second c s ġ².
 
@@ -25,7 +25,7 @@ pub enum Damping {
         /// δ_full \[m\].
         full_depth_m: f64,
     },
-    /// c \[N·s/m\] of a whole tooth pair.
+    /// c \[N·s/m\] of a whole tooth pair, or of the mesh where the model has no single teeth.
     Viscous {
         /// c \[N·s/m\].
         coefficient_n_s_per_m: f64,
@@ -138,7 +138,12 @@ impl<M: TeethModel> Damped<M> {
         self.teeth.evaluate(flanks, tangents, loads)?;
         let n = flanks.contacts.len();
         let each = coefficient / self.slices as f64;
+        // One spring for the mesh has one damper: the other pairs that it stands for have none of their own.
+        let everywhere = self.teeth.resolves_teeth();
         for (i, contact) in flanks.contacts.iter().enumerate() {
+            if !everywhere && loads.normal_n[i] == 0.0 {
+                continue;
+            }
             let (share, slope) = step(-contact.gap_m, [0.0, 0.0], [full_m, 1.0]);
             let rate = contact.gap_rate_m_per_s;
             let damped = loads.normal_n[i] - each * share * rate;

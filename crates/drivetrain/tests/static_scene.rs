@@ -15,30 +15,6 @@ use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, involute};
 use mesh_common::*;
-use nalgebra::Vector3;
-
-/// Torque on gear 2 by its z at a driver angle and a transmission error.
-fn torque_2(mesh: &mut GearMesh, pair: &GearPair, theta: f64, te: f64) -> (f64, f64) {
-    let phi = angles(pair, FlankSide::Right, theta, te);
-    let at = pose(pair, phi, Vector3::zeros(), Vector3::zeros());
-    let load = mesh.evaluate(&at, true).unwrap();
-    (load.load[5], load.by_position[(5, 5)])
-}
-
-/// The transmission error at which the mesh carries a torque: Newton with the mesh's own tangent.
-fn equilibrium(mesh: &mut GearMesh, pair: &GearPair, theta: f64, torque: f64) -> f64 {
-    let base = pair.gear_2.base_radius_m;
-    let mut te = -1e-5;
-    for _ in 0..40 {
-        let (found, slope) = torque_2(mesh, pair, theta, te);
-        let step = (found - torque) / slope * base;
-        te -= if found > 0.0 { step } else { 5e-6 };
-        if step.abs() < 1e-14 && found > 0.0 {
-            return te;
-        }
-    }
-    panic!("no equilibrium at {theta}");
-}
 
 fn right_only(pair: &GearPair, errors: [FlankErrors; 2]) -> GearMesh {
     let kinematics = kinematics_with(pair, errors, PathEnds::LineOfAction);

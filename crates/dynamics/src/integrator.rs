@@ -18,6 +18,7 @@ use nalgebra::Vector3;
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
+use crate::joint::Joint;
 use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::Saddle;
@@ -33,7 +34,7 @@ const SLOW: f64 = 0.2;
 const STALLED: f64 = 100.0;
 
 /// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
-/// Velocities carry it divided by the step.
+/// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
 const ROUNDING: f64 = 1e-15;
 
 /// All that the scheme carries from step to step.
@@ -83,6 +84,8 @@ pub(crate) struct Integrator {
     projector: Saddle,
     pub kinds: Vec<usize>,
     floor: [f64; KINDS],
+    /// 1 + the largest counted angle \[rad\] at the start of the step: what multiplies the floor.
+    revolved: f64,
     /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
     reach: (f64, f64),
     matrix: Matrix,
@@ -118,6 +121,7 @@ impl Integrator {
             floor: [ROUNDING * size, ROUNDING, ROUNDING * size * heaviest.sqrt()],
             reach: (size, heaviest.sqrt()),
             matrix: Matrix::zeros(n, n),
+            revolved: 1.0,
             turned: Matrix::zeros(n, m),
             increment: vec![0.0; n],
             delta: vec![0.0; n],
@@ -149,6 +153,8 @@ impl Integrator {
         let (scheme, mass_factor) = (self.scheme, self.scheme.mass_factor());
         let square = scheme.beta * h * h;
         self.predict(system, from, to, h);
+        let angles = system.joints.iter().map(Joint::largest_angle_rad);
+        self.revolved = 1.0 + angles.fold(0.0, f64::max);
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut place) = (f64::INFINITY, 0);
         self.secants.reset();
@@ -334,11 +340,12 @@ impl Integrator {
         let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
             let correction = delta.abs().max((inverse * push).abs());
-            let ratio = correction / (tolerance * size[kind] + self.floor[kind]);
+            let floor = self.floor[kind] * self.revolved;
+            let ratio = correction / (tolerance * size[kind] + floor);
             if ratio.is_nan() || ratio > worst {
                 (worst, place) = (ratio, dof);
             }
-            above = above.max(correction / self.floor[kind]);
+            above = above.max(correction / floor);
         }
         (worst, place, above)
     }

@@ -63,7 +63,7 @@ pub use relative_motion::{Marker, MarkerPair, RelativeMotion};
 pub use scheme::{AdaptiveStep, Params, StepControl};
 pub use simulation::{Accepted, OutputGrid, RunInfo, Simulation};
 pub use state::{BodyMotion, Layout, State};
-pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium};
+pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium, next_equilibrium};
 pub use system::{Calls, System};
 pub use table::{Interpolation, Table};
 pub use time_function::{Derivatives, TimeFunction};

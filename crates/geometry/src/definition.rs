@@ -102,7 +102,7 @@ pub struct Blank {
 pub struct Contour {
     /// Back and front of the hub \[m\].
     pub hub_z_m: [f64; 2],
-    /// Points from the hub to the rim, straight between them; at least two.
+    /// Points from the hub to the rim, straight between them; at least two. Two at one radius are a step.
     pub web: Vec<ContourPoint>,
 }
 
@@ -113,6 +113,8 @@ pub struct ContourPoint {
     pub radius_m: f64,
     /// Back and front \[m\].
     pub z_m: [f64; 2],
+    /// Fillet radius of the corners of back and front there \[m\]; zero for sharp ones.
+    pub fillet_radius_m: f64,
 }
 
 /// A gear that was meshed elsewhere.
@@ -287,6 +289,8 @@ pub enum ElementKind {
     Hex8Incompatible,
     /// Twenty nodes, quadratic, with curved edges.
     Hex20,
+    /// Tetrahedra of ten nodes, quadratic, with curved edges; the body below the teeth is meshed freely.
+    Tet10,
 }
 
 /// Element sizes and the quality that the mesh must reach.
@@ -294,6 +298,8 @@ pub enum ElementKind {
 pub struct MeshSettings {
     /// Element.
     pub element: ElementKind,
+    /// Why tetrahedra were chosen, where the definition leaves the choice.
+    pub chosen_because: Option<&'static str>,
     /// Element length along the flank \[m\].
     pub flank_m: f64,
     /// Element length along the root fillet \[m\].

@@ -5,12 +5,15 @@
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
-//! [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them.
+//! [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
+//! them again and again with keys that vary.
 
 pub mod pair;
 pub mod scene_file;
 pub mod schema;
+pub mod study;
 pub mod system;
+pub mod system_run;
 
 pub use pair::{
     LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,

@@ -1,8 +1,9 @@
-//! JSON Schema of scene files and gear files.
+//! JSON Schema of scene files and study files.
 
 use schemars::{JsonSchema, Schema, schema_for};
 
 use crate::pair::scene_file::SceneTable;
+use crate::study::StudyTables;
 use crate::system::SystemTables;
 
 /// A scene file of either kind.
@@ -20,4 +21,9 @@ enum SceneTables {
 /// model, is said in the descriptions and checked when the scene is read.
 pub fn scene() -> Schema {
     schema_for!(SceneTables)
+}
+
+/// JSON Schema of study files.
+pub fn study() -> Schema {
+    schema_for!(StudyTables)
 }

@@ -1,12 +1,13 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::reduce;
+use crate::commands::{reduce, run_system};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{FileError, read_reduced_gear};
+use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{SceneFile, SceneResult};
 
 /// Runs the command.
@@ -20,6 +21,29 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                 Ok(())
             }
             Err(FileError::WrongFormat { .. }) => {
+                match SystemResult::open(path) {
+                    Ok(result) => {
+                        let (columns, rows) = (result.rows.columns().len(), result.rows.rows());
+                        let size = if rows > 0 {
+                            format!(", {columns} columns x {rows} rows")
+                        } else {
+                            String::new()
+                        };
+                        console::data(format!(
+                            "{}: result of `{}`, {}{size}, sound",
+                            path.display(),
+                            result.head.title,
+                            result.kind
+                        ));
+                        run_system::table(&result)?
+                            .into_iter()
+                            .skip(1)
+                            .for_each(console::data);
+                        return Ok(());
+                    }
+                    Err(FileError::WrongFormat { .. }) => {}
+                    Err(error) => return Err(Failure::input(error)),
+                }
                 let result = SceneResult::read(path).map_err(Failure::input)?;
                 console::data(format!(
                     "{}: result of `{}`, {} torques x {} angles, sound",

@@ -8,6 +8,7 @@ use crate::failure::Failure;
 pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     let schema = match arguments.kind {
         SchemaKind::Scene => gearmesh_scene::schema::scene(),
+        SchemaKind::Study => gearmesh_scene::schema::study(),
         SchemaKind::Gear => gearmesh_geometry::gear_file::schema(),
     };
     console::json(schema.as_value());

@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::mesh_kinematics::FlankContacts;
+use crate::mesh_kinematics::{FlankContacts, TeethLine};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What the single stiffness of ISO 6336-1 depends on. Gear 1 is the pinion.
@@ -154,10 +154,17 @@ impl TeethModel for MeshSpring {
         _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
-        let from_middle = |roll: f64| (roll - self.middle_roll_rad).abs();
-        let nearest = (flanks.lines.iter().enumerate()).min_by(|(_, a), (_, b)| {
-            from_middle(a.roll_rad[0]).total_cmp(&from_middle(b.roll_rad[0]))
-        });
+        // Beyond a flank's end the gap is that of a tip edge, no longer the one that all ideal pairs share.
+        let beyond_ends = |line: &TeethLine| -> f64 {
+            let beyond = [0, 1].map(|i| line.roll_rad[i] - line.touching_roll_rad[i]);
+            beyond.iter().map(|rad| rad.max(0.0)).sum()
+        };
+        let from_middle = |line: &TeethLine| (line.roll_rad[0] - self.middle_roll_rad).abs();
+        let order = |a: &TeethLine, b: &TeethLine| {
+            let ends = beyond_ends(a).total_cmp(&beyond_ends(b));
+            ends.then(from_middle(a).total_cmp(&from_middle(b)))
+        };
+        let nearest = (flanks.lines.iter().enumerate()).min_by(|(_, a), (_, b)| order(a, b));
         let Some((number, line)) = nearest else {
             return Ok(());
         };

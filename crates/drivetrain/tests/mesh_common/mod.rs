@@ -157,6 +157,29 @@ pub fn pose(pair: &GearPair, phi: [f64; 2], shift: Vector3<f64>, tilt: Vector3<f
     Pose::at_rest(to_1 * u, to_1 * about(tilt, 1.0) * from_2)
 }
 
+/// Torque on gear 2 by its z at a driver angle and a transmission error.
+pub fn torque_2(mesh: &mut GearMesh, pair: &GearPair, theta: f64, te: f64) -> (f64, f64) {
+    let phi = angles(pair, FlankSide::Right, theta, te);
+    let at = pose(pair, phi, Vector3::zeros(), Vector3::zeros());
+    let load = mesh.evaluate(&at, true).unwrap();
+    (load.load[5], load.by_position[(5, 5)])
+}
+
+/// The transmission error at which the mesh carries a torque: Newton with the mesh's own tangent.
+pub fn equilibrium(mesh: &mut GearMesh, pair: &GearPair, theta: f64, torque: f64) -> f64 {
+    let base = pair.gear_2.base_radius_m;
+    let mut te = -1e-5;
+    for _ in 0..40 {
+        let (found, slope) = torque_2(mesh, pair, theta, te);
+        let step = (found - torque) / slope * base;
+        te -= if found > 0.0 { step } else { 5e-6 };
+        if step.abs() < 1e-14 && found > 0.0 {
+            return te;
+        }
+    }
+    panic!("no equilibrium at {theta}");
+}
+
 /// A pose moved by an increment (δu, ϑ).
 pub fn moved(pose: &Pose, increment: &pose::Vector6) -> Pose {
     let turn = Vector3::new(increment[3], increment[4], increment[5]);

@@ -1,0 +1,14 @@
+//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, seed 003.
+//!
+//! One program, so that its libraries are linked once.
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
+
+#[path = "../mesh_common/mod.rs"]
+mod mesh_common;
+
+mod conservation;
+mod hard_cases;
+mod instability;
+mod resonance;
+mod scene;
+mod seed_003;
