@@ -147,6 +147,9 @@ fn shipped_files_satisfy_the_schema() {
         }
         let text = std::fs::read_to_string(&path).unwrap();
         let is_gear = text.contains("[tooth]");
+        if !is_gear && !text.contains("[pair]") && !text.contains("[[body]]") {
+            continue;
+        }
         let schema = if is_gear { &gear } else { &scene };
         fits(schema, &text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         seen[usize::from(is_gear)] += 1;

@@ -608,7 +608,7 @@ fn shipped_scenes_are_built() {
             if name == "dynamics_two_stage.toml" {
                 assert!(
                     (spin(&built, "output wheel") * 60.0 / TAU
-                        - 1500.0 * 21.0 / 53.0 * 23.0 / 61.0)
+                        - 1500.0 * 27.0 / 61.0 * 31.0 / 71.0)
                         .abs()
                         < 1e-9
                 );
@@ -618,8 +618,8 @@ fn shipped_scenes_are_built() {
                     .map(|mesh| mesh.frequency_hz)
                     .collect::<Vec<_>>();
                 assert!(
-                    (frequencies[0] - 525.0).abs() < 1e-9
-                        && (frequencies[1] - 23.0 * 25.0 * 21.0 / 53.0).abs() < 1e-9
+                    (frequencies[0] - 675.0).abs() < 1e-9
+                        && (frequencies[1] - 31.0 * 25.0 * 27.0 / 61.0).abs() < 1e-9
                 );
             }
             built_ones.push(name);
