@@ -93,6 +93,8 @@ const ALLOWED: [(&str, &[&str]); 16] = [
             "reduction",
             "model",
             "contact",
+            "dynamics",
+            "drivetrain",
             "recovery",
             "signal",
             "scene",

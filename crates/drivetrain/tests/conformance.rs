@@ -478,6 +478,39 @@ fn stiffnesses_are_of_one_order() {
     assert!((found[1] / 3e8 - 1.0).abs() < 1e-3, "{}", found[1]);
 }
 
+/// One spring for the mesh carries alike over the whole cycle, also where the path of contact lies so far to one side of the pitch point that
+/// the pair nearest to that point is a tip edge beyond the end of its flank.
+#[test]
+fn one_spring_never_stands_on_a_tip_edge() {
+    let pair = pair_common::pair(
+        &pair_common::tooth(17, 0.7, 0.0),
+        &pair_common::tooth(60, -0.7, 0.0),
+    );
+    let pitch_point = pair.working_pressure_angle_rad.tan();
+    let spring = MeshSpring::new(3e8, SLICES, pitch_point).unwrap();
+    let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, spring).unwrap();
+    let depth = 2e-6;
+    let mut beyond = 0;
+    for k in 0..40 {
+        let theta = pair.pitch_1_rad() * f64::from(k) / 40.0;
+        let torque = torque_2(&mut mesh, &pair, theta, -depth).0;
+        let expected = 3e8 * depth * pair.gear_2.base_radius_m;
+        assert!(
+            (torque / expected - 1.0).abs() < 1e-9,
+            "{k} {torque} {expected}"
+        );
+        let (found, _) = mesh.side(FlankSide::Right).unwrap();
+        let off = |roll: f64| (roll - pitch_point).abs();
+        let nearest = found
+            .lines
+            .iter()
+            .min_by(|a, b| off(a.roll_rad[0]).total_cmp(&off(b.roll_rad[0])))
+            .unwrap();
+        beyond += usize::from(nearest.roll_rad[1] > nearest.touching_roll_rad[1]);
+    }
+    assert!(beyond > 0, "the case that this test is for does not occur");
+}
+
 /// Effects that are not named are not computed.
 #[test]
 fn absent_effects_cost_nothing() {
