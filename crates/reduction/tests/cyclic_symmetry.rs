@@ -125,7 +125,7 @@ fn tetrahedra_below_one_tooth() {
 }
 
 #[test]
-#[ignore = "whole gears of tetrahedra, a minute or two"]
+#[ignore = "whole gears of tetrahedra, some minutes"]
 fn tetrahedra_with_fillets_and_openings() {
     let holes = |count: usize, phase: f64| {
         format!(
@@ -134,7 +134,6 @@ fn tetrahedra_with_fillets_and_openings() {
     };
     both_ways_agree((TETRAHEDRA, FILLETED), 18, 2 + 10, true);
     both_ways_agree((TETRAHEDRA, &holes(9, 11.0)), 9, 2 + 5, false);
-    both_ways_agree((TETRAHEDRA, &holes(4, 30.0)), 2, 2 + 2, false);
     both_ways_agree((TETRAHEDRA, &holes(5, 7.0)), 1, 2, false);
 }
 
