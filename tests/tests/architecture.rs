@@ -34,13 +34,24 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
-    ("drivetrain", &["geometry", "model", "contact", "dynamics"]),
     ("recovery", &["model", "contact"]),
+    (
+        "drivetrain",
+        &["geometry", "model", "contact", "dynamics", "recovery"],
+    ),
     ("signal", &[]),
     ("rating", &["geometry", "contact"]),
     (
         "scene",
-        &["geometry", "model", "contact", "recovery", "signal"],
+        &[
+            "geometry",
+            "model",
+            "contact",
+            "dynamics",
+            "drivetrain",
+            "recovery",
+            "signal",
+        ],
     ),
     ("report", &["geometry", "model", "scene", "signal"]),
     (

@@ -50,7 +50,7 @@ fn sliced(model: &ReducedGear, local: LocalContact) -> Vec<f64> {
     let roll = involute::roll_angle_rad(CONTACT.radius_m, model.base_radius_m);
     let place = compliance.place(roll);
     let mut c = vec![0.0; n * n];
-    compliance.add_block((0, place), (0, place), 1.0, &mut c, 0, n);
+    compliance.line_block((0, &place), (0, &place), &mut c);
     if local == LocalContact::Calibrated {
         let depth_m = compliance.local_depth_m(roll, 1.0);
         let own = 2.0 * (1.0 - POISSON * POISSON) / (PI * YOUNG)

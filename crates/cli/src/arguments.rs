@@ -35,6 +35,10 @@ pub enum Command {
     Report(ReportArguments),
     /// Check a gear file, scene, model or result
     Check(CheckArguments),
+    /// Run a multibody scene again and again with some of its keys changed
+    Study(StudyArguments),
+    /// Print the JSON Schema of scene, study or gear files
+    Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
 }
@@ -155,12 +159,28 @@ pub struct PlanArguments {
 pub struct RunArguments {
     /// Scene file
     pub scene: PathBuf,
-    /// Result file
+    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the command is repeated
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Discard an unfinished run and begin anew
+    #[arg(long)]
+    pub restart: bool,
+    /// Wall time between checkpoints of a multibody run
+    #[arg(long, default_value = "10", value_parser = positive)]
+    pub checkpoint_s: f64,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A number of seconds that is more than zero.
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "no number".to_owned())?;
+    if value > 0.0 && value < 1e9 {
+        Ok(value)
+    } else {
+        Err("allowed is more than 0, less than 1e9".to_owned())
+    }
 }
 
 /// `gearmesh recover`.
@@ -220,6 +240,37 @@ pub struct ReportArguments {
 pub struct CheckArguments {
     /// Gear file, scene, model or result
     pub file: PathBuf,
+}
+
+/// `gearmesh study`.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// Study file
+    pub study: PathBuf,
+    /// Folder for the results and study.csv; what is there already is not run again
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// Kind of file
+    pub kind: SchemaKind,
+}
+
+/// A kind of file that has a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SchemaKind {
+    /// Scenes: of a gear pair, or of a multibody system
+    Scene,
+    /// Parameter studies
+    Study,
+    /// Gears
+    Gear,
 }
 
 /// `gearmesh demo`.

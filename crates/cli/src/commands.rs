@@ -11,3 +11,6 @@ pub mod recover;
 pub mod reduce;
 pub mod report;
 pub mod run;
+pub mod run_system;
+pub mod schema;
+pub mod study;

@@ -2,6 +2,7 @@
 
 use gearmesh_reduction::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use std::cell::Cell;
 use std::io::{ErrorKind, Write};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -36,6 +37,62 @@ pub fn warning(text: impl std::fmt::Display) {
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
     note(format!("error: {text}"));
+}
+
+/// Remarks on the progress where standard error is no terminal.
+const REMARK_EVERY: Duration = Duration::from_secs(10);
+
+/// A run with a bar and the time to go; where standard error is no terminal, a remark now and then.
+pub struct RunBar {
+    title: String,
+    bar: ProgressBar,
+    begun: Instant,
+    /// Share of the work at the first call, and when the last remark was made.
+    state: Cell<(Option<f64>, Instant)>,
+}
+
+impl RunBar {
+    /// A bar for a kind of run.
+    pub fn new(title: &str) -> Self {
+        let bar = ProgressBar::new(10_000);
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} {bar:30} {percent_precise} %, {eta} to go")
+        {
+            bar.set_style(style);
+        }
+        let now = Instant::now();
+        Self {
+            title: title.to_owned(),
+            bar,
+            begun: now,
+            state: Cell::new((None, now)),
+        }
+    }
+
+    /// So much of it is done.
+    pub fn advance(&self, done: f64, total: f64) {
+        let (first, told) = self.state.get();
+        let first = first.unwrap_or(done);
+        let now = Instant::now();
+        self.bar
+            .set_message(format!("{}: {done:.5} of {total}", self.title));
+        self.bar.set_position((1e4 * done / total) as u64);
+        let due = now - told >= REMARK_EVERY;
+        self.state.set((Some(first), if due { now } else { told }));
+        if due && self.bar.is_hidden() && done > first {
+            let left = (now - self.begun).as_secs_f64() * (total - done) / (done - first);
+            note(format!(
+                "{}: {done:.5} of {total}, about {:#} to go",
+                self.title,
+                HumanDuration(Duration::from_secs_f64(left.max(0.0)))
+            ));
+        }
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 /// Stages with a bar and the time to go.

@@ -62,6 +62,26 @@ impl From<gearmesh_scene::RunError> for Failure {
     }
 }
 
+impl From<gearmesh_scene::system_run::SystemRunError> for Failure {
+    fn from(error: gearmesh_scene::system_run::SystemRunError) -> Self {
+        if error.is_input() {
+            Self::input(error)
+        } else {
+            Self::work(error)
+        }
+    }
+}
+
+impl From<gearmesh_scene::study::StudyError> for Failure {
+    fn from(error: gearmesh_scene::study::StudyError) -> Self {
+        if error.is_input() {
+            Self::input(error)
+        } else {
+            Self::work(error)
+        }
+    }
+}
+
 impl From<gearmesh_reduction::ReductionError> for Failure {
     fn from(error: gearmesh_reduction::ReductionError) -> Self {
         use gearmesh_mesh::MeshError;

@@ -4,12 +4,36 @@ use crate::console;
 use crate::failure::Failure;
 use gearmesh_model::wait_for_writes;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What an interrupted program leaves behind in a shell's eyes: 128 + SIGINT.
-const EXIT_CODE: i32 = 130;
+pub const EXIT_CODE: i32 = 130;
 
 static SCRATCH: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Asked by the first Ctrl-C, while some work stops by itself.
+static DEMAND: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
+
+/// While this lives, the first Ctrl-C only asks; the second one ends the program.
+#[derive(Debug)]
+pub struct OnDemand {
+    /// Whether it was asked.
+    pub asked: Arc<AtomicBool>,
+}
+
+/// For work that looks at a flag and stops where it can go on later.
+pub fn on_demand() -> OnDemand {
+    let asked = Arc::new(AtomicBool::new(false));
+    *DEMAND.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&asked));
+    OnDemand { asked }
+}
+
+impl Drop for OnDemand {
+    fn drop(&mut self) {
+        *DEMAND.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
 
 /// From now on Ctrl-C ends the program tidily.
 ///
@@ -17,6 +41,11 @@ static SCRATCH: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// A [`Failure`] where the system takes no handler.
 pub fn install() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
+        let demand = DEMAND.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(asked) = demand {
+            asked.store(true, Ordering::Relaxed);
+            return;
+        }
         // A file that is being written is finished and renamed first; the next one cannot begin.
         let _held = wait_for_writes();
         let scratch = SCRATCH.lock().unwrap_or_else(PoisonError::into_inner);

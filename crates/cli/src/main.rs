@@ -25,6 +25,8 @@ fn main() -> ExitCode {
         Command::Compare(a) => commands::compare::run(a),
         Command::Report(a) => commands::report::run(a),
         Command::Check(a) => commands::check::run(a),
+        Command::Study(a) => commands::study::run(a),
+        Command::Schema(a) => commands::schema::run(a),
         Command::Demo(a) => commands::demo::run(a),
     });
     match outcome {

@@ -1,6 +1,6 @@
 //! The offline side as the commands use it: reading a gear, meshing, reducing, writing meshes, making fields.
 
-use crate::console::StageBar;
+use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use gearmesh_geometry::{GearDefinition, MeshedBody};
@@ -19,6 +19,15 @@ use std::path::Path;
 /// The Python that has gmsh and meshio.
 pub fn python() -> Result<PythonEnvironment, Failure> {
     PythonEnvironment::find().map_err(Failure::work)
+}
+
+/// Says which element was chosen and why, where the gear file leaves it open and the usual one does not do.
+pub fn note_element(gear: &GearDefinition) {
+    if let Some(reason) = gear.mesh.chosen_because {
+        console::note(format!(
+            "tetrahedra of ten nodes (mesh.element = \"tet10\"): {reason}"
+        ));
+    }
 }
 
 /// Meshes and reduces a gear, with a progress bar.
@@ -88,6 +97,7 @@ pub fn export_mesh(
     let kind = match mesh.elements.shape() {
         ElementShape::Hex8 => CellKind::Hex8,
         ElementShape::Hex20 => CellKind::Hex20,
+        ElementShape::Tet10 => CellKind::Tet10,
     };
     data.cells
         .insert(kind, mesh.elements.connectivity().to_vec());

@@ -438,7 +438,8 @@ fn a_contour_that_cannot_be_is_explained() {
     const CONTOUR: &str = "kind = \"contour\"
 hub_z_mm = [-8.0, 6.0]
 web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = [-1.0, 3.0] }]";
-    let sound = changed(SOLID, "kind = \"solid\"", CONTOUR);
+    let (without_mesh, _) = SOLID.split_once("[mesh]").unwrap();
+    let sound = changed(without_mesh, "kind = \"solid\"", CONTOUR);
     for (change, at, parts) in [
         (
             ("[-1.0, 3.0]", "[-1.0, 7.0]"),
@@ -464,9 +465,74 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
             &["at or beyond the back of the web at the hub, -2"],
         ),
         (
-            ("[-1.0, 3.0]", "[-1.0, 6.0]"),
-            "hub_z_mm",
-            &["the web ends 0.000 mm inside the rim's face and 4.000 mm inside the hub's"],
+            (
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0]",
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0], fillet_radius_mm = -1.0",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found -1",
+                "0 (sharp corners) or more",
+            ],
+        ),
+        (
+            // The front: 3 mm of the rim's inner surface, a corner of 90 + atan(1/9) degrees.
+            (
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0]",
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0], fillet_radius_mm = 4.5",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found 4.5000",
+                "does not fit the corner at diameter 38.000 mm, z 3.000 mm",
+                "at most 3.3518",
+            ],
+        ),
+        (
+            // Back and front without a kink at the middle point.
+            (
+                "{ diameter_mm = 38.0",
+                "{ diameter_mm = 29.0, z_mm = [-1.5, 2.5], fillet_radius_mm = 2.0 }, { diameter_mm = 38.0",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found 2.0000",
+                "no corner there",
+            ],
+        ),
+        (
+            (
+                "{ diameter_mm = 38.0",
+                "{ diameter_mm = 20.0, z_mm = [2.5, 4.0] }, { diameter_mm = 38.0",
+            ),
+            "web =",
+            &["blank.web.1.z_mm", "leaves the web in one piece"],
+        ),
+        (
+            (
+                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0",
+                "[-1.0, 3.0], fillet_radius_mm = 1.0 }]\nbore_diameter_mm = 14.0\n[mesh]\nelement = \"hex20\"",
+            ),
+            "element =",
+            &[
+                "mesh.element",
+                "the contour has fillets",
+                "remove the key or set it to \"tet10\"",
+            ],
+        ),
+        (
+            (
+                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0",
+                "[-1.0, 6.0] }]\nbore_diameter_mm = 14.0\n[mesh]\nelement = \"hex8\"",
+            ),
+            "element =",
+            &[
+                "mesh.element",
+                "the web is flush with only one of rim and hub",
+            ],
         ),
         (
             ("hub_z_mm = [-8.0, 6.0]\n", ""),
@@ -480,5 +546,92 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
         ),
     ] {
         gear_refused(&sound, change, at, parts);
+    }
+    gear_refused(
+        SOLID,
+        ("axial_mm = 3.0", "element = \"tet10\"\nplane_strain = true"),
+        "plane_strain",
+        &["mesh.plane_strain", "meshed in quadrilaterals"],
+    );
+}
+
+/// A multibody scene that is wrong or that its first steps refuse: exit code 2 from `plan`, place and cause on standard error. What else a scene
+/// can get wrong is in crates/scene/tests/bad_scenes.rs.
+#[test]
+fn a_multibody_scene_that_cannot_be_is_explained() {
+    const SWING: &str = r#"title = "swing"
+[run]
+kind = "transient"
+end_s = 1.0
+[solver]
+step_s = 1e-3
+[output]
+interval_s = 0.1
+[[body]]
+name = "beam"
+mass_kg = 1.0
+inertia_kg_m2 = [0.1, 0.1, 0.1]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+body_2 = "beam"
+"#;
+    let desk = Desk::new();
+    let sound = desk.file("sound.toml", SWING);
+    let answer = succeeds(&["check", argument(&sound)]);
+    assert!(
+        answer
+            .stdout
+            .contains("scene `swing`, sound: 1 bodies, 1 joints and motions, 0 force elements"),
+        "{answer:#?}"
+    );
+    assert!(
+        succeeds(&["plan", argument(&sound)])
+            .stdout
+            .contains("1 degrees of freedom left")
+    );
+    let further = |text: &str| format!("{SWING}{text}\n");
+    for (scene, at, parts) in [
+        (
+            changed(SWING, "body_2 = \"beam\"", "body_2 = \"bean\""),
+            "bean",
+            &["there is no body `bean`; did you mean `beam`?"][..],
+        ),
+        (
+            changed(SWING, "[0.1, 0.1, 0.1]", "[0.1, 0.1, -0.1]"),
+            "inertia",
+            &["a moment of inertia is zero or negative"],
+        ),
+        (
+            changed(SWING, "mass_kg = 1.0", "gear = \"none.h5\""),
+            "gear =",
+            &["none.h5 does not exist", "gearmesh reduce"],
+        ),
+        (
+            further(
+                "[[joint]]\nname = \"weld\"\nkind = \"fixed\"\nbody_2 = \"beam\"\n[[motion]]\njoint = \"hinge\"\nspeed_rpm = 6.0",
+            ),
+            "",
+            &["contradict each other", "motion of hinge"],
+        ),
+        (
+            further(
+                "[[load]]\nbody = \"beam\"\ntorque_Nm = { table = { file = \"t.csv\", column = \"y\" } }",
+            ),
+            "",
+            &["t.csv:4: time_s: found 1 after 2"],
+        ),
+    ] {
+        desk.file("t.csv", "time_s,y\n0,0\n2,1\n1,2\n");
+        let file = desk.file("scene.toml", &scene);
+        let answer = gearmesh(&["plan", argument(&file)]);
+        refused(&answer, 2, parts);
+        if !at.is_empty() {
+            let place = format!("{}:{}: ", file.display(), line_of(&scene, at));
+            assert!(
+                answer.stderr.contains(&place),
+                "`{place}` is not in {answer:#?}"
+            );
+        }
     }
 }

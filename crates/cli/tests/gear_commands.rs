@@ -122,6 +122,27 @@ fn mesh_writes_what_it_counts() {
     assert_eq!(figures["nodes"], workshop().figures[1]["nodes"]);
 }
 
+/// A contour with fillets is meshed in tetrahedra without being asked, which the program says, with the reason.
+#[test]
+fn a_contour_with_fillets_becomes_tetrahedra() {
+    const CONTOUR: &str = "kind = \"contour\"
+hub_z_mm = [-8.0, 6.0]
+web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0], fillet_radius_mm = 2.0 }, { diameter_mm = 38.0, z_mm = [-1.0, 3.0] }]";
+    let desk = Desk::new();
+    let text = SOLID.replace("kind = \"solid\"", CONTOUR);
+    let gear = desk.file("gear.toml", text);
+    let output = desk.path("gear.vtu");
+    let answer = succeeds(&["mesh", argument(&gear), "-o", argument(&output)]);
+    assert!(
+        answer.stderr.contains(
+            "tetrahedra of ten nodes (mesh.element = \"tet10\"): the contour has fillets"
+        ),
+        "{answer:#?}"
+    );
+    let stdout = answer.stdout;
+    assert!(stdout.contains(" tetrahedra, "), "{stdout}");
+}
+
 /// Figures on modes that must hold on any mesh, and the shapes as point fields.
 #[test]
 fn modes_are_sorted_paired_and_drawn() {

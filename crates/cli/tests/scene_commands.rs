@@ -16,6 +16,84 @@ use gearmesh_scene::{SceneResult, StrainSeries};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+/// A multibody scene with the two reduced gears in a `hybrid` mesh: planned with its gauges; a flank that one model does not carry, a gauge that it
+/// does not have and a body that cannot be rigid are refused.
+#[test]
+fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
+    let gear = |name: &str, model: &Path, x_mm: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\ngear = \"{}\"\nmass_kg = 0.2\ninertia_kg_m2 = [3e-5, 3e-5, 5e-5]\nposition_mm = [{x_mm}, 0, 0]\n\
+             [[joint]]\nname = \"axle of {name}\"\nkind = \"revolute\"\nbody_2 = \"{name}\"\n",
+            model.display()
+        )
+    };
+    let scene = format!(
+        "title = \"hybrid\"\n[run]\nkind = \"transient\"\nend_s = 1e-3\n[solver]\nstep_s = 1e-6\n[output]\ninterval_s = 1e-5\n{}{}\
+         [[motion]]\njoint = \"axle of solid\"\nspeed_rpm = -60.0\n[[load]]\nbody = \"thin\"\ntorque_Nm = -10.0\n\
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"solid\"\ngear_2 = \"thin\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\nflanks = \"right\"\n\
+         [[gauge]]\nbody = \"thin\"\nnames = [\"tension\"]\n",
+        gear("solid", &workshop().solid, 0.0),
+        gear("thin", &workshop().thin, 54.7)
+    );
+    let desk = Desk::new();
+    let file = desk.file("scene.toml", &scene);
+    let plan = succeeds(&["plan", argument(&file)]).stdout;
+    for part in [
+        "force      mesh: hybrid mesh, on solid and thin",
+        "mesh       mesh: `hybrid`, solid z 18 with thin z 18",
+        "mesh frequency at the start 18.000 Hz",
+        "gauge      tension of thin",
+        "effect     mesh `mesh`: friction: not computed",
+        "the right flanks of mesh `mesh` touch",
+        "1000 steps of ",
+    ] {
+        assert!(plan.contains(part), "`{part}` is not in {plan}");
+    }
+    let figures = succeeds(&["plan", argument(&file), "--json"]).json();
+    assert_eq!(figures["degrees_of_freedom"], 12);
+    for ((from, to), parts) in [
+        (
+            ("flanks = \"right\"\n", ""),
+            &["left", "flanks = \"right\" or \"left\""][..],
+        ),
+        (
+            ("\"tension\"", "\"tensoin\""),
+            &["there is no gauge `tensoin`; did you mean `tension`?"],
+        ),
+        (
+            (
+                "name = \"thin\"\n",
+                "name = \"thin\"\nflexibility = \"rigid\"\n",
+            ),
+            &["body.1.flexibility", "is a hybrid mesh"],
+        ),
+    ] {
+        let file = desk.file("scene.toml", changed(&scene, from, to));
+        refused(&gearmesh(&["plan", argument(&file)]), 2, parts);
+    }
+}
+
+/// What editors ask for.
+#[test]
+fn schemas_are_json() {
+    for (kind, keys) in [
+        ("scene", ["gear_mesh", "centre_distance_mm"]),
+        ("gear", ["module_mm", "bore_diameter_mm"]),
+    ] {
+        let answer = succeeds(&["schema", kind]);
+        assert!(
+            answer.json()["$schema"]
+                .as_str()
+                .unwrap()
+                .contains("json-schema.org")
+        );
+        assert!(
+            keys.iter().all(|key| answer.stdout.contains(key)),
+            "{answer:#?}"
+        );
+    }
+}
+
 /// Recovers the strain of all gauges: tension, compression.
 fn recovered(desk: &Desk, result: &Path) -> [StrainSeries; 2] {
     let output = desk.path("strain.h5");

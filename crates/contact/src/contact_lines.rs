@@ -214,6 +214,17 @@ impl ContactLines {
             .relative_radius_m(line.roll_1_rad, line.roll_2_rad)
     }
 
+    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 0 or 1: (1 − ρ/(ρ₁ + ρ₂))/ξ.
+    pub fn relative_radius_growth(&self, line: &ContactLine, gear: usize) -> f64 {
+        let rolls = [line.roll_1_rad, line.roll_2_rad];
+        let pair = &self.pair;
+        let rho = [
+            pair.gear_1.base_radius_m * rolls[0],
+            pair.gear_2.base_radius_m * rolls[1],
+        ];
+        (1.0 - rho[gear] / (rho[0] + rho[1])) / rolls[gear]
+    }
+
     /// Tilt \[rad\] and relative radius \[m\] of the rounded edge against the flank; none on the path.
     pub fn edge(&self, line: &ContactLine) -> Option<(f64, f64)> {
         let (tip, extension) = line.tip.zip(self.extension)?;

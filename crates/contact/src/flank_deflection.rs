@@ -58,7 +58,7 @@ pub fn flank_deflection(
     let place = compliance.place(roll);
     let n = compliance.slices();
     let mut c = vec![0.0; n * n];
-    compliance.add_block((load.tooth, place), (at_tooth, place), 1.0, &mut c, 0, n);
+    compliance.line_block((load.tooth, &place), (at_tooth, &place), &mut c);
     let force = load.line_load_n_per_m * compliance.slice_width_m();
     let global_m = (0..n)
         .map(|j| (0..n).map(|i| c[i * n + j] * force).sum())

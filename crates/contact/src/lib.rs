@@ -31,6 +31,7 @@ pub mod slice_compliance;
 pub mod slice_contact;
 pub mod slice_spread;
 pub mod static_contact;
+pub mod station_blocks;
 pub mod tip_contact;
 
 pub use contact_lines::{ContactLine, ContactLines, Friction};

@@ -63,6 +63,43 @@ impl LocalContact {
     }
 }
 
+/// How the law of a slice changes as its contact walks, per radian of roll.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LawRate {
+    /// α′ \[m/(N·rad)\].
+    pub alpha: f64,
+    /// Derivative of the cap \[N/rad\].
+    pub cap: f64,
+}
+
+impl LocalContact {
+    /// Change of a law where the depth in one body grows by the share `depth_growth` and the relative radius by `radius_growth`, per
+    /// radian.
+    pub fn law_rate(
+        self,
+        (contact, law): (&LineContact, &LocalLaw),
+        body: usize,
+        [depth_growth, radius_growth]: [f64; 2],
+    ) -> LawRate {
+        let alpha = contact.alpha_rate(body, depth_growth, radius_growth);
+        match self {
+            Self::None => LawRate::default(),
+            // The cap is (½ h/c)² with the smaller h, c² in proportion to the relative radius.
+            Self::WeberBanaschek => {
+                let [own, other] = [body, 1 - body].map(|i| contact.bodies[i].depth_m);
+                let depth = if own <= other { depth_growth } else { 0.0 };
+                let cap = law.cap_n() * (2.0 * depth - radius_growth);
+                LawRate { alpha, cap }
+            }
+            // Where the slope has fallen to a share of β: ln F_c = α/β − …
+            Self::Calibrated => LawRate {
+                alpha,
+                cap: law.cap_n() * alpha / law.beta(),
+            },
+        }
+    }
+}
+
 /// Effective depth h \[m\] of the calibrated term, from c₀ − w_h \[m²/N\] at a₀ \[m\] and the material.
 pub fn effective_depth_m(
     missing_m2_per_n: f64,

@@ -17,9 +17,8 @@
 //!
 //! Hats are taken over the flank's area, r_b ξ dξ per width, as the loads are.
 
-/// Step \[rad\] over which shares are differenced; they are cubic between centroids some hundredths apart, so that 1e-5 of that is
-/// right to 1e-9.
-const RATE_STEP_RAD: f64 = 1e-6;
+/// Stations that share a force at most.
+pub const SHARES: usize = 4;
 
 /// The hats of the roll stations: their moments in roll angle.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +40,9 @@ pub struct RollPlace {
     pub share: f64,
     /// First of the stations that have shares, and their shares.
     first: usize,
-    shares: [f64; 4],
+    shares: [f64; SHARES],
+    /// How the shares change with the roll angle [1/rad].
+    rates: [f64; SHARES],
 }
 
 impl RollPlace {
@@ -52,6 +53,31 @@ impl RollPlace {
         shares
             .map(move |(k, share)| (first + k, share))
             .filter(|(_, share)| *share != 0.0)
+    }
+
+    /// Stations with the derivatives of their shares by the roll angle [1/rad], which add up to zero. Where one hat hands over to the
+    /// next it is the derivative of the side above.
+    pub fn rates(&self) -> impl Iterator<Item = (usize, f64)> + Clone {
+        let first = self.first;
+        let rates = self.rates.into_iter().enumerate();
+        rates
+            .map(move |(k, rate)| (first + k, rate))
+            .filter(|(_, rate)| *rate != 0.0)
+    }
+
+    /// First of the stations of [`Self::all_shares`].
+    pub(crate) fn first(&self) -> usize {
+        self.first
+    }
+
+    /// Shares of the stations from [`Self::first`] on, zeros included.
+    pub(crate) fn all_shares(&self) -> &[f64; SHARES] {
+        &self.shares
+    }
+
+    /// Their derivatives.
+    pub(crate) fn all_rates(&self) -> &[f64; SHARES] {
+        &self.rates
     }
 }
 
@@ -92,25 +118,6 @@ impl RollHats {
         &self.centroids_rad
     }
 
-    /// How the shares at a roll angle change with it: `shares` are derivatives \[1/rad\]. Where one hat hands over to the next it is
-    /// the derivative of the side that has the stations of the place itself.
-    pub fn share_rates(&self, roll_rad: f64) -> RollPlace {
-        let here = self.place(roll_rad);
-        let on_same_stations = |step: f64| {
-            let there = self.place(roll_rad + step);
-            if there.first == here.first {
-                (there, step)
-            } else {
-                (here, 0.0)
-            }
-        };
-        let (after, ahead) = on_same_stations(RATE_STEP_RAD);
-        let (before, behind) = on_same_stations(-RATE_STEP_RAD);
-        let shares =
-            std::array::from_fn(|k| (after.shares[k] - before.shares[k]) / (ahead - behind));
-        RollPlace { shares, ..here }
-    }
-
     /// Where a roll angle lies, and the shares of a force there.
     pub fn place(&self, roll_rad: f64) -> RollPlace {
         let c = &self.centroids_rad;
@@ -119,20 +126,30 @@ impl RollHats {
         let (low, high) = (c[station], c[station + 1]);
         let share = (roll_rad - low) / (high - low);
         let first = station.saturating_sub(1).min(n.saturating_sub(4));
-        let mut shares = [0.0; 4];
+        let (mut shares, mut rates) = ([0.0; SHARES], [0.0; SHARES]);
+        let per_rad = 1.0 / (high - low);
         shares[station - first] = 1.0 - share;
         shares[station + 1 - first] += share;
+        rates[station - first] = -per_rad;
+        rates[station + 1 - first] += per_rad;
         if n > 2 {
             let (inside, t) = (roll_rad.clamp(low, high), share.clamp(0.0, 1.0));
+            let moves = if (0.0..1.0).contains(&share) {
+                1.0
+            } else {
+                0.0
+            };
             let spread = |i: usize| self.variances[i] + (c[i] - inside).powi(2);
-            let variance = (1.0 - t) * spread(station) + t * spread(station + 1);
-            for (at, weight) in [(station, 1.0 - t), (station + 1, t)] {
+            let (below, above) = (spread(station), spread(station + 1));
+            let variance = (1.0 - t) * below + t * above;
+            let widens = (above - below) * per_rad
+                + 2.0 * ((1.0 - t) * (inside - low) - t * (high - inside));
+            for (at, weight, turn) in [(station, 1.0 - t, -per_rad), (station + 1, t, per_rad)] {
                 let middle = at.clamp(1, n - 2);
                 for (k, value) in self.second_differences[middle - 1].iter().enumerate() {
-                    let slot = middle - 1 + k;
-                    if weight != 0.0 {
-                        shares[slot - first] -= variance * weight * value;
-                    }
+                    let slot = middle - 1 + k - first;
+                    shares[slot] -= variance * weight * value;
+                    rates[slot] -= moves * (widens * weight + variance * turn) * value;
                 }
             }
         }
@@ -141,6 +158,7 @@ impl RollHats {
             share,
             first,
             shares,
+            rates,
         }
     }
 }
@@ -207,14 +225,29 @@ mod tests {
         for k in 0..=40 {
             // Beyond the outermost centroids, between them and on them.
             let roll = c[0] - 0.01 + (c[8] - c[0] + 0.02) * f64::from(k) / 40.0;
-            let rates = hats.share_rates(roll);
-            let sum: f64 = rates.shares().map(|(_, rate)| rate).sum();
-            let moment: f64 = rates.shares().map(|(i, rate)| rate * c[i]).sum();
+            let place = hats.place(roll);
+            let sum: f64 = place.rates().map(|(_, rate)| rate).sum();
+            let moment: f64 = place.rates().map(|(i, rate)| rate * c[i]).sum();
             // No force appears, and its place moves with the roll angle.
             assert!(
-                sum.abs() < 1e-8 && (moment - 1.0).abs() < 1e-8,
+                sum.abs() < 1e-10 && (moment - 1.0).abs() < 1e-10,
                 "{sum} {moment}"
             );
+            let dense = |place: &RollPlace| {
+                let mut all = [0.0; 9];
+                place.shares().for_each(|(i, share)| all[i] += share);
+                all
+            };
+            let step = 1e-7;
+            let [after, before] = [step, -step].map(|s| dense(&hats.place(roll + s)));
+            let mut found = [0.0; 9];
+            place.rates().for_each(|(i, rate)| found[i] += rate);
+            let at_kink = c.iter().any(|c| (c - roll).abs() < 2.0 * step);
+            for i in 0..9 {
+                let difference = (after[i] - before[i]) / (2.0 * step);
+                let close = (difference - found[i]).abs() < 1e-5 * (1.0 + difference.abs());
+                assert!(at_kink || close, "{roll} {i}: {difference} {}", found[i]);
+            }
         }
     }
 

@@ -6,9 +6,10 @@
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
 use crate::local_contact::{LocalContact, effective_depth_m};
-use crate::roll_shares::{RollHats, RollPlace};
+use crate::roll_shares::{RollHats, RollPlace, SHARES};
 use crate::slice_spread::NeighbourTerm;
-use gearmesh_model::{Flank, NearField, ReducedGear, ReducedGearError};
+use crate::station_blocks::{LineBlock, StationBlocks};
+use gearmesh_model::{ContactCurve, Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
 /// Slice compliance of one gear for loads on one hand of flank.
@@ -17,17 +18,15 @@ pub struct SliceCompliance {
     teeth: usize,
     teeth_per_sector: usize,
     slices: usize,
-    stations: usize,
     hats: RollHats,
     opposite_distance_m: Vec<f64>,
-    /// `[tooth in sector][response tooth][(station, slice) of load][(station, slice) of response]`.
-    blocks: Vec<f64>,
+    /// Pairs of flanks: `[tooth in sector][response tooth]`.
+    blocks: StationBlocks,
     /// Of the flank in contact; only where the local contact is calibrated.
-    near_field: Option<NearField>,
+    near_field: Option<CalibratedField>,
     /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations and
     /// half-way between; empty where there is none.
     spread: Vec<f64>,
-    base_radius_m: f64,
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
@@ -88,14 +87,15 @@ impl SliceCompliance {
     ) -> Result<Self, ReducedGearError> {
         let flank_index = gear.flank_index(flank)?;
         let near_field = match local {
-            LocalContact::Calibrated => Some(near_field_of(gear, flank_index)?),
+            LocalContact::Calibrated => Some(CalibratedField::new(gear, flank_index)?),
             LocalContact::None | LocalContact::WeberBanaschek => None,
         };
         let grid = &gear.grid;
         let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
         let size = stations * slices;
         let own = gear.teeth_per_sector();
-        let mut blocks = Vec::with_capacity(own * gear.teeth * size * size);
+        let mut blocks = StationBlocks::new(stations, slices, own * gear.teeth);
+        let mut condensed = vec![0.0; size * size];
         // Loads and shares of each (station, slice).
         let axial: Vec<Vec<(usize, f64)>> = (0..size)
             .map(|k| {
@@ -111,7 +111,7 @@ impl SliceCompliance {
                     CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
                     CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank).into(),
                 };
-                for row in &axial {
+                for (row, responses) in axial.iter().zip(condensed.chunks_exact_mut(size)) {
                     // First the loads, then the responses: each entry of the block is used a few times only.
                     loaded.fill(0.0);
                     for &(l, share) in row {
@@ -119,11 +119,13 @@ impl SliceCompliance {
                             *sum += share * c;
                         }
                     }
-                    let condensed = |column: &Vec<(usize, f64)>| -> f64 {
-                        column.iter().map(|&(m, share)| share * loaded[m]).sum()
-                    };
-                    blocks.extend(axial.iter().map(condensed));
+                    for (response, column) in responses.iter_mut().zip(&axial) {
+                        *response = column.iter().map(|&(m, share)| share * loaded[m]).sum();
+                    }
                 }
+                blocks.push(slices, |[a, i], [b, j]| {
+                    condensed[(a * slices + i) * size + b * slices + j]
+                });
             }
         }
         let slice_width_m = gear.face_width_m / slices as f64;
@@ -142,11 +144,10 @@ impl SliceCompliance {
                     let c = hats.centroids_rad();
                     let roll = (1.0 - share) * c[station] + share * c[station + 1];
                     let place = hats.place(roll);
-                    let missing = field.contact_at(roll, gear.base_radius_m)
-                        - mesh_at(field, stations, place);
+                    let missing = field.missing(roll, &place, 1.0).0;
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
                     let term = neighbours.at(k, missing, field.half_width_m, sizes);
-                    term.min(largest_neighbour_term(&blocks, (stations, slices), place))
+                    term.min(largest_neighbour_term(&blocks, slices, &place))
                 })
                 .collect()
         });
@@ -154,13 +155,11 @@ impl SliceCompliance {
             teeth: gear.teeth,
             teeth_per_sector: own,
             slices,
-            stations,
             hats,
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
             near_field,
             spread,
-            base_radius_m: gear.base_radius_m,
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
@@ -205,112 +204,103 @@ impl SliceCompliance {
     /// q = F/(share b_s), but its hats still spread F over the whole slice: the calibration then adds
     /// q (c₀ − share w_h − k ln(a/a₀)). With the share the force goes to zero, as it must.
     pub fn local_depth_m(&self, roll_rad: f64, share: f64) -> f64 {
-        let place = self.place(roll_rad);
+        self.local_depth(roll_rad, &self.place(roll_rad), share).0
+    }
+
+    /// [`Self::local_depth_m`] at a roll angle whose place is known, and the derivative of its logarithm by the roll angle.
+    pub fn local_depth(&self, roll_rad: f64, place: &RollPlace, share: f64) -> (f64, f64) {
         let Some(field) = &self.near_field else {
-            return self.opposite_distance_m(place);
+            let (low, high) = (
+                self.opposite_distance_m[place.station],
+                self.opposite_distance_m[place.station + 1],
+            );
+            let inside = place.share.clamp(0.0, 1.0);
+            let depth = (1.0 - inside) * low + inside * high;
+            let slope = if inside == place.share {
+                (high - low) / self.spacing_rad(place.station)
+            } else {
+                0.0
+            };
+            return (depth, slope / depth);
         };
-        effective_depth_m(
-            field.contact_at(roll_rad, self.base_radius_m)
-                - share * mesh_at(field, self.stations, place),
-            field.half_width_m,
-            self.material(),
-        )
+        let (missing, rate) = field.missing(roll_rad, place, share);
+        let k = 2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young_pa);
+        let depth = effective_depth_m(missing, field.half_width_m, self.material());
+        (depth, rate / k)
     }
 
-    /// Distance along the normal to the opposite side of the tooth at a roll place \[m\].
-    pub fn opposite_distance_m(&self, place: RollPlace) -> f64 {
-        let share = place.share.clamp(0.0, 1.0);
-        (1.0 - share) * self.opposite_distance_m[place.station]
-            + share * self.opposite_distance_m[place.station + 1]
+    /// Distance of the centroids of a station's hat and the next one's \[rad\].
+    fn spacing_rad(&self, station: usize) -> f64 {
+        let c = self.hats.centroids_rad();
+        c[station + 1] - c[station]
     }
 
-    /// Adds Φᵀ C Φ between the slices of two contact lines to `c`, a block of a matrix with `stride` columns that
-    /// begins at `first`, times `factor`. On one and the same line the calibrated correction's part between neighbours is included.
-    pub fn add_block(
+    /// Number of the block of two flanks.
+    fn pair(&self, tooth_a: usize, tooth_b: usize) -> usize {
+        let tooth = tooth_a % self.teeth_per_sector;
+        let response = (tooth_b + self.teeth - (tooth_a - tooth)) % self.teeth;
+        tooth * self.teeth + response
+    }
+
+    /// Φᵀ C Φ between the slices of two contact lines, into `out`, `[slice of a][slice of b]`. On one and the same line the calibrated
+    /// correction's part between neighbours is included.
+    pub fn line_block(
         &self,
-        (tooth_a, place_a): (usize, RollPlace),
-        (tooth_b, place_b): (usize, RollPlace),
-        factor: f64,
-        c: &mut [f64],
-        first: usize,
-        stride: usize,
+        (tooth_a, place_a): (usize, &RollPlace),
+        (tooth_b, place_b): (usize, &RollPlace),
+        out: &mut [f64],
     ) {
-        let size = self.stations * self.slices;
-        let tooth = tooth_a % self.teeth_per_sector;
-        let response = (tooth_b + self.teeth - (tooth_a - tooth)) % self.teeth;
-        let block = tooth * self.teeth + response;
-        let table = &self.blocks[block * size * size..(block + 1) * size * size];
-        let n = self.slices;
-        for (sa, wa) in place_a.shares() {
-            for (sb, wb) in place_b.shares() {
-                let weight = factor * wa * wb;
-                for i in 0..n {
-                    let row = &table[(sa * n + i) * size + sb * n..][..n];
-                    for (entry, value) in c[first + i * stride..][..n].iter_mut().zip(row) {
-                        *entry += weight * value;
-                    }
-                }
-            }
-        }
+        out.fill(0.0);
+        (self.blocks).add(self.pair(tooth_a, tooth_b), place_a, place_b, out);
         if tooth_a == tooth_b && !self.spread.is_empty() {
-            let term = self.spread_at(place_a);
-            for i in 1..n {
-                for (row, column, sign) in [
-                    (i, i, -1.0),
-                    (i - 1, i - 1, -1.0),
-                    (i, i - 1, 1.0),
-                    (i - 1, i, 1.0),
-                ] {
-                    c[first + row * stride + column] += sign * term;
-                }
-            }
+            add_spread(out, self.slices, self.spread_at(place_a).0);
         }
     }
 
-    /// F_aᵀ (∂/∂ξ_a Φ_aᵀ C Φ_b) F_b \[J/rad\]: how the work of the forces on line b along the deflections of line a changes as a's place
-    /// `roll_a` moves. On one and the same line it is the change of ½ FᵀCF, the calibrated correction's part between neighbours
-    /// included.
-    pub fn energy_rate(
+    /// [`Self::line_block`] with its derivatives by the roll angles of both lines; on one and the same line `by_a` is half of what the
+    /// block changes by, and `by_b` is not made.
+    pub fn line_block_with_rates(
         &self,
-        (tooth_a, roll_a, forces_a): (usize, f64, &[f64]),
-        (tooth_b, place_b, forces_b): (usize, RollPlace, &[f64]),
-    ) -> f64 {
-        let size = self.stations * self.slices;
-        let tooth = tooth_a % self.teeth_per_sector;
-        let response = (tooth_b + self.teeth - (tooth_a - tooth)) % self.teeth;
-        let block = tooth * self.teeth + response;
-        let table = &self.blocks[block * size * size..(block + 1) * size * size];
-        let n = self.slices;
-        let mut rate = 0.0;
-        for (sa, wa) in self.hats.share_rates(roll_a).shares() {
-            for (sb, wb) in place_b.shares() {
-                let first = sa * n * size + sb * n;
-                let rows = table[first..].chunks(size).zip(forces_a);
-                let work = rows.map(|(row, force)| {
-                    let along = row.iter().zip(forces_b);
-                    force * along.map(|(c, f)| c * f).sum::<f64>()
-                });
-                rate += wa * wb * work.sum::<f64>();
-            }
+        (tooth_a, place_a): (usize, &RollPlace),
+        (tooth_b, place_b): (usize, &RollPlace),
+        out: &mut LineBlock,
+    ) {
+        for values in [&mut out.value, &mut out.by_a, &mut out.by_b] {
+            values.fill(0.0);
         }
-        if tooth_a == tooth_b && !self.spread.is_empty() {
-            let step = 1e-6;
-            let [after, before] = [step, -step].map(|s| self.spread_at(self.place(roll_a + s)));
-            let unlike: f64 = forces_a.windows(2).map(|f| (f[1] - f[0]).powi(2)).sum();
-            rate -= 0.25 * (after - before) / step * unlike;
+        let pair = self.pair(tooth_a, tooth_b);
+        if tooth_a != tooth_b {
+            self.blocks.add_with_rates(pair, place_a, place_b, out);
+            return;
         }
-        rate
+        self.blocks.add_own_with_rates(pair, place_a, out);
+        if !self.spread.is_empty() {
+            let (term, rate) = self.spread_at(place_a);
+            add_spread(&mut out.value, self.slices, term);
+            add_spread(&mut out.by_a, self.slices, 0.5 * rate);
+        }
     }
 
-    /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\]; zero where there is none.
-    fn spread_at(&self, place: RollPlace) -> f64 {
+    /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\], and its derivative by the roll angle; zero where
+    /// there is none.
+    fn spread_at(&self, place: &RollPlace) -> (f64, f64) {
         if self.spread.is_empty() {
-            return 0.0;
+            return (0.0, 0.0);
         }
-        let at = 2.0 * (place.station as f64 + place.share.clamp(0.0, 1.0));
+        let inside = place.share.clamp(0.0, 1.0);
+        let at = 2.0 * (place.station as f64 + inside);
         let low = (at as usize).min(self.spread.len() - 2);
         let share = at - low as f64;
-        (1.0 - share) * self.spread[low] + share * self.spread[low + 1]
+        let (below, above) = (self.spread[low], self.spread[low + 1]);
+        let moves = if inside == place.share {
+            2.0 / self.spacing_rad(place.station)
+        } else {
+            0.0
+        };
+        (
+            (1.0 - share) * below + share * above,
+            (above - below) * moves,
+        )
     }
 
     /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours,
@@ -323,9 +313,9 @@ impl SliceCompliance {
             0 => {
                 let neighbours = [a.slice > 0, a.slice + 1 < self.slices];
                 let count = neighbours.into_iter().filter(|exists| *exists).count();
-                -(count as f64) * self.spread_at(a.place)
+                -(count as f64) * self.spread_at(&a.place).0
             }
-            1 => 0.5 * (self.spread_at(a.place) + self.spread_at(b.place)),
+            1 => 0.5 * (self.spread_at(&a.place).0 + self.spread_at(&b.place).0),
             _ => 0.0,
         }
     }
@@ -333,43 +323,43 @@ impl SliceCompliance {
     /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
     /// calibrated correction's part between neighbours is included.
     pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
-        let size = self.stations * self.slices;
-        let tooth = a.tooth % self.teeth_per_sector;
-        let response = (b.tooth + self.teeth - (a.tooth - tooth)) % self.teeth;
-        let block = tooth * self.teeth + response;
-        let table = &self.blocks[block * size * size..(block + 1) * size * size];
-        let row = |station: usize| &table[(station * self.slices + a.slice) * size..][..size];
-        let response_of = |row: &[f64]| -> f64 {
+        let pair = self.pair(a.tooth, b.tooth);
+        let entry = a.slice * self.slices + b.slice;
+        let along = |station: usize| -> f64 {
             let shares = b.place.shares();
             shares
-                .map(|(station, share)| share * row[station * self.slices + b.slice])
+                .map(|(other, share)| share * self.blocks.block(pair, station, other)[entry])
                 .sum()
         };
         let shares = a.place.shares();
         shares
-            .map(|(station, share)| share * response_of(row(station)))
+            .map(|(station, share)| share * along(station))
             .sum::<f64>()
             + self.spread_between(a, b)
+    }
+}
+
+/// Adds a term between neighbouring slices and takes it from both, so that a uniform load deflects as before.
+fn add_spread(block: &mut [f64], slices: usize, term: f64) {
+    for i in 1..slices {
+        for (row, column, sign) in [
+            (i, i, -1.0),
+            (i - 1, i - 1, -1.0),
+            (i, i - 1, 1.0),
+            (i - 1, i, 1.0),
+        ] {
+            block[row * slices + column] += sign * term;
+        }
     }
 }
 
 /// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x
 /// = (1, −1) on two and (1, −2, 1) on three slices side by side, L the graph Laplacian of the row of slices, in whose shape the
 /// term enters. Reached where slices are narrower than the elements across the width, which cannot tell them apart.
-fn largest_neighbour_term(
-    blocks: &[f64],
-    (stations, slices): (usize, usize),
-    place: RollPlace,
-) -> f64 {
-    let size = stations * slices;
-    let c = |i: usize, j: usize| -> f64 {
-        let parts = place
-            .shares()
-            .flat_map(|a| place.shares().map(move |b| (a, b)));
-        parts
-            .map(|((a, wa), (b, wb))| wa * wb * blocks[(a * slices + i) * size + b * slices + j])
-            .sum()
-    };
+fn largest_neighbour_term(blocks: &StationBlocks, slices: usize, place: &RollPlace) -> f64 {
+    let mut own = vec![0.0; slices * slices];
+    blocks.add(0, place, place, &mut own);
+    let c = |i: usize, j: usize| own[i * slices + j];
     let mut least = f64::INFINITY;
     for x in [[1.0, -1.0].as_slice(), &[1.0, -2.0, 1.0]] {
         let outer = x[0] * x[0] + x[x.len() - 1] * x[x.len() - 1];
@@ -385,24 +375,43 @@ fn largest_neighbour_term(
     0.5 * least.max(0.0)
 }
 
-/// w_h = Φᵀ W Φ at a roll place \[m²/N\].
-fn mesh_at(field: &NearField, stations: usize, place: RollPlace) -> f64 {
-    let mut sum = 0.0;
-    for (a, wa) in place.shares() {
-        for (b, wb) in place.shares() {
-            sum += wa * wb * field.mesh_m2_per_n[a * stations + b];
-        }
-    }
-    sum
+/// The calibration of one flank.
+#[derive(Debug, Clone)]
+struct CalibratedField {
+    half_width_m: f64,
+    contact: ContactCurve,
+    /// W, `[roll station][roll station]` \[m²/N\].
+    mesh_m2_per_n: Vec<f64>,
+    stations: usize,
 }
 
-/// The calibration with W of one flank only.
-fn near_field_of(gear: &ReducedGear, flank_index: usize) -> Result<NearField, ReducedGearError> {
-    let mut field = gear.calibration()?.clone();
-    let stations = gear.grid.roll_angles_rad.len();
-    let size = stations * stations;
-    field.mesh_m2_per_n = field.mesh_m2_per_n[flank_index * size..][..size].to_vec();
-    Ok(field)
+impl CalibratedField {
+    fn new(gear: &ReducedGear, flank_index: usize) -> Result<Self, ReducedGearError> {
+        let field = gear.calibration()?;
+        let stations = gear.grid.roll_angles_rad.len();
+        let size = stations * stations;
+        Ok(Self {
+            half_width_m: field.half_width_m,
+            contact: field.contact_curve(gear.base_radius_m),
+            mesh_m2_per_n: field.mesh_m2_per_n[flank_index * size..][..size].to_vec(),
+            stations,
+        })
+    }
+
+    /// c₀ − share · w_h \[m²/N\] with w_h = Φᵀ W Φ, and its derivative by the roll angle.
+    fn missing(&self, roll_rad: f64, place: &RollPlace, share: f64) -> (f64, f64) {
+        let (contact, rate) = self.contact.at(roll_rad);
+        let (mut mesh, mut mesh_rate) = (0.0, 0.0);
+        let (shares, rates) = (place.all_shares(), place.all_rates());
+        for a in 0..SHARES.min(self.stations) {
+            let row = &self.mesh_m2_per_n[(place.first() + a) * self.stations + place.first()..];
+            for b in 0..SHARES.min(self.stations) {
+                mesh += shares[a] * shares[b] * row[b];
+                mesh_rate += (rates[a] * shares[b] + shares[a] * rates[b]) * row[b];
+            }
+        }
+        (contact - share * mesh, rate - share * mesh_rate)
+    }
 }
 
 #[cfg(test)]

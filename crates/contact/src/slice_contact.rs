@@ -5,18 +5,17 @@
 
 use crate::contact_lines::{ContactLine, ContactLines};
 use crate::contact_slices::ContactSlice;
-use crate::local_contact::LocalContact;
+use crate::local_contact::{LawRate, LocalContact};
 use crate::nlcp::{
     ContactBody, EdgeContact, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
     Problem, Workspace, solve_load, solve_position,
 };
+use crate::roll_shares::RollPlace;
 use crate::slice_compliance::{PlacedSlice, SliceCompliance};
 use crate::static_contact::ContactError;
+use crate::station_blocks::LineBlock;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
-
-/// Change of the roll angle \[rad\] over which the energy of the local laws is differenced: smooth but for kinks at the roll stations.
-const ROLL_STEP_RAD: f64 = 1e-5;
 
 /// What is given besides the separations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +45,15 @@ pub struct SliceContact {
     compliance_2: SliceCompliance,
     local_contact: LocalContact,
     params: Params,
+    /// Where each line stands on both gears.
+    places: Vec<[RollPlace; 2]>,
+    /// Compliance of each gear between a line and another one after it, with its changes; only those of pairs of different lines and
+    /// of lines with themselves in use.
+    line_blocks: Vec<LineBlock>,
+    /// How the depths of the local logarithm grow with the roll angle, for each law that was made: the slices of a spur line share one.
+    depth_growths: Vec<[f64; 2]>,
+    /// How the local law of each line changes with the roll angle on both gears.
+    law_rates: Vec<[LawRate; 2]>,
     placed: Vec<[PlacedSlice; 2]>,
     c: Vec<f64>,
     /// Hertz contact of each touching slice, and the edge where it is one.
@@ -96,8 +104,13 @@ impl SliceContact {
             });
         }
         let slices = compliance_1.slices();
-        let capacity = (lines.most_pairs() + 1) * slices;
+        let most_lines = lines.most_pairs() + 1;
+        let capacity = most_lines * slices;
         Ok(Self {
+            places: Vec::with_capacity(most_lines),
+            line_blocks: vec![LineBlock::new(slices); 2 * most_lines * most_lines],
+            depth_growths: Vec::with_capacity(capacity),
+            law_rates: Vec::with_capacity(most_lines),
             lines,
             compliance_1,
             compliance_2,
@@ -141,6 +154,29 @@ impl SliceContact {
         self.work.reset();
     }
 
+    /// Lets the next solve at a given approach start from these forces \[N\], one for each slice; see [`Workspace::start_from`].
+    pub fn start_from(&mut self, forces_n: &[f64]) {
+        self.work.start_from(forces_n);
+    }
+
+    /// Takes R Rᵀ from the compliance of the slices that were prepared: what `columns` quantities of R, `[slice][column]` \[√(m/N)\],
+    /// carry elsewhere, as the vibration modes of a gear body do.
+    pub fn subtract_from_compliance(&mut self, rows: &[f64], columns: usize) {
+        if columns == 0 {
+            return;
+        }
+        let n = rows.len() / columns;
+        for (i, a) in rows.chunks_exact(columns).enumerate() {
+            for (j, b) in rows.chunks_exact(columns).enumerate().take(i + 1) {
+                let shared = dot(a, b);
+                self.c[i * n + j] -= shared;
+                if i != j {
+                    self.c[j * n + i] -= shared;
+                }
+            }
+        }
+    }
+
     /// Hertz contact of the slice with this number, and its edge.
     ///
     /// # Panics
@@ -173,10 +209,57 @@ impl SliceContact {
         if self.lines.pair.is_helical() {
             self.fill_compliance_by_slices(touching);
         } else {
-            self.fill_compliance_by_lines(active);
+            self.find_places(active);
+            self.fill_compliance_by_lines(active, false);
         }
+        self.fill_laws(touching, floor_n)
+    }
+
+    /// [`Self::prepare`] for spur teeth on the path, with what [`Self::energy_by_roll`] needs.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub fn prepare_with_rates(
+        &mut self,
+        active: &[ContactLine],
+        touching: &[ContactSlice],
+        floor_n: f64,
+    ) -> Result<(), (LocalLawError, usize)> {
+        self.find_places(active);
+        self.fill_compliance_by_lines(active, true);
+        self.fill_laws(touching, floor_n)?;
+        let slices = self.slices();
+        self.law_rates.clear();
+        for (number, line) in active.iter().enumerate() {
+            let (contact, law) = (&self.hertz[number * slices].0, &self.local[number * slices]);
+            let rates = std::array::from_fn(|gear| {
+                let growths = [
+                    self.depth_growths[number][gear],
+                    self.lines.relative_radius_growth(line, gear),
+                ];
+                self.local_contact.law_rate((contact, law), gear, growths)
+            });
+            self.law_rates.push(rates);
+        }
+        Ok(())
+    }
+
+    fn find_places(&mut self, active: &[ContactLine]) {
+        let (first, second) = (&self.compliance_1, &self.compliance_2);
+        let both =
+            |line: &ContactLine| [first.place(line.roll_1_rad), second.place(line.roll_2_rad)];
+        self.places.clear();
+        self.places.extend(active.iter().map(both));
+    }
+
+    fn fill_laws(
+        &mut self,
+        touching: &[ContactSlice],
+        floor_n: f64,
+    ) -> Result<(), (LocalLawError, usize)> {
         self.hertz.clear();
         self.local.clear();
+        self.depth_growths.clear();
         let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
         for (number, slice) in touching.iter().enumerate() {
             let (hertz, law) = match last {
@@ -185,9 +268,12 @@ impl SliceContact {
                     (hertz, law)
                 }
                 _ => {
-                    let hertz = self.line_contact(slice);
-                    let law = self.law(hertz, floor_n).map_err(|cause| (cause, number))?;
-                    (hertz, law)
+                    let (contact, edge, growths) = self.line_contact(slice);
+                    let law = (self.local_contact.law(&contact, floor_n))
+                        .map_err(|cause| (cause, number))?
+                        .with_edge(edge);
+                    self.depth_growths.push(growths);
+                    ((contact, edge), law)
                 }
             };
             last = Some((slice.line, hertz, law));
@@ -195,14 +281,6 @@ impl SliceContact {
             self.local.push(law);
         }
         Ok(())
-    }
-
-    fn law(
-        &self,
-        (contact, edge): (LineContact, Option<EdgeContact>),
-        floor_n: f64,
-    ) -> Result<LocalLaw, LocalLawError> {
-        Ok(self.local_contact.law(&contact, floor_n)?.with_edge(edge))
     }
 
     /// Solves for the forces of the slices that were prepared; returns the approach at which the first would touch, and the solver's
@@ -242,104 +320,87 @@ impl SliceContact {
     }
 
     /// ∂/∂ξ (½ FᵀCF + Σ∫δ dF) \[J/rad\] at the forces of the last solve: how the complementary energy changes as the contact line
-    /// `line` walks over gear 0 or 1. Spur teeth on the path.
+    /// `line` walks over gear 0 or 1. Spur teeth on the path, after [`Self::prepare_with_rates`].
     ///
-    /// # Errors
-    /// [`LocalLawError`] where the moved slice has no local law.
-    pub fn energy_by_roll(
-        &self,
-        active: &[ContactLine],
-        touching: &[ContactSlice],
-        (line, gear): (usize, usize),
-        floor_n: f64,
-    ) -> Result<f64, LocalLawError> {
+    /// # Panics
+    /// If the lines were prepared without rates.
+    pub fn energy_by_roll(&self, line: usize, gear: usize) -> f64 {
         let slices = self.slices();
         let of_line = |number: usize| &self.work.forces()[number * slices..(number + 1) * slices];
         let own = of_line(line);
-        let mut local = 0.0;
-        for step in [ROLL_STEP_RAD, -ROLL_STEP_RAD] {
-            let mut moved = touching[line * slices];
-            match gear {
-                0 => moved.section.roll_1_rad += step,
-                _ => moved.section.roll_2_rad += step,
+        let (law, rate) = (&self.local[line * slices], self.law_rates[line][gear]);
+        let local: f64 = (own.iter())
+            .map(|force| law.complementary_energy_rate(*force, rate.alpha, rate.cap))
+            .sum();
+        let lines = self.places.len();
+        let with_others = (0..lines).map(|other| {
+            let block =
+                &self.line_blocks[block_number(lines, gear, line.min(other), line.max(other))];
+            if other < line {
+                bilinear(of_line(other), &block.by_b, own)
+            } else {
+                bilinear(own, &block.by_a, of_line(other))
             }
-            let law = self.law(self.line_contact(&moved), floor_n)?;
-            let energy: f64 = own.iter().map(|f| law.complementary_energy(*f)).sum();
-            local += energy / (2.0 * step);
-        }
-        let compliance = match gear {
-            0 => &self.compliance_1,
-            _ => &self.compliance_2,
-        };
-        let place_of = |line: &ContactLine| match gear {
-            0 => (line.tooth_1, line.roll_1_rad),
-            _ => (line.tooth_2, line.roll_2_rad),
-        };
-        let (tooth, roll) = place_of(&active[line]);
-        let with_others = active.iter().enumerate().map(|(number, other)| {
-            let (tooth_b, roll_b) = place_of(other);
-            let there = (tooth_b, compliance.place(roll_b), of_line(number));
-            compliance.energy_rate((tooth, roll, own), there)
         });
-        Ok(local + with_others.sum::<f64>())
+        local + with_others.sum::<f64>()
     }
 
-    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>) {
+    /// Hertz contact of a slice, its edge, and how the depths of both bodies grow with their roll angles.
+    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>, [f64; 2]) {
         let line = &slice.section;
         let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
-        let body = |compliance: &SliceCompliance, roll: f64| {
-            let (youngs_modulus_pa, poisson_ratio) = compliance.material();
+        let gears = [
+            (&self.compliance_1, line.roll_1_rad),
+            (&self.compliance_2, line.roll_2_rad),
+        ];
+        let depths = gears.map(|(compliance, roll)| {
+            compliance.local_depth(roll, &compliance.place(roll), slice.share)
+        });
+        let body = |gear: usize| {
+            let (youngs_modulus_pa, poisson_ratio) = gears[gear].0.material();
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
-                depth_m: compliance.local_depth_m(roll, slice.share),
+                depth_m: depths[gear].0,
             }
         };
         let contact = LineContact {
             width_m: slice.share * self.slice_width_m() / helix_cos,
             relative_radius_m: self.lines.relative_radius_m(line),
-            bodies: [
-                body(&self.compliance_1, line.roll_1_rad),
-                body(&self.compliance_2, line.roll_2_rad),
-            ],
+            bodies: [body(0), body(1)],
         };
         let edge = (self.lines.edge(line))
             .and_then(|(tilt_rad, radius_m)| EdgeContact::new(&contact, tilt_rad, radius_m));
-        (contact, edge)
+        (contact, edge, depths.map(|(_, growth)| growth))
     }
 
     /// C of slices that share the place of their line, block by block.
-    fn fill_compliance_by_lines(&mut self, active: &[ContactLine]) {
+    fn fill_compliance_by_lines(&mut self, active: &[ContactLine], with_rates: bool) {
         let slices = self.slices();
         let n = active.len() * slices;
         let c = &mut self.c[..n * n];
         c.fill(0.0);
         for (i, a) in active.iter().enumerate() {
             for (j, b) in active.iter().enumerate().skip(i) {
-                let first = i * slices * n + j * slices;
-                for (gear, compliance, of) in [
-                    (
-                        0,
-                        &self.compliance_1,
-                        [(a.tooth_1, a.roll_1_rad), (b.tooth_1, b.roll_1_rad)],
-                    ),
-                    (
-                        1,
-                        &self.compliance_2,
-                        [(a.tooth_2, a.roll_2_rad), (b.tooth_2, b.roll_2_rad)],
-                    ),
+                for (gear, compliance, teeth) in [
+                    (0, &self.compliance_1, [a.tooth_1, b.tooth_1]),
+                    (1, &self.compliance_2, [a.tooth_2, b.tooth_2]),
                 ] {
-                    let [(tooth_a, roll_a), (tooth_b, roll_b)] = of;
-                    let places = (compliance.place(roll_a), compliance.place(roll_b));
+                    let block = &mut self.line_blocks[block_number(active.len(), gear, i, j)];
+                    let place_a = (teeth[0], &self.places[i][gear]);
+                    let place_b = (teeth[1], &self.places[j][gear]);
+                    if with_rates {
+                        compliance.line_block_with_rates(place_a, place_b, block);
+                    } else {
+                        compliance.line_block(place_a, place_b, &mut block.value);
+                    }
                     let along_normals = a.tilt_rad(gear).cos() * b.tilt_rad(gear).cos();
-                    compliance.add_block(
-                        (tooth_a, places.0),
-                        (tooth_b, places.1),
-                        along_normals,
-                        c,
-                        first,
-                        n,
-                    );
+                    for (row, values) in block.value.chunks_exact(slices).enumerate() {
+                        let first = (i * slices + row) * n + j * slices;
+                        for (place, value) in c[first..first + slices].iter_mut().zip(values) {
+                            *place += along_normals * value;
+                        }
+                    }
                 }
             }
         }
@@ -389,6 +450,17 @@ impl SliceContact {
             }
         }
     }
+}
+
+/// Number of the block of lines a ≤ b on a gear among those of so many lines.
+fn block_number(lines: usize, gear: usize, a: usize, b: usize) -> usize {
+    (gear * lines + a) * lines + b
+}
+
+/// xᵀ M y, M in rows.
+fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
+    let rows = matrix.chunks_exact(y.len().max(1));
+    x.iter().zip(rows).map(|(x, row)| x * dot(row, y)).sum()
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

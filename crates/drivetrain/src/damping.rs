@@ -67,6 +67,9 @@ pub struct Damped<M> {
     felt: FlankContacts,
     /// ∂(felt gap)/∂gap and ∂(felt gap)/∂(gap rate) of each contact.
     felt_by: Vec<[f64; 2]>,
+    /// τ s ġ, and the forces K τ s ġ that it makes.
+    advance_m: Vec<f64>,
+    drag_n: Vec<f64>,
 }
 
 impl<M: TeethModel> Damped<M> {
@@ -81,51 +84,58 @@ impl<M: TeethModel> Damped<M> {
             slices,
             felt: FlankContacts::default(),
             felt_by: Vec::new(),
+            advance_m: Vec::new(),
+            drag_n: Vec::new(),
         })
     }
 
     fn proportional(
         &mut self,
-        flanks: &FlankContacts,
+        (flanks, tangents): (&FlankContacts, bool),
         loads: &mut TeethLoads,
         [time_s, full_m]: [f64; 2],
     ) -> Result<(), DrivetrainError> {
         self.felt.lines.clone_from(&flanks.lines);
         self.felt.contacts.clone_from(&flanks.contacts);
+        self.felt.modal.clone_from(&flanks.modal);
         self.felt_by.clear();
+        self.advance_m.clear();
         for contact in &mut self.felt.contacts {
             let (share, slope) = step(-contact.gap_m, [0.0, 0.0], [full_m, 1.0]);
             let rate = contact.gap_rate_m_per_s;
             contact.gap_m += time_s * share * rate;
+            self.advance_m.push(time_s * share * rate);
             self.felt_by
                 .push([1.0 - time_s * rate * slope, time_s * share]);
         }
-        self.teeth.evaluate(&self.felt, loads)?;
+        self.teeth.evaluate(&self.felt, tangents, loads)?;
         let n = flanks.contacts.len();
-        for i in 0..n {
-            for j in 0..n {
-                let stiffness = &mut loads.stiffness_n_per_m[i * n + j];
-                let [by_gap, by_rate] = self.felt_by[j];
-                let damping = *stiffness * by_rate;
-                *stiffness *= by_gap;
-                loads.damping_n_s_per_m[i * n + j] = damping;
-                let rates = [i, j].map(|k| flanks.contacts[k].gap_rate_m_per_s);
-                loads.dissipated_w += rates[0] * damping * rates[1];
-            }
+        self.drag_n.resize(n, 0.0);
+        (self.teeth).apply_stiffness(&self.felt, loads, &self.advance_m, &mut self.drag_n);
+        for (i, contact) in flanks.contacts.iter().enumerate() {
+            loads.dissipated_w += contact.gap_rate_m_per_s * self.drag_n[i];
             // The energy at the true gap, to first order in the difference to the felt one.
-            let felt_closer = self.felt_by[i][1] * flanks.contacts[i].gap_rate_m_per_s;
-            loads.stored_j += loads.normal_n[i] * felt_closer;
+            loads.stored_j += loads.normal_n[i] * self.advance_m[i];
+        }
+        if tangents {
+            let rows = loads.stiffness_n_per_m.chunks_exact_mut(n.max(1));
+            for (row, damping) in rows.zip(loads.damping_n_s_per_m.chunks_exact_mut(n.max(1))) {
+                for ((k, d), [by_gap, by_rate]) in row.iter_mut().zip(damping).zip(&self.felt_by) {
+                    *d = *k * by_rate;
+                    *k *= by_gap;
+                }
+            }
         }
         Ok(())
     }
 
     fn viscous(
         &mut self,
-        flanks: &FlankContacts,
+        (flanks, tangents): (&FlankContacts, bool),
         loads: &mut TeethLoads,
         [coefficient, full_m]: [f64; 2],
     ) -> Result<(), DrivetrainError> {
-        self.teeth.evaluate(flanks, loads)?;
+        self.teeth.evaluate(flanks, tangents, loads)?;
         let n = flanks.contacts.len();
         let each = coefficient / self.slices as f64;
         // One spring for the mesh has one damper: the other pairs that it stands for have none of their own.
@@ -156,8 +166,10 @@ impl<M: TeethModel> TeethModel for Damped<M> {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
+        let flanks = (flanks, tangents);
         match self.damping {
             Damping::StiffnessProportional {
                 time_s,
@@ -174,7 +186,19 @@ impl<M: TeethModel> TeethModel for Damped<M> {
         self.teeth.resolves_teeth()
     }
 
-    fn forget(&mut self) {
-        self.teeth.forget();
+    fn takes_modes(&self) -> bool {
+        self.teeth.takes_modes()
+    }
+
+    fn remember(&mut self) {
+        self.teeth.remember();
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        self.teeth.save(out);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        self.teeth.restore(numbers);
     }
 }

@@ -105,6 +105,42 @@ pub enum DrivetrainError {
     /// The two models do not fit each other or the pair.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// A model file lacks what is asked of it.
+    #[error(transparent)]
+    Model(#[from] gearmesh_model::ReducedGearError),
+    /// Modes with a mesh model whose compliance does not come from the gear bodies.
+    #[error(
+        "gear {gear} is modal, but its mesh model is not `hybrid`: only there can the modes' share be taken from the compliance, others would count it twice; take `hybrid`, or a rigid gear body"
+    )]
+    ModesWithoutReducedTeeth {
+        /// Gear 1 or 2.
+        gear: usize,
+    },
+    /// A side added after the modes.
+    #[error("add the modes of the gear bodies after all sides of the teeth")]
+    SideAfterModes,
+    /// Modes above those that a model holds.
+    #[error(
+        "gear `{gear}`: modes up to {asked_hz:.1} Hz are asked for, its model holds all up to {complete_to_hz:.1} Hz only; reduce it with a larger [modes] up_to_Hz"
+    )]
+    ModesBeyond {
+        /// Name of the gear.
+        gear: String,
+        /// What was asked for.
+        asked_hz: f64,
+        /// What there is.
+        complete_to_hz: f64,
+    },
+    /// A gauge that a model does not have.
+    #[error("gear `{gear}` has no gauge `{name}`; it has {known}")]
+    Gauge {
+        /// Name of the gear.
+        gear: String,
+        /// What was asked for.
+        name: String,
+        /// Names of those there are.
+        known: String,
+    },
     /// No local contact law.
     #[error("contact of tooth {tooth_1} of gear 1 and tooth {tooth_2} of gear 2: {cause}")]
     LocalLaw {

@@ -10,10 +10,13 @@
 
 use gearmesh_dynamics::Power;
 use gearmesh_geometry::FlankSide;
+use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
+use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::{Friction, Sliding};
-use crate::mesh_kinematics::{FlankContacts, Matrix6, MeshKinematics};
+use crate::mesh_kinematics::{FlankContacts, Matrix6, MeshKinematics, PoseGeometry};
+use crate::modal_loads::{ContactChange, ModalLoads};
 use crate::pose::{Pose, Vector6};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -57,13 +60,18 @@ struct Side {
     model: Box<dyn TeethModel>,
     found: FlankContacts,
     loads: TeethLoads,
+    /// μ of each contact, zero where none was computed.
+    friction: Vec<f64>,
+    modes: [Option<FlankModes>; 2],
 }
 
 /// A mesh of two gears.
 pub struct GearMesh {
     kinematics: MeshKinematics,
+    at: PoseGeometry,
     sides: Vec<Side>,
     friction: Option<Friction>,
+    modal: ModalLoads,
     effort: MeshEffort,
 }
 
@@ -79,8 +87,10 @@ impl GearMesh {
     ) -> Result<Self, DrivetrainError> {
         let mesh = Self {
             kinematics,
+            at: PoseGeometry::default(),
             sides: Vec::new(),
             friction: None,
+            modal: ModalLoads::default(),
             effort: MeshEffort::default(),
         };
         mesh.with_side(flank, model)
@@ -90,12 +100,15 @@ impl GearMesh {
     /// replaced.
     ///
     /// # Errors
-    /// As [`GearMesh::new`].
+    /// As [`GearMesh::new`], and [`DrivetrainError::SideAfterModes`].
     pub fn with_side(
         mut self,
         flank: FlankSide,
         model: impl TeethModel + 'static,
     ) -> Result<Self, DrivetrainError> {
+        if self.modal.count() > 0 {
+            return Err(DrivetrainError::SideAfterModes);
+        }
         if !model.resolves_teeth() && self.kinematics.has_errors() {
             return Err(DrivetrainError::UnusedFlankErrors);
         }
@@ -106,7 +119,39 @@ impl GearMesh {
             model: Box::new(model),
             found: FlankContacts::with_capacity(self.kinematics.slices_m().len(), capacity),
             loads: TeethLoads::with_capacity(capacity),
+            friction: Vec::with_capacity(capacity),
+            modes: [None, None],
         });
+        Ok(self)
+    }
+
+    /// Lets gear 1 or 2 vibrate in the lowest `count` modes of its model: the mesh then needs their coordinates
+    /// ([`GearMesh::evaluate_modal`]) and pushes on them ([`GearMesh::modal_loads`]). Add all sides of the teeth before.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::ModesWithoutReducedTeeth`] if a side's model is not `hybrid`, or as [`FlankModes::new`].
+    ///
+    /// # Panics
+    /// If `gear` is neither 1 nor 2.
+    pub fn with_modes(
+        mut self,
+        gear: usize,
+        model: &ReducedGear,
+        count: usize,
+    ) -> Result<Self, DrivetrainError> {
+        assert!(gear == 1 || gear == 2, "gear {gear} of 1 and 2");
+        let capacity = self.kinematics.capacity();
+        for side in &mut self.sides {
+            if !side.model.takes_modes() {
+                return Err(DrivetrainError::ModesWithoutReducedTeeth { gear });
+            }
+            let modes = FlankModes::new(model, side.flank, count)?;
+            side.found.modal[gear - 1] = modes.rows_with_capacity(capacity);
+            side.modes[gear - 1] = Some(modes);
+        }
+        let mut counts = self.modal.counts();
+        counts[gear - 1] = count;
+        self.modal = ModalLoads::new(counts);
         Ok(self)
     }
 
@@ -149,59 +194,131 @@ impl GearMesh {
         Some(line.ideal_gap_m)
     }
 
-    /// Forgets warm starts.
-    pub fn forget(&mut self) {
+    /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.
+    #[must_use]
+    pub fn friction_coefficients(&self, flank: FlankSide) -> &[f64] {
+        let side = self.sides.iter().find(|side| side.flank == flank);
+        side.map_or(&[], |side| &side.friction)
+    }
+
+    /// Forces on the modes at the last pose.
+    #[must_use]
+    pub fn modal_loads(&self) -> &ModalLoads {
+        &self.modal
+    }
+
+    /// Takes the forces of the last pose as the start of the next solutions; see [`TeethModel::remember`].
+    pub fn remember(&mut self) {
         for side in &mut self.sides {
-            side.model.forget();
+            side.model.remember();
         }
     }
 
-    /// Load at a pose, with tangents where `tangents`.
+    /// Appends what is remembered.
+    pub fn save(&self, out: &mut Vec<f64>) {
+        for side in &self.sides {
+            side.model.save(out);
+        }
+    }
+
+    /// Takes what [`GearMesh::save`] wrote.
+    pub fn restore(&mut self, numbers: &[f64]) {
+        let mut rest = numbers;
+        for side in &mut self.sides {
+            let mut own = Vec::new();
+            side.model.save(&mut own);
+            let (own, after) = rest.split_at(own.len());
+            side.model.restore(own);
+            rest = after;
+        }
+    }
+
+    /// Load at a pose, with tangents where `tangents`; gears with modes at their undeformed shape.
     ///
     /// # Errors
     /// [`DrivetrainError`] of the kinematics or the model.
     pub fn evaluate(&mut self, pose: &Pose, tangents: bool) -> Result<MeshLoad, DrivetrainError> {
+        self.evaluate_modal(pose, &ModalMotion::default(), tangents)
+    }
+
+    /// Load at a pose and a vibration of the gears.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the kinematics or the model.
+    pub fn evaluate_modal(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<MeshLoad, DrivetrainError> {
         let mut result = MeshLoad::default();
         self.effort.poses += 1;
+        self.modal.begin(tangents);
+        let rates = pose.rates();
+        let base_radii = [0, 1].map(|i| self.kinematics.gears()[i].base_radius_m);
+        self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
-            self.kinematics
-                .contacts(pose, side.flank, &mut side.found)?;
+            (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
+            for (gear, modes) in side.modes.iter().enumerate() {
+                if let Some(modes) = modes {
+                    modes.bend(gear, modal, &rates, &mut side.found);
+                }
+            }
             let (contacts, lines) = (side.found.contacts.len(), side.found.lines.len());
             side.loads.begin(contacts, lines);
+            side.friction.clear();
+            side.friction.resize(contacts, 0.0);
             if contacts == 0 {
                 continue;
             }
             self.effort.models += 1;
-            side.model.evaluate(&side.found, &mut side.loads)?;
+            (side.model).evaluate(&side.found, tangents, &mut side.loads)?;
             result.power.stored_j += side.loads.stored_j;
             result.power.dissipated_w += side.loads.dissipated_w;
-            let base_radii = [0, 1].map(|i| self.kinematics.gears()[i].base_radius_m);
             let assembly = Assembly {
                 pose,
-                rates: pose.rates(),
-                side,
+                rates,
+                found: &side.found,
+                loads: &side.loads,
+                flank: side.flank,
                 base_radii,
                 friction: self.friction,
             };
-            assembly.add(&mut result, tangents, &mut self.effort);
+            let parts = Parts {
+                result: &mut result,
+                modal: &mut self.modal,
+                coefficients: &mut side.friction,
+                effort: &mut self.effort,
+            };
+            assembly.add(parts, tangents);
         }
         Ok(result)
     }
+}
+
+/// What an evaluation writes to.
+struct Parts<'a> {
+    result: &'a mut MeshLoad,
+    modal: &'a mut ModalLoads,
+    coefficients: &'a mut [f64],
+    effort: &'a mut MeshEffort,
 }
 
 /// One side at one pose, put together.
 struct Assembly<'a> {
     pose: &'a Pose,
     rates: Vector6,
-    side: &'a Side,
+    found: &'a FlankContacts,
+    loads: &'a TeethLoads,
+    flank: FlankSide,
     base_radii: [f64; 2],
     friction: Option<Friction>,
 }
 
 impl Assembly<'_> {
-    fn add(&self, result: &mut MeshLoad, tangents: bool, effort: &mut MeshEffort) {
-        let (found, loads) = (&self.side.found, &self.side.loads);
-        let sigma = self.side.flank.mirror();
+    fn add(&self, parts: Parts<'_>, tangents: bool) {
+        let (found, loads, result) = (self.found, self.loads, parts.result);
+        let sigma = self.flank.mirror();
         for (line, energy) in found.lines.iter().zip(&loads.energy_by_roll) {
             for (rate, gradient) in energy.iter().zip(&line.roll_gradient) {
                 result.load += *rate * gradient;
@@ -209,15 +326,18 @@ impl Assembly<'_> {
         }
         for (i, contact) in found.contacts.iter().enumerate() {
             let force = loads.normal_n[i];
+            // A contact without force has no stiffness either.
+            if force <= 0.0 {
+                continue;
+            }
             let (plane, line) = (&found.planes[contact.slice], &found.lines[contact.line]);
             let mut direction = contact.gradient;
-            if force > 0.0
-                && let Some(friction) = self.friction
-            {
-                effort.friction += 1;
+            if let Some(friction) = self.friction {
+                parts.effort.friction += 1;
                 let on_gear_1 = (self.base_radii[0], line.touching_roll_rad[0]);
                 let sliding = Sliding::new(plane, self.pose, sigma, on_gear_1);
                 let (mu, slope) = friction.coefficient(sliding.speed_m_per_s);
+                parts.coefficients[i] = mu;
                 direction -= mu * sliding.direction;
                 result.power.dissipated_w += mu * force * sliding.speed_m_per_s;
                 if tangents {
@@ -230,10 +350,21 @@ impl Assembly<'_> {
                 }
             }
             result.load += force * direction;
+            if parts.modal.count() > 0 {
+                parts.modal.add_force(i, force, found);
+            }
             if tangents {
                 let (by_pose, by_rates) = self.force_gradients(i);
                 result.by_position += direction * by_pose.transpose();
                 result.by_velocity += direction * by_rates.transpose();
+                if parts.modal.count() > 0 {
+                    let change = ContactChange {
+                        direction,
+                        by_pose,
+                        by_rates,
+                    };
+                    parts.modal.add_tangents(i, &change, loads, found);
+                }
             }
         }
         if tangents {
@@ -243,7 +374,7 @@ impl Assembly<'_> {
 
     /// ∂F_i/∂(increments) and ∂F_i/∂(rates).
     fn force_gradients(&self, i: usize) -> (Vector6, Vector6) {
-        let (found, loads) = (&self.side.found, &self.side.loads);
+        let (found, loads) = (self.found, self.loads);
         let n = found.contacts.len();
         let (mut by_pose, mut by_rates) = (Vector6::zeros(), Vector6::zeros());
         for (j, contact) in found.contacts.iter().enumerate() {
@@ -255,7 +386,7 @@ impl Assembly<'_> {
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
                 let plane = &found.planes[contact.slice];
-                let curvature = plane.gap_curvature(self.pose, self.side.flank, self.base_radii[1]);
+                let curvature = plane.gap_curvature(self.pose, self.flank, self.base_radii[1]);
                 by_pose -= damping * (curvature.tr_mul(&self.rates));
             }
         }
@@ -263,7 +394,7 @@ impl Assembly<'_> {
     }
 
     fn add_curvature(&self, result: &mut MeshLoad) {
-        let (found, loads) = (&self.side.found, &self.side.loads);
+        let (found, loads) = (self.found, self.loads);
         for (slice, plane) in found.planes.iter().enumerate() {
             let forces = found.contacts.iter().zip(&loads.normal_n);
             let of_plane: f64 = forces
@@ -272,7 +403,7 @@ impl Assembly<'_> {
                 .sum();
             if of_plane > 0.0 {
                 result.by_position +=
-                    of_plane * plane.gap_curvature(self.pose, self.side.flank, self.base_radii[1]);
+                    of_plane * plane.gap_curvature(self.pose, self.flank, self.base_radii[1]);
             }
         }
     }

@@ -6,9 +6,11 @@
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
+//! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
+//! | root strain at gauges while a run goes on | [`StrainGauges`] | `strain_gauges.rs` |
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
-//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`] | `gear_inertia.rs`, `gear_body.rs` |
+//! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
 //! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur gears.
 //! The theory is in docs/theory/gear_meshes.md.
@@ -17,23 +19,27 @@ pub mod damping;
 pub mod error;
 pub mod errors;
 pub mod flank_error;
+pub mod flank_modes;
 pub mod friction;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
 pub mod mesh_element;
 pub mod mesh_kinematics;
+pub mod modal_loads;
 pub mod models;
 pub mod pose;
 pub mod step;
+pub mod strain_gauges;
 pub mod teeth_model;
 pub mod tooth_compliance;
 
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_error::{FlankError, FlankPoint, Removed};
+pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
-pub use gear_body::gear_body;
+pub use gear_body::{gear_body, modal_gear_body, modes_up_to};
 pub use gear_inertia::GearInertia;
 pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
 pub use mesh_element::MeshElement;
@@ -44,5 +50,6 @@ pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
 pub use pose::Pose;
+pub use strain_gauges::{ModalPart, StrainGauges};
 pub use teeth_model::{TeethLoads, TeethModel};
 pub use tooth_compliance::{BeamTooth, RootCrack};

@@ -4,11 +4,15 @@ use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::relative_motion::PairTangent;
 use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMotion};
 use gearmesh_geometry::FlankSide;
+use gearmesh_model::ReducedGear;
 
 use nalgebra::SVector;
 
+use crate::error::DrivetrainError;
+use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::pose::Pose;
+use crate::strain_gauges::{ModalPart, StrainGauges};
 
 impl From<&RelativeMotion> for Pose {
     fn from(motion: &RelativeMotion) -> Self {
@@ -55,12 +59,13 @@ impl PairForce {
 
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
-/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry.
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry; strain of each gauge.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
     bodies: [BodyId; 2],
     mesh: GearMesh,
+    gauges: Vec<StrainGauges>,
 }
 
 impl MeshElement {
@@ -75,7 +80,27 @@ impl MeshElement {
             },
             bodies: [gear_1.body, gear_2.body],
             mesh,
+            gauges: Vec::new(),
         }
+    }
+
+    /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and `…_method2_ustrain`.
+    ///
+    /// # Errors
+    /// As [`StrainGauges::new`].
+    ///
+    /// # Panics
+    /// If `gear` is neither 1 nor 2.
+    pub fn with_gauges(
+        mut self,
+        gear: usize,
+        model: &ReducedGear,
+        names: &[&str],
+        modal_part: ModalPart,
+    ) -> Result<Self, DrivetrainError> {
+        let gauges = StrainGauges::new(&self.mesh, gear, model, names, modal_part)?;
+        self.gauges.push(gauges);
+        Ok(self)
     }
 
     /// The mesh.
@@ -87,6 +112,74 @@ impl MeshElement {
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
         self.pair.motion(&gear_1, &gear_2)
+    }
+
+    /// The mesh at a motion of its bodies and their modes.
+    fn load(
+        &mut self,
+        view: &View<'_>,
+        motion: &RelativeMotion,
+        tangents: bool,
+    ) -> Result<MeshLoad, DrivetrainError> {
+        let counts = self.mesh.modal_loads().counts();
+        let mut modal = ModalMotion::default();
+        for (gear, body) in self.bodies.into_iter().enumerate() {
+            if counts[gear] == 0 {
+                continue;
+            }
+            modal.coordinates[gear] = view.modal(body);
+            modal.rates[gear] = view.modal_rates(body);
+            if modal.coordinates[gear].len() != counts[gear] {
+                return Err(DrivetrainError::Length {
+                    owner: "gear mesh",
+                    what: "the list of modes of a gear's body",
+                    found: modal.coordinates[gear].len(),
+                    expected: counts[gear],
+                });
+            }
+        }
+        self.mesh
+            .evaluate_modal(&Pose::from(motion), &modal, tangents)
+    }
+
+    /// Adds forces on modes and their tangents; `places`: where the bodies' degrees of freedom begin.
+    fn add_modal(&self, motion: &RelativeMotion, places: [usize; 2], loads: &mut Loads) {
+        let modal = self.mesh.modal_loads();
+        let [first, _] = modal.counts();
+        let place_of = |mode: usize| match mode.checked_sub(first) {
+            None => places[0] + 6 + mode,
+            Some(of_2) => places[1] + 6 + of_2,
+        };
+        for (mode, force) in modal.force.iter().enumerate() {
+            loads.add_force(place_of(mode), &[*force]);
+        }
+        if !loads.wants_tangents() {
+            return;
+        }
+        let jacobian = motion.jacobian();
+        let rate_jacobian = motion.rate_jacobian(&jacobian);
+        let count = modal.count();
+        for mode in 0..count {
+            let at = place_of(mode);
+            let by_pose = modal.force_by_pose[mode].transpose();
+            let by_rates = modal.force_by_rates[mode].transpose();
+            let row = by_pose * jacobian + by_rates * rate_jacobian;
+            let rate_row = by_rates * jacobian;
+            let column = jacobian.tr_mul(&modal.load_by_coordinates[mode]);
+            let rate_column = jacobian.tr_mul(&modal.load_by_rates[mode]);
+            for dof in 0..12 {
+                let other = places[dof / 6] + dof % 6;
+                loads.add_by_position(at, other, row[dof]);
+                loads.add_by_velocity(at, other, rate_row[dof]);
+                loads.add_by_position(other, at, column[dof]);
+                loads.add_by_velocity(other, at, rate_column[dof]);
+            }
+            for other in 0..count {
+                let to = place_of(other);
+                loads.add_by_position(at, to, modal.by_coordinates[mode * count + other]);
+                loads.add_by_velocity(at, to, modal.by_rates[mode * count + other]);
+            }
+        }
     }
 }
 
@@ -101,17 +194,17 @@ impl ForceElement for MeshElement {
 
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
-        let mesh = self
-            .mesh
-            .evaluate(&Pose::from(&motion), loads.wants_tangents())?;
+        let tangents = loads.wants_tangents();
+        let mesh = self.load(view, &motion, tangents)?;
+        self.mesh.remember();
         loads.power = mesh.power;
-        let on_pair = PairForce::new(&mesh, &motion, loads.wants_tangents());
+        let on_pair = PairForce::new(&mesh, &motion, tangents);
         // Modal coordinates of gear 1 stand between the two.
         let places = [0, 6 + view.modal(self.bodies[0]).len()];
         for (half, place) in places.iter().enumerate() {
             loads.add_force(*place, &on_pair.force.as_slice()[6 * half..6 * half + 6]);
         }
-        if loads.wants_tangents() {
+        if tangents {
             for column in 0..12 {
                 let to = places[column / 6] + column % 6;
                 for row in 0..12 {
@@ -121,11 +214,18 @@ impl ForceElement for MeshElement {
                 }
             }
         }
+        if self.mesh.modal_loads().count() > 0 {
+            self.add_modal(&motion, places, loads);
+        }
         Ok(())
     }
 
-    fn commit(&mut self, _view: &View<'_>) {
-        self.mesh.forget();
+    fn save(&self, out: &mut Vec<f64>) {
+        self.mesh.save(out);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        self.mesh.restore(numbers);
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -133,18 +233,26 @@ impl ForceElement for MeshElement {
             FlankSide::Right => "normal_force_right_N",
             FlankSide::Left => "normal_force_left_N",
         });
+        let strain = self.gauges.iter().flat_map(|gauges| {
+            let names = gauges.names().iter();
+            names.flat_map(|name| {
+                [1, 2].map(|method| {
+                    format!("strain_gear{}_{name}_method{method}_ustrain", gauges.gear())
+                })
+            })
+        });
         sides
             .chain(["transmission_error_m", "loaded_pairs"])
-            .map(|name| Channel {
-                name: name.to_owned(),
-            })
+            .map(str::to_owned)
+            .chain(strain)
+            .map(|name| Channel { name })
             .collect()
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
         // What fails here has failed in the step itself, or will in the next one.
-        let pose = Pose::from(&self.motion(view));
-        if self.mesh.evaluate(&pose, false).is_err() {
+        let motion = self.motion(view);
+        if self.load(view, &motion, false).is_err() {
             out.fill(f64::NAN);
             return;
         }
@@ -161,9 +269,17 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        // A run must not depend on when it was looked at.
-        self.mesh.forget();
         out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
         out[sides + 1] = pairs as f64;
+        let mut places = out[sides + 2..].iter_mut();
+        for gauges in &mut self.gauges {
+            let coordinates = view.modal(self.bodies[gauges.gear() - 1]);
+            for strain in gauges.read(&self.mesh, coordinates) {
+                let both = [strain.method_1, strain.method_2];
+                for (value, place) in both.into_iter().zip(places.by_ref()) {
+                    *place = 1e6 * value;
+                }
+            }
+        }
     }
 }

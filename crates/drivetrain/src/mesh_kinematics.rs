@@ -29,6 +29,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
 use crate::flank_error::{FlankError, FlankPoint};
+use crate::flank_modes::ModalRows;
 use crate::pose::{Pose, Vector6};
 
 /// 6×6 matrix on the increments of a pose.
@@ -98,6 +99,27 @@ pub struct SlicePlane {
     pub polar_rad: f64,
 }
 
+/// What both sides of the teeth share in a slice plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct CentreLine {
+    z_m: f64,
+    /// e_r(β)
+    radial: Vector3<f64>,
+    /// sin α and cos α.
+    pressure_angle: (f64, f64),
+    pressure_angle_rad: f64,
+    length_m: f64,
+    polar_rad: f64,
+}
+
+/// Slice planes at a pose, what both sides of the teeth share. Reused from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct PoseGeometry {
+    slices: Vec<CentreLine>,
+    middle: Option<CentreLine>,
+    spin_rad: f64,
+}
+
 /// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct FlankContacts {
@@ -107,6 +129,8 @@ pub struct FlankContacts {
     pub lines: Vec<TeethLine>,
     /// Their slices, line by line.
     pub contacts: Vec<ToothContact>,
+    /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
+    pub modal: [ModalRows; 2],
 }
 
 impl FlankContacts {
@@ -117,6 +141,7 @@ impl FlankContacts {
             planes: Vec::with_capacity(planes),
             lines: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
+            modal: [ModalRows::default(), ModalRows::default()],
         }
     }
 }
@@ -240,35 +265,27 @@ impl MeshKinematics {
             - side.mirror() * seen_from_mate
     }
 
-    /// The slice plane at z.
-    fn plane(&self, pose: &Pose, side: FlankSide, z_m: f64) -> Result<SlicePlane, DrivetrainError> {
+    /// The centre line in the plane z.
+    fn centre_line(&self, pose: &Pose, z_m: f64) -> Result<CentreLine, DrivetrainError> {
         let d = pose.displacement_m + z_m * pose.axis_2();
         let distance = d[0].hypot(d[1]);
         let (length_m, pressure_angle_rad) = line_of_action(&self.gears, distance)?;
-        let radial = Vector3::new(d[0] / distance, d[1] / distance, 0.0);
-        let tangential = Vector3::new(-radial[1], radial[0], 0.0);
-        let (sin, cos) = pressure_angle_rad.sin_cos();
-        let normal = sin * radial - side.mirror() * cos * tangential;
-        Ok(SlicePlane {
+        let sum = self.gears[0].base_radius_m + self.gears[1].base_radius_m;
+        Ok(CentreLine {
             z_m,
-            normal,
-            across: Vector3::new(-normal[1], normal[0], 0.0),
-            length_m,
+            radial: Vector3::new(d[0] / distance, d[1] / distance, 0.0),
+            pressure_angle: (length_m / distance, sum / distance),
             pressure_angle_rad,
+            length_m,
             polar_rad: d[1].atan2(d[0]),
         })
     }
 
-    /// Finds all pairs of teeth that face each other with their flanks of one side.
+    /// Finds what both sides of the teeth share.
     ///
     /// # Errors
     /// [`DrivetrainError::Misalignment`], [`DrivetrainError::CentreDistance`].
-    pub fn contacts(
-        &self,
-        pose: &Pose,
-        side: FlankSide,
-        found: &mut FlankContacts,
-    ) -> Result<(), DrivetrainError> {
+    pub fn locate(&self, pose: &Pose, at: &mut PoseGeometry) -> Result<(), DrivetrainError> {
         let tilt = pose.misalignment_rad();
         // NaN is refused, too.
         if tilt.is_nan() || tilt > LARGEST_MISALIGNMENT_RAD {
@@ -277,14 +294,55 @@ impl MeshKinematics {
                 allowed_mrad: LARGEST_MISALIGNMENT_RAD * 1e3,
             });
         }
+        at.slices.clear();
+        at.middle = None;
+        for &z in &self.slices_m {
+            let line = self.centre_line(pose, z)?;
+            if z == 0.0 {
+                at.middle = Some(line);
+            }
+            at.slices.push(line);
+        }
+        if at.middle.is_none() {
+            at.middle = Some(self.centre_line(pose, 0.0)?);
+        }
+        at.spin_rad = pose.spin_rad();
+        Ok(())
+    }
+
+    /// Finds all pairs of teeth that face each other with their flanks of one side.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    pub fn contacts(
+        &self,
+        pose: &Pose,
+        side: FlankSide,
+        found: &mut FlankContacts,
+    ) -> Result<(), DrivetrainError> {
+        let mut at = PoseGeometry::default();
+        self.locate(pose, &mut at)?;
+        self.contacts_at(pose, &at, side, found);
+        Ok(())
+    }
+
+    /// The same at a pose that has been located already.
+    pub fn contacts_at(
+        &self,
+        pose: &Pose,
+        at: &PoseGeometry,
+        side: FlankSide,
+        found: &mut FlankContacts,
+    ) {
         found.planes.clear();
         found.lines.clear();
         found.contacts.clear();
-        for &z in &self.slices_m {
-            found.planes.push(self.plane(pose, side, z)?);
-        }
-        let middle = self.plane(pose, side, 0.0)?;
-        let spin = pose.spin_rad();
+        let Some(middle) = &at.middle else {
+            return;
+        };
+        let planes = at.slices.iter().map(|line| line.plane(side));
+        found.planes.extend(planes);
+        let (middle, spin) = (middle.plane(side), at.spin_rad);
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = [0, 1].map(|i| self.gears[i].flank_end_roll_rad + self.reach_rad[i]);
@@ -304,7 +362,6 @@ impl MeshKinematics {
                 self.add_line(pose, side, (&middle, spin, counts), found);
             }
         }
-        Ok(())
     }
 
     /// Adds the pair of teeth that stand `counts` pitches from tooth 0 against the sense of growing roll.
@@ -417,6 +474,23 @@ fn line_of_action(
 
 fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
     Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
+}
+
+impl CentreLine {
+    /// The slice plane for flanks of one side.
+    fn plane(&self, side: FlankSide) -> SlicePlane {
+        let (sin, cos) = self.pressure_angle;
+        let tangential = Vector3::new(-self.radial[1], self.radial[0], 0.0);
+        let normal = sin * self.radial - side.mirror() * cos * tangential;
+        SlicePlane {
+            z_m: self.z_m,
+            normal,
+            across: Vector3::new(-normal[1], normal[0], 0.0),
+            length_m: self.length_m,
+            pressure_angle_rad: self.pressure_angle_rad,
+            polar_rad: self.polar_rad,
+        }
+    }
 }
 
 impl SlicePlane {

@@ -57,40 +57,92 @@ impl TeethLoads {
 
 /// A model of the teeth of one side.
 pub trait TeethModel: Send {
-    /// Normal forces at given gaps and gap rates, into `loads`, which has been sized and is all zero. Must depend on its arguments
-    /// only, but for rounding: a warm start is allowed.
+    /// Normal forces at given gaps and gap rates, into `loads`, which has been sized and is all zero; stiffness and damping at least where
+    /// `tangents`. Must depend on its arguments only, but for rounding: a warm start from what was last remembered is allowed.
     ///
     /// # Errors
     /// Whatever keeps the model from giving forces.
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError>;
+
+    /// K d: how much the forces of the last evaluation fall when the gaps open by d \[m\], into `forces`. For models that fill the
+    /// stiffness in every evaluation, as those with a spring of its own for each contact do.
+    fn apply_stiffness(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &TeethLoads,
+        opening_m: &[f64],
+        forces_n: &mut [f64],
+    ) {
+        let n = flanks.contacts.len();
+        for (row, force) in forces_n.iter_mut().enumerate() {
+            let entries = &loads.stiffness_n_per_m[row * n..][..n];
+            *force = entries.iter().zip(opening_m).map(|(k, d)| k * d).sum();
+        }
+    }
 
     /// Whether single teeth carry: if not, their errors cannot be felt and are refused.
     fn resolves_teeth(&self) -> bool {
         true
     }
 
-    /// Forgets warm starts. Called at the end of every accepted step, so that a run that is resumed there repeats bit by bit.
-    fn forget(&mut self) {}
+    /// Whether the model's compliance is that of reduced gears, from which the share of vibration modes can be taken.
+    fn takes_modes(&self) -> bool {
+        false
+    }
+
+    /// Takes the forces of the last evaluation as the start of the next ones. Not called after evaluations for output: a run must not
+    /// depend on when it is looked at.
+    fn remember(&mut self) {}
+
+    /// Appends what is remembered, always as many numbers, so that a run that is resumed repeats bit by bit.
+    fn save(&self, _out: &mut Vec<f64>) {}
+
+    /// Takes what [`Self::save`] wrote.
+    fn restore(&mut self, _numbers: &[f64]) {}
 }
 
 impl TeethModel for Box<dyn TeethModel> {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
-        (**self).evaluate(flanks, loads)
+        (**self).evaluate(flanks, tangents, loads)
+    }
+
+    fn apply_stiffness(
+        &mut self,
+        flanks: &FlankContacts,
+        loads: &TeethLoads,
+        opening_m: &[f64],
+        forces_n: &mut [f64],
+    ) {
+        (**self).apply_stiffness(flanks, loads, opening_m, forces_n);
     }
 
     fn resolves_teeth(&self) -> bool {
         (**self).resolves_teeth()
     }
 
-    fn forget(&mut self) {
-        (**self).forget();
+    fn takes_modes(&self) -> bool {
+        (**self).takes_modes()
+    }
+
+    fn remember(&mut self) {
+        (**self).remember();
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        (**self).save(out);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        (**self).restore(numbers);
     }
 }

@@ -68,12 +68,39 @@ fn evaluations_do_not_allocate() {
             .collect();
         for at in &poses {
             mesh.evaluate(at, true).unwrap();
+            mesh.remember();
         }
-        mesh.forget();
         let before = ALLOCATIONS.with(Cell::get);
         for at in &poses {
             mesh.evaluate(at, true).unwrap();
+            mesh.remember();
         }
         assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0, "{name}");
     }
+}
+
+/// Whole steps of a system, output with gauges included.
+#[test]
+fn steps_and_output_do_not_allocate() {
+    use mesh_common::running_pair::*;
+    let pair = pair_a();
+    let system = running_pair(&pair, running_mesh("hybrid", &pair), 8);
+    let mut run = gearmesh_dynamics::Simulation::new(system.build().unwrap(), params()).unwrap();
+    let names = run.system().channels();
+    let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();
+    let counts: Vec<usize> = run.system().elements().map(of).collect();
+    let mut out = vec![0.0; names.len()];
+    let (mut before, mut steps) = (0, 0);
+    run.run(200.0 * STEP_S, |step| {
+        step.system.sample(step.to, &counts, &mut out);
+        steps += 1;
+        // One mesh period warms everything up.
+        if steps == 60 {
+            before = ALLOCATIONS.with(Cell::get);
+        }
+        std::ops::ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert!(steps > 190);
+    assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0);
 }

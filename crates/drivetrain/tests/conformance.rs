@@ -524,6 +524,13 @@ fn absent_effects_cost_nothing() {
     let effort = plain.effort();
     assert_eq!((effort.poses, effort.models, effort.friction), (1, 1, 0));
     assert!(plain.side(FlankSide::Left).is_none());
+    assert_eq!(plain.modal_loads().count(), 0);
+    assert!(
+        plain
+            .friction_coefficients(FlankSide::Right)
+            .iter()
+            .all(|mu| *mu == 0.0)
+    );
     let mut rubbing = one_side(&pair).with_friction(friction());
     rubbing.evaluate(&at, true).unwrap();
     assert!(rubbing.effort().friction >= SLICES as u64);

@@ -190,8 +190,9 @@ impl Body {
         Ok(())
     }
 
-    /// Mass matrix for the undeformed body in body axes, size 6 + modes.
-    fn mass_matrix_in_body_axes(&self) -> DMatrix<f64> {
+    /// Mass matrix for the undeformed body in body axes about the reference point, size 6 + modes.
+    #[must_use]
+    pub fn mass_matrix_in_body_axes(&self) -> DMatrix<f64> {
         let size = 6 + self.mode_count();
         let mut mass = DMatrix::identity(size, size);
         let offset = self.mass_kg * self.center_of_mass_m.cross_matrix();

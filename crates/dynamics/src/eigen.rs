@@ -56,7 +56,8 @@ impl NaturalMode {
     pub fn damping_ratio(&self) -> f64 {
         let size = self.natural_angular_frequency_rad_per_s();
         if size > 0.0 {
-            -self.growth_per_s / size
+            // No negative zero.
+            0.0 - self.growth_per_s / size
         } else {
             0.0
         }

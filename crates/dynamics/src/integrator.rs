@@ -8,7 +8,8 @@
 //! [B T                    0 ] [βh² δλ ]  = − [violation   ]        μ = (1 − α_m)/(1 − α_f)
 //! ```
 //!
-//! The factors are kept from step to step and made anew, at the present iterate, when the step length has changed or corrections shrink
+//! The factors are kept from step to step, what a step's own corrections tell about their error is used within it (`secants.rs`), and they
+//! are made anew, at the present iterate, when the step length has changed or corrections shrink
 //! too slowly.
 //!
 //! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
@@ -17,10 +18,12 @@ use nalgebra::Vector3;
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
+use crate::joint::Joint;
 use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::Saddle;
 use crate::scheme::{Params, Scheme};
+use crate::secants::Secants;
 use crate::state::State;
 use crate::system::System;
 
@@ -31,7 +34,7 @@ const SLOW: f64 = 0.2;
 const STALLED: f64 = 100.0;
 
 /// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
-/// Velocities carry it divided by the step.
+/// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
 const ROUNDING: f64 = 1e-15;
 
 /// All that the scheme carries from step to step.
@@ -81,6 +84,10 @@ pub(crate) struct Integrator {
     projector: Saddle,
     pub kinds: Vec<usize>,
     floor: [f64; KINDS],
+    /// 1 + the largest counted angle \[rad\] at the start of the step: what multiplies the floor.
+    revolved: f64,
+    /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
+    reach: (f64, f64),
     matrix: Matrix,
     turned: Matrix,
     increment: Vec<f64>,
@@ -90,6 +97,7 @@ pub(crate) struct Integrator {
     inverse_mass: Vec<f64>,
     right: Vec<f64>,
     right_joints: Vec<f64>,
+    secants: Secants,
     pub effort: Effort,
 }
 
@@ -111,7 +119,9 @@ impl Integrator {
             projector: Saddle::new(&diagonal, &system.kept),
             kinds: kinds.collect(),
             floor: [ROUNDING * size, ROUNDING, ROUNDING * size * heaviest.sqrt()],
+            reach: (size, heaviest.sqrt()),
             matrix: Matrix::zeros(n, n),
+            revolved: 1.0,
             turned: Matrix::zeros(n, m),
             increment: vec![0.0; n],
             delta: vec![0.0; n],
@@ -120,6 +130,7 @@ impl Integrator {
             inverse_mass: diagonal.iter().map(|mass| 1.0 / mass).collect(),
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
+            secants: Secants::new(&diagonal, m),
             effort: Effort::default(),
         }
     }
@@ -142,8 +153,11 @@ impl Integrator {
         let (scheme, mass_factor) = (self.scheme, self.scheme.mass_factor());
         let square = scheme.beta * h * h;
         self.predict(system, from, to, h);
+        let angles = system.joints.iter().map(Joint::largest_angle_rad);
+        self.revolved = 1.0 + angles.fold(0.0, f64::max);
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut place) = (f64::INFINITY, 0);
+        self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
             let detail = if stale {
@@ -166,6 +180,7 @@ impl Integrator {
                         StepFailure::Singular
                     });
                 }
+                self.secants.reset();
                 stale = false;
             }
             for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
@@ -180,6 +195,7 @@ impl Integrator {
                 &mut self.delta,
                 &mut self.mu,
             );
+            self.secants.improve(&mut self.delta, &mut self.mu);
             let (ratio, largest, above_floor) =
                 self.measure(system, from, h, params.newton_tolerance);
             if !ratio.is_finite() {
@@ -316,15 +332,20 @@ impl Integrator {
         {
             size[kind] = size[kind].max(increment.abs()).max(h * velocity.abs());
         }
+        // A turn moves places, too: what hardly moves in a system that spins need not be exact to a share of its own small motion.
+        let (arm, root_mass) = self.reach;
+        size[0] = size[0].max(arm * size[1]);
+        size[2] = size[2].max(root_mass * size[0]);
         let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
         let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
             let correction = delta.abs().max((inverse * push).abs());
-            let ratio = correction / (tolerance * size[kind] + self.floor[kind]);
+            let floor = self.floor[kind] * self.revolved;
+            let ratio = correction / (tolerance * size[kind] + floor);
             if ratio.is_nan() || ratio > worst {
                 (worst, place) = (ratio, dof);
             }
-            above = above.max(correction / self.floor[kind]);
+            above = above.max(correction / floor);
         }
         (worst, place, above)
     }

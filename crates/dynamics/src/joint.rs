@@ -201,6 +201,12 @@ impl Joint {
         self.angles[0].committed_rad()
     }
 
+    /// Largest magnitude of its counted angles at the last accepted step \[rad\].
+    pub(crate) fn largest_angle_rad(&self) -> f64 {
+        let angles = self.angles.iter().map(RelativeAngle::committed_rad);
+        angles.fold(0.0, |most, angle| most.max(angle.abs()))
+    }
+
     /// Whether the joint has an angle whose turns are counted.
     fn counts_turns(&self) -> bool {
         let mut terms = self.equations.iter().flat_map(|equation| &equation.terms);
@@ -339,6 +345,19 @@ impl Joint {
         load
     }
 
+    /// Force \[N\] and moment \[N·m\] of the joint on the body of marker B of a pair, in B's origin and along A's axes; the body of A
+    /// feels the opposite. `lambda` holds the reactions of this joint's equations: −Σ λ ∂(equation)/∂(u, rotation).
+    #[must_use]
+    pub fn load(&self, pair: usize, lambda: &[f64], motion: &RelativeMotion) -> SVector<f64, 6> {
+        let mut load = SVector::<f64, 6>::zeros();
+        for (equation, lambda) in lambda.iter().enumerate() {
+            if *lambda != 0.0 {
+                load -= *lambda * self.unit_load(equation, pair, motion, None);
+            }
+        }
+        load
+    }
+
     /// Bᵀλ of one pair.
     pub(crate) fn reaction(
         &self,
@@ -346,13 +365,7 @@ impl Joint {
         lambda: &[f64],
         motion: &RelativeMotion,
     ) -> SVector<f64, 12> {
-        let mut load = SVector::<f64, 6>::zeros();
-        for (equation, lambda) in lambda.iter().enumerate() {
-            if *lambda != 0.0 {
-                load += *lambda * self.unit_load(equation, pair, motion, None);
-            }
-        }
-        motion.generalised_force(&load)
+        motion.generalised_force(&-self.load(pair, lambda, motion))
     }
 
     /// ∂(Bᵀλ)/∂increments of one pair.

@@ -86,8 +86,8 @@ pub struct Params {
     pub rho_infinity: f64,
     /// Step length.
     pub step: StepControl,
-    /// Newton ends when what is left is estimated below this share of the step's own increment, for places, rotations and modal
-    /// coordinates each. Default 1e-10: velocities carry about twice that share as error of a step, reactions that share of v/h.
+    /// Newton ends when what is left is estimated below this share of the step's own largest increment, for places, rotations and modal
+    /// coordinates each; a rotation counts as a motion of places at the system's size. Default 1e-10: velocities carry about twice that share as error of a step, reactions that share of v/h.
     pub newton_tolerance: f64,
     /// Newton iterations after which a step is given up. Default 20; three are usual.
     pub most_iterations: usize,

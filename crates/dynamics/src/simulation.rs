@@ -42,8 +42,12 @@ pub struct Accepted<'a> {
     pub from: &'a State,
     /// State at its end.
     pub to: &'a State,
-    /// Reactions λ at its end, one for each joint equation.
+    /// Reactions λ at its start, one for each joint equation.
+    pub lambda_from: &'a [f64],
+    /// Reactions λ at its end.
     pub lambda: &'a [f64],
+    /// v̇ at its start.
+    pub acceleration_from: &'a [f64],
     /// v̇ at its end.
     pub acceleration: &'a [f64],
     /// Records up to its end.
@@ -83,6 +87,19 @@ impl OutputGrid {
     pub fn from_time(mut self, time_s: f64) -> Self {
         self.next = (time_s / self.interval_s - 1e-9).ceil().max(0.0) as u64;
         self
+    }
+
+    /// Begins with the grid time of this number.
+    #[must_use]
+    pub fn from_index(mut self, index: u64) -> Self {
+        self.next = index;
+        self
+    }
+
+    /// Number of the grid time that comes next.
+    #[must_use]
+    pub fn next_index(&self) -> u64 {
+        self.next
     }
 
     /// Calls `write` with the interpolated state at every grid time that the step reaches.
@@ -221,7 +238,9 @@ impl Simulation {
             let mut step = Accepted {
                 from: &self.other.state,
                 to: &self.now.state,
+                lambda_from: &self.other.lambda,
                 lambda: &self.now.lambda,
+                acceleration_from: &self.other.acceleration,
                 acceleration: &self.now.acceleration,
                 info: &self.info,
                 system: &mut self.system,

@@ -7,7 +7,8 @@
 //!
 //! Each correction is the smallest that solves this (singular value decomposition of the scaled matrix). Directions that nothing
 //! resists are thereby held and reported by name, or refused. A load along such a direction moves the system along it for some
-//! iterations, because resistance may come with the position (a pendulum released level); if none comes it is an error.
+//! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
+//! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
 
 use faer::Mat;
 use nalgebra::Vector3;
@@ -29,6 +30,10 @@ const BALANCED: f64 = 1e-9;
 
 /// Longest correction of one iteration: radians, and shares of the system's size.
 const LONGEST: f64 = 0.2;
+
+/// First move along a free direction, largest entry in m or rad, and the factor by which the next one is longer while none resists.
+const FIRST_PUSH: f64 = 1e-6;
+const PUSH_GROWTH: f64 = 2.0;
 
 /// What to do about motions that nothing resists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,10 +102,23 @@ pub fn equilibrium(
     start: &State,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
+    system.begin(start);
+    next_equilibrium(system, start, params)
+}
+
+/// As [`equilibrium`], but joints and elements go on from the motion that they were last committed to: for a series of equilibria in
+/// which turns are counted and couplings hold.
+///
+/// # Errors
+/// As [`equilibrium`].
+pub fn next_equilibrium(
+    system: &mut System,
+    start: &State,
+    params: &StaticParams,
+) -> Result<Equilibrium, DynamicsError> {
     let (n, m) = (system.degrees_of_freedom(), system.equations());
     let mut equations = Equations::new(system);
     let mut state = start.clone();
-    system.begin(&state);
     let rest = vec![0.0; n];
     // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
     let mut lambda = system.accelerations(&state)?.lambda;
@@ -110,6 +128,7 @@ pub fn equilibrium(
     for step in 1..=params.load_steps.max(1) {
         let load_factor = step as f64 / params.load_steps.max(1) as f64;
         let mut iteration = 0;
+        let mut push = FIRST_PUSH;
         loop {
             iteration += 1;
             let at = At {
@@ -135,10 +154,11 @@ pub fn equilibrium(
                 if iteration >= params.most_iterations {
                     return Err(unbalanced_error(system, &correction, k));
                 }
-                let push = -LONGEST * 0.5 * correction.load[k].signum();
+                let signed = -push * correction.load[k].signum();
                 for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
-                    *value += push * free;
+                    *value += signed * free;
                 }
+                push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
             }
             let (ratio, largest) = measure(system, &correction.values[..n], size);
             let shortening = (LONGEST / ratio).min(1.0);

@@ -148,6 +148,21 @@ impl System {
         self.slots.iter().flat_map(of).collect()
     }
 
+    /// The bodies' numbers, in their order.
+    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> + use<> {
+        (0..self.bodies.len()).map(BodyId)
+    }
+
+    /// Motion of a body in a state; the ground's is at rest.
+    #[must_use]
+    pub fn body_motion(&self, state: &State, body: BodyId) -> BodyMotion {
+        if body == GROUND {
+            BodyMotion::at_rest()
+        } else {
+            BodyMotion::of(state, &self.layout, body.0)
+        }
+    }
+
     /// Writes all channels at a motion, in the order of [`Self::channels`]. `counts` holds the number of channels of each element,
     /// so that nothing is allocated here.
     pub fn sample(&mut self, state: &State, counts: &[usize], out: &mut [f64]) {

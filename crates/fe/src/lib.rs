@@ -123,7 +123,7 @@ pub use factor::{Factor, FactorInfo, SymbolicFactor};
 pub use graph::NodeGraph;
 pub use hex8::CORNERS;
 pub use hex20::EDGE_CORNERS;
-pub use mass::{assemble_mass, mass_product};
+pub use mass::{assemble_mass, mass_moments, mass_product};
 pub use material::{LameParameters, Material, von_mises};
 pub use model::{ElementBlock, FeModel};
 pub use modes::{

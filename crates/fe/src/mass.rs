@@ -110,6 +110,44 @@ pub fn mass_product(
     Ok(product)
 }
 
+/// Mass moments ρ∫(1, x, y, z, x², y², z², xy, yz, zx) dV of a model of one density, from the same points as M: RᵀMR of the rigid
+/// motions R without a matrix, because they are linear in x as the shape functions are.
+///
+/// # Errors
+/// [`FeError::DensityOutOfRange`]; [`FeError::Element`].
+pub fn mass_moments(model: &FeModel, density_kg_per_m3: f64) -> Result<[f64; 10], FeError> {
+    check_density(density_kg_per_m3)?;
+    let of_element = |element: usize| {
+        let kind = model.element_of(element);
+        let coordinates = model.element_coordinates(element)?;
+        let mut sums = [0.0; 10];
+        for &(point, weight) in kind.mass_points() {
+            let determinant = kind
+                .jacobian_determinant(&coordinates, point)
+                .map_err(|source| FeError::Element { element, source })?;
+            let mass = density_kg_per_m3 * weight * determinant;
+            let shape = kind.shape_functions(point);
+            let [x, y, z] = std::array::from_fn(|k| {
+                let terms = shape.iter().zip(&coordinates).map(|(n, c)| n * c[k]);
+                terms.sum::<f64>()
+            });
+            for (sum, part) in
+                (sums.iter_mut()).zip([1.0, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x])
+            {
+                *sum += mass * part;
+            }
+        }
+        Ok(sums)
+    };
+    // Elements in parallel, sums always in their order.
+    let elements: Vec<usize> = (0..model.element_count()).collect();
+    let parts = elements.par_iter().map(|&element| of_element(element));
+    let parts = parts.collect::<Result<Vec<_>, FeError>>()?;
+    Ok(parts.iter().fold([0.0; 10], |sums, part| {
+        std::array::from_fn(|k| sums[k] + part[k])
+    }))
+}
+
 fn element_mass(
     model: &FeModel,
     element: usize,

@@ -6,7 +6,17 @@ use std::path::PathBuf;
 
 /// Hand of a flank: the right flank faces clockwise seen from +z.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum FlankSide {
@@ -92,7 +102,7 @@ pub struct Blank {
 pub struct Contour {
     /// Back and front of the hub \[m\].
     pub hub_z_m: [f64; 2],
-    /// Points from the hub to the rim, straight between them; at least two.
+    /// Points from the hub to the rim, straight between them; at least two. Two at one radius are a step.
     pub web: Vec<ContourPoint>,
 }
 
@@ -103,6 +113,8 @@ pub struct ContourPoint {
     pub radius_m: f64,
     /// Back and front \[m\].
     pub z_m: [f64; 2],
+    /// Fillet radius of the corners of back and front there \[m\]; zero for sharp ones.
+    pub fillet_radius_m: f64,
 }
 
 /// A gear that was meshed elsewhere.
@@ -128,7 +140,7 @@ impl MeshedBody {
 }
 
 /// Unit of the coordinates in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
 pub enum LengthUnit {
     /// Metres.
     #[serde(rename = "m")]
@@ -255,7 +267,7 @@ pub enum ModeRange {
 }
 
 /// How the bore is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HubSupport {
     /// Fixed.
@@ -266,7 +278,9 @@ pub enum HubSupport {
 }
 
 /// Finite element of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum ElementKind {
     /// Eight nodes, full integration.
@@ -275,6 +289,8 @@ pub enum ElementKind {
     Hex8Incompatible,
     /// Twenty nodes, quadratic, with curved edges.
     Hex20,
+    /// Tetrahedra of ten nodes, quadratic, with curved edges; the body below the teeth is meshed freely.
+    Tet10,
 }
 
 /// Element sizes and the quality that the mesh must reach.
@@ -282,6 +298,8 @@ pub enum ElementKind {
 pub struct MeshSettings {
     /// Element.
     pub element: ElementKind,
+    /// Why tetrahedra were chosen, where the definition leaves the choice.
+    pub chosen_because: Option<&'static str>,
     /// Element length along the flank \[m\].
     pub flank_m: f64,
     /// Element length along the root fillet \[m\].
@@ -297,7 +315,7 @@ pub struct MeshSettings {
 }
 
 /// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// One tooth and one sector are factorised, and the ring of sectors by its harmonics.

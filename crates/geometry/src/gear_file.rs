@@ -16,10 +16,10 @@ mod reduction_table;
 mod tooth_table;
 
 use crate::definition::{GearDefinition, HubSupport};
-use crate::input::{InputDocument, InputError};
+use crate::input::{InputDocument, InputError, TableKeys};
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use std::fmt::Display;
 use std::path::Path;
 
 /// A millimetre in metres.
@@ -27,8 +27,14 @@ const MM: f64 = 1e-3;
 /// A micrometre in metres.
 const UM: f64 = 1e-6;
 
-/// The keys of a gear file.
-#[derive(Deserialize)]
+/// JSON Schema (draft 2020-12) of gear files. What depends on other keys is checked when the file is read.
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(GearFile)
+}
+
+/// A gear file.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(title = "gearmesh gear")]
 #[serde(deny_unknown_fields)]
 struct GearFile {
     name: String,
@@ -110,33 +116,5 @@ impl GearDefinition {
             profile,
             source: document.text.clone(),
         })
-    }
-}
-
-/// The keys of one table, for complaints about their values.
-struct TableKeys<'a> {
-    document: &'a InputDocument,
-    /// Dotted path of the table.
-    table: &'a str,
-}
-
-impl<'a> TableKeys<'a> {
-    fn new(document: &'a InputDocument, table: &'a str) -> Self {
-        Self { document, table }
-    }
-
-    /// A complaint about the value of `key`.
-    fn error(&self, key: &str, problem: impl Display) -> InputError {
-        self.document
-            .error(&format!("{}.{key}", self.table), problem)
-    }
-
-    /// Complains unless `value` is finite and `ok`, that is within the range that `allowed` says.
-    fn require(&self, key: &str, value: f64, ok: bool, allowed: &str) -> Result<(), InputError> {
-        if ok && value.is_finite() {
-            Ok(())
-        } else {
-            Err(self.error(key, format!("found {value}, allowed is {allowed}")))
-        }
     }
 }

@@ -1,6 +1,9 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod table_keys;
 mod wording;
+
+pub use table_keys::TableKeys;
 
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;

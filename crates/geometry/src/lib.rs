@@ -7,6 +7,7 @@
 //! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs` |
 //! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
+//! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs` |
 //!
@@ -14,6 +15,7 @@
 //! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
 //! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
 
+pub mod body_outline;
 pub mod definition;
 pub mod fillet;
 pub mod gear_file;

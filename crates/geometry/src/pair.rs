@@ -82,6 +82,9 @@ pub enum PairError {
     },
 }
 
+/// Overlap of the teeth that counts as rounding of the numbers in files \[m\]: gears without backlash are let through.
+const ROUNDING_M: f64 = 1e-9;
+
 /// Small rotation of gear 2's axis against gear 1's, about mid-face.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Misalignment {
@@ -183,7 +186,7 @@ impl GearPair {
             }
         }
         pair.roll_start_1_rad = pair.roll_start_1_rad.max(0.0);
-        if pair.backlash_m() <= 0.0 {
+        if pair.backlash_m() < -ROUNDING_M {
             return Err(PairError::NoBacklash {
                 backlash_mm: pair.backlash_m() * 1e3,
             });

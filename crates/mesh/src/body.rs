@@ -55,7 +55,7 @@ impl BodyProblem {
 }
 
 /// The first tooth of a sector such that the cut before it keeps clear of all openings.
-fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
+pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
     let Some(openings) = gear.blank.openings else {
         return Ok(0);
     };

@@ -9,6 +9,8 @@ pub enum ElementShape {
     Hex8,
     /// Hexahedron with twenty nodes, VTK order: the corners first, then the middles of the edges.
     Hex20,
+    /// Tetrahedron with ten nodes, VTK order: the corners first, then the middles of the edges.
+    Tet10,
 }
 
 impl ElementShape {
@@ -17,6 +19,7 @@ impl ElementShape {
         match kind {
             ElementKind::Hex8 | ElementKind::Hex8Incompatible => Self::Hex8,
             ElementKind::Hex20 => Self::Hex20,
+            ElementKind::Tet10 => Self::Tet10,
         }
     }
 
@@ -25,13 +28,28 @@ impl ElementShape {
         match self {
             Self::Hex8 => 8,
             Self::Hex20 => 20,
+            Self::Tet10 => 10,
         }
+    }
+
+    /// Name of such elements in prints.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Hex8 | Self::Hex20 => "hexahedra",
+            Self::Tet10 => "tetrahedra",
+        }
+    }
+
+    /// True for those with nodes in the middle of their edges.
+    pub const fn is_quadratic(self) -> bool {
+        !matches!(self, Self::Hex8)
     }
 
     /// Number of corners; they are the first nodes of an element.
     pub const fn corner_count(self) -> usize {
         match self {
             Self::Hex8 | Self::Hex20 => 8,
+            Self::Tet10 => 4,
         }
     }
 }

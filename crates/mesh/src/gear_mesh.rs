@@ -1,7 +1,8 @@
 //! Nodes and elements of the whole gear, with the sets that the reduction needs.
 //!
 //! A quadratic mesh has the same section and layers; the section then has nodes in the middle of its edges too, and
-//! between two planes there is a level of nodes half way up, above the quads' corners only.
+//! between two planes there is a level of nodes half way up, above the quads' corners only. Where elements are tetrahedra only
+//! the teeth are made of layers, each brick of them split (`tet_mesh.rs`); the body is a free mesh.
 
 use crate::MeshError;
 use crate::elements::{ElementList, ElementShape};
@@ -11,8 +12,10 @@ use crate::layers::Layers;
 use crate::python::PythonEnvironment;
 use crate::quality::{self, QualityReport};
 use crate::section::Section;
+use crate::solid_body::SolidBody;
+use crate::tet_split;
 use crate::twist::Twist;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -33,12 +36,14 @@ pub struct GearMesh {
     pub twist: Twist,
     /// Quality.
     pub quality: QualityReport,
+    /// Where the body is no part of the layers: its nodes and elements.
+    pub(crate) solid: Option<SolidBody>,
     /// Heights of the nodes \[m\]: the planes between the layers and, with quadratic elements, the middles of the layers.
-    levels_m: Vec<f64>,
+    pub(crate) levels_m: Vec<f64>,
     /// Node by section node and level.
-    node_of: Vec<u32>,
-    /// Element by section quad and layer.
-    element_of: Vec<u32>,
+    pub(crate) node_of: Vec<u32>,
+    /// Element by section quad and layer, the first of several where the brick is split.
+    pub(crate) element_of: Vec<u32>,
 }
 
 impl GearMesh {
@@ -47,6 +52,9 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
+        if gear.mesh.element == ElementKind::Tet10 && gear.blank.meshed.is_none() {
+            return Self::in_tetrahedra(gear, python);
+        }
         if let Some(body) = &gear.blank.meshed {
             return Err(MeshError::MeshedElsewhere {
                 file: body.file.display().to_string(),
@@ -85,9 +93,10 @@ impl GearMesh {
         min_scaled_jacobian: f64,
     ) -> Result<Self, MeshError> {
         let shape = section.element_shape();
-        let levels_m = match shape {
-            ElementShape::Hex8 => layers.planes_m.clone(),
-            ElementShape::Hex20 => layers.planes_and_middles_m(),
+        let levels_m = if shape.is_quadratic() {
+            layers.planes_and_middles_m()
+        } else {
+            layers.planes_m.clone()
         };
         let (n_levels, n_layers) = (levels_m.len(), layers.count());
         let in_layer =
@@ -140,16 +149,7 @@ impl GearMesh {
             }
         }
         let quality = quality::report(&nodes, &elements);
-        if quality.smallest < min_scaled_jacobian {
-            let [x, y, z] = quality.worst_m.map(|v| v * 1e3);
-            return Err(MeshError::Quality {
-                found: quality.smallest,
-                demanded: min_scaled_jacobian,
-                x_mm: x,
-                y_mm: y,
-                z_mm: z,
-            });
-        }
+        quality.demand(min_scaled_jacobian)?;
         Ok(Self {
             nodes,
             elements,
@@ -157,6 +157,7 @@ impl GearMesh {
             layers,
             twist,
             quality,
+            solid: None,
             levels_m,
             node_of,
             element_of,
@@ -192,12 +193,24 @@ impl GearMesh {
                 layers
                     .clone()
                     .filter_map(move |layer| self.element(q, layer))
+                    .flat_map(|first| first..first + self.in_brick())
             })
             .collect()
     }
 
+    /// Elements that a quad has in a layer.
+    pub(crate) fn in_brick(&self) -> u32 {
+        match self.elements.shape() {
+            ElementShape::Hex8 | ElementShape::Hex20 => 1,
+            ElementShape::Tet10 => tet_split::TETRAHEDRA as u32,
+        }
+    }
+
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
+        if let Some(solid) = &self.solid {
+            return solid.bore.clone();
+        }
         self.columns(self.section.bore.iter().copied())
     }
 
@@ -230,11 +243,17 @@ impl GearMesh {
     /// Nodes of a sector's part of hub, web and rim, with what it shares with the teeth, the i-th of each sector the image of
     /// the i-th of sector 0. Outside the web's layers the shared ones are the teeth's alone.
     pub fn body_nodes(&self, sector: usize) -> Vec<u32> {
+        if let Some(solid) = &self.solid {
+            return solid.nodes[sector].clone();
+        }
         self.columns(self.section.body_nodes[sector].iter().copied())
     }
 
     /// Elements of a sector's part of hub, web and rim.
     pub fn body_elements(&self, sector: usize) -> Vec<u32> {
+        if let Some(solid) = &self.solid {
+            return solid.elements[sector].clone().collect();
+        }
         self.elements_of(self.section.body_quads[sector].clone())
     }
 
@@ -246,7 +265,12 @@ impl GearMesh {
         let body = &self.section.body_nodes[sector];
         let in_cell = self.section.cell.right_side.iter().map(|&c| cell[c]);
         let in_body = self.section.body_right_side.iter().map(|&c| body[c]);
-        self.columns(in_cell.chain(in_body))
+        let mut nodes = self.columns(in_cell.chain(in_body));
+        if let Some(solid) = &self.solid {
+            let side = solid.right_side.iter();
+            nodes.extend(side.map(|&local| solid.nodes[sector][local]));
+        }
+        nodes
     }
 
     /// Nodes of one tooth on its outline between two of the outline's corners (numbers along
@@ -295,6 +319,10 @@ impl GearMesh {
                 };
                 let step = if middle.is_some() { 2 } else { 1 };
                 let (low, high) = (step * layer, step * (layer + 1));
+                if let (Some(m), ElementShape::Tet10) = (middle, self.elements.shape()) {
+                    faces.extend(self.split_faces([a, m, b], arcs, layer, element));
+                    continue;
+                }
                 let mut places = vec![
                     (a, arcs[0], low),
                     (b, arcs[1], low),

@@ -74,7 +74,11 @@ mod tests {
 
     #[test]
     fn planes_go_from_the_rim_to_the_hub() {
-        let point = |radius_m, z_m| ContourPoint { radius_m, z_m };
+        let point = |radius_m, z_m| ContourPoint {
+            radius_m,
+            z_m,
+            fillet_radius_m: 0.0,
+        };
         let heights = Heights {
             moved: Some(Moved {
                 contour: Contour {

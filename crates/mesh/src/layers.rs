@@ -5,7 +5,7 @@
 //! Layers that grow with the distance from the edge win that back.
 
 use crate::tooth_cell::{Pieces, graded};
-use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::{ElementKind, GearDefinition};
 
 /// Thickness of the layers at the web's faces, as a share of `axial_m`.
 const AT_EDGE: f64 = 0.2;
@@ -43,14 +43,30 @@ impl Layers {
         }
     }
 
+    /// An even number of equal layers, at most `axial_m` thick.
+    fn even(width_m: f64, axial_m: f64) -> Self {
+        let pairs = (0.5 * width_m / axial_m * (1.0 - 1e-9)).ceil().max(1.0);
+        let count = 2 * pairs as usize;
+        Self {
+            planes_m: (0..=count)
+                .map(|k| width_m * (k as f64 / count as f64 - 0.5))
+                .collect(),
+            web: 0..count,
+        }
+    }
+
     /// Layers of a gear. The web has an even number of them, so that its middle, mid-face of a symmetric gear, is a node
-    /// plane; so has a solid gear. One layer in plane strain.
+    /// plane; so has a solid gear. One layer in plane strain; equal
+    /// ones for the teeth above a body of tetrahedra, which do not know of the web.
     pub fn new(gear: &GearDefinition) -> Self {
         if gear.mesh.plane_strain {
             return Self::single(gear.tooth.face_width_m);
         }
         let half = 0.5 * gear.tooth.face_width_m;
         let axial = gear.mesh.axial_m;
+        if gear.mesh.element == ElementKind::Tet10 {
+            return Self::even(gear.tooth.face_width_m, axial);
+        }
         let mut breaks = vec![-half, half];
         if let Some(web) = gear.blank.web {
             breaks.extend([

@@ -1,5 +1,6 @@
 //! From a gear definition to hexahedra of eight or twenty nodes: one tooth cell and one body sector of the cross-section are meshed in quads
-//! by gmsh, copied round the axis and layered along it.
+//! by gmsh, copied round the axis and layered along it. Or to tetrahedra of ten nodes: the teeth by splitting such layers, the
+//! body as a free mesh of its revolved contour.
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
@@ -12,6 +13,9 @@
 //! | layers along the axis | [`layers`] | `layers.rs` |
 //! | their heights below the rim | [`heights`] | `heights.rs` |
 //! | element lists, faces on the outline | [`ElementList`], [`OutlineFace`] | `elements.rs`, `face.rs` |
+//! | bricks split into tetrahedra, teeth of them | [`tet_split`], `tet_mesh.rs` | `tet_split.rs`, `tet_mesh.rs` |
+//! | a body of tetrahedra, with fillets | [`solid_problem`], [`solid_mesher`] | `solid_problem.rs`, `solid_mesher.rs`, `solid_mesher.py` |
+//! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
@@ -31,6 +35,11 @@ pub mod plane_mesher;
 pub mod python;
 pub mod quality;
 pub mod section;
+pub mod solid_body;
+pub mod solid_mesher;
+pub mod solid_problem;
+mod tet_mesh;
+pub mod tet_split;
 pub mod tooth_cell;
 pub mod twist;
 
@@ -57,6 +66,9 @@ pub enum MeshError {
         /// Its file.
         file: String,
     },
+    /// The free mesh of the body failed.
+    #[error(transparent)]
+    Solid(#[from] solid_mesher::SolidMeshError),
     /// Openings leave no place for the cut between two sectors.
     #[error(
         "no tooth space lies clear of the openings: a sector's edge at a tooth space must keep {needed_deg:.3} deg from each opening, the best keeps {best_deg:.3} deg; narrow the openings or turn them"

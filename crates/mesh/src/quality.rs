@@ -1,8 +1,10 @@
 //! Scaled Jacobian of hexahedra: the smallest, over the eight corners, of the Jacobian determinant divided by the
 //! product of the three edge lengths. 1 for a brick, 0 where a corner collapses, negative where it is inverted. The edges of a
 //! twenty-node hexahedron are parabolas; at its corners their tangents take the place of the edges.
+//! For ten-node tetrahedra its place is taken by the distortion of their edges, [`tetrahedron_jacobian`].
 //! Source: Knupp, *Achieving finite element mesh quality via optimization of the Jacobian matrix norm* (2000).
 
+use crate::MeshError;
 use crate::elements::ElementList;
 
 /// What the quality of a mesh comes to.
@@ -14,6 +16,26 @@ pub struct QualityReport {
     pub mean: f64,
     /// Centre of the worst element \[m\].
     pub worst_m: [f64; 3],
+}
+
+impl QualityReport {
+    /// Refuses a mesh that is poorer than demanded.
+    ///
+    /// # Errors
+    /// [`MeshError::Quality`] with the worst element.
+    pub fn demand(&self, min_scaled_jacobian: f64) -> Result<(), MeshError> {
+        if self.smallest >= min_scaled_jacobian {
+            return Ok(());
+        }
+        let [x_mm, y_mm, z_mm] = self.worst_m.map(|v| v * 1e3);
+        Err(MeshError::Quality {
+            found: self.smallest,
+            demanded: min_scaled_jacobian,
+            x_mm,
+            y_mm,
+            z_mm,
+        })
+    }
 }
 
 /// For each corner: the neighbours along the three local axes, ordered to a right-handed frame.
@@ -69,6 +91,67 @@ pub fn scaled_jacobian(nodes: &[[f64; 3]]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// Natural coordinates of a tetrahedron's ten nodes.
+const TET_NODES: [[f64; 3]; 10] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.5, 0.0, 0.0],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.0],
+    [0.0, 0.0, 0.5],
+    [0.5, 0.0, 0.5],
+    [0.0, 0.5, 0.5],
+];
+
+/// The corners at the ends of each edge of a tetrahedron; edge k has node 4 + k in its middle.
+pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+
+/// Distortion of a ten-node tetrahedron: the smallest Jacobian determinant at its nodes over that of the tetrahedron with
+/// straight edges between the same corners. 1 where edges are straight with their nodes in the middle; 0 or less where the
+/// element is folded, or its corners are the wrong way round.
+pub fn tetrahedron_jacobian(nodes: &[[f64; 3]; 10]) -> f64 {
+    let det = |m: [[f64; 3]; 3]| {
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    };
+    let edge = |k: usize| [0, 1, 2].map(|i| nodes[k][i] - nodes[0][i]);
+    let straight = det([edge(1), edge(2), edge(3)]);
+    if straight <= 0.0 {
+        return -1.0;
+    }
+    // Volume coordinates and their slopes.
+    let slope = |corner: usize, k: usize| match corner {
+        0 => -1.0,
+        c if c == k + 1 => 1.0,
+        _ => 0.0,
+    };
+    TET_NODES
+        .iter()
+        .map(|at| {
+            let l = [1.0 - at[0] - at[1] - at[2], at[0], at[1], at[2]];
+            let columns = [0, 1, 2].map(|k| {
+                let mut column = [0.0; 3];
+                let mut add = |node: usize, weight: f64| {
+                    for (sum, x) in column.iter_mut().zip(nodes[node]) {
+                        *sum += weight * x;
+                    }
+                };
+                for (c, volume) in l.iter().enumerate() {
+                    add(c, (4.0 * volume - 1.0) * slope(c, k));
+                }
+                for (e, &[a, b]) in TET_EDGES.iter().enumerate() {
+                    add(4 + e, 4.0 * (l[b] * slope(a, k) + l[a] * slope(b, k)));
+                }
+                column
+            });
+            det(columns) / straight
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
 /// Quality of a mesh.
 pub fn report(nodes: &[[f64; 3]], elements: &ElementList) -> QualityReport {
     let mut result = QualityReport {
@@ -81,7 +164,10 @@ pub fn report(nodes: &[[f64; 3]], elements: &ElementList) -> QualityReport {
     for element in elements.iter() {
         coordinates.clear();
         coordinates.extend(element.iter().map(|&n| nodes[n as usize]));
-        let q = scaled_jacobian(&coordinates);
+        let q = match <&[[f64; 3]; 10]>::try_from(coordinates.as_slice()) {
+            Ok(nodes) => tetrahedron_jacobian(nodes),
+            Err(_) => scaled_jacobian(&coordinates),
+        };
         result.mean += q / elements.len() as f64;
         if q < result.smallest {
             result.smallest = q;
@@ -127,6 +213,19 @@ mod tests {
         }
         assert!((scaled_jacobian(&b) - 0.5f64.sqrt()).abs() < 1e-14);
     }
+
+    /// One node of an edge moved by a quarter of the edge towards its end: at that end ∂x/∂ξ falls to zero.
+    #[test]
+    fn a_tetrahedron_is_judged_by_its_edges() {
+        let mut nodes = TET_NODES.map(|[x, y, z]| [2.0 * x + 0.3 * y, y, z + 0.1 * x]);
+        assert!((tetrahedron_jacobian(&nodes) - 1.0).abs() < 1e-14);
+        let [from, to] = [nodes[0], nodes[1]];
+        nodes[4] = [0, 1, 2].map(|k| nodes[4][k] + 0.25 * (to[k] - from[k]));
+        assert!(tetrahedron_jacobian(&nodes).abs() < 1e-14);
+        nodes.swap(0, 1);
+        assert_eq!(tetrahedron_jacobian(&nodes), -1.0);
+    }
+
     /// A mid-edge node moved a quarter of the edge's length off it turns the edge's ends by 45 degrees.
     #[test]
     fn a_bent_edge_turns_its_corners() {

@@ -1,7 +1,7 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
-use crate::body::body_problem;
+use crate::body::{body_problem, first_tooth};
 use crate::elements::ElementShape;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
@@ -19,6 +19,8 @@ pub struct Section {
     pub quads: Vec<[usize; 4]>,
     /// Nodes in the middle of each quad's sides (side k from corner k to k + 1); empty where elements are linear.
     pub mid_sides: Vec<[usize; 4]>,
+    /// Nodes in the middle of the quads; only where they are split into tetrahedra.
+    pub centres: Vec<usize>,
     /// True for quads that exist only in the web's layers.
     pub web_only: Vec<bool>,
     /// Nodes of the bore.
@@ -46,7 +48,7 @@ fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
 }
 
 impl Section {
-    /// Shape of the elements above its quads.
+    /// Shape of the whole elements above its quads.
     pub const fn element_shape(&self) -> ElementShape {
         if self.mid_sides.is_empty() {
             ElementShape::Hex8
@@ -55,7 +57,8 @@ impl Section {
         }
     }
 
-    /// Meshes one tooth and one sector of the body and copies them.
+    /// Meshes one tooth and one sector of the body and copies them. Where elements are tetrahedra the body is not made of layers:
+    /// then the section is that of the teeth alone.
     ///
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when no sector can be cut.
@@ -64,43 +67,41 @@ impl Section {
         let sectors = gear.sectors();
         let teeth_per_sector = teeth / sectors;
         let cell_problem = ToothCellProblem::new(gear);
-        let mut body = body_problem(gear, cell_problem.ring_pieces())?;
         let shape = ElementShape::of(gear.mesh.element);
+        let mismatch = || crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes");
+        if shape == ElementShape::Tet10 {
+            let mut meshes = mesh_plane(python, std::slice::from_ref(&cell_problem.problem))?;
+            let cell = cell_problem.finish(meshes.pop().ok_or_else(mismatch)?, shape);
+            return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
+        }
+        let mut body = body_problem(gear, cell_problem.ring_pieces())?;
         let mut meshes = mesh_plane(
             python,
             &[cell_problem.problem.clone(), body.problem.clone()],
         )?
         .into_iter();
         let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
-            return Err(
-                crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes").into(),
-            );
+            return Err(mismatch().into());
         };
         let cell = cell_problem.finish(cell_mesh, shape);
         if shape == ElementShape::Hex20 {
             body.make_quadratic(&mut body_mesh);
         }
         let ring_per_tooth = cell.bottom.len() - 1;
-
-        let mut nodes: Vec<[f64; 2]> = Vec::new();
-        // Teeth: the left edge of each is the right edge of the next.
-        let mut cell_nodes = vec![vec![usize::MAX; cell.nodes.len()]; teeth];
-        for (tooth, map) in cell_nodes.iter_mut().enumerate() {
-            for (local, &p) in cell.nodes.iter().enumerate() {
-                if !cell.left_side.contains(&local) {
-                    map[local] = nodes.len();
-                    nodes.push(rotated(p, TAU * tooth as f64 / teeth as f64));
-                }
-            }
-        }
-        for tooth in 0..teeth {
-            let next = (tooth + 1) % teeth;
-            for (&left, &right) in cell.left_side.iter().zip(&cell.right_side) {
-                cell_nodes[tooth][left] = cell_nodes[next][right];
-            }
-        }
+        let mut section = Self::of_teeth(cell, teeth, sectors, body.first_tooth);
+        let Self {
+            nodes,
+            quads,
+            mid_sides,
+            web_only,
+            cell,
+            cell_nodes,
+            body_nodes,
+            body_quads,
+            ..
+        } = &mut section;
         // Sectors: ring nodes are the cells'; the left edge of each is the right edge of the next.
-        let mut body_nodes = vec![vec![usize::MAX; body_mesh.nodes.len()]; sectors];
+        *body_nodes = vec![vec![usize::MAX; body_mesh.nodes.len()]; sectors];
         for (sector, map) in body_nodes.iter_mut().enumerate() {
             for (k, &local) in body.ring.iter().enumerate() {
                 let tooth =
@@ -121,19 +122,8 @@ impl Section {
             }
         }
 
-        let mut quads =
-            Vec::with_capacity(teeth * cell.quads.len() + sectors * body_mesh.quads.len());
-        let mut mid_sides = Vec::new();
-        let mut web_only = Vec::with_capacity(quads.capacity());
-        let mut cell_first_quad = Vec::with_capacity(teeth);
-        for map in &cell_nodes {
-            cell_first_quad.push(quads.len());
-            quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
-            mid_sides.extend(cell.mid_sides.iter().map(|m| m.map(|n| map[n])));
-            web_only.extend(std::iter::repeat_n(false, cell.quads.len()));
-        }
-        let mut body_quads = Vec::with_capacity(sectors);
-        for map in &body_nodes {
+        body_quads.clear();
+        for map in body_nodes.iter() {
             body_quads.push(quads.len()..quads.len() + body_mesh.quads.len());
             quads.extend(body_mesh.quads.iter().map(|q| q.map(|n| map[n])));
             mid_sides.extend(body_mesh.mid_sides.iter().map(|m| m.map(|n| map[n])));
@@ -150,19 +140,55 @@ impl Section {
             .collect();
         bore.sort_unstable();
         bore.dedup();
-        Ok(Self {
+        section.bore = bore;
+        section.body_right_side = body.right_side;
+        Ok(section)
+    }
+
+    /// The cells of all teeth, joined; no body yet.
+    fn of_teeth(cell: ToothCell, teeth: usize, sectors: usize, first_tooth: usize) -> Self {
+        let mut nodes: Vec<[f64; 2]> = Vec::new();
+        // Teeth: the left edge of each is the right edge of the next.
+        let mut cell_nodes = vec![vec![usize::MAX; cell.nodes.len()]; teeth];
+        for (tooth, map) in cell_nodes.iter_mut().enumerate() {
+            for (local, &p) in cell.nodes.iter().enumerate() {
+                if !cell.left_side.contains(&local) {
+                    map[local] = nodes.len();
+                    nodes.push(rotated(p, TAU * tooth as f64 / teeth as f64));
+                }
+            }
+        }
+        for tooth in 0..teeth {
+            let next = (tooth + 1) % teeth;
+            for (&left, &right) in cell.left_side.iter().zip(&cell.right_side) {
+                cell_nodes[tooth][left] = cell_nodes[next][right];
+            }
+        }
+        let mut quads = Vec::with_capacity(teeth * cell.quads.len());
+        let mut mid_sides = Vec::new();
+        let mut centres = Vec::new();
+        let mut cell_first_quad = Vec::with_capacity(teeth);
+        for map in &cell_nodes {
+            cell_first_quad.push(quads.len());
+            quads.extend(cell.quads.iter().map(|q| q.map(|n| map[n])));
+            mid_sides.extend(cell.mid_sides.iter().map(|m| m.map(|n| map[n])));
+            centres.extend(cell.centres.iter().map(|&n| map[n]));
+        }
+        let none = quads.len()..quads.len();
+        Self {
             nodes,
+            web_only: vec![false; quads.len()],
             quads,
             mid_sides,
-            web_only,
-            bore,
+            centres,
+            bore: Vec::new(),
             cell,
             cell_nodes,
             cell_first_quad,
-            first_tooth: body.first_tooth,
-            body_nodes,
-            body_right_side: body.right_side,
-            body_quads,
-        })
+            first_tooth,
+            body_nodes: vec![Vec::new(); sectors],
+            body_right_side: Vec::new(),
+            body_quads: vec![none; sectors],
+        }
     }
 }

@@ -15,7 +15,7 @@
 use crate::elements::ElementShape;
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
-use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition};
+use gearmesh_geometry::{ElementKind, GearDefinition, ProfileCurve, RootPosition};
 use std::f64::consts::PI;
 
 /// Elements across the layer along the outline, and their growth inwards.
@@ -23,6 +23,10 @@ const LAYERS: usize = 3;
 const LAYER_GROWTH: f64 = 1.35;
 /// Thickness of that layer in fillet element lengths.
 const LAYER_THICKNESS: f64 = 2.6;
+/// Share of the rim below the ring that tetrahedra leave to the body.
+const BELOW_RING: f64 = 0.4;
+/// The layer along the outline takes no more than this share of the ring.
+const LAYER_SHARE: f64 = 0.6;
 /// Growth of element length along the outline, per length.
 const GRADING: f64 = 0.3;
 
@@ -35,6 +39,8 @@ pub struct ToothCell {
     pub quads: Vec<[usize; 4]>,
     /// Nodes in the middle of each quad's sides; empty where elements are linear.
     pub mid_sides: Vec<[usize; 4]>,
+    /// Nodes in the middle of the quads themselves; only where they are split into tetrahedra.
+    pub centres: Vec<usize>,
     /// True for quads of the tooth-only submodel.
     pub above_cut: Vec<bool>,
     /// Nodes of the outline, from the right tooth space over the tip to the left one.
@@ -119,6 +125,10 @@ pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
     let root = gear.profile.root_radius_m;
     let default = root - 1.5 * module;
     match gear.blank.web {
+        // Fillets run out into the rim's inner surface: the ring keeps clear of it.
+        Some(web) if gear.mesh.element == ElementKind::Tet10 => {
+            default.max(web.rim_inner_radius_m + BELOW_RING * (root - web.rim_inner_radius_m))
+        }
         Some(web) if web.rim_inner_radius_m > root - 2.5 * module => web.rim_inner_radius_m,
         Some(_) => default,
         None => default.max(0.5 * (gear.blank.bore_radius_m + root)),
@@ -261,7 +271,9 @@ impl ToothCellProblem {
 
         // Offset curve: along the normal, turning into the tip land at the tip.
         let tip_half = tooth.tip_half_angle_rad();
-        let thickness = LAYER_THICKNESS * h_fillet;
+        let ring = ring_radius_m(gear);
+        let room = LAYER_SHARE * (tooth.root_radius_m - ring);
+        let thickness = (LAYER_THICKNESS * h_fillet).min(room);
         let tip_thickness = thickness.min(0.45 * tip_half * tooth.tip_radius_m);
         let outline_points: Vec<[f64; 2]> = arcs.iter().map(|&s| curve.point_at(s)).collect();
         let offset_points: Vec<[f64; 2]> = (0..=last)
@@ -341,7 +353,6 @@ impl ToothCellProblem {
         let tip_half_line = arc(&mut points, tooth.tip_radius_m, tip_angle, offset[last]);
 
         // Down to the ring's inner circle.
-        let ring = ring_radius_m(gear);
         let depth = tooth.root_radius_m - thickness - ring;
         let n_depth = ((depth / h_flank.max(2.0 * h_fillet)).ceil() as usize).max(2);
         let start_radius = tooth.root_radius_m - thickness;
@@ -498,7 +509,13 @@ impl ToothCellProblem {
             .collect();
         let middles = match shape {
             ElementShape::Hex8 => None,
-            ElementShape::Hex20 => Some(MidSides::add(&mut mesh, &self.curved)),
+            ElementShape::Hex20 | ElementShape::Tet10 => {
+                Some(MidSides::add(&mut mesh, &self.curved))
+            }
+        };
+        let centres = match shape {
+            ElementShape::Hex8 | ElementShape::Hex20 => Vec::new(),
+            ElementShape::Tet10 => mesh.add_centres(),
         };
         let chain = |corners: Vec<usize>| match &middles {
             None => corners,
@@ -515,6 +532,7 @@ impl ToothCellProblem {
             nodes: mesh.nodes,
             quads: mesh.quads,
             mid_sides: mesh.mid_sides,
+            centres,
             above_cut,
             outline: self.outline,
             outline_arc_m: self.outline_arc_m,

@@ -16,58 +16,69 @@ impl DataTree {
     /// # Errors
     /// Every kind of [`FileError`] except those about the contents of reduced gears and meshes.
     pub fn read(path: &Path, format: &FileFormat) -> Result<Self, FileError> {
-        let file_bytes = verify_seal(path)?;
-        let reader = Reader { path, file_bytes };
-        let file = File::with_options()
-            .with_fapl(|access| access.file_locking(false))
-            .open(path)
-            .map_err(hdf5_error(path, "open"))?;
-        let found = reader.text_attribute(&file, "format")?;
-        if found != format.name {
-            return Err(FileError::WrongFormat {
-                path: path.to_owned(),
-                found,
-                expected: format.name,
-            });
-        }
-        let version = reader.number_attribute::<u32>(&file, "formatVersion")?;
-        if version == 0 || version > format.version {
-            return Err(FileError::UnknownVersion {
-                path: path.to_owned(),
-                format: format.name,
-                found: version,
-                newest: format.version,
-            });
-        }
-        let mut tree = Self::default();
-        for name in file
-            .attr_names()
-            .map_err(hdf5_error(path, "list the attributes of"))?
-        {
-            if !OWN_ATTRIBUTES.contains(&name.as_str()) {
-                let text = reader.text_attribute(&file, &name)?;
-                tree.attributes.insert(name, text);
-            }
-        }
-        reader.group(&file, "", 0, &mut tree)?;
-        Ok(tree)
+        let (file, file_bytes) = open_tree(path, format)?;
+        Reader { path, file_bytes }.tree(&file, None)
     }
 }
 
-struct Reader<'a> {
-    path: &'a Path,
-    file_bytes: u64,
+/// Checks seal, format and version; returns the open file and its length.
+pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<(File, u64), FileError> {
+    let file_bytes = verify_seal(path)?;
+    let reader = Reader { path, file_bytes };
+    let file = File::with_options()
+        .with_fapl(|access| access.file_locking(false))
+        .open(path)
+        .map_err(hdf5_error(path, "open"))?;
+    let found = reader.text_attribute(&file, "format")?;
+    if found != format.name {
+        return Err(FileError::WrongFormat {
+            path: path.to_owned(),
+            found,
+            expected: format.name,
+        });
+    }
+    let version = reader.number_attribute::<u32>(&file, "formatVersion")?;
+    if version == 0 || version > format.version {
+        return Err(FileError::UnknownVersion {
+            path: path.to_owned(),
+            format: format.name,
+            found: version,
+            newest: format.version,
+        });
+    }
+    Ok((file, file_bytes))
+}
+
+pub(crate) struct Reader<'a> {
+    pub path: &'a Path,
+    pub file_bytes: u64,
 }
 
 impl Reader<'_> {
+    /// Everything in the file, but for one group of the root.
+    pub(crate) fn tree(&self, file: &File, skip: Option<&str>) -> Result<DataTree, FileError> {
+        let mut tree = DataTree::default();
+        for name in file
+            .attr_names()
+            .map_err(hdf5_error(self.path, "list the attributes of"))?
+        {
+            if !OWN_ATTRIBUTES.contains(&name.as_str()) {
+                let text = self.text_attribute(file, &name)?;
+                tree.attributes.insert(name, text);
+            }
+        }
+        self.group(file, "", skip, &mut tree)?;
+        Ok(tree)
+    }
+
     fn group(
         &self,
         group: &Group,
         prefix: &str,
-        depth: usize,
+        skip: Option<&str>,
         tree: &mut DataTree,
     ) -> Result<(), FileError> {
-        if depth > DEEPEST_GROUP {
+        if prefix.matches('/').count() > DEEPEST_GROUP {
             return Err(FileError::InvalidName {
                 path: self.path.to_owned(),
                 item: "a group",
@@ -94,13 +105,15 @@ impl Reader<'_> {
             .groups()
             .map_err(hdf5_error(self.path, "list the groups of"))?
         {
-            let name = format!("{prefix}{}/", local_name(&child));
-            self.group(&child, &name, depth + 1, tree)?;
+            let local = local_name(&child);
+            if skip != Some(local.as_str()) {
+                self.group(&child, &format!("{prefix}{local}/"), None, tree)?;
+            }
         }
         Ok(())
     }
 
-    fn dataset(
+    pub(crate) fn dataset(
         &self,
         dataset: &hdf5::Dataset,
         name: String,
@@ -170,7 +183,11 @@ impl Reader<'_> {
             .collect())
     }
 
-    fn text_attribute(&self, object: &Location, name: &str) -> Result<String, FileError> {
+    pub(crate) fn text_attribute(
+        &self,
+        object: &Location,
+        name: &str,
+    ) -> Result<String, FileError> {
         self.number_attribute::<VarLenUnicode>(object, name)
             .map(|text| text.as_str().to_owned())
     }
@@ -191,7 +208,6 @@ impl Reader<'_> {
     }
 }
 
-/// Files with a good seal that this writer would never make.
 /// Files with a good seal that the writer would never make.
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]

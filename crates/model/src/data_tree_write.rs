@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
-use hdf5::{File, H5Type, Location};
+use hdf5::{Dataset, File, H5Type, Location};
 
 use crate::atomic_file::write_atomically;
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
@@ -21,12 +21,12 @@ impl DataTree {
     pub fn write(&self, path: &Path, format: &FileFormat) -> Result<(), FileError> {
         self.check_names(path)?;
         write_atomically(path, |temporary, handle| {
-            self.fill(path, temporary, format)?;
+            self.fill(path, temporary, format, |_| Ok(()))?;
             write_seal(handle, path)
         })
     }
 
-    fn check_names(&self, path: &Path) -> Result<(), FileError> {
+    pub(crate) fn check_names(&self, path: &Path) -> Result<(), FileError> {
         let invalid = |item, name: &str, allowed| FileError::InvalidName {
             path: path.to_owned(),
             item,
@@ -76,7 +76,14 @@ impl DataTree {
         Ok(())
     }
 
-    fn fill(&self, path: &Path, temporary: &Path, format: &FileFormat) -> Result<(), FileError> {
+    /// Fills a new HDF5 file; `more` adds what is not in the tree.
+    pub(crate) fn fill(
+        &self,
+        path: &Path,
+        temporary: &Path,
+        format: &FileFormat,
+        more: impl FnOnce(&File) -> Result<(), FileError>,
+    ) -> Result<(), FileError> {
         let failed = |action| hdf5_error(path, action);
         let file = File::with_options()
             .with_fcpl(|create| create.userblock(SEAL_BYTES))
@@ -84,7 +91,9 @@ impl DataTree {
             .create(temporary)
             .map_err(failed("create"))?;
         // The handle is closed on every way out; a refusal in between has precedence over one of closing.
-        let written = self.fill_open(path, &file, format);
+        let written = self
+            .fill_open(path, &file, format)
+            .and_then(|()| more(&file));
         let flushed = file.flush().map_err(failed("write"));
         let closed = file.close().map_err(failed("close"));
         written.and(flushed).and(closed)
@@ -112,24 +121,25 @@ impl DataTree {
             match &array.values {
                 Values::F64(values) => writer.array(file, name, array, values)?,
                 Values::U32(values) => writer.array(file, name, array, values)?,
-            }
+            };
         }
         Ok(())
     }
 }
 
-struct Writer<'a> {
-    path: &'a Path,
+pub(crate) struct Writer<'a> {
+    pub path: &'a Path,
 }
 
 impl Writer<'_> {
-    fn array<T: H5Type>(
+    /// Creates an array with its attributes. Without values it is filled later.
+    pub(crate) fn array<T: H5Type>(
         &self,
         file: &File,
         name: &str,
         array: &DataArray,
         values: &[T],
-    ) -> Result<(), FileError> {
+    ) -> Result<Dataset, FileError> {
         let failed = |error| hdf5_error(self.path, &format!("write array \"{name}\" to"))(error);
         let builder = file.new_dataset::<T>().create_intermediate_group(true);
         let dataset = if array.shape.is_empty() {
@@ -163,7 +173,7 @@ impl Writer<'_> {
                 .and_then(|attribute| attribute.write_raw(&labels))
                 .map_err(failed)?;
         }
-        Ok(())
+        Ok(dataset)
     }
 
     fn text(&self, file: &File, name: &str, text: &str) -> Result<(), FileError> {

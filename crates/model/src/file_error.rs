@@ -151,6 +151,22 @@ pub enum FileError {
         /// The name of the text.
         item: String,
     },
+    /// Another process has the log of a run open.
+    #[error("{} is in use: another run writes there; wait for it or name another output file", path.display())]
+    InUse {
+        /// The log.
+        path: PathBuf,
+    },
+    /// The log of a run has fewer rows than its checkpoint counts.
+    #[error("{} has {found_bytes} bytes, its checkpoint counts on {expected_bytes}; begin the run anew", path.display())]
+    ShortLog {
+        /// The log.
+        path: PathBuf,
+        /// Its length.
+        found_bytes: u64,
+        /// The length needed.
+        expected_bytes: u64,
+    },
     /// The arrays are there, but they do not make a reduced gear.
     #[error("{}: {source}", path.display())]
     ReducedGear {

@@ -5,8 +5,9 @@
 //! | a reduced gear (compliance, gauges, provenance) | [`ReducedGear`], [`write_reduced_gear`], [`read_reduced_gear`] |
 //! | a mesh of volume elements with sets and fields | [`MeshData`], [`write_mesh`], [`read_mesh`] |
 //! | anything else made of named arrays (a result, a strain record) | [`DataTree`] with a [`FileFormat`] of your own |
+//! | rows that come one by one while a run goes on | [`RowLog`], at the end [`write_columns`]; read by [`ColumnFile`] |
 //!
-//! All three are the same kind of file: HDF5 with named arrays that carry their unit, axis labels and description,
+//! All files but the log are of one kind: HDF5 with named arrays that carry their unit, axis labels and description,
 //! root attributes `format`, `formatVersion`, `software`, `softwareVersion` and `date`, and a seal (size and BLAKE3
 //! digest of the bytes) in the HDF5 user block. Writing is atomic: the file appears complete under its name, or the old one
 //! stays. Reading checks the seal before libhdf5 parses a byte, so that a truncated or altered file is a typed
@@ -16,6 +17,7 @@
 
 mod atomic_file;
 mod cell_kind;
+mod column_file;
 mod data_tree;
 mod data_tree_file;
 mod data_tree_read;
@@ -32,6 +34,7 @@ mod reduced_gear_check;
 mod reduced_gear_error;
 mod reduced_gear_file;
 mod rigid_body;
+mod row_log;
 mod seal;
 #[doc(hidden)]
 pub mod synthetic;
@@ -39,15 +42,17 @@ mod timestamp;
 
 pub use atomic_file::{wait_for_writes, write_text};
 pub use cell_kind::CellKind;
+pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use file_error::FileError;
 pub use mesh_data::{Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;
-pub use near_field::NearField;
+pub use near_field::{ContactCurve, NearField};
 pub use reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
 pub use rigid_body::{ReferencePoint, RigidBody};
-pub use seal::file_digest;
+pub use row_log::RowLog;
+pub use seal::{bytes_digest, file_digest};
 pub use timestamp::utc_now;

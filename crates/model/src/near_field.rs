@@ -26,49 +26,95 @@ pub struct NearField {
 }
 
 impl NearField {
-    /// c₀ in m²/N at a roll angle. Beyond the ends the end's value. No allocation.
-    ///
-    /// Towards the edge c₀ grows like the logarithm of the distance d = r_b (ξ_end² − ξ²)/2 to it. The interpolation is
-    /// therefore in u = −ln(1 + d/a₀): cubic Hermite between the places, the slope at a place that of the parabola through
-    /// it and its neighbours (one-sided at the ends).
+    /// c₀ over the roll angle on a gear with this base radius.
+    pub fn contact_curve(&self, base_radius_m: f64) -> ContactCurve {
+        let end_rad = self.roll_angles_rad[self.roll_angles_rad.len() - 1];
+        let mut curve = ContactCurve {
+            base_radius_m,
+            half_width_m: self.half_width_m,
+            end_rad,
+            rolls_rad: self.roll_angles_rad.clone(),
+            values: self.contact_m2_per_n.clone(),
+            places: Vec::new(),
+            slopes: Vec::new(),
+        };
+        let places = self.roll_angles_rad.iter();
+        curve.places = places.map(|roll| curve.coordinate(*roll)).collect();
+        curve.slopes = (0..curve.values.len()).map(|k| curve.slope(k)).collect();
+        curve
+    }
+
+    /// c₀ in m²/N at a roll angle; for many of them make the curve once.
     pub fn contact_at(&self, roll_rad: f64, base_radius_m: f64) -> f64 {
-        let (rolls, y) = (&self.roll_angles_rad, &self.contact_m2_per_n);
+        self.contact_curve(base_radius_m).at(roll_rad).0
+    }
+}
+
+/// c₀ over the roll angle. Beyond the ends the end's value.
+///
+/// Towards the edge c₀ grows like the logarithm of the distance d = r_b (ξ_end² − ξ²)/2 to it. The interpolation is
+/// therefore in u = −ln(1 + d/a₀): cubic Hermite between the places, the slope at a place that of the parabola through
+/// it and its neighbours (one-sided at the ends).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactCurve {
+    base_radius_m: f64,
+    half_width_m: f64,
+    end_rad: f64,
+    rolls_rad: Vec<f64>,
+    values: Vec<f64>,
+    /// u of each place.
+    places: Vec<f64>,
+    /// ∂c₀/∂u at each place.
+    slopes: Vec<f64>,
+}
+
+impl ContactCurve {
+    /// c₀ in m²/N at a roll angle, and its derivative by it. No allocation.
+    pub fn at(&self, roll_rad: f64) -> (f64, f64) {
+        let (rolls, y) = (&self.rolls_rad, &self.values);
         let last = rolls.len() - 1;
         let k = rolls
             .partition_point(|place| *place <= roll_rad)
             .clamp(1, last)
             - 1;
-        let x = |i: usize| self.coordinate(rolls[i], base_radius_m);
-        let at = self.coordinate(roll_rad.clamp(rolls[0], rolls[last]), base_radius_m);
-        let length = x(k + 1) - x(k);
-        let t = (at - x(k)) / length;
-        let low = self.slope_at(k, base_radius_m) * length;
-        let high = self.slope_at(k + 1, base_radius_m) * length;
+        let inside = roll_rad.clamp(rolls[0], rolls[last]);
+        let length = self.places[k + 1] - self.places[k];
+        let t = (self.coordinate(inside) - self.places[k]) / length;
         let (u, rise) = (1.0 - t, y[k + 1] - y[k]);
         // Linear part, and what bends it to the two slopes.
-        y[k] + t * rise + t * u * (u * (low - rise) - t * (high - rise))
+        let low = self.slopes[k] * length - rise;
+        let high = self.slopes[k + 1] * length - rise;
+        let value = y[k] + t * rise + t * u * (u * low - t * high);
+        let slope = rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t);
+        let moves = if inside == roll_rad {
+            self.base_radius_m * inside / (self.half_width_m + self.distance_m(inside))
+        } else {
+            0.0
+        };
+        (value, slope / length * moves)
     }
 
-    fn coordinate(&self, roll_rad: f64, base_radius_m: f64) -> f64 {
-        let end = self.roll_angles_rad[self.roll_angles_rad.len() - 1];
-        let distance_m = 0.5 * base_radius_m * (end * end - roll_rad * roll_rad);
-        -(distance_m / self.half_width_m).ln_1p()
+    fn distance_m(&self, roll_rad: f64) -> f64 {
+        0.5 * self.base_radius_m * (self.end_rad * self.end_rad - roll_rad * roll_rad)
+    }
+
+    fn coordinate(&self, roll_rad: f64) -> f64 {
+        -(self.distance_m(roll_rad) / self.half_width_m).ln_1p()
     }
 
     /// Slope of c₀ over u at a place.
-    fn slope_at(&self, place: usize, base_radius_m: f64) -> f64 {
-        let y = &self.contact_m2_per_n;
-        let x = |i: usize| self.coordinate(self.roll_angles_rad[i], base_radius_m);
+    fn slope(&self, place: usize) -> f64 {
+        let (x, y) = (&self.places, &self.values);
         let last = y.len() - 1;
-        let secant = |i: usize| (y[i + 1] - y[i]) / (x(i + 1) - x(i));
+        let secant = |i: usize| (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
         if last == 1 {
             return secant(0);
         }
         // The parabola through three neighbours; its slope at any of them.
         let first = place.saturating_sub(1).min(last - 2);
         let (a, b) = (secant(first), secant(first + 1));
-        let bend = (b - a) / (x(first + 2) - x(first));
-        a + bend * (2.0 * x(place) - x(first) - x(first + 1))
+        let bend = (b - a) / (x[first + 2] - x[first]);
+        a + bend * (2.0 * x[place] - x[first] - x[first + 1])
     }
 }
 
@@ -100,6 +146,14 @@ mod tests {
         for x in [0.1, 0.12, 0.2499, 0.25, 0.28, 0.4, 0.55, 0.599, 0.6] {
             let found = field.contact_at(x, BASE_RADIUS);
             assert!((found - parabola(x)).abs() < 1e-12, "{x}: {found}");
+            let slope = field.contact_curve(BASE_RADIUS).at(x).1;
+            let h = 1e-6;
+            let difference = (parabola((x + h).min(0.6)) - parabola(x - h)) / (2.0 * h);
+            let inside = x > 0.1 && x < 0.6;
+            assert!(
+                !inside || (slope / difference - 1.0).abs() < 1e-6,
+                "{x}: {slope} {difference}"
+            );
         }
         let [low, high] = [0.0, 1.0].map(|x| field.contact_at(x, BASE_RADIUS));
         assert_eq!(low, field.contact_m2_per_n[0]);

@@ -69,6 +69,11 @@ pub fn file_digest(path: &Path) -> Result<String, FileError> {
     open_sealed(path).map(|(_, stored)| stored.digest)
 }
 
+/// BLAKE3 digest of some bytes, 64 hexadecimal digits.
+pub fn bytes_digest(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
 struct Seal {
     length: u64,
     digest: String,

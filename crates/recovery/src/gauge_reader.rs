@@ -1,7 +1,7 @@
-//! One gauge of one gear, ready to be read for any forces on contact lines.
+//! Gauges of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::RollHats;
 use gearmesh_contact::slice_compliance::axial_shares;
+use gearmesh_contact::{RollHats, RollPlace};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
 /// Force on one slice of this gear.
@@ -29,16 +29,99 @@ pub struct Strain {
     pub method_2: f64,
 }
 
-/// A gauge's rows condensed to slices: strain per newton on a slice at a roll station.
+/// Several gauges of one gear for loads on one hand of flank, read together: strain per newton on a slice at a roll station.
+#[derive(Debug, Clone)]
+pub struct GaugeArray {
+    count: usize,
+    slices: usize,
+    stations: usize,
+    hats: RollHats,
+    /// `[tooth][station][slice][gauge]` of (method 1 normal, method 2 normal, method 2 tangential).
+    rows: Vec<[f64; 3]>,
+}
+
+impl GaugeArray {
+    /// Condenses gauges of a model for loads on one hand of flank.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads there.
+    pub fn new<'a>(
+        model: &ReducedGear,
+        gauges: impl IntoIterator<Item = &'a GaugeRows>,
+        flank: Flank,
+    ) -> Result<Self, ReducedGearError> {
+        let f = model.flank_index(flank)?;
+        let gauges: Vec<&GaugeRows> = gauges.into_iter().collect();
+        let grid = &model.grid;
+        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
+        let mut rows = Vec::with_capacity(model.teeth * stations * slices * gauges.len());
+        let row = |gauge: &GaugeRows, tooth: usize, station: usize, slice: usize| {
+            let mut row = [0.0; 3];
+            for (axial, share) in axial_shares(slice, slices) {
+                let load = grid.load(station, axial);
+                let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
+                let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
+                let local = if tooth == gauge.tooth {
+                    gauge.own_tooth[f * loads + load]
+                } else {
+                    0.0
+                };
+                row[0] += share * (normal - local);
+                row[1] += share * normal;
+                row[2] += share * tangential;
+            }
+            row
+        };
+        for tooth in 0..model.teeth {
+            for station in 0..stations {
+                for slice in 0..slices {
+                    let of = |gauge: &&GaugeRows| row(gauge, tooth, station, slice);
+                    rows.extend(gauges.iter().map(of));
+                }
+            }
+        }
+        Ok(Self {
+            count: gauges.len(),
+            slices,
+            stations,
+            hats: RollHats::new(&grid.roll_angles_rad),
+            rows,
+        })
+    }
+
+    /// Number of gauges.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Where a roll angle lies between the stations; slices of one contact line share it.
+    #[must_use]
+    pub fn place(&self, roll_rad: f64) -> RollPlace {
+        self.hats.place(roll_rad)
+    }
+
+    /// Adds the strain under the force on one slice at a place; one entry a gauge. No allocation.
+    pub fn add(&self, loaded: &LoadedSlice, place: &RollPlace, strain: &mut [Strain]) {
+        let [normal, tangential] = loaded.components;
+        for (station, weight) in place.shares() {
+            let first = (loaded.tooth * self.stations + station) * self.slices + loaded.slice;
+            let rows = &self.rows[first * self.count..][..self.count];
+            let force = weight * loaded.force_n;
+            for (strain, row) in strain.iter_mut().zip(rows) {
+                strain.method_1 += force * normal * row[0];
+                strain.method_2 += force * (normal * row[1] + tangential * row[2]);
+            }
+        }
+    }
+}
+
+/// One gauge with its name.
 #[derive(Debug, Clone)]
 pub struct GaugeReader {
     /// Name of the gauge.
     pub name: String,
-    slices: usize,
-    stations: usize,
-    hats: RollHats,
-    /// `[tooth][station][slice]` of (method 1 normal, method 2 normal, method 2 tangential).
-    rows: Vec<[f64; 3]>,
+    array: GaugeArray,
 }
 
 impl GaugeReader {
@@ -51,54 +134,20 @@ impl GaugeReader {
         gauge: &GaugeRows,
         flank: Flank,
     ) -> Result<Self, ReducedGearError> {
-        let f = model.flank_index(flank)?;
-        let grid = &model.grid;
-        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
-        let mut rows = Vec::with_capacity(model.teeth * stations * slices);
-        for tooth in 0..model.teeth {
-            for station in 0..stations {
-                for slice in 0..slices {
-                    let mut row = [0.0; 3];
-                    for (axial, share) in axial_shares(slice, slices) {
-                        let load = grid.load(station, axial);
-                        let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
-                        let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
-                        let local = if tooth == gauge.tooth {
-                            gauge.own_tooth[f * loads + load]
-                        } else {
-                            0.0
-                        };
-                        row[0] += share * (normal - local);
-                        row[1] += share * normal;
-                        row[2] += share * tangential;
-                    }
-                    rows.push(row);
-                }
-            }
-        }
         Ok(Self {
             name: gauge.name.clone(),
-            slices,
-            stations,
-            hats: RollHats::new(&grid.roll_angles_rad),
-            rows,
+            array: GaugeArray::new(model, [gauge], flank)?,
         })
     }
 
     /// Strain under the forces on all slices: a few dozen multiplications.
     pub fn read(&self, slices: impl IntoIterator<Item = LoadedSlice>) -> Strain {
-        let mut strain = Strain::default();
+        let mut strain = [Strain::default()];
         for loaded in slices.into_iter().filter(|s| s.force_n != 0.0) {
-            for (station, weight) in self.hats.place(loaded.roll_rad).shares() {
-                let first = (loaded.tooth * self.stations + station) * self.slices;
-                let row = &self.rows[first + loaded.slice];
-                let [normal, tangential] = loaded.components;
-                let force = weight * loaded.force_n;
-                strain.method_1 += force * normal * row[0];
-                strain.method_2 += force * (normal * row[1] + tangential * row[2]);
-            }
+            let place = self.array.place(loaded.roll_rad);
+            self.array.add(&loaded, &place, &mut strain);
         }
-        strain
+        strain[0]
     }
 }
 

@@ -7,5 +7,5 @@
 mod gauge_reader;
 mod grid_forces;
 
-pub use gauge_reader::{GaugeReader, LoadedSlice, Strain};
+pub use gauge_reader::{GaugeArray, GaugeReader, LoadedSlice, Strain};
 pub use grid_forces::{GridLoadForce, grid_forces};

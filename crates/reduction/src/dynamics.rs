@@ -49,11 +49,12 @@ pub fn dynamics(
     let Some(density) = gear.material.density_kg_per_m3 else {
         return Ok(result);
     };
-    let rigid = body.rigid_mass(density)?;
-    result.rigid_body = Some(rigid.body.clone());
     if gear.hub == HubSupport::Fixed && gear.modes.is_none() {
+        result.rigid_body = Some(body.rigid_body(density)?);
         return Ok(result);
     }
+    let rigid = body.rigid_mass(density)?;
+    result.rigid_body = Some(rigid.body.clone());
     let directions: Vec<&SparseVector> = loads
         .iter()
         .flatten()

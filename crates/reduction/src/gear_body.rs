@@ -40,6 +40,7 @@ pub fn element_of(kind: ElementKind) -> HexElement {
         ElementKind::Hex8 => HexElement::Hex8,
         ElementKind::Hex8Incompatible => HexElement::Hex8Incompatible,
         ElementKind::Hex20 => HexElement::Hex20,
+        ElementKind::Tet10 => HexElement::Tet10,
     }
 }
 

@@ -7,12 +7,11 @@
 //! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis and
 //! the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
 
-use crate::error_estimate::line_load;
 use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::imported_error::{ImportedMeshError, PythonFailure};
 use crate::imported_mesh::ImportedMesh;
-use crate::near_field::calibration;
+use crate::near_field::{calibration, line_compliance};
 use crate::reduce::{
     IDENTITY_ALLOWED, SYMMETRY_ALLOWED, assembled, asymmetry, by_blocks, checked, describe,
     element_names,
@@ -207,22 +206,8 @@ fn tooth_blocks(
         let spatial = (0..count * count).map(|k| spatial[(k % count) * count + k / count]);
         blocks.c_tooth.extend(spatial);
         let plane = products(Deformation::PlaneStrain)?;
-        let stations = grid.roll_angles_rad.len();
-        for load in 0..stations {
-            for response in 0..stations {
-                let sum: f64 = line_load(grid, load)
-                    .into_iter()
-                    .flat_map(|(l, a)| {
-                        line_load(grid, response)
-                            .into_iter()
-                            .map(move |(m, b)| (l, m, a * b))
-                    })
-                    .map(|(l, m, share)| share * plane[m * count + l])
-                    .sum();
-                // One newton over the width is a line load of 1/width.
-                blocks.plane.push(sum * gear.tooth.face_width_m);
-            }
-        }
+        let width_m = gear.tooth.face_width_m;
+        blocks.plane.extend(line_compliance(grid, &plane, width_m));
     }
     Ok(blocks)
 }

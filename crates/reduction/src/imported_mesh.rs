@@ -432,6 +432,7 @@ impl Check<'_> {
         let fits = match named {
             ElementKind::Hex8 => has(CellKind::Hex8),
             ElementKind::Hex20 => has(CellKind::Hex20),
+            ElementKind::Tet10 => has(CellKind::Tet10),
             // The default, which says nothing.
             ElementKind::Hex8Incompatible => true,
         };

@@ -7,10 +7,12 @@
 
 use crate::ReductionError;
 use crate::contact_problem::ContactProblem;
+use crate::error_estimate::line_load;
 use crate::flank_loads::{SparseVector, flank_loads};
+use crate::gear_body::model_of;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_fe::FeModel;
-use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition};
 use gearmesh_mesh::contact_section::ContactGrading;
 use gearmesh_mesh::{CutLine, GearMesh};
 use gearmesh_model::{FlankGrid, NearField};
@@ -148,6 +150,44 @@ pub fn calibration(
     })
 }
 
+/// The same from a tooth in tetrahedra, which is no stack of layers with one field: all of its width, not twisted, loads uniform over
+/// it, no node moves along the axis, and the mean over the width is taken (docs/theory/imported_mesh.md).
+fn mean_mesh_compliance(
+    gear: &GearDefinition,
+    mesh: &GearMesh,
+    grid: &FlankGrid,
+    side: FlankSide,
+) -> Result<Vec<f64>, ReductionError> {
+    let teeth = mesh.straight_teeth();
+    let model = model_of(gear, &teeth)?;
+    let loads = flank_loads(gear, &teeth, grid, 0, side);
+    let submodel = ToothSubmodel::new(&model, &teeth, side, &loads, Deformation::PlaneStrain)?;
+    let rows: Vec<&SparseVector> = loads.iter().map(|load| &load.normal).collect();
+    let products = submodel.products(&rows);
+    Ok(line_compliance(grid, &products, gear.tooth.face_width_m))
+}
+
+/// Deflections per line load \[m²/N\], `[load station][response station]`, from those of all loads of a flank in plane strain,
+/// `[response][load]`: loads and means over the width.
+pub(crate) fn line_compliance(grid: &FlankGrid, products: &[f64], width_m: f64) -> Vec<f64> {
+    let (count, stations) = (grid.len(), grid.roll_angles_rad.len());
+    let lines: Vec<_> = (0..stations).map(|i| line_load(grid, i)).collect();
+    lines
+        .iter()
+        .flat_map(|load| {
+            lines.iter().map(|response| {
+                let sum: f64 = load
+                    .iter()
+                    .flat_map(|&(l, a)| response.iter().map(move |&(m, b)| (l, m, a * b)))
+                    .map(|(l, m, share)| share * products[m * count + l])
+                    .sum();
+                // One newton over the width is a line load of 1/width.
+                sum * width_m
+            })
+        })
+        .collect()
+}
+
 /// W = N₂ᵀK₂⁻¹N₂ \[m²/N\], `[load station][response station]`: the tooth-only submodel of the gear's own
 /// cross-section and element in plane strain, loaded by its own hats along the profile.
 ///
@@ -160,6 +200,9 @@ pub fn mesh_compliance(
     grid: &FlankGrid,
     side: FlankSide,
 ) -> Result<Vec<f64>, ReductionError> {
+    if gear.mesh.element == ElementKind::Tet10 {
+        return mean_mesh_compliance(gear, mesh, grid, side);
+    }
     // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.
     let width_m = gear.mesh.flank_m;
     let layer = mesh.single_layer(width_m)?;

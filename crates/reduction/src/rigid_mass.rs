@@ -2,7 +2,7 @@
 
 use crate::gear_body::GearBody;
 use faer::Mat;
-use gearmesh_fe::{FeError, mass_product, rigid_motions};
+use gearmesh_fe::{FeError, mass_moments, mass_product, rigid_motions};
 use gearmesh_model::RigidBody;
 
 /// The reference point of every hub: on the axis at mid-face.
@@ -21,7 +21,26 @@ pub struct RigidMass {
 }
 
 impl GearBody {
-    /// The gear as a rigid body.
+    /// The gear as a rigid body, nothing else.
+    ///
+    /// # Errors
+    /// [`FeError::DensityOutOfRange`].
+    pub fn rigid_body(&self, density_kg_per_m3: f64) -> Result<RigidBody, FeError> {
+        let [mass_kg, x, y, z, xx, yy, zz, xy, yz, zx] =
+            mass_moments(&self.model, density_kg_per_m3)?;
+        Ok(RigidBody {
+            reference_m: REFERENCE_M,
+            mass_kg,
+            centre_m: [x / mass_kg, y / mass_kg, z / mass_kg],
+            inertia_kg_m2: [
+                [yy + zz, -xy, -zx],
+                [-xy, zz + xx, -yz],
+                [-zx, -yz, xx + yy],
+            ],
+        })
+    }
+
+    /// Rigid motions of the gear with what they move.
     ///
     /// # Errors
     /// [`FeError::DensityOutOfRange`].

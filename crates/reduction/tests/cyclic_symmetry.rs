@@ -4,7 +4,8 @@
 mod common;
 
 use common::{
-    CONTOUR, MESH, QUADRATIC, SLOTS, SOLID, THIN_RIM, body, difference, reduced, without_symmetry,
+    CONTOUR, FILLETED, MESH, QUADRATIC, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, body, difference,
+    reduced, without_symmetry,
 };
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
@@ -116,6 +117,25 @@ fn quadratic_elements() {
     both_ways_agree((QUADRATIC, THIN_RIM), 18, 2 + 10, false);
     both_ways_agree((QUADRATIC, SOLID), 18, 2 + 10, false);
     both_ways_agree((QUADRATIC, &format!("{THIN_RIM}{SLOTS}")), 3, 2 + 2, false);
+}
+
+#[test]
+fn tetrahedra_below_one_tooth() {
+    both_ways_agree((TETRAHEDRA, SOLID), 18, 2 + 10, false);
+}
+
+#[test]
+#[ignore = "whole gears of tetrahedra, a minute or two"]
+fn tetrahedra_with_fillets_and_openings() {
+    let holes = |count: usize, phase: f64| {
+        format!(
+            "{FILLETED}holes = {{ count = {count}, pitch_circle_diameter_mm = 29.0, diameter_mm = 3.0, phase_deg = {phase} }}\n"
+        )
+    };
+    both_ways_agree((TETRAHEDRA, FILLETED), 18, 2 + 10, true);
+    both_ways_agree((TETRAHEDRA, &holes(9, 11.0)), 9, 2 + 5, false);
+    both_ways_agree((TETRAHEDRA, &holes(4, 30.0)), 2, 2 + 2, false);
+    both_ways_agree((TETRAHEDRA, &holes(5, 7.0)), 1, 2, false);
 }
 
 #[test]

@@ -36,6 +36,7 @@ fn exported(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
     let kind = match mesh.elements.shape() {
         ElementShape::Hex8 => CellKind::Hex8,
         ElementShape::Hex20 => CellKind::Hex20,
+        ElementShape::Tet10 => CellKind::Tet10,
     };
     MeshData {
         points: mesh.nodes.clone(),

@@ -255,6 +255,19 @@ fn mass_and_inertia_are_the_volume_integrals_of_the_mesh() {
     let (_, model, body) = reduced(&format!("{THIN_RIM}{SLOTS}"), ON_A_POINT);
     assert!(model.modes.is_none());
     let rigid = model.rigid_body.unwrap();
+    // From the moments alone, as a gear without modes and reference point has it.
+    let alone = body.rigid_body(7850.0).unwrap();
+    assert!((alone.mass_kg / rigid.mass_kg - 1.0).abs() < 1e-12);
+    for i in 0..3 {
+        assert!((alone.centre_m[i] - rigid.centre_m[i]).abs() < 1e-15);
+        for j in 0..3 {
+            let difference = alone.inertia_kg_m2[i][j] - rigid.inertia_kg_m2[i][j];
+            assert!(
+                difference.abs() < 1e-12 * rigid.inertia_kg_m2[2][2],
+                "{i} {j}"
+            );
+        }
+    }
     let [m, x, y, z, xx, yy, zz, xy, yz, xz] = volume_integrals(&body);
     assert!((rigid.mass_kg / m - 1.0).abs() < 1e-12);
     let radius = (xx / m).sqrt();

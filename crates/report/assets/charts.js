@@ -63,10 +63,38 @@ function legendForKeyboard(plot) {
 
 const legendValue = (u, v) => number(v, 5);
 
+// Named abscissas: a dashed line each, the names above the chart where there is room.
+function marks(u, list, base) {
+  const { ctx } = u, ratio = devicePixelRatio, { left, top: roof, width } = u.bbox;
+  let free = -Infinity;
+  ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+  ctx.textBaseline = "bottom"; ctx.textAlign = "left";
+  for (const { order, label } of [...list].sort((a, b) => a.order - b.order)) {
+    const x = u.valToPos(order, "x", true);
+    if (x < left || x > left + width) continue;
+    ctx.strokeStyle = cssColour("--line"); ctx.lineWidth = ratio;
+    ctx.setLineDash([3 * ratio, 3 * ratio]);
+    ctx.beginPath(); ctx.moveTo(x, roof); ctx.lineTo(x, base); ctx.stroke();
+    ctx.setLineDash([]);
+    const text = label ? `${number(order)} · ${label}` : number(order), half = ctx.measureText(text).width / 2;
+    const at = Math.min(Math.max(x - half, left), left + width - 2 * half);
+    if (at < free) continue;
+    ctx.fillStyle = cssColour("--faint"); ctx.fillText(text, at, roof - 4 * ratio);
+    free = at + 2 * half + 8 * ratio;
+  }
+}
+
 function lineChart(figure, place, d) {
   const gap = d.log ? v => (Number.isNaN(v) || v <= 0 ? null : v) : v => (Number.isNaN(v) ? null : v);
   const data = [Array.from(unpack(d.abscissas, Float32Array)), ...d.series.map(s => Array.from(unpack(s.values, Float32Array), gap))];
+  const markLines = u => {
+    u.ctx.save();
+    marks(u, d.marks, u.bbox.top + u.bbox.height);
+    u.ctx.restore();
+  };
   const options = () => ({
+    padding: [d.marks.length ? 24 : null, null, null, null],
+    hooks: { draw: d.marks.length ? [markLines] : [] },
     scales: { x: {}, y: d.log ? { distr: 3 } : {} },
     axes: [axis(d.x.label, d.x.unit, { size: 34 }), axis(d.y.label, d.y.unit, d.log ? logAxis : { size: 64 })],
     series: [{ label: withUnit(d.x.label, d.x.unit), value: legendValue }, ...d.series.map(s => ({
@@ -91,7 +119,7 @@ function spectrumChart(figure, place, d) {
     ctx.beginPath();
     ctx.rect(left, roof - 22 * ratio, width, u.bbox.height + 22 * ratio);
     ctx.clip();
-    names(u, ctx, ratio, base, left, roof, width);
+    marks(u, d.highlighted, base);
     const shown = d.series.map((_, i) => i + 1).filter(i => u.series[i].show);
     const perOrder = width / Math.max(1, u.scales.x.max - u.scales.x.min);
     const spread = Math.min(6 * ratio, Math.max(3 * ratio, perOrder * 0.8 / Math.max(1, shown.length)));
@@ -108,24 +136,6 @@ function spectrumChart(figure, place, d) {
       }
     });
     ctx.restore();
-  };
-  const names = (u, ctx, ratio, base, left, roof, width) => {
-    let free = -Infinity;
-    ctx.font = `${12 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
-    ctx.textBaseline = "bottom"; ctx.textAlign = "left";
-    for (const { order, label } of [...d.highlighted].sort((a, b) => a.order - b.order)) {
-      const x = u.valToPos(order, "x", true);
-      if (x < left || x > left + width) continue;
-      ctx.strokeStyle = cssColour("--line"); ctx.lineWidth = ratio;
-      ctx.setLineDash([3 * ratio, 3 * ratio]);
-      ctx.beginPath(); ctx.moveTo(x, roof); ctx.lineTo(x, base); ctx.stroke();
-      ctx.setLineDash([]);
-      const text = label ? `${number(order)} · ${label}` : number(order), half = ctx.measureText(text).width / 2;
-      const at = Math.min(Math.max(x - half, left), left + width - 2 * half);
-      if (at < free) continue;
-      ctx.fillStyle = cssColour("--faint"); ctx.fillText(text, at, roof - 4 * ratio);
-      free = at + 2 * half + 8 * ratio;
-    }
   };
   const options = () => ({
     padding: [24, null, null, null],

@@ -5,18 +5,20 @@
 //! | a folder with record.toml and data.csv | the reference as columns in SI units | [`ReferenceRecord::read`] |
 //! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
 //! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
-//! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] |
+//! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] (`system_page.rs` for multibody scenes) |
 //!
 //! [`page`] knows nothing of gears: it draws what it is given.
 
 pub mod comparison;
 mod comparison_table;
+mod min_max;
 pub mod page;
 pub mod quantity;
 pub mod record;
 mod record_data;
 pub mod scene_comparison;
 pub mod scene_page;
+mod system_page;
 
 pub use comparison::{
     ComparisonError, HarmonicComparison, SeriesComparison, compare, compare_with_column,

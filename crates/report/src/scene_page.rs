@@ -8,7 +8,10 @@ use crate::page::{
 use crate::quantity::Quantity;
 use crate::record::ReferenceRecord;
 use crate::scene_comparison::{SceneComparisonError, blank_orders, compare_scene, mesh_order};
+use crate::system_page;
+use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::SystemResult;
 use gearmesh_signal::rig::process;
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 use gearmesh_signal::{AngleSeries, OrderFilter, RigSettings};
@@ -43,6 +46,9 @@ pub enum ScenePageError {
     /// A block is wrong.
     #[error(transparent)]
     Page(#[from] PageError),
+    /// A column cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The comparison failed.
     #[error(transparent)]
     Comparison(#[from] SceneComparisonError),
@@ -52,12 +58,17 @@ fn micro(values: &[f64]) -> Vec<f64> {
     values.iter().map(|v| v * 1e6).collect()
 }
 
-/// Builds the page.
+/// Builds the page: gear pairs first, then multibody scenes.
 ///
 /// # Errors
-/// [`ScenePageError`] when a comparison cannot be made.
-pub fn scene_page(chapters: &[SceneChapter]) -> Result<Page, ScenePageError> {
-    let titles: Vec<&str> = chapters.iter().map(|c| c.result.title.as_str()).collect();
+/// [`ScenePageError`] when a comparison cannot be made, or a column of a result cannot be read.
+pub fn scene_page(
+    chapters: &[SceneChapter],
+    systems: &[SystemResult],
+) -> Result<Page, ScenePageError> {
+    let pairs = chapters.iter().map(|c| c.result.title.as_str());
+    let others = systems.iter().map(|r| r.head.title.as_str());
+    let titles: Vec<&str> = pairs.chain(others).collect();
     let mut page = Page::new("gearmesh report").subtitle(titles.join(" - "));
     for chapter in chapters {
         let r = &chapter.result;
@@ -91,9 +102,18 @@ pub fn scene_page(chapters: &[SceneChapter]) -> Result<Page, ScenePageError> {
         }
         page = page.section(provenance(r));
     }
-    let made: Vec<String> = chapters
+    for result in systems {
+        for section in system_page::sections(result)? {
+            page = page.section(section);
+        }
+    }
+    let pairs = chapters
         .iter()
-        .map(|c| format!("{} {}", c.result.version, c.result.created_utc))
+        .map(|c| (&c.result.version, &c.result.created_utc));
+    let others = systems.iter().map(|r| (&r.version, &r.created_utc));
+    let made: Vec<String> = pairs
+        .chain(others)
+        .map(|(version, created)| format!("{version} {created}"))
         .collect();
     Ok(page.footer(format!("gearmesh {}", made.join(", "))))
 }

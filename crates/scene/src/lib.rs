@@ -1,15 +1,21 @@
-//! From a scene file to a result: which models, which effects, which torques and angles; nothing else is computed.
+//! From a scene file to a result: which models, which effects, which loads; nothing else is computed.
 //!
-//! `scene_file.rs` reads and checks, `plan.rs` says what will be computed, `run.rs` computes, `result.rs` keeps and
-//! stores, `warnings.rs` tells where the model's assumptions are strained.
+//! | scene | how it is told | module |
+//! | --- | --- | --- |
+//! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
+//! | a multibody system | `[[body]]` | [`system`] |
+//!
+//! [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
+//! them again and again with keys that vary.
 
-pub mod plan;
-pub mod result;
-pub mod run;
+pub mod pair;
 pub mod scene_file;
-pub mod warnings;
+pub mod schema;
+pub mod study;
+pub mod system;
+pub mod system_run;
 
-pub use plan::Plan;
-pub use result::{RESULT_FORMAT, SceneResult, StrainSeries};
-pub use run::{LoadedScene, RunError, load, run};
-pub use scene_file::Scene;
+pub use pair::{
+    LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,
+};
+pub use scene_file::SceneFile;

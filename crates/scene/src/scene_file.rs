@@ -1,151 +1,42 @@
-//! The scene file: a gear pair, its models, torques, angle range and gauges.
+//! A scene file of either kind, told apart by what it holds.
 
-use gearmesh_contact::{ContactOptions, Friction, LocalContact};
+use std::path::Path;
+
+use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, InputError, Misalignment};
 use serde::Deserialize;
-use std::path::{Path, PathBuf};
+use serde::de::IgnoredAny;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SceneTable {
-    title: String,
-    pair: PairTable,
-    mesh: MeshTable,
-    run: RunTable,
-    #[serde(default)]
-    gauges: GaugesTable,
-}
+use crate::pair::Scene;
+use crate::system::SystemScene;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PairTable {
-    gear_1: PathBuf,
-    gear_2: PathBuf,
-    centre_distance_mm: f64,
-    #[serde(default = "default_flank")]
-    flank: FlankSide,
-    #[serde(default)]
-    inclination_mrad: f64,
-    #[serde(default)]
-    deviation_mrad: f64,
-}
-
-fn default_flank() -> FlankSide {
-    FlankSide::Right
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum MeshModel {
-    Hybrid,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum LocalTable {
-    None,
-    WeberBanaschek,
-    Calibrated,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum PathTable {
-    LineOfAction,
-    Extended,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeshTable {
-    #[allow(dead_code)]
-    model: MeshModel,
-    local: Option<LocalTable>,
-    path: Option<PathTable>,
-    edge_radius_um: Option<f64>,
-    friction: Option<FrictionTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum FrictionModel {
-    Coulomb,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FrictionTable {
-    #[allow(dead_code)]
-    model: FrictionModel,
-    coefficient: f64,
-    #[serde(default = "default_reversal")]
-    reversal_um: f64,
-}
-
-fn default_reversal() -> f64 {
-    20.0
-}
-
-/// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
-const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(non_snake_case)]
-struct RunTable {
-    torques_Nm: Vec<f64>,
-    #[serde(default)]
-    start_deg: f64,
-    pitches: usize,
-    points_per_pitch: usize,
-}
-
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields)]
-struct GaugesTable {
-    #[serde(default)]
-    gear_1: Vec<String>,
-    #[serde(default)]
-    gear_2: Vec<String>,
-}
-
-/// A scene that has been read and checked. Paths are relative to the scene file's folder.
+/// A scene that has been read and checked.
 #[derive(Debug, Clone)]
-pub struct Scene {
-    /// Title in prints and reports.
-    pub title: String,
-    /// Reduced model of the driving gear.
-    pub gear_1: PathBuf,
-    /// Reduced model of the driven gear.
-    pub gear_2: PathBuf,
-    /// Centre distance \[m\].
-    pub centre_distance_m: f64,
-    /// Hand of the flanks in contact, on both gears.
-    pub flank: FlankSide,
-    /// Axis errors.
-    pub misalignment: Misalignment,
-    /// Local contact and friction.
-    pub contact: ContactOptions,
-    /// Radius of the tip edges \[m\] where the path is `extended`; none where it is `line-of-action`.
-    pub edge_radius_m: Option<f64>,
-    /// Torques on gear 2 \[N·m\].
-    pub torques_nm: Vec<f64>,
-    /// First driver angle \[rad\].
-    pub start_rad: f64,
-    /// Pitches of gear 1 to run through.
-    pub pitches: usize,
-    /// Positions per pitch.
-    pub points_per_pitch: usize,
-    /// Gauges to read on gear 1, by name.
-    pub gauges_1: Vec<String>,
-    /// Gauges to read on gear 2, by name.
-    pub gauges_2: Vec<String>,
-    /// The file, for later complaints and provenance.
-    pub document: InputDocument,
+pub enum SceneFile {
+    /// One gear pair, static positions.
+    Pair(Box<Scene>),
+    /// A multibody system.
+    System(Box<SystemScene>),
 }
 
-impl Scene {
+/// The tables that tell the kinds of files apart.
+#[derive(Deserialize)]
+struct Marks {
+    pair: Option<IgnoredAny>,
+    body: Option<IgnoredAny>,
+    tooth: Option<IgnoredAny>,
+}
+
+impl SceneFile {
+    /// Whether a document is meant as a scene: it has `[pair]` or `[[body]]`.
+    ///
+    /// # Errors
+    /// [`InputError`] for a document that is no TOML.
+    pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
+        let marks: Marks = document.parse()?;
+        Ok(marks.pair.is_some() || marks.body.is_some())
+    }
+
     /// Reads and checks a scene file.
     ///
     /// # Errors
@@ -155,142 +46,34 @@ impl Scene {
         Self::from_document(InputDocument::read(path)?, folder)
     }
 
-    /// Checks a scene that is already in memory; model paths are taken relative to `folder`.
+    /// Checks a scene that is already in memory; other files are relative to `folder`.
     ///
     /// # Errors
-    /// As [`Scene::read`].
+    /// As [`SceneFile::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
-        let table: SceneTable = document.parse()?;
-        let require = |key: &str, value: f64, ok: bool, allowed: &str| {
-            if ok && value.is_finite() {
-                Ok(())
-            } else {
-                Err(document.error(key, format!("found {value}, allowed is {allowed}")))
+        let marks: Marks = document.parse()?;
+        match (marks.pair, marks.body) {
+            (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
+            (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
+            (Some(_), Some(_)) => Err(document.error(
+                "body",
+                "a scene has [pair] (one gear pair, static positions) or [[body]] (a multibody system), not both",
+            )),
+            (None, None) if marks.tooth.is_some() => {
+                Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))
             }
-        };
-        let pair = &table.pair;
-        require(
-            "pair.centre_distance_mm",
-            pair.centre_distance_mm,
-            pair.centre_distance_mm > 0.0,
-            "more than 0",
-        )?;
-        for (key, value) in [
-            ("pair.inclination_mrad", pair.inclination_mrad),
-            ("pair.deviation_mrad", pair.deviation_mrad),
-        ] {
-            require(
-                key,
-                value,
-                value.abs() <= 10.0,
-                "-10 to 10: the misalignment is treated as small",
-            )?;
+            (None, None) => Err(document.error(
+                "",
+                "no scene: it has neither [pair] (one gear pair, static positions) nor [[body]] (a multibody system)",
+            )),
         }
-        if table.run.torques_Nm.is_empty() {
-            return Err(document.error(
-                "run.torques_Nm",
-                "is empty; name at least one torque on gear 2",
-            ));
-        }
-        for (i, &torque) in table.run.torques_Nm.iter().enumerate() {
-            require(
-                &format!("run.torques_Nm.{i}"),
-                torque,
-                torque > 0.0,
-                "more than 0: the static solution needs a load that closes the contact",
-            )?;
-        }
-        require(
-            "run.start_deg",
-            table.run.start_deg,
-            table.run.start_deg.abs() <= 360.0,
-            "-360 to 360",
-        )?;
-        require(
-            "run.pitches",
-            table.run.pitches as f64,
-            (1..=10_000).contains(&table.run.pitches),
-            "1 to 10000",
-        )?;
-        let points = table.run.points_per_pitch;
-        require(
-            "run.points_per_pitch",
-            points as f64,
-            (4..=100_000).contains(&points),
-            "4 to 100000",
-        )?;
-        let friction = match &table.mesh.friction {
-            None => None,
-            Some(f) => {
-                require(
-                    "mesh.friction.coefficient",
-                    f.coefficient,
-                    (0.0..=1.0).contains(&f.coefficient),
-                    "0 to 1",
-                )?;
-                require(
-                    "mesh.friction.reversal_um",
-                    f.reversal_um,
-                    f.reversal_um > 0.0,
-                    "more than 0",
-                )?;
-                Some(Friction {
-                    coefficient: f.coefficient,
-                    reversal_m: f.reversal_um * 1e-6,
-                })
-            }
-        };
-        let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
-            (Some(PathTable::Extended), radius) => {
-                let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
-                require(
-                    "mesh.edge_radius_um",
-                    radius,
-                    (1.0..=1000.0).contains(&radius),
-                    "1 to 1000",
-                )?;
-                Some(radius * 1e-6)
-            }
-            (Some(PathTable::LineOfAction) | None, Some(_)) => {
-                return Err(document.error(
-                    "mesh.edge_radius_um",
-                    "is not used on the line of action; set mesh.path = \"extended\" or leave it out",
-                ));
-            }
-            (Some(PathTable::LineOfAction) | None, None) => None,
-        };
-        Ok(Self {
-            title: table.title,
-            gear_1: folder.join(&pair.gear_1),
-            gear_2: folder.join(&pair.gear_2),
-            centre_distance_m: pair.centre_distance_mm * 1e-3,
-            flank: pair.flank,
-            misalignment: Misalignment {
-                inclination_rad: pair.inclination_mrad * 1e-3,
-                deviation_rad: pair.deviation_mrad * 1e-3,
-            },
-            contact: ContactOptions {
-                local: match table.mesh.local {
-                    Some(LocalTable::None) => LocalContact::None,
-                    Some(LocalTable::WeberBanaschek) => LocalContact::WeberBanaschek,
-                    Some(LocalTable::Calibrated) => LocalContact::Calibrated,
-                    None => LocalContact::default(),
-                },
-                friction,
-            },
-            edge_radius_m,
-            torques_nm: table.run.torques_Nm,
-            start_rad: table.run.start_deg.to_radians(),
-            pitches: table.run.pitches,
-            points_per_pitch: points,
-            gauges_1: table.gauges.gear_1,
-            gauges_2: table.gauges.gear_2,
-            document,
-        })
     }
 
-    /// Number of positions.
-    pub fn positions(&self) -> usize {
-        self.pitches * self.points_per_pitch
+    /// Title in prints and reports.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Pair(scene) => &scene.title,
+            Self::System(scene) => &scene.title,
+        }
     }
 }

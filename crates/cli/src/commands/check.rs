@@ -1,13 +1,14 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::reduce;
+use crate::commands::{reduce, run_system};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{FileError, read_reduced_gear};
-use gearmesh_scene::{Scene, SceneResult};
+use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::{SceneFile, SceneResult};
 
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -20,6 +21,29 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                 Ok(())
             }
             Err(FileError::WrongFormat { .. }) => {
+                match SystemResult::open(path) {
+                    Ok(result) => {
+                        let (columns, rows) = (result.rows.columns().len(), result.rows.rows());
+                        let size = if rows > 0 {
+                            format!(", {columns} columns x {rows} rows")
+                        } else {
+                            String::new()
+                        };
+                        console::data(format!(
+                            "{}: result of `{}`, {}{size}, sound",
+                            path.display(),
+                            result.head.title,
+                            result.kind
+                        ));
+                        run_system::table(&result)?
+                            .into_iter()
+                            .skip(1)
+                            .for_each(console::data);
+                        return Ok(());
+                    }
+                    Err(FileError::WrongFormat { .. }) => {}
+                    Err(error) => return Err(Failure::input(error)),
+                }
                 let result = SceneResult::read(path).map_err(Failure::input)?;
                 console::data(format!(
                     "{}: result of `{}`, {} torques x {} angles, sound",
@@ -34,16 +58,31 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         };
     }
     let document = InputDocument::read(path)?;
-    // A scene has a [pair], a gear has [tooth]; the word decides which complaints the user sees.
-    let is_scene = document.text.lines().any(|line| line.trim() == "[pair]");
-    if is_scene {
+    // A scene has [pair] or [[body]], a gear has [tooth]; the word decides which complaints the user sees.
+    if SceneFile::recognises(&document)? {
         let folder = path.parent().unwrap_or(std::path::Path::new(""));
-        let scene = Scene::from_document(document, folder)?;
-        console::data(format!(
-            "{}: scene `{}`, sound",
-            path.display(),
-            scene.title
-        ));
+        match SceneFile::from_document(document, folder)? {
+            SceneFile::Pair(scene) => {
+                console::data(format!(
+                    "{}: scene `{}`, sound",
+                    path.display(),
+                    scene.title
+                ));
+            }
+            SceneFile::System(scene) => {
+                let loaded = scene.load()?;
+                let built = loaded.build()?;
+                console::data(format!(
+                    "{}: scene `{}`, sound: {} bodies, {} joints and motions, {} force elements",
+                    path.display(),
+                    loaded.scene.title,
+                    built.bodies.len(),
+                    built.joints.len(),
+                    built.elements.len()
+                ));
+                built.notes.iter().for_each(console::note);
+            }
+        }
     } else {
         let gear = GearDefinition::from_document(&document)?;
         let p = &gear.profile;

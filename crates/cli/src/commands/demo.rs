@@ -77,7 +77,7 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
             pictures: vec![picture],
         });
     }
-    write_page(&chapters, &out.join("report.html"))?;
+    write_page(&chapters, &[], &out.join("report.html"))?;
     clock.lap("report".into());
     console::data("\ntime of each stage");
     for (name, seconds) in &clock.stages {

@@ -10,6 +10,7 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
+    offline::note_element(&gear);
     let mesh = GearMesh::new(&gear, &offline::python()?)
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
     // Refused here too, where the finite element model would refuse an element.
@@ -21,6 +22,12 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
         &arguments.output,
     )?;
     let quality = mesh.quality;
+    let straightened = mesh.straightened_edges();
+    if straightened > 0 {
+        console::note(format!(
+            "{straightened} edges on curved surfaces of the body are straight, since elements would have been folded there"
+        ));
+    }
     if arguments.json {
         console::json(&json!({
             "nodes": mesh.nodes.len(),
@@ -32,10 +39,11 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
         }));
     } else {
         console::data(format!(
-            "{}: {} nodes, {} hexahedra, {} degrees of freedom, {} repeating sectors",
+            "{}: {} nodes, {} {}, {} degrees of freedom, {} repeating sectors",
             gear.name,
             mesh.nodes.len(),
             mesh.elements.len(),
+            mesh.elements.shape().plural(),
             mesh.dofs(),
             gear.sectors()
         ));

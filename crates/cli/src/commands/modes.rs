@@ -13,6 +13,7 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(a: &ModesArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&a.gear)?;
+    offline::note_element(&gear);
     let range = range(a, &gear)?;
     let density = gear.material.density_kg_per_m3;
     let density = density.ok_or(ReductionError::NoDensity)?;

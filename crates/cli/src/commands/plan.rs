@@ -3,18 +3,33 @@
 use crate::arguments::PlanArguments;
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_scene::{Scene, load};
+use gearmesh_scene::system::SystemPlan;
+use gearmesh_scene::{SceneFile, load};
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
-    let plan = load(Scene::read(&arguments.scene)?)?.plan();
+    let (lines, figures) = match SceneFile::read(&arguments.scene)? {
+        SceneFile::Pair(scene) => {
+            let plan = load(*scene)?.plan();
+            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns});
+            (plan.lines, figures)
+        }
+        SceneFile::System(scene) => {
+            let loaded = scene.load()?;
+            let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?;
+            let figures = json!({
+                "lines": plan.lines, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
+                "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,
+                "step_cost_s": plan.step_cost_s,
+            });
+            (plan.lines, figures)
+        }
+    };
     if arguments.json {
-        console::json(
-            &json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns}),
-        );
+        console::json(&figures);
     } else {
-        plan.lines.iter().for_each(console::data);
+        lines.iter().for_each(console::data);
     }
     Ok(())
 }

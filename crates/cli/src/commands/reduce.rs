@@ -17,7 +17,10 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
             }
             offline::reduced_import(&gear, body)?
         }
-        None => offline::reduced(&gear, !arguments.no_error_estimate)?.0,
+        None => {
+            offline::note_element(&gear);
+            offline::reduced(&gear, !arguments.no_error_estimate)?.0
+        }
     };
     write_reduced_gear(&arguments.output, &model).map_err(Failure::work)?;
     if arguments.json {
@@ -80,11 +83,14 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
         });
     }
     for g in &model.gauges {
+        let error = if g.error_estimate_relative > 0.0 {
+            format!("about {:.2} %", 100.0 * g.error_estimate_relative)
+        } else {
+            "not estimated".to_owned()
+        };
         lines.push(format!(
-            "gauge {}: {}; mesh error about {:.2} %",
-            g.name,
-            g.description,
-            100.0 * g.error_estimate_relative
+            "gauge {}: {}; mesh error {error}",
+            g.name, g.description
         ));
     }
     if let Some(body) = &model.rigid_body {

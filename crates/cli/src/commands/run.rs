@@ -1,16 +1,26 @@
 //! `gearmesh run`: a scene to a result file.
 
 use crate::arguments::RunArguments;
+use crate::commands::run_system;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
-use gearmesh_scene::{Scene, SceneResult, load, run as run_scene};
+use gearmesh_scene::{SceneFile, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let loaded = load(Scene::read(&arguments.scene)?)?;
+    let scene = match SceneFile::read(&arguments.scene)? {
+        SceneFile::Pair(scene) => scene,
+        SceneFile::System(scene) => return run_system::run(scene.load()?, arguments),
+    };
+    if arguments.restart {
+        return Err(Failure::input(
+            "--restart: scenes of a gear pair are not resumed; leave it out",
+        ));
+    }
+    let loaded = load(*scene)?;
     let result = run_scene(&loaded, &|done, total| {
         console::note(format!("torque {done} of {total} solved"))
     })?;

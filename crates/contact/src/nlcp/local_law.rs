@@ -125,6 +125,15 @@ impl LineContact {
         Ok((alpha, beta))
     }
 
+    /// Derivative of α \[m/N\] where the depth in one body grows by the share `depth_growth` of itself and the relative radius by
+    /// `radius_growth`, both per unit of whatever moves the contact.
+    pub fn alpha_rate(&self, body: usize, depth_growth: f64, radius_growth: f64) -> f64 {
+        let per_force =
+            |body: &ContactBody| 2.0 * body.plane_strain_compliance() / (PI * self.width_m);
+        let both: f64 = self.bodies.iter().map(per_force).sum();
+        per_force(&self.bodies[body]) * depth_growth - 0.5 * both * radius_growth
+    }
+
     /// `c` of `a = c √F` \[m/√N\].
     fn half_width_factor(&self) -> f64 {
         hertz::half_width_m(
@@ -383,6 +392,17 @@ impl LocalLaw {
             energy += self.beta * edge.complementary_energy(force_n);
         }
         energy
+    }
+
+    /// Derivative of the complementary energy at constant force where α changes by `alpha_rate` and the cap by `cap_rate`:
+    /// ½ F² α′ − ½ (β/F_c) (F − F_c)² F_c′ beyond the cap. Exact below the floor as well; an edge is left out.
+    pub fn complementary_energy_rate(&self, force_n: f64, alpha_rate: f64, cap_rate: f64) -> f64 {
+        let below = 0.5 * force_n * force_n * alpha_rate;
+        if !self.is_above_cap(force_n) {
+            return below;
+        }
+        let beyond = force_n - self.cap_n;
+        below - 0.5 * self.beta / self.cap_n * beyond * beyond * cap_rate
     }
 
     /// `α` \[m/N\].

@@ -68,6 +68,20 @@ impl Workspace {
         self.warm = false;
     }
 
+    /// Lets the next position solve, which must be of as many slices, start from these forces \[N\]; slices without force start open.
+    ///
+    /// # Panics
+    /// If there are more forces than the capacity.
+    pub fn start_from(&mut self, forces_n: &[f64]) {
+        self.size = forces_n.len();
+        for ((own, active), force) in self.force.iter_mut().zip(&mut self.active).zip(forces_n) {
+            *own = force.max(0.0);
+            *active = *force > 0.0;
+        }
+        self.warm = true;
+        assert!(self.size <= self.capacity, "more forces than the capacity");
+    }
+
     /// Slice forces `F` \[N\], zero or positive, of the last solve.
     pub fn forces(&self) -> &[f64] {
         &self.force[..self.size]

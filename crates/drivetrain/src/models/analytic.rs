@@ -89,6 +89,7 @@ impl TeethModel for BeamTeeth {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         let n = flanks.contacts.len();

@@ -7,6 +7,7 @@
 //! The same solver as the static contact's, with the gaps of the pose instead of those of a driver angle. The compliance moves with the
 //! roll angles: its part of the generalised force, ½ Fᵀ(∂C/∂ξ)F and that of the local laws, is included, so that undamped teeth keep
 //! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
+//! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes give way at rest.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
 use gearmesh_contact::LocalContact;
@@ -44,6 +45,39 @@ pub struct ReducedTeeth {
     ones: Vec<f64>,
     unit: Vec<f64>,
     change: Vec<f64>,
+    /// φ/ω of each row, `[row][mode]`; one array a gear.
+    modal_rows: [Vec<f64>; 2],
+    /// Teeth and slice forces that the next solution starts from.
+    known: KnownForces,
+}
+
+/// Forces by tooth pair: lines come, go and change their number.
+#[derive(Debug, Clone, Default)]
+struct KnownForces {
+    teeth: Vec<[usize; 2]>,
+    /// `[line][slice]`.
+    forces_n: Vec<f64>,
+}
+
+impl KnownForces {
+    fn with_capacity(slices: usize) -> Self {
+        Self {
+            teeth: Vec::with_capacity(slices),
+            forces_n: Vec::with_capacity(slices),
+        }
+    }
+
+    /// Appends to `start` what is known of a tooth pair; whether anything is.
+    fn append(&self, teeth: [usize; 2], slices: usize, start: &mut Vec<f64>) -> bool {
+        let known = self.teeth.iter().position(|other| *other == teeth);
+        match known {
+            Some(line) => {
+                start.extend_from_slice(&self.forces_n[line * slices..][..slices]);
+            }
+            None => start.resize(start.len() + slices, 0.0),
+        }
+        known.is_some()
+    }
 }
 
 impl ReducedTeeth {
@@ -79,6 +113,8 @@ impl ReducedTeeth {
             ones: vec![1.0; capacity],
             unit: empty(),
             change: empty(),
+            modal_rows: [empty(), empty()],
+            known: KnownForces::with_capacity(capacity),
             slices,
         })
     }
@@ -128,6 +164,65 @@ impl ReducedTeeth {
         }
     }
 
+    /// Takes from the compliance what the modes give way at rest.
+    fn take_modes_out(&mut self, flanks: &FlankContacts) {
+        for (rows, modal) in self.modal_rows.iter_mut().zip(&flanks.modal) {
+            let count = modal.count();
+            rows.clear();
+            if count == 0 {
+                continue;
+            }
+            rows.resize(self.touching.len() * count, 0.0);
+            for (number, contact) in flanks.contacts.iter().enumerate() {
+                if let Some(row) = row_of(&self.place, contact, self.slices.slices()) {
+                    let scaled = rows[row * count..].iter_mut().zip(modal.shape(number));
+                    for ((place, phi), omega_squared) in scaled.zip(&modal.omega_squared) {
+                        *place = phi / omega_squared.sqrt();
+                    }
+                }
+            }
+            self.slices.subtract_from_compliance(rows, count);
+        }
+    }
+
+    /// Starts from what is known, from nothing where nothing is.
+    fn begin_solution(&mut self) {
+        let slices = self.slices.slices();
+        self.change.clear();
+        let mut known = false;
+        for line in &self.active {
+            let teeth = [line.tooth_1, line.tooth_2];
+            known |= self.known.append(teeth, slices, &mut self.change);
+        }
+        if known && self.change.iter().any(|force| *force > 0.0) {
+            self.slices.start_from(&self.change);
+        } else {
+            self.slices.reset();
+        }
+    }
+
+    /// F_lineᵀ ∂φ/∂ξ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy.
+    fn modal_energy_by_roll(
+        &self,
+        flanks: &FlankContacts,
+        loads: &TeethLoads,
+        (line, gear): (usize, usize),
+    ) -> f64 {
+        let modal = &flanks.modal[gear];
+        let (first, count) = flanks.lines[line].contacts;
+        let mut rate = 0.0;
+        for (mode, omega_squared) in modal.omega_squared.iter().enumerate() {
+            let sum = |values: &[f64], contacts: std::ops::Range<usize>| -> f64 {
+                let each = contacts.map(|i| loads.normal_n[i] * values[i * modal.count() + mode]);
+                each.sum()
+            };
+            rate += sum(&modal.slopes, first..first + count)
+                * sum(&modal.shapes, 0..flanks.contacts.len())
+                / omega_squared;
+        }
+        rate
+    }
+
     fn fill_tangent(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
         let (n, slices) = (flanks.contacts.len(), self.slices.slices());
         let size = self.touching.len();
@@ -152,11 +247,7 @@ impl ReducedTeeth {
         }
     }
 
-    fn fill_energy(
-        &mut self,
-        flanks: &FlankContacts,
-        loads: &mut TeethLoads,
-    ) -> Result<(), DrivetrainError> {
+    fn fill_energy(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
         let slices = self.slices.slices();
         for (number, line) in flanks.lines.iter().enumerate() {
             let place = self.place[number];
@@ -170,13 +261,11 @@ impl ReducedTeeth {
             for gear in 0..2 {
                 // At the end of a flank the contact no longer walks.
                 if line.roll_rad[gear] == line.touching_roll_rad[gear] {
-                    loads.energy_by_roll[number][gear] = (self.slices)
-                        .energy_by_roll(&self.active, &self.touching, (place, gear), self.floor_n)
-                        .map_err(|cause| local_law_error(line.teeth, cause))?;
+                    loads.energy_by_roll[number][gear] = (self.slices).energy_by_roll(place, gear)
+                        - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
             }
         }
-        Ok(())
     }
 }
 
@@ -210,9 +299,12 @@ impl TeethModel for ReducedTeeth {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
+            self.active.clear();
+            self.touching.clear();
             return Ok(());
         }
         self.take(flanks);
@@ -227,11 +319,13 @@ impl TeethModel for ReducedTeeth {
         let slices = self.slices.slices();
         (self
             .slices
-            .prepare(&self.active, &self.touching, self.floor_n))
+            .prepare_with_rates(&self.active, &self.touching, self.floor_n))
         .map_err(|(cause, slice)| {
             let line = &self.active[slice / slices];
             local_law_error([line.tooth_1, line.tooth_2], cause)
         })?;
+        self.take_modes_out(flanks);
+        self.begin_solution();
         let separations = Separations {
             separation_m: &self.separation,
             closing: &self.ones[..size],
@@ -245,11 +339,87 @@ impl TeethModel for ReducedTeeth {
             }
         }
         loads.stored_j = self.slices.stored_energy_j();
-        self.fill_tangent(flanks, loads);
-        self.fill_energy(flanks, loads)
+        if tangents {
+            self.fill_tangent(flanks, loads);
+        }
+        self.fill_energy(flanks, loads);
+        Ok(())
     }
 
-    fn forget(&mut self) {
-        self.slices.reset();
+    fn apply_stiffness(
+        &mut self,
+        flanks: &FlankContacts,
+        _loads: &TeethLoads,
+        opening_m: &[f64],
+        forces_n: &mut [f64],
+    ) {
+        forces_n.fill(0.0);
+        let (size, slices) = (self.touching.len(), self.slices.slices());
+        if size == 0 {
+            return;
+        }
+        self.unit.clear();
+        self.unit.resize(size, 0.0);
+        self.change.resize(size, 0.0);
+        let rows = || {
+            let of = |contact| row_of(&self.place, contact, slices);
+            flanks.contacts.iter().map(of).enumerate()
+        };
+        for (number, row) in rows() {
+            if let Some(row) = row {
+                self.unit[row] = -opening_m[number];
+            }
+        }
+        self.slices.apply_tangent(&self.unit, &mut self.change);
+        for (number, row) in rows() {
+            if let Some(row) = row {
+                forces_n[number] = self.change[row];
+            }
+        }
+    }
+
+    fn takes_modes(&self) -> bool {
+        true
+    }
+
+    fn remember(&mut self) {
+        self.known.teeth.clear();
+        self.known.forces_n.clear();
+        if self.touching.is_empty() {
+            return;
+        }
+        let teeth = self.active.iter().map(|line| [line.tooth_1, line.tooth_2]);
+        self.known.teeth.extend(teeth);
+        self.known.forces_n.extend(self.slices.forces_n());
+    }
+
+    /// Number of lines, then the teeth and forces of as many lines as there can be.
+    fn save(&self, out: &mut Vec<f64>) {
+        let slices = self.slices.slices();
+        let lines = self.slices.capacity() / slices;
+        out.push(self.known.teeth.len() as f64);
+        let first = out.len();
+        out.resize(first + lines * (2 + slices), 0.0);
+        let places = out[first..].chunks_exact_mut(2 + slices);
+        let forces = self.known.forces_n.chunks_exact(slices);
+        for ((place, teeth), forces) in places.zip(&self.known.teeth).zip(forces) {
+            place[..2].copy_from_slice(&teeth.map(|tooth| tooth as f64));
+            place[2..].copy_from_slice(forces);
+        }
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        self.known.teeth.clear();
+        self.known.forces_n.clear();
+        let Some((&lines, rest)) = numbers.split_first() else {
+            return;
+        };
+        let places = rest.chunks_exact(2 + self.slices.slices());
+        for place in places.take(lines as usize) {
+            self.known
+                .teeth
+                .push([place[0] as usize, place[1] as usize]);
+            self.known.forces_n.extend_from_slice(&place[2..]);
+        }
     }
 }

@@ -81,6 +81,7 @@ impl TeethModel for Impact {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         let n = flanks.contacts.len();

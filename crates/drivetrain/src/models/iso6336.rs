@@ -151,6 +151,7 @@ impl TeethModel for MeshSpring {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         // Beyond a flank's end the gap is that of a tip edge, no longer the one that all ideal pairs share.

@@ -4,6 +4,9 @@
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 pub mod pair_common;
 
+pub mod modal_gear;
+pub mod running_pair;
+
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
 use gearmesh_drivetrain::*;

@@ -35,6 +35,7 @@ impl TeethModel for SquareWave {
     fn evaluate(
         &mut self,
         flanks: &FlankContacts,
+        _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         let Some(line) = flanks.lines.first() else {

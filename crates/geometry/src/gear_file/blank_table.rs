@@ -1,16 +1,17 @@
 //! `[blank]`: the body below the teeth.
 
-use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_kinks};
+use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_fillets};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
 use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
 /// The keys of `[blank]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BlankTable {
     kind: BlankKind,
@@ -29,7 +30,7 @@ pub(super) struct BlankTable {
     flank_sets: Option<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum BlankKind {
     Solid,
@@ -98,9 +99,18 @@ impl BlankTable {
         if contour.is_none() {
             self.refuse_contour_keys(&keys)?;
         }
+        // Openings keep clear of the fillets at hub and rim.
+        let fillets = contour.as_ref().map_or([0.0; 2], |c| {
+            [c.web.first(), c.web.last()].map(|p| p.map_or(0.0, |p| p.fillet_radius_m / MM))
+        });
         let (inner_mm, outer_mm) = web.map_or(
             (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
-            |w| (w.hub_radius_m / MM, w.rim_inner_radius_m / MM),
+            |w| {
+                (
+                    w.hub_radius_m / MM + fillets[0],
+                    w.rim_inner_radius_m / MM - fillets[1],
+                )
+            },
         );
         let openings = check_openings(
             self.slots,
@@ -109,16 +119,15 @@ impl BlankTable {
             (inner_mm, outer_mm),
             tooth.module_m,
         )?;
-        if let Some(contour) = &contour {
-            check_kinks(&keys, contour, openings.as_ref())?;
-        }
-        Ok(Blank {
+        let blank = Blank {
             bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
             web,
             contour,
             openings,
             meshed: None,
-        })
+        };
+        check_fillets(&keys, &blank, tooth.face_width_m, profile.root_radius_m)?;
+        Ok(blank)
     }
 
     fn check_bore(&self, keys: &TableKeys, room: &Room) -> Result<(), InputError> {

@@ -1,19 +1,23 @@
-//! `[[blank.web]]` and `blank.hub_z_mm`: hub and web by their axial contour.
+//! `[[blank.web]]` and `blank.hub_z_mm`: hub and web by their axial contour, with fillets in its corners.
 
 use super::{MM, TableKeys};
-use crate::definition::{Contour, ContourPoint, Openings, Web};
+use crate::body_outline::body_outline;
+use crate::definition::{Blank, Contour, ContourPoint, Web};
 use crate::input::InputError;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Lengths that differ by less are equal \[mm\].
 const SAME_MM: f64 = 1e-6;
 
 /// One point of the contour: where the web has this diameter, it reaches from back to front.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WebPointTable {
     diameter_mm: f64,
     z_mm: [f64; 2],
+    #[serde(default)]
+    fillet_radius_mm: f64,
 }
 
 /// What a contour must fit.
@@ -51,10 +55,14 @@ pub(super) fn check_contour(
             points[k + 1].diameter_mm
         };
         let [back, front] = point.z_mm;
+        // Two points at one diameter are a step of the web.
+        let step = k > 0 && point.diameter_mm == least;
+        let last = k + 1 == points.len();
         keys.require(
             &format!("web.{k}.diameter_mm"),
             point.diameter_mm,
-            point.diameter_mm > least && point.diameter_mm < most,
+            (point.diameter_mm > least || step)
+                && (point.diameter_mm < most || !last && point.diameter_mm == most),
             &format!("more than {least:.3} and less than {most:.3}: from the hub outwards, the rim at least half a module thick"),
         )?;
         let z_key = format!("web.{k}.z_mm");
@@ -64,6 +72,22 @@ pub(super) fn check_contour(
             front > back,
             "[back, front] with back < front",
         )?;
+        keys.require(
+            &format!("web.{k}.fillet_radius_mm"),
+            point.fillet_radius_mm,
+            point.fillet_radius_mm >= 0.0,
+            "0 (sharp corners) or more",
+        )?;
+        if step {
+            let before = points[k - 1].z_mm;
+            let common = before[1].min(front) - before[0].max(back);
+            keys.require(
+                &z_key,
+                common,
+                common > SAME_MM && (back != before[0] || front != before[1]),
+                "a step that moves a face and leaves the web in one piece: more than 0 in common with the point before it",
+            )?;
+        }
         least = point.diameter_mm;
     }
     let half = 0.5 * room.width_mm;
@@ -76,9 +100,7 @@ pub(super) fn check_contour(
             &format!("-{half} to {half} at the rim: inside the face width"),
         )?;
     }
-    // Layers beside the web run through rim and hub alike.
     for (k, (side, name)) in [(-1.0, "back"), (1.0, "front")].into_iter().enumerate() {
-        let at_rim = half - side * rim.z_mm[k];
         let at_hub = side * (hub_z_mm[k] - hub.z_mm[k]);
         keys.require(
             "hub_z_mm",
@@ -89,15 +111,6 @@ pub(super) fn check_contour(
                 hub.z_mm[k]
             ),
         )?;
-        if (at_rim > SAME_MM) != (at_hub > SAME_MM) {
-            return Err(keys.error(
-                "hub_z_mm",
-                format!(
-                    "at the {name} the web ends {at_rim:.3} mm inside the rim's face and {at_hub:.3} mm inside the hub's; the layers of \
-                     elements need both to be more than 0, or both to be 0"
-                ),
-            ));
-        }
     }
     let contour = Contour {
         hub_z_m: hub_z_mm.map(|z| z * MM),
@@ -106,6 +119,7 @@ pub(super) fn check_contour(
             .map(|point| ContourPoint {
                 radius_m: 0.5 * point.diameter_mm * MM,
                 z_m: point.z_mm.map(|z| z * MM),
+                fillet_radius_m: point.fillet_radius_mm * MM,
             })
             .collect(),
     };
@@ -118,27 +132,14 @@ pub(super) fn check_contour(
     Ok((contour, web))
 }
 
-/// Openings must keep between two neighbouring points of the contour, where circles of nodes lie.
-pub(super) fn check_kinks(
+/// Every fillet must find a corner and room in it.
+pub(super) fn check_fillets(
     keys: &TableKeys,
-    contour: &Contour,
-    openings: Option<&Openings>,
+    blank: &Blank,
+    width_m: f64,
+    outer_m: f64,
 ) -> Result<(), InputError> {
-    let Some((inner, outer)) = openings.map(Openings::radii_m) else {
-        return Ok(());
-    };
-    for (k, point) in contour.web.iter().enumerate() {
-        if point.radius_m >= inner && point.radius_m <= outer {
-            return Err(keys.error(
-                &format!("web.{k}.diameter_mm"),
-                format!(
-                    "found {}, which lies among the openings (diameters {:.3} to {:.3} mm); allowed is below or above all of them",
-                    2.0 * point.radius_m / MM,
-                    2.0 * inner / MM,
-                    2.0 * outer / MM
-                ),
-            ));
-        }
-    }
-    Ok(())
+    body_outline(blank, width_m, outer_m)
+        .map(|_| ())
+        .map_err(|e| keys.error(&format!("web.{}.fillet_radius_mm", e.web_point()), e))
 }

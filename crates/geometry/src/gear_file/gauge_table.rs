@@ -5,10 +5,11 @@ use crate::definition::{FlankSide, GaugeDefinition, RootPosition, ToothDefinitio
 use crate::input::{InputDocument, InputError};
 use crate::profile_curve::ProfileCurve;
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of one `[[gauge]]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GaugeTable {
     name: String,

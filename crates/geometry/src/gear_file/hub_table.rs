@@ -4,10 +4,11 @@ use super::TableKeys;
 use super::material_table::needs_density;
 use crate::definition::{HubSupport, Material};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[hub]`.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HubTable {
     #[serde(default)]

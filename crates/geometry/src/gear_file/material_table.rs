@@ -3,10 +3,11 @@
 use super::TableKeys;
 use crate::definition::Material;
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[material]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct MaterialTable {

@@ -1,12 +1,14 @@
 //! `[mesh]`: element sizes, by default in proportion to the module.
 
 use super::{MM, TableKeys};
-use crate::definition::{Blank, ElementKind, MeshSettings, ToothDefinition};
+use crate::body_outline::beyond_layers;
+use crate::definition::{Blank, ElementKind, MeshSettings, Openings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[mesh]`.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshTable {
     element: Option<ElementKind>,
@@ -76,6 +78,12 @@ impl MeshTable {
                 "plane strain knows the cross-section only, a web thinner than the face has no place in it; set blank.kind = \"solid\" or plane_strain = false",
             ));
         }
+        let (element, chosen_because) = self.check_element(&keys, tooth, blank)?;
+        // Quadratic tetrahedra on twice the lengths have about as many nodes as bricks of eight nodes.
+        let coarser = match element {
+            ElementKind::Tet10 => 2.0,
+            _ => 1.0,
+        };
         let quality = self.min_scaled_jacobian.unwrap_or(0.2);
         keys.require(
             "min_scaled_jacobian",
@@ -84,18 +92,63 @@ impl MeshTable {
             "more than 0, at most 0.9",
         )?;
         Ok(MeshSettings {
-            element: self.element.unwrap_or(ElementKind::Hex8Incompatible),
-            flank_m: size_m("flank_mm", self.flank_mm, 0.3 * module_mm, module_mm)?,
+            element,
+            chosen_because,
+            flank_m: size_m(
+                "flank_mm",
+                self.flank_mm,
+                coarser * 0.3 * module_mm,
+                module_mm,
+            )?,
             fillet_m: size_m(
                 "fillet_mm",
                 self.fillet_mm,
-                0.08 * module_mm,
+                coarser * 0.08 * module_mm,
                 0.5 * module_mm,
             )?,
-            body_m: size_m("body_mm", self.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
-            axial_m: size_m("axial_mm", self.axial_mm, width_mm / 10.0, width_mm)?,
+            body_m: size_m(
+                "body_mm",
+                self.body_mm,
+                coarser * 1.2 * module_mm,
+                10.0 * module_mm,
+            )?,
+            axial_m: size_m(
+                "axial_mm",
+                self.axial_mm,
+                coarser * width_mm / 10.0,
+                width_mm,
+            )?,
             min_scaled_jacobian: quality,
             plane_strain: self.plane_strain,
         })
+    }
+
+    /// The element, and why it is a tetrahedron where that was left open.
+    fn check_element(
+        &self,
+        keys: &TableKeys,
+        tooth: &ToothDefinition,
+        blank: &Blank,
+    ) -> Result<(ElementKind, Option<&'static str>), InputError> {
+        let openings_m = blank.openings.as_ref().map(Openings::radii_m);
+        let beyond = blank
+            .contour
+            .as_ref()
+            .and_then(|contour| beyond_layers(contour, openings_m, tooth.face_width_m));
+        match (self.element, beyond) {
+            (Some(ElementKind::Tet10), _) if self.plane_strain => Err(keys.error(
+                "plane_strain",
+                "the cross-section is meshed in quadrilaterals; set mesh.element to one of hexahedra or plane_strain = false",
+            )),
+            (Some(ElementKind::Tet10), _) => Ok((ElementKind::Tet10, None)),
+            (None, Some(_)) => Ok((ElementKind::Tet10, beyond)),
+            (Some(_), Some(reason)) => Err(keys.error(
+                "element",
+                format!(
+                    "{reason}, which moved layers of hexahedra cannot follow; remove the key or set it to \"tet10\""
+                ),
+            )),
+            (element, None) => Ok((element.unwrap_or(ElementKind::Hex8Incompatible), None)),
+        }
     }
 }

@@ -5,10 +5,11 @@ use crate::input::{InputDocument, InputError};
 use crate::involute;
 use crate::microgeometry::{Microgeometry, ProfileCrowning, ReliefShape, TipRelief};
 use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[microgeometry]`.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MicrogeometryTable {
     profile_crowning_um: Option<f64>,
@@ -20,7 +21,7 @@ pub(super) struct MicrogeometryTable {
     flank_angle_um: Option<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum TipReliefShape {
     Linear,

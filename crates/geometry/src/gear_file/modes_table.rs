@@ -4,10 +4,11 @@ use super::TableKeys;
 use super::material_table::needs_density;
 use crate::definition::{Material, ModeRange};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[modes]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct ModesTable {

@@ -3,11 +3,12 @@
 use super::{MM, TableKeys};
 use crate::definition::{Holes, Openings, Slots};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::TAU;
 
 /// The keys of `[blank.slots]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SlotsTable {
     count: usize,
@@ -19,7 +20,7 @@ pub(super) struct SlotsTable {
 }
 
 /// The keys of `[blank.holes]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HolesTable {
     count: usize,

@@ -3,10 +3,11 @@
 use super::TableKeys;
 use crate::definition::{FlankSide, ReductionSettings, Symmetry};
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The keys of `[reduction]`.
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ReductionTable {
     roll_stations: Option<usize>,

@@ -3,11 +3,12 @@
 use super::{MM, TableKeys};
 use crate::definition::ToothDefinition;
 use crate::input::{InputDocument, InputError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// The keys of `[tooth]`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToothTable {
     teeth: i64,
@@ -33,7 +34,7 @@ pub(super) struct ToothTable {
 }
 
 /// Hand of a helix: the teeth of a right-hand gear with an upright axis rise to the right.
-#[derive(Deserialize, Clone, Copy, PartialEq)]
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 enum Hand {
     Right,

@@ -13,6 +13,10 @@ pub const MESH: &str = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 4.0\naxial_mm
 pub const QUADRATIC: &str =
     "element = \"hex20\"\nflank_mm = 2.4\nfillet_mm = 1.0\nbody_mm = 6.0\naxial_mm = 6.0\n";
 
+/// Tetrahedra, likewise.
+pub const TETRAHEDRA: &str =
+    "element = \"tet10\"\nflank_mm = 3.0\nfillet_mm = 0.8\nbody_mm = 8.0\naxial_mm = 6.0\n";
+
 pub const SOLID: &str = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n";
 pub const THIN_RIM: &str = "[blank]
 kind = \"thin-rim\"
@@ -30,6 +34,17 @@ web = [
   { diameter_mm = 20.0, z_mm = [-4.0, 1.0] },
   { diameter_mm = 28.0, z_mm = [-2.5, 1.5] },
   { diameter_mm = 38.0, z_mm = [-1.0, 2.0] },
+]
+";
+/// The same with fillets at hub, kink and rim.
+pub const FILLETED: &str = "[blank]
+kind = \"contour\"
+bore_diameter_mm = 14.0
+hub_z_mm = [-8.0, 5.0]
+web = [
+  { diameter_mm = 20.0, z_mm = [-4.0, 1.0], fillet_radius_mm = 1.5 },
+  { diameter_mm = 28.0, z_mm = [-2.5, 1.5], fillet_radius_mm = 8.0 },
+  { diameter_mm = 38.0, z_mm = [-1.0, 2.0], fillet_radius_mm = 2.0 },
 ]
 ";
 /// For [`THIN_RIM`]: sectors of six teeth.

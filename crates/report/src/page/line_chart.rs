@@ -114,6 +114,7 @@ pub struct LineChart {
     x_values: Vec<f64>,
     x_window: Option<[f64; 2]>,
     series: Vec<LineSeries>,
+    marks: Vec<(f64, String)>,
 }
 
 impl LineChart {
@@ -127,6 +128,7 @@ impl LineChart {
             x_values: Vec::new(),
             x_window: None,
             series: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -155,6 +157,13 @@ impl LineChart {
     #[must_use]
     pub fn series(mut self, series: LineSeries) -> Self {
         self.series.push(series);
+        self
+    }
+
+    /// Marks an abscissa with a name.
+    #[must_use]
+    pub fn mark(mut self, x: f64, label: impl Into<String>) -> Self {
+        self.marks.push((x, label.into()));
         self
     }
 
@@ -206,7 +215,10 @@ impl LineChart {
                 what: "the list of series",
             });
         }
+        let marks = self.marks.iter();
+        let marks = marks.map(|(x, label)| json!({ "order": x, "label": label }));
         Ok(json!({
+            "marks": marks.collect::<Vec<_>>(),
             "x": self.x.payload(),
             "y": self.y.payload(),
             "log": self.y_scale == AxisScale::Logarithmic,

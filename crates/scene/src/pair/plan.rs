@@ -1,6 +1,6 @@
 //! What a scene will compute, before anything is computed.
 
-use crate::scene_file::Scene;
+use super::scene_file::Scene;
 use gearmesh_contact::ContactLines;
 use gearmesh_model::ReducedGear;
 

@@ -1,9 +1,9 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
-use crate::plan::Plan;
-use crate::result::{SceneResult, StrainSeries};
-use crate::scene_file::Scene;
-use crate::warnings::{Assumption, Warnings};
+use super::plan::Plan;
+use super::result::{SceneResult, StrainSeries};
+use super::scene_file::Scene;
+use super::warnings::{Assumption, Warnings};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{ContactError, ContactLines, ContactSlice, PathExtension, StaticContact};

@@ -1,0 +1,108 @@
+//! `gearmesh study`: a multibody scene again and again with some of its keys changed.
+
+use crate::arguments::StudyArguments;
+use crate::console::{self, RunBar};
+use crate::failure::Failure;
+use crate::interrupt;
+use gearmesh_scene::study::{CaseResult, Selected, Study, run_study};
+use serde_json::{Value, json};
+use std::sync::{Mutex, PoisonError};
+
+/// Runs the command.
+pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
+    let study = Study::read(&arguments.study)?;
+    let bar = Mutex::new(RunBar::new("study"));
+    let progress = |done: usize, count: usize| {
+        let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
+        bar.advance(done as f64, count as f64);
+    };
+    let stop = interrupt::on_demand();
+    let outcome = run_study(&study, &arguments.output, &stop.asked, &progress);
+    bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
+    let outcome = outcome?;
+    if outcome.stopped {
+        console::error("interrupted; the same command goes on from here");
+        std::process::exit(interrupt::EXIT_CODE);
+    }
+    drop(stop);
+    let failed = outcome
+        .cases
+        .iter()
+        .filter(|case| case.figures.is_err())
+        .count();
+    if arguments.json {
+        let cases: Vec<Value> = outcome.cases.iter().map(figures).collect();
+        console::json(
+            &json!({"title": study.tables.title, "from_s": study.tables.from_s, "cases": cases}),
+        );
+    } else {
+        table(&study, &outcome.cases)
+            .into_iter()
+            .for_each(console::data);
+    }
+    if failed > 0 {
+        let count = outcome.cases.len();
+        return Err(Failure::work(format!(
+            "{failed} of {count} cases failed; the table says why"
+        )));
+    }
+    Ok(())
+}
+
+/// The figures for people.
+fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
+    let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
+    let width = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0)
+        .max(4);
+    let mut lines = vec![format!(
+        "{}, from {} s on",
+        study.tables.title, study.tables.from_s
+    )];
+    for (k, column) in study.tables.columns.iter().enumerate() {
+        lines.push(format!(
+            "{column:width$} {:>14} {:>14} {:>14} {:>14}",
+            "mean", "deviation", "pk-pk", "largest"
+        ));
+        for (name, result) in names.iter().zip(cases) {
+            lines.push(match &result.figures {
+                Ok(columns) => {
+                    let figures = columns[k].figures;
+                    format!(
+                        "{name:width$} {:>14.6e} {:>14.6e} {:>14.6e} {:>14.6e}",
+                        figures.mean,
+                        figures.deviation,
+                        figures.peak_to_peak(),
+                        figures.largest
+                    )
+                }
+                Err(problem) => format!("{name:width$} failed: {problem}"),
+            });
+        }
+    }
+    lines
+}
+
+/// The figures of a case for machines.
+fn figures(result: &CaseResult) -> Value {
+    let settings = result.case.settings.iter();
+    let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
+    let columns = |columns: &Vec<Selected>| {
+        let figures = columns.iter().map(|Selected { column, figures }| {
+            json!({
+                "name": column, "mean": figures.mean, "deviation": figures.deviation, "least": figures.least,
+                "largest": figures.largest,
+            })
+        });
+        figures.collect::<Vec<_>>()
+    };
+    json!({
+        "parameters": settings.collect::<serde_json::Map<_, _>>(),
+        "file": result.file,
+        "columns": result.figures.as_ref().ok().map(columns),
+        "failure": result.figures.as_ref().err(),
+    })
+}

@@ -1,0 +1,287 @@
+//! `gearmesh run`, `check` and `report` on multibody scenes: results, kills, Ctrl-C.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+mod common;
+
+use common::{Answer, Desk, argument, changed, gearmesh, refused, succeeds};
+use gearmesh_scene::system_run::SystemResult;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// A driven pendulum on a torsion spring: 120 000 steps, some hundred milliseconds at least.
+const PENDULUM: &str = r#"title = "Driven pendulum"
+gravity_m_per_s2 = [0.0, -9.81, 0.0]
+[run]
+kind = "transient"
+end_s = 12.0
+[solver]
+step_s = 1e-4
+[output]
+interval_s = 1e-3
+[[body]]
+name = "rod"
+mass_kg = 3.0
+inertia_kg_m2 = [0.25, 1e-3, 0.25]
+position_mm = [500.0, 0.0, 0.0]
+cardan_deg = [0.0, 0.0, 90.0]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+body_2 = "rod"
+at_mm = [0.0, 0.0, 0.0]
+[[torsion_spring]]
+name = "spring"
+body_2 = "rod"
+stiffness_Nm_per_rad = 20.0
+damping_Nm_s_per_rad = 0.2
+[[load]]
+body = "rod"
+torque_Nm = { sine = { amplitude = 9.0, frequency_Hz = 0.9 } }
+"#;
+
+fn begin(scene: &Path, output: &Path, checkpoint_s: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_gearmesh"))
+        .args(["run", argument(scene), "-o", argument(output), "--json"])
+        .args(["--checkpoint-s", checkpoint_s])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn send(signal: &str, child: &Child) {
+    let kill = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+}
+
+fn assert_same_columns(a: &Path, b: &Path) {
+    let [a, b] = [a, b].map(|path| SystemResult::open(path).unwrap());
+    assert_eq!(a.rows.columns(), b.rows.columns());
+    for column in a.rows.columns() {
+        let bits = |r: &SystemResult| -> Vec<u64> {
+            let values = r.rows.read(&column.name).unwrap();
+            values.iter().map(|x| x.to_bits()).collect()
+        };
+        assert!(bits(&a) == bits(&b), "{}", column.name);
+    }
+    let steps = |r: &SystemResult| r.record.map(|r| (r.steps, r.iterations, r.evaluations));
+    assert_eq!(steps(&a), steps(&b));
+    assert_eq!(a.statistics, b.statistics);
+}
+
+/// Killed again and again, at times that fall into steps, rows and checkpoints alike, a run still ends with the bits of one that was left in
+/// peace. There is no result before the end.
+#[test]
+fn a_run_that_is_killed_goes_on_from_its_checkpoint_to_the_same_result() {
+    let desk = Desk::new();
+    let scene = desk.file("scene.toml", PENDULUM);
+    let (whole, killed) = (desk.path("whole.h5"), desk.path("killed.h5"));
+    let began = std::time::Instant::now();
+    succeeds(&["run", argument(&scene), "-o", argument(&whole)]);
+    let took = began.elapsed();
+    let (mut kills, mut resumed) = (0, 0);
+    let answer = loop {
+        let mut child = begin(&scene, &killed, "0.02");
+        // A sixth to two thirds of the whole, of no fixed rhythm, as long as it helps.
+        let wait = took.mul_f64([0.23, 0.41, 0.17, 0.66, 0.31][kills % 5]);
+        if kills < 6 {
+            std::thread::sleep(wait);
+        }
+        let running = child.try_wait().unwrap().is_none();
+        if kills < 6 && running {
+            send("-KILL", &child);
+            let answer = Answer::from(child.wait_with_output().unwrap());
+            assert_eq!(answer.code, None);
+            assert!(!killed.exists(), "half a result");
+            kills += 1;
+            resumed += usize::from(answer.stderr.contains("goes on from the checkpoint"));
+            continue;
+        }
+        break Answer::from(child.wait_with_output().unwrap());
+    };
+    assert_eq!(answer.code, Some(0), "{answer:#?}");
+    assert!(kills >= 1, "the run was too short to be killed");
+    resumed += usize::from(answer.stderr.contains("goes on from the checkpoint"));
+    assert!(resumed >= 1, "never resumed in {kills} kills");
+    assert_same_columns(&whole, &killed);
+    assert_eq!(desk.names(), ["killed.h5", "scene.toml", "whole.h5"]);
+}
+
+#[test]
+fn an_interrupted_run_says_so_and_goes_on() {
+    let desk = Desk::new();
+    let scene = desk.file("scene.toml", PENDULUM);
+    let output = desk.path("result.h5");
+    let child = begin(&scene, &output, "100");
+    let part = desk.path("result.h5.part");
+    while !part.join("rows.log").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(50));
+    send("-INT", &child);
+    let answer = Answer::from(child.wait_with_output().unwrap());
+    refused(&answer, 130, &["interrupted", "--restart"]);
+    assert_eq!(desk.names(), ["result.h5.part", "scene.toml"]);
+    assert!(part.join("checkpoint.h5").exists());
+    // Another scene must not go on from it, unless told to begin anew.
+    let other = desk.file("other.toml", changed(PENDULUM, "12.0", "0.1"));
+    let run = ["run", argument(&other), "-o", argument(&output)];
+    refused(
+        &gearmesh(&run),
+        2,
+        &["result.h5.part", "another scene", "--restart"],
+    );
+    let first = succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+    assert!(
+        first.stderr.contains("goes on from the checkpoint"),
+        "{first:#?}"
+    );
+    assert_eq!(desk.names(), ["other.toml", "result.h5", "scene.toml"]);
+    succeeds(&[&run[..], &["--restart"]].concat());
+}
+
+/// Two processes cannot write one result.
+#[test]
+fn a_result_that_another_run_writes_is_refused() {
+    let desk = Desk::new();
+    let scene = desk.file("scene.toml", changed(PENDULUM, "12.0", "1000.0"));
+    let output = desk.path("result.h5");
+    let mut child = begin(&scene, &output, "100");
+    let log = desk.path("result.h5.part").join("rows.log");
+    while !log.exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(50));
+    let answer = gearmesh(&["run", argument(&scene), "-o", argument(&output)]);
+    send("-KILL", &child);
+    child.wait().unwrap();
+    refused(&answer, 1, &["rows.log", "in use"]);
+}
+
+/// Figures, check and report of every kind of run.
+#[test]
+fn every_kind_of_run_is_printed_checked_and_reported() {
+    let solver = "[solver]\nstep_s = 1e-4\n[output]\ninterval_s = 1e-3\n";
+    let run = "kind = \"transient\"\nend_s = 12.0";
+    let transient = changed(PENDULUM, "12.0", "1.0");
+    let load = "torque_Nm = { sine = { amplitude = 9.0, frequency_Hz = 0.9 } }";
+    let still = changed(&changed(PENDULUM, solver, ""), load, "torque_Nm = 5.0");
+    let fixed = changed(&still, run, "kind = \"static\"\nload_factors = [0.5, 1.0]");
+    let eigen = changed(&still, run, "kind = \"eigen\"");
+    let driven = "[[motion]]\nname = \"driver\"\njoint = \"hinge\"\nspeed_rpm = 10.0\n";
+    let sweep = changed(
+        PENDULUM,
+        run,
+        "kind = \"speed-sweep\"\nmotion = \"driver\"\nfrom_rpm = 10.0\nto_rpm = 20.0\nspeeds = 3\nsettle_s = 0.1\nmeasure_s = 0.1",
+    ) + driven;
+    for (kind, scene) in [
+        ("transient", transient),
+        ("static", fixed),
+        ("eigen", eigen),
+        ("speed-sweep", sweep),
+    ] {
+        let desk = Desk::new();
+        let scene = desk.file("scene.toml", scene);
+        let (output, page) = (desk.path("result.h5"), desk.path("page.html"));
+        let run = ["run", argument(&scene), "-o", argument(&output)];
+        let printed = succeeds(&run);
+        assert!(printed.stdout.contains(kind), "{printed:#?}");
+        let json = succeeds(&[&run[..], &["--json"]].concat()).json();
+        assert_eq!(json["kind"], kind);
+        let checked = succeeds(&["check", argument(&output)]);
+        assert!(checked.stdout.contains("Driven pendulum") && checked.stdout.contains("sound"));
+        succeeds(&["report", argument(&output), "-o", argument(&page)]);
+        let html = std::fs::read_to_string(&page).unwrap();
+        assert!(html.contains("Driven pendulum"));
+        match kind {
+            "transient" => {
+                assert_eq!(json["rows"], 1001);
+                assert!(json["run"]["relative_energy_error"].as_f64().unwrap() < 1e-3);
+            }
+            "eigen" => {
+                // √((k + m g l sin)/J) about the equilibrium, damping c/(2 √(k J)) of it: here only that it vibrates once.
+                let modes = json["points"][0]["modes"].as_array().unwrap();
+                assert_eq!(modes.len(), 1);
+                assert_eq!(modes[0]["participation"]["rod"], 1.0);
+            }
+            "speed-sweep" => assert_eq!(json["windows"].as_array().unwrap().len(), 6),
+            _ => assert_eq!(json["columns"]["load_factor"][1], 1.0),
+        }
+    }
+}
+
+/// Two gears by a linear mesh: √(k/m_eq), k = K, m_eq = J₁J₂/(J₁ r₂² + J₂ r₁²) with base radii.
+#[test]
+fn two_gears_have_the_closed_form_frequency() {
+    let gear = |teeth: usize| {
+        format!(
+            "name = \"gear\"\n[tooth]\nteeth = {teeth}\nmodule_mm = 3.0\nface_width_mm = 20.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\n"
+        )
+    };
+    let desk = Desk::new();
+    desk.file("one.toml", gear(30));
+    desk.file("two.toml", gear(40));
+    let (j1, j2, k) = (5e-3_f64, 2e-2, 3e8);
+    let [r1, r2] = [30.0, 40.0].map(|z| 0.5 * z * 3e-3 * 20.0_f64.to_radians().cos());
+    let torque = 40.0;
+    let scene = desk.file(
+        "scene.toml",
+        format!(
+            r#"title = "Two gears"
+[run]
+kind = "eigen"
+[[body]]
+name = "one"
+gear = "one.toml"
+mass_kg = 1.0
+inertia_kg_m2 = [3e-3, 3e-3, {j1}]
+[[body]]
+name = "two"
+gear = "two.toml"
+mass_kg = 2.0
+inertia_kg_m2 = [1e-2, 1e-2, {j2}]
+position_mm = [105.3, 0.0, 0.0]
+[[joint]]
+name = "axle one"
+kind = "revolute"
+body_2 = "one"
+[[joint]]
+name = "axle two"
+kind = "revolute"
+body_2 = "two"
+[[load]]
+name = "drive"
+body = "one"
+torque_Nm = -{torque}
+[[load]]
+name = "brake"
+body = "two"
+torque_Nm = -{}
+[[gear_mesh]]
+name = "mesh"
+gear_1 = "one"
+gear_2 = "two"
+model = "impact"
+flanks = "right"
+stiffness_N_per_mm_e = {}
+exponent = 1.0
+"#,
+            torque * r2 / r1,
+            k * 1e-3
+        ),
+    );
+    let output = desk.path("result.h5");
+    let json = succeeds(&["run", argument(&scene), "-o", argument(&output), "--json"]).json();
+    let modes = json["points"][0]["modes"].as_array().unwrap();
+    let found = modes.last().unwrap()["frequency_Hz"].as_f64().unwrap();
+    // One or two pairs of teeth carry, each with K: the number at the start is in the notes of the mesh.
+    let single = (k * (r1 * r1 / j1 + r2 * r2 / j2)).sqrt() / std::f64::consts::TAU;
+    let pairs = (found / single).powi(2);
+    assert!(
+        (pairs - pairs.round()).abs() < 2e-6 * pairs && (1.0..3.0).contains(&pairs.round()),
+        "{found} {single}"
+    );
+}

@@ -1,0 +1,193 @@
+//! Vibration modes of a gear body at its flanks: how they move the gaps.
+//!
+//! ```text
+//! g = g_rigid + φ₁(ξ₁)·η₁ + φ₂(ξ₂)·η₂ + C_r F + δ(F),      C_r = C − Σ φ φᵀ/ω²         force on η: φ F
+//! ```
+//!
+//! φ is NᵀΦ of the reduced gear along the flank's inward normal, combined to slices with the same shares as the compliance, so that
+//! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap.
+//! Only normal forces excite modes; friction acts on the rigid motion. Theory: docs/theory/gear_meshes.md.
+
+use gearmesh_contact::RollHats;
+use gearmesh_contact::slice_compliance::axial_shares;
+use gearmesh_geometry::FlankSide;
+use gearmesh_model::{Flank, ReducedGear};
+
+use crate::error::DrivetrainError;
+use crate::mesh_kinematics::FlankContacts;
+use crate::pose::Vector6;
+
+/// Shapes of one gear's modes at the contacts of one side; empty for gears without modes.
+#[derive(Debug, Clone, Default)]
+pub struct ModalRows {
+    /// ω² of each mode \[rad²/s²\].
+    pub omega_squared: Vec<f64>,
+    /// φ, `[contact][mode]` \[kg^-½\].
+    pub shapes: Vec<f64>,
+    /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
+    pub slopes: Vec<f64>,
+}
+
+impl ModalRows {
+    /// Number of modes.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.omega_squared.len()
+    }
+
+    /// φ of a contact.
+    #[must_use]
+    pub fn shape(&self, contact: usize) -> &[f64] {
+        &self.shapes[contact * self.count()..][..self.count()]
+    }
+
+    /// ∂φ/∂ξ of a contact.
+    #[must_use]
+    pub fn slope(&self, contact: usize) -> &[f64] {
+        &self.slopes[contact * self.count()..][..self.count()]
+    }
+}
+
+/// Modal coordinates and rates of gear 1 and gear 2; empty ones stand for bodies that do not vibrate.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ModalMotion<'a> {
+    /// η \[√kg·m\].
+    pub coordinates: [&'a [f64]; 2],
+    /// η̇.
+    pub rates: [&'a [f64]; 2],
+}
+
+/// The hand of flanks of a model that a side of the teeth means.
+pub(crate) fn flank_of(side: FlankSide) -> Flank {
+    match side {
+        FlankSide::Right => Flank::Right,
+        FlankSide::Left => Flank::Left,
+    }
+}
+
+/// NᵀΦ of one gear's flanks of one side, condensed to slices.
+#[derive(Debug, Clone)]
+pub struct FlankModes {
+    omega_squared: Vec<f64>,
+    hats: RollHats,
+    stations: usize,
+    slices: usize,
+    /// `[tooth][station][slice][mode]`.
+    rows: Vec<f64>,
+}
+
+impl FlankModes {
+    /// The lowest `modes` modes of a model at its flanks of one side.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it has fewer modes.
+    pub fn new(gear: &ReducedGear, side: FlankSide, modes: usize) -> Result<Self, DrivetrainError> {
+        let flank = flank_of(side);
+        gear.flank_index(flank)?;
+        let basis = gear.modal_basis()?;
+        if modes > basis.count() {
+            return Err(DrivetrainError::Length {
+                owner: "modal gear body",
+                what: "the list of modes in the model file",
+                found: basis.count(),
+                expected: modes,
+            });
+        }
+        let grid = &gear.grid;
+        let (stations, slices) = (grid.roll_angles_rad.len(), grid.slices);
+        let mut rows = vec![0.0; gear.teeth * stations * slices * modes];
+        for mode in 0..modes {
+            for tooth in 0..gear.teeth {
+                let shape = gear.mode_at_flank(mode, tooth, flank)?;
+                for station in 0..stations {
+                    for slice in 0..slices {
+                        let row = ((tooth * stations + station) * slices + slice) * modes + mode;
+                        rows[row] = axial_shares(slice, slices)
+                            .map(|(axial, share)| share * shape[3 * grid.load(station, axial)])
+                            .sum();
+                    }
+                }
+            }
+        }
+        Ok(Self {
+            omega_squared: basis.omega_squared[..modes].to_vec(),
+            hats: RollHats::new(&grid.roll_angles_rad),
+            stations,
+            slices,
+            rows,
+        })
+    }
+
+    /// Number of modes.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.omega_squared.len()
+    }
+
+    /// Memory for the rows of so many contacts.
+    pub(crate) fn rows_with_capacity(&self, contacts: usize) -> ModalRows {
+        ModalRows {
+            omega_squared: self.omega_squared.clone(),
+            shapes: Vec::with_capacity(contacts * self.count()),
+            slopes: Vec::with_capacity(contacts * self.count()),
+        }
+    }
+
+    /// Writes shapes and slopes of all contacts on gear 0 or 1 and lets the modal coordinates move gaps, gap rates and gradients;
+    /// `pose_rates`: (u̇, ω).
+    pub(crate) fn bend(
+        &self,
+        gear: usize,
+        motion: &ModalMotion<'_>,
+        pose_rates: &Vector6,
+        found: &mut FlankContacts,
+    ) {
+        let modes = self.count();
+        let (coordinates, rates) = (motion.coordinates[gear], motion.rates[gear]);
+        let rows = &mut found.modal[gear];
+        rows.shapes.clear();
+        rows.shapes.resize(found.contacts.len() * modes, 0.0);
+        rows.slopes.clear();
+        rows.slopes.resize(found.contacts.len() * modes, 0.0);
+        for line in &found.lines {
+            let roll = line.touching_roll_rad[gear];
+            let place = self.hats.place(roll);
+            let walks = roll == line.roll_rad[gear];
+            let along = &line.roll_gradient[gear];
+            let roll_rate = along.dot(pose_rates);
+            let first = line.teeth[gear] * self.stations;
+            let (start, count) = line.contacts;
+            for number in start..start + count {
+                let contact = &mut found.contacts[number];
+                let row = |station: usize| {
+                    let row = ((first + station) * self.slices + contact.slice) * modes;
+                    &self.rows[row..row + modes]
+                };
+                let shape = &mut rows.shapes[number * modes..][..modes];
+                for (station, share) in place.shares() {
+                    add_scaled(shape, share, row(station));
+                }
+                let slope = &mut rows.slopes[number * modes..][..modes];
+                for (station, share) in place.rates().filter(|_| walks) {
+                    add_scaled(slope, share, row(station));
+                }
+                contact.gap_m += dot(shape, coordinates);
+                let bent = dot(slope, coordinates);
+                contact.gradient += bent * along;
+                contact.gap_rate_m_per_s += dot(shape, rates) + bent * roll_rate;
+            }
+        }
+    }
+}
+
+/// a·b over the shorter of the two.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// sum += factor · values.
+pub(crate) fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (place, value) in sum.iter_mut().zip(values) {
+        *place += factor * value;
+    }
+}

@@ -1,0 +1,165 @@
+//! Root strain while a run goes on: gauges of a gear read the slice forces of its mesh, and its modes.
+//!
+//! ```text
+//! ε = gᵀΦ η + Σ (row − gᵀΦ Ω⁻² φ) F          rows of method 1 or 2; without modes the rows alone
+//! ```
+//!
+//! One multiplication a gauge, slice and share: no field, no allocation. Forces that reach the gear through another mesh or a joint are not
+//! in it: strain is linear, so that the readings of all meshes of a gear add up, the modal part counted once ([`ModalPart`]). Friction
+//! excites no modes and is read with the whole tangential row.
+
+use gearmesh_geometry::FlankSide;
+use gearmesh_model::{GaugeRows, ReducedGear};
+use gearmesh_recovery::{GaugeArray, LoadedSlice, Strain};
+
+use crate::error::DrivetrainError;
+use crate::flank_modes::flank_of;
+use crate::gear_mesh::GearMesh;
+
+/// Whether a mesh's gauges read the vibration of their gear, too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModalPart {
+    /// gᵀΦ η is read: the gear's only mesh, or the first of them. The default.
+    #[default]
+    Included,
+    /// It is read with another mesh of the same gear.
+    ElsewhereIncluded,
+}
+
+/// Gauges of one gear of a mesh.
+#[derive(Debug, Clone)]
+pub struct StrainGauges {
+    /// 0 or 1.
+    gear: usize,
+    names: Vec<String>,
+    sides: Vec<(FlankSide, GaugeArray)>,
+    /// gᵀΦ, `[gauge][mode]`; empty without modes.
+    modal: Vec<f64>,
+    strain: Vec<Strain>,
+}
+
+impl StrainGauges {
+    /// Gauges of gear 1 or 2 of a mesh, by their names in the gear's model. Set the mesh's modes before.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Gauge`] for an unknown name, [`DrivetrainError::Model`] if the model has no loads on a side of the mesh.
+    ///
+    /// # Panics
+    /// If `gear` is neither 1 nor 2.
+    pub fn new(
+        mesh: &GearMesh,
+        gear: usize,
+        model: &ReducedGear,
+        names: &[&str],
+        modal_part: ModalPart,
+    ) -> Result<Self, DrivetrainError> {
+        assert!(gear == 1 || gear == 2, "gear {gear} of 1 and 2");
+        let modes = mesh.modal_loads().counts()[gear - 1];
+        let (mut rows, mut modal) = (Vec::new(), Vec::new());
+        for name in names {
+            let Some(number) = model.gauges.iter().position(|gauge| gauge.name == *name) else {
+                let known: Vec<&str> = model.gauges.iter().map(|g| g.name.as_str()).collect();
+                return Err(DrivetrainError::Gauge {
+                    gear: model.name.clone(),
+                    name: (*name).to_owned(),
+                    known: if known.is_empty() {
+                        "none".to_owned()
+                    } else {
+                        known.join(", ")
+                    },
+                });
+            };
+            rows.push(residual_rows(model, number, modes)?);
+            if modes > 0 && modal_part == ModalPart::Included {
+                let basis = model.modal_basis()?;
+                let gauges = model.gauges.len();
+                modal.extend((0..modes).map(|mode| basis.gauges[mode * gauges + number]));
+            }
+        }
+        let mut sides = Vec::new();
+        for side in mesh.flanks() {
+            sides.push((side, GaugeArray::new(model, &rows, flank_of(side))?));
+        }
+        Ok(Self {
+            gear: gear - 1,
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+            sides,
+            modal,
+            strain: vec![Strain::default(); names.len()],
+        })
+    }
+
+    /// Gear 1 or 2.
+    #[must_use]
+    pub fn gear(&self) -> usize {
+        self.gear + 1
+    }
+
+    /// Names of the gauges.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Strain at the last pose of the mesh, one entry a gauge; `coordinates`: η of the gear's body, empty without modes.
+    pub fn read(&mut self, mesh: &GearMesh, coordinates: &[f64]) -> &[Strain] {
+        self.strain.fill(Strain::default());
+        for (side, gauges) in &self.sides {
+            let Some((found, forces)) = mesh.side(*side) else {
+                continue;
+            };
+            let friction = mesh.friction_coefficients(*side);
+            for line in &found.lines {
+                let (first, count) = line.contacts;
+                if forces[first..first + count].iter().all(|f| *f <= 0.0) {
+                    continue;
+                }
+                let roll_rad = line.touching_roll_rad[self.gear];
+                let place = gauges.place(roll_rad);
+                for number in first..first + count {
+                    let loaded = LoadedSlice {
+                        tooth: line.teeth[self.gear],
+                        slice: found.contacts[number].slice,
+                        roll_rad,
+                        // The tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ σ > 0.
+                        components: [1.0, side.mirror() * friction[number]],
+                        force_n: forces[number],
+                    };
+                    if loaded.force_n > 0.0 {
+                        gauges.add(&loaded, &place, &mut self.strain);
+                    }
+                }
+            }
+        }
+        let modes = self.modal.len() / self.strain.len().max(1);
+        if modes > 0 {
+            for (strain, row) in self.strain.iter_mut().zip(self.modal.chunks_exact(modes)) {
+                let vibration: f64 = row.iter().zip(coordinates).map(|(g, eta)| g * eta).sum();
+                strain.method_1 += vibration;
+                strain.method_2 += vibration;
+            }
+        }
+        &self.strain
+    }
+}
+
+/// A gauge's rows less what the lowest `modes` modes read of normal forces at rest.
+fn residual_rows(
+    model: &ReducedGear,
+    gauge: usize,
+    modes: usize,
+) -> Result<GaugeRows, DrivetrainError> {
+    let mut rows = model.gauges[gauge].clone();
+    if modes == 0 {
+        return Ok(rows);
+    }
+    let basis = model.modal_basis()?;
+    let shapes = basis.flank.chunks_exact(rows.adjoint.len());
+    for (mode, shape) in shapes.take(modes).enumerate() {
+        let share = basis.gauges[mode * model.gauges.len() + gauge] / basis.omega_squared[mode];
+        for (row, shape) in rows.adjoint.iter_mut().zip(shape).step_by(3) {
+            *row -= share * shape;
+        }
+    }
+    Ok(rows)
+}

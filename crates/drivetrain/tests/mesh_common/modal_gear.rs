@@ -1,0 +1,118 @@
+//! A made-up gear that vibrates: the body of the contact tests and modes of a ring on top of it, whose static share is in C_hub.
+
+use gearmesh_geometry::ToothGeometry;
+use gearmesh_model::{Flank, GaugeRows, ModalBasis, ReducedGear, RigidBody};
+use std::f64::consts::TAU;
+
+use super::{WIDTH, made_up_gear};
+
+/// Frequency \[Hz\], nodal diameters, and whether it is the sine of a pair.
+pub const MODES: [(f64, usize, bool); 6] = [
+    (2500.0, 0, false),
+    (3100.0, 1, false),
+    (3100.0, 1, true),
+    (4200.0, 2, false),
+    (4200.0, 2, true),
+    (6000.0, 0, false),
+];
+/// Gauges on as many teeth.
+pub const GAUGES: usize = 8;
+
+/// φ of a mode at a load: strongest at the tip, pairs of equal frequency turned against each other, so that the gear looks the same from
+/// each tooth.
+fn shape(mode: usize, tooth: usize, teeth: usize, side: f64, height: f64) -> f64 {
+    let (_, diameters, sine) = MODES[mode];
+    let angle = TAU * (diameters * tooth) as f64 / teeth as f64;
+    let around = if sine { angle.sin() } else { angle.cos() };
+    let amplitude = [0.35, 0.25, 0.25, 0.3, 0.3, 0.4][mode];
+    side * amplitude * around * (0.8 + 0.4 * height)
+}
+
+/// The gear with modes, mass and gauges.
+pub fn modal_gear(name: &str, tooth: &ToothGeometry) -> ReducedGear {
+    let mut gear = made_up_gear(tooth);
+    let (teeth, loads, axial) = (gear.teeth, gear.grid.len(), gear.grid.z_m.len());
+    let stations = gear.grid.roll_angles_rad.len();
+    let omega_squared: Vec<f64> = MODES.iter().map(|(f, ..)| (TAU * f).powi(2)).collect();
+    let at = |mode: usize, tooth: usize, flank: usize, load: usize| {
+        let height = (load / axial) as f64 / (stations - 1) as f64;
+        let side = if flank == 0 { 1.0 } else { -1.0 };
+        shape(mode, tooth, teeth, side, height)
+    };
+    for (number, c) in gear.c_hub.iter_mut().enumerate() {
+        // `[load flank][response tooth][response flank][load][response]`
+        let (m, l) = (number % loads, number / loads % loads);
+        let block = number / (loads * loads);
+        let (response_flank, tooth, load_flank) = (block % 2, block / 2 % teeth, block / 2 / teeth);
+        for (mode, omega_squared) in omega_squared.iter().enumerate() {
+            *c += at(mode, 0, load_flank, l) * at(mode, tooth, response_flank, m) / omega_squared;
+        }
+    }
+    let mut flank = Vec::new();
+    for mode in 0..MODES.len() {
+        for tooth in 0..teeth {
+            for side in 0..2 {
+                for load in 0..loads {
+                    let normal = at(mode, tooth, side, load);
+                    flank.extend([normal, 0.1 * normal, 0.02]);
+                }
+            }
+        }
+    }
+    let readings: Vec<f64> = (0..MODES.len() * GAUGES)
+        .map(|i| 3.0 * (1.7 * i as f64).sin())
+        .collect();
+    gear.gauges = (0..GAUGES)
+        .map(|number| GaugeRows {
+            name: format!("g{number}"),
+            tooth: number,
+            side: Flank::Right,
+            description: "made up".to_owned(),
+            error_estimate_relative: 0.01,
+            adjoint: (0..teeth * 2 * loads * 3)
+                .map(|i| {
+                    let own = if i / (6 * loads) == number {
+                        1e-8
+                    } else {
+                        1e-10
+                    };
+                    let modal: f64 = (0..MODES.len())
+                        .map(|mode| {
+                            let phi = flank[mode * teeth * 2 * loads * 3 + i];
+                            readings[mode * GAUGES + number] * phi / omega_squared[mode]
+                        })
+                        .sum();
+                    own * (1.0 + 0.3 * (0.1 * i as f64).sin()) + modal
+                })
+                .collect(),
+            own_tooth: (0..2 * loads)
+                .map(|i| 1e-9 * (0.2 * i as f64).cos())
+                .collect(),
+        })
+        .collect();
+    let blank = super::disc("", tooth, WIDTH, (0.0, 0.0, 0.0));
+    let (mass, inertia) = (blank.mass_kg, blank.inertia_kg_m2);
+    let mut coupling = vec![0.0; 6 * MODES.len()];
+    coupling[5] = 0.4 * inertia[(2, 2)].sqrt();
+    coupling[6] = 0.3 * mass.sqrt();
+    coupling[13] = 0.3 * mass.sqrt();
+    coupling[35] = -0.3 * inertia[(2, 2)].sqrt();
+    ReducedGear {
+        name: name.to_owned(),
+        rigid_body: Some(RigidBody {
+            reference_m: [0.0; 3],
+            mass_kg: mass,
+            centre_m: [0.0; 3],
+            inertia_kg_m2: std::array::from_fn(|i| std::array::from_fn(|j| inertia[(i, j)])),
+        }),
+        modes: Some(ModalBasis {
+            nodal_diameters: MODES.iter().map(|(_, n, _)| *n).collect(),
+            omega_squared,
+            complete_to_hz: 6000.0,
+            flank,
+            gauges: readings,
+            coupling,
+        }),
+        ..gear
+    }
+}

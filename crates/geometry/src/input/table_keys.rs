@@ -1,0 +1,83 @@
+//! The keys of one table, for complaints about their values.
+
+use super::{InputDocument, InputError};
+use std::fmt::Display;
+
+/// A table of a document.
+#[derive(Debug, Clone, Copy)]
+pub struct TableKeys<'a> {
+    document: &'a InputDocument,
+    /// Dotted path of the table, empty for the file itself.
+    table: &'a str,
+}
+
+impl<'a> TableKeys<'a> {
+    /// The table at a dotted path, items of lists by number: `gauge.0`.
+    pub fn new(document: &'a InputDocument, table: &'a str) -> Self {
+        Self { document, table }
+    }
+
+    /// A complaint about the value of `key`; of the table as a whole where `key` is empty.
+    pub fn error(&self, key: &str, problem: impl Display) -> InputError {
+        let path = match (self.table, key) {
+            (table, "") => table.to_string(),
+            ("", key) => key.to_string(),
+            (table, key) => format!("{table}.{key}"),
+        };
+        self.document.error(&path, problem)
+    }
+
+    /// Complains unless `value` is finite and `ok`, that is within the range that `allowed` says.
+    ///
+    /// # Errors
+    /// [`InputError`] with the value and what is allowed.
+    pub fn require(
+        &self,
+        key: &str,
+        value: f64,
+        ok: bool,
+        allowed: &str,
+    ) -> Result<(), InputError> {
+        if ok && value.is_finite() {
+            Ok(())
+        } else {
+            Err(self.error(key, format!("found {value}, allowed is {allowed}")))
+        }
+    }
+
+    /// A key that `needed_by` cannot do without.
+    ///
+    /// # Errors
+    /// [`InputError`] where it is not given.
+    pub fn needed<T>(&self, key: &str, value: Option<T>, needed_by: &str) -> Result<T, InputError> {
+        value.ok_or_else(|| self.error(key, format!("missing; {needed_by} needs it")))
+    }
+
+    /// Complains about keys that are given but not used by the chosen kind. Each key comes with whether it is given and the kinds
+    /// that use it; `word` is the key that chooses the kind, which is empty
+    /// where that key is not given.
+    ///
+    /// # Errors
+    /// [`InputError`] for the first such key.
+    pub fn refuse_unused(
+        &self,
+        (word, kind): (&str, &str),
+        keys: &[(&str, bool, &[&str])],
+    ) -> Result<(), InputError> {
+        for (key, given, users) in keys {
+            if *given && !users.contains(&kind) {
+                let others: Vec<String> = users.iter().map(|user| format!("\"{user}\"")).collect();
+                let chosen = match kind {
+                    "" => format!("where {word} is not given"),
+                    kind => format!("by {word} = \"{kind}\""),
+                };
+                let others = others.join(", ");
+                return Err(self.error(
+                    key,
+                    format!("is not used {chosen}, only by {others}; remove it"),
+                ));
+            }
+        }
+        Ok(())
+    }
+}

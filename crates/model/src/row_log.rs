@@ -1,0 +1,215 @@
+//! Rows of numbers appended to a plain file while a run goes on.
+//!
+//! 64-bit floats, little-endian, row after row, nothing else: a file that is cut in the midst of a row by a crash loses that row only,
+//! and a run that resumes cuts it to the rows that its checkpoint counts. HDF5 comes at the end
+//! ([`write_columns`](crate::write_columns)): libhdf5 may leave a file unreadable that it had open when the process was killed.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crate::file_error::FileError;
+
+const NUMBER_BYTES: usize = size_of::<f64>();
+
+/// Bytes collected before they are handed to the system.
+const BUFFER_BYTES: usize = 1 << 16;
+
+/// The file with its buffer. While it is open no other process can open it as a log.
+#[derive(Debug)]
+pub struct RowLog {
+    path: PathBuf,
+    file: File,
+    columns: usize,
+    rows: u64,
+    buffer: Vec<u8>,
+}
+
+impl RowLog {
+    /// Begins an empty log; an older one is emptied.
+    ///
+    /// # Errors
+    /// [`FileError::InUse`] if another process has it open, [`FileError::Io`].
+    pub fn create(path: &Path, columns: usize) -> Result<Self, FileError> {
+        Self::open(path, columns, 0)
+    }
+
+    /// Goes on after `rows` rows; what was written later is cut off.
+    ///
+    /// # Errors
+    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Io`].
+    pub fn resume(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
+        Self::open(path, columns, rows)
+    }
+
+    fn open(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
+        let io = |action| Self::io(path, action);
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(rows == 0)
+            .truncate(false)
+            .open(path)
+            .map_err(io("open"))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(FileError::InUse {
+                    path: path.to_owned(),
+                });
+            }
+            Err(TryLockError::Error(source)) => return Err(io("lock")(source)),
+        }
+        let needed = rows * (columns * NUMBER_BYTES) as u64;
+        let found = file.metadata().map_err(io("inspect"))?.len();
+        if found < needed {
+            return Err(FileError::ShortLog {
+                path: path.to_owned(),
+                found_bytes: found,
+                expected_bytes: needed,
+            });
+        }
+        file.set_len(needed).map_err(io("cut"))?;
+        let mut log = Self {
+            path: path.to_owned(),
+            file,
+            columns,
+            rows,
+            buffer: Vec::with_capacity(BUFFER_BYTES + columns * NUMBER_BYTES),
+        };
+        log.seek(needed)?;
+        Ok(log)
+    }
+
+    /// Numbers in a row.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Rows so far.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// Appends a row. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`FileError::Io`].
+    ///
+    /// # Panics
+    /// If the row has another length than the log's.
+    pub fn append(&mut self, row: &[f64]) -> Result<(), FileError> {
+        assert_eq!(row.len(), self.columns, "length of a row");
+        for number in row {
+            self.buffer.extend_from_slice(&number.to_le_bytes());
+        }
+        self.rows += 1;
+        if self.buffer.len() >= BUFFER_BYTES {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Forces all rows to the disk: they are there even if the machine stops now.
+    ///
+    /// # Errors
+    /// [`FileError::Io`].
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        self.flush()?;
+        self.file
+            .sync_data()
+            .map_err(Self::io(&self.path, "force to the disk"))
+    }
+
+    /// Rows from `first` on, at most `count`, into `out`.
+    ///
+    /// # Errors
+    /// [`FileError::Io`].
+    pub fn read(&mut self, first: u64, count: usize, out: &mut Vec<f64>) -> Result<(), FileError> {
+        self.flush()?;
+        let count = (self.rows.saturating_sub(first)).min(count as u64) as usize;
+        let row_bytes = self.columns * NUMBER_BYTES;
+        let mut bytes = vec![0; count * row_bytes];
+        self.seek(first * row_bytes as u64)?;
+        self.file
+            .read_exact(&mut bytes)
+            .map_err(Self::io(&self.path, "read"))?;
+        out.clear();
+        let (numbers, _) = bytes.as_chunks::<NUMBER_BYTES>();
+        out.extend(numbers.iter().map(|b| f64::from_le_bytes(*b)));
+        self.seek(self.rows * row_bytes as u64)
+    }
+
+    fn flush(&mut self) -> Result<(), FileError> {
+        self.file
+            .write_all(&self.buffer)
+            .map_err(Self::io(&self.path, "write"))?;
+        self.buffer.clear();
+        Ok(())
+    }
+
+    fn seek(&mut self, place: u64) -> Result<(), FileError> {
+        self.file
+            .seek(SeekFrom::Start(place))
+            .map_err(Self::io(&self.path, "read"))?;
+        Ok(())
+    }
+
+    /// Owns the path only when something failed.
+    fn io(path: &Path, action: &'static str) -> impl FnOnce(std::io::Error) -> FileError {
+        move |source| FileError::Io {
+            path: path.to_owned(),
+            action,
+            source,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_resumes_at_the_row_it_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.log");
+        let mut log = RowLog::create(&path, 3).unwrap();
+        for i in 0..10_000 {
+            log.append(&[f64::from(i), -0.0, f64::NAN]).unwrap();
+        }
+        log.sync().unwrap();
+        drop(log);
+        // Half a row more, as a crash may leave it.
+        let mut file = OpenOptions::new().append(true).open(&path).unwrap();
+        file.write_all(&[1; 13]).unwrap();
+        drop(file);
+        let mut log = RowLog::resume(&path, 3, 9_000).unwrap();
+        log.append(&[7.0, 8.0, 9.0]).unwrap();
+        let mut rows = Vec::new();
+        log.read(8_999, 100, &mut rows).unwrap();
+        assert_eq!(rows.len(), 6);
+        assert_eq!((rows[0], rows[3]), (8999.0, 7.0));
+        assert!(rows[2].is_nan() && rows[1].to_bits() == (-0.0_f64).to_bits());
+        assert_eq!(log.rows(), 9_001);
+        log.append(&[1.0, 2.0, 3.0]).unwrap();
+        log.sync().unwrap();
+        assert_eq!(std::fs::metadata(&path).unwrap().len(), 9_002 * 24);
+    }
+
+    #[test]
+    fn a_log_that_is_too_short_or_in_use_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.log");
+        let mut log = RowLog::create(&path, 1).unwrap();
+        log.append(&[1.0]).unwrap();
+        log.sync().unwrap();
+        assert!(matches!(
+            RowLog::create(&path, 1),
+            Err(FileError::InUse { .. })
+        ));
+        drop(log);
+        let error = RowLog::resume(&path, 1, 2).unwrap_err().to_string();
+        assert!(error.contains("8 bytes") && error.contains("16"), "{error}");
+    }
+}

@@ -1,0 +1,85 @@
+//! Sections of the report of a multibody scene.
+//!
+//! | sections | file |
+//! | --- | --- |
+//! | which columns, in which charts, with which units | `columns.rs` |
+//! | time histories, spectra, energy | `transient.rs` |
+//! | curves over the speed | `sweep.rs` |
+//! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
+
+mod columns;
+mod eigen;
+mod equilibria;
+mod sweep;
+mod transient;
+
+use gearmesh_model::FileError;
+use gearmesh_scene::system_run::SystemResult;
+
+use self::columns::{mesh_frequencies, short};
+use crate::page::{KeyFigures, Section, Text};
+
+/// All sections of a result.
+pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
+    let mut sections = vec![overview(r)?];
+    match &r.kind[..] {
+        "transient" => {
+            sections.push(transient::histories(r)?);
+            sections.extend(transient::spectra(r)?);
+            sections.push(transient::accuracy(r)?);
+        }
+        "speed-sweep" => {
+            if let Some(sweep) = &r.sweep {
+                sections.push(sweep::sweep_section(r, sweep));
+            }
+        }
+        "static" => sections.push(equilibria::equilibria(r)?),
+        _ => sections.push(eigen::eigen(r)),
+    }
+    sections.push(provenance(r));
+    Ok(sections)
+}
+
+fn overview(r: &SystemResult) -> Result<Section, FileError> {
+    let mut figures = KeyFigures::new();
+    if let Some(record) = &r.record {
+        figures = figures
+            .figure("simulated", format!("{:.4}", record.simulated_s), "s")
+            .figure("real-time factor", short(record.real_time_factor()), "")
+            .figure("steps", format!("{}", record.steps), "")
+            .figure(
+                "joints hold to",
+                format!("{:.1e}", record.largest_violation),
+                "m or rad",
+            )
+            .figure(
+                "energy error",
+                format!("{:.1e}", record.relative_energy_error()),
+                "relative",
+            );
+    }
+    for (name, hz) in mesh_frequencies(r)? {
+        figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
+    }
+    let mut section = Section::new(r.head.title.clone());
+    if r.record.is_some() {
+        section = section.push(figures);
+    }
+    if r.kind == "transient" {
+        section = section.push(transient::columns_table(r)?);
+    }
+    if !r.head.notes.is_empty() {
+        section = section.push(Text::preformatted(r.head.notes.join("\n")));
+    }
+    Ok(section)
+}
+
+fn provenance(r: &SystemResult) -> Section {
+    let mut section = Section::new(format!("{}: scene", r.head.title)).push(Text::paragraph(
+        format!("gearmesh {}, computed {}.", r.version, r.created_utc),
+    ));
+    if !r.head.inputs.is_empty() {
+        section = section.push(Text::preformatted(r.head.inputs.join("\n")));
+    }
+    section.push(Text::preformatted(r.head.scene_toml.clone()))
+}

@@ -1,0 +1,191 @@
+//! Columns of a result as a page shows them: units, readable names, groups that share a chart.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use gearmesh_model::FileError;
+use gearmesh_scene::system_run::{SystemResult, split_unit};
+
+use crate::page::{Section, Text};
+
+/// Charts of one section; what is left out is named.
+pub(super) const MOST_CHARTS: usize = 24;
+
+pub(super) fn quantity(unit: &str) -> &'static str {
+    match unit {
+        "N" => "force",
+        "N·m" => "moment",
+        "m" => "length",
+        "rad" => "angle",
+        "m/s" => "speed",
+        "rad/s" => "angular velocity",
+        "Pa" => "pressure",
+        "µε" => "strain",
+        "J" => "energy",
+        "W" => "power",
+        "" => "number",
+        _ => "quantity",
+    }
+}
+
+/// Three to four digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&value.abs()) {
+        format!("{value:.3e}")
+    } else {
+        let digits = (3 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 6);
+        format!("{value:.*}", digits as usize)
+    }
+}
+
+/// `elements/mesh/normal_force_right` as `mesh: normal force right`.
+pub(super) fn readable(name: &str) -> String {
+    let parts: Vec<&str> = name.split('/').skip(1).collect();
+    match parts.split_last() {
+        None => name.to_owned(),
+        Some((last, [])) => last.replace('_', " "),
+        Some((last, before)) => format!("{}: {}", before.join(" "), last.replace('_', " ")),
+    }
+}
+
+/// Mean mesh frequencies: teeth times speed of gear 1 about its axis.
+pub(super) fn mesh_frequencies(r: &SystemResult) -> Result<Vec<(String, f64)>, FileError> {
+    let mut found = Vec::new();
+    for mesh in &r.head.meshes {
+        for (body, teeth) in mesh.bodies.iter().zip(mesh.teeth) {
+            let name = format!("bodies/{body}/angular_velocity_z_rad_per_s");
+            let place = r.rows.columns().iter().position(|c| c.name == name);
+            if let Some(figures) = place.and_then(|place| r.statistics.get(place)) {
+                let hz = teeth as f64 * figures.mean.abs() / TAU;
+                if hz > 0.0 {
+                    found.push((mesh.name.clone(), hz));
+                }
+                break;
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Columns that make one chart: title, unit, and the columns with the names of their curves.
+pub(super) struct Group {
+    pub(super) title: String,
+    pub(super) unit: &'static str,
+    pub(super) columns: Vec<(String, String)>,
+}
+
+/// Columns that vary, by owner and unit: elements, speeds, joints, bodies.
+pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Group> {
+    let mut order: Vec<(u8, String)> = Vec::new();
+    let mut groups: BTreeMap<(u8, String), Group> = BTreeMap::new();
+    for (place, column) in r.rows.columns().iter().enumerate() {
+        let parts: Vec<&str> = column.name.split('/').collect();
+        let [kind, owners @ .., last] = &parts[..] else {
+            continue;
+        };
+        let (stem, unit) = split_unit(last);
+        let owner = owners.join(" ");
+        // Speeds of all bodies share a chart; places and angles have one for each body.
+        let (rank, title, curve) = match *kind {
+            "elements" => (
+                0,
+                format!("{owner}, {}", quantity(unit)),
+                stem.replace('_', " "),
+            ),
+            "bodies" if stem == "angular_velocity_z" => (
+                1,
+                "Angular velocities about the bodies' own z axes".to_owned(),
+                owner.clone(),
+            ),
+            "joints" if matches!(unit, "N" | "N·m") => (
+                2,
+                format!("{owner}, {} of the joint on body 2", quantity(unit)),
+                stem.replace('_', " "),
+            ),
+            "bodies" if unit == "m" => (3, format!("{owner}, place"), stem.replace('_', " ")),
+            "bodies" if unit == "√kg·m" => (
+                4,
+                format!("{owner}, modal coordinates"),
+                stem.replace('_', " "),
+            ),
+            "bodies" if unit == "rad/s²" && stem.ends_with('z') => (
+                5,
+                "Angular accelerations about the bodies' own z axes".to_owned(),
+                owner.clone(),
+            ),
+            _ => continue,
+        };
+        if !varies(place) {
+            continue;
+        }
+        let key = (rank, title.clone());
+        if !groups.contains_key(&key) {
+            order.push(key.clone());
+        }
+        let group = groups.entry(key).or_insert(Group {
+            title,
+            unit,
+            columns: Vec::new(),
+        });
+        group.columns.push((column.name.clone(), curve));
+    }
+    order.sort_by_key(|key| key.0);
+    let mut groups: Vec<Group> = order.iter().filter_map(|key| groups.remove(key)).collect();
+    for group in &mut groups {
+        if let ([(column, curve)], true) = (&group.columns[..], group.is_of_elements()) {
+            let owner = column.split('/').nth(1).unwrap_or_default();
+            group.title = format!("{owner}, {curve}");
+        }
+    }
+    groups
+}
+
+impl Group {
+    /// Whether all columns are channels of force elements.
+    pub(super) fn is_of_elements(&self) -> bool {
+        let mut columns = self.columns.iter();
+        columns.all(|(column, _)| column.starts_with("elements/"))
+    }
+}
+
+/// Brings lengths to µm or mm where they are that small; gives the unit.
+pub(super) fn scaled<'a>(
+    unit: &'static str,
+    curves: impl Iterator<Item = &'a mut Vec<f64>>,
+) -> &'static str {
+    if unit != "m" {
+        return unit;
+    }
+    let curves: Vec<&mut Vec<f64>> = curves.collect();
+    let values = curves.iter().flat_map(|curve| curve.iter());
+    let largest = values.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let (unit, factor) = match largest {
+        x if x < 1e-3 => ("µm", 1e6),
+        x if x < 1.0 => ("mm", 1e3),
+        _ => ("m", 1.0),
+    };
+    curves.into_iter().flatten().for_each(|x| *x *= factor);
+    unit
+}
+
+/// Whether a column of a transient result varies by more than rounding.
+pub(super) fn varies(r: &SystemResult) -> impl Fn(usize) -> bool {
+    let varying = r.varying();
+    move |place| varying.get(place).is_some_and(|varies| *varies)
+}
+
+pub(super) fn left_out(section: Section, groups: &[Group]) -> Section {
+    if groups.len() <= MOST_CHARTS {
+        return section;
+    }
+    let names: Vec<&str> = groups[MOST_CHARTS..]
+        .iter()
+        .map(|g| g.title.as_str())
+        .collect();
+    section.push(Text::note(format!(
+        "Not shown, but in the file: {}.",
+        names.join("; ")
+    )))
+}

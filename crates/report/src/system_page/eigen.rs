@@ -1,0 +1,90 @@
+//! Natural frequencies: tables of modes and the Campbell chart.
+
+use std::f64::consts::TAU;
+
+use gearmesh_scene::system_run::{EigenResult, SystemResult};
+
+use crate::page::{Align, Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Table};
+
+/// Bodies named with a mode.
+const MOST_BODIES: usize = 3;
+
+pub(super) fn eigen(r: &SystemResult) -> Section {
+    let mut section = Section::new(format!("{}: natural frequencies", r.head.title));
+    if let Some(chart) = campbell(r) {
+        section = section.push(chart);
+    }
+    for found in &r.eigen {
+        section = section.push(modes_table(r, found));
+    }
+    section
+}
+
+fn modes_table(r: &SystemResult, found: &EigenResult) -> Table {
+    let mut title = format!("Load factor {}", found.point.load_factor);
+    if let Some(speed) = found.point.speed_rad_per_s {
+        title += &format!(", {:.2} rpm", speed * 60.0 / TAU);
+    }
+    let mut table = Table::new(title)
+        .column("mode", Align::Right)
+        .column("frequency Hz", Align::Right)
+        .column("damping %", Align::Right)
+        .column("share of the kinetic energy", Align::Left);
+    for (k, (mode, shares)) in found.modes.iter().zip(&found.participation).enumerate() {
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
+        let bodies = order
+            .iter()
+            .take(MOST_BODIES)
+            .filter(|&&body| shares[body] > 5e-4)
+            .map(|&body| format!("{} {:.1} %", r.bodies[body], 100.0 * shares[body]));
+        table = table.row([
+            (k + 1).to_string(),
+            format!("{:.4}", mode.frequency_hz()),
+            format!("{:.3}", 100.0 * mode.damping_ratio()),
+            bodies.collect::<Vec<_>>().join(", "),
+        ]);
+    }
+    table
+}
+
+/// Frequencies over speed at the first load factor, with the orders of the meshes' teeth.
+fn campbell(r: &SystemResult) -> Option<LineChart> {
+    let first = r.eigen.first()?.point.load_factor;
+    let mut points: Vec<(f64, &EigenResult)> = r
+        .eigen
+        .iter()
+        .filter(|found| found.point.load_factor.to_bits() == first.to_bits())
+        .filter_map(|found| Some((found.point.speed_rad_per_s? * 60.0 / TAU, found)))
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points.dedup_by(|a, b| a.0.to_bits() == b.0.to_bits());
+    if points.len() < 2 {
+        return None;
+    }
+    let modes = points.iter().map(|(_, found)| found.modes.len()).max()?;
+    let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
+    let mut chart = LineChart::new(
+        "Natural frequencies over speed (by rising frequency), with orders of the meshes",
+        Axis::new("speed of the varied motion", "rpm"),
+        Axis::new("frequency", "Hz"),
+    )
+    .x_values(speeds.clone());
+    for mode in 0..modes {
+        let at = |(_, found): &(f64, &EigenResult)| {
+            found.modes.get(mode).map_or(f64::NAN, |m| m.frequency_hz())
+        };
+        let values = points.iter().map(at).collect();
+        let series = LineSeries::new(format!("mode {}", mode + 1), values);
+        chart = chart.series(series.colour(SeriesColour::Palette(mode)));
+    }
+    for mesh in &r.head.meshes {
+        for order in 1..=2 {
+            let teeth = (order * mesh.teeth[0]) as f64;
+            let values = speeds.iter().map(|rpm| teeth * rpm.abs() / 60.0).collect();
+            let name = format!("{}: order {teeth} of {}", mesh.name, mesh.bodies[0]);
+            chart = chart.series(LineSeries::new(name, values).style(LineStyle::Dotted));
+        }
+    }
+    Some(chart)
+}

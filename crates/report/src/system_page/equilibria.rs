@@ -1,0 +1,86 @@
+//! Static series over an angle or a load factor.
+
+use gearmesh_model::FileError;
+use gearmesh_scene::system_run::{SystemResult, split_unit};
+
+use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
+use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
+
+pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
+    let mut section = Section::new(format!("{}: equilibria", r.head.title));
+    let factors = r.rows.read("load_factor")?;
+    let varied = r.rows.columns().iter().any(|c| c.name == "angle_rad");
+    // Over the angle for each load factor, or over the load factor.
+    let (x, axis) = if varied {
+        let angles = r.rows.read("angle_rad")?;
+        let degrees = angles.iter().map(|a| a.to_degrees()).collect();
+        (degrees, Axis::new("angle of the varied motion", "deg"))
+    } else {
+        (factors.clone(), Axis::new("load factor", ""))
+    };
+    let x: Vec<f64> = x;
+    let mut legs: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (row, factor) in factors.iter().enumerate() {
+        let key = if varied { *factor } else { 0.0 };
+        match legs.last_mut() {
+            Some((last, rows)) if last.to_bits() == key.to_bits() => rows.push(row),
+            _ => legs.push((key, vec![row])),
+        }
+    }
+    let mut groups = groups(r, |_| true);
+    groups.retain(|group| !group.title.starts_with("Angular"));
+    for (_, rows) in &mut legs {
+        rows.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+        rows.dedup_by(|a, b| x[*a].to_bits() == x[*b].to_bits());
+    }
+    for group in groups.iter().take(MOST_CHARTS) {
+        for (factor, rows) in &legs {
+            if rows.len() < 2 {
+                continue;
+            }
+            let title = if varied && legs.len() > 1 {
+                format!("{}, load factor {factor}", group.title)
+            } else {
+                group.title.clone()
+            };
+            let of_rows = |(column, _): &(String, String)| {
+                let values = r.rows.read(column)?;
+                Ok::<_, FileError>(rows.iter().map(|&row| values[row]).collect())
+            };
+            let columns = group.columns.iter().map(of_rows);
+            let mut curves: Vec<Vec<f64>> = columns.collect::<Result<_, _>>()?;
+            let unit = scaled(group.unit, curves.iter_mut());
+            let y = Axis::new(quantity(group.unit), unit);
+            let mut chart = LineChart::new(title, axis.clone(), y)
+                .x_values(rows.iter().map(|&row| x[row]).collect());
+            for ((_, name), values) in group.columns.iter().zip(curves) {
+                chart = chart.series(LineSeries::new(name.clone(), values));
+            }
+            section = section.push(chart);
+        }
+    }
+    let mut table = Table::new("Equilibria")
+        .column("load factor", Align::Right)
+        .column(axis_name(varied), Align::Right);
+    let names = r.rows.columns().iter().map(|c| c.name.clone());
+    let chosen: Vec<String> = names
+        .filter(|name| name.starts_with("elements/"))
+        .take(5)
+        .collect();
+    let mut values = Vec::new();
+    for name in &chosen {
+        let (stem, unit) = split_unit(name);
+        table = table.column(format!("{} {unit}", readable(stem)), Align::Right);
+        values.push(r.rows.read(name)?);
+    }
+    for row in 0..factors.len().min(200) {
+        let mut cells = vec![format!("{}", factors[row]), format!("{:.5}", x[row])];
+        cells.extend(values.iter().map(|column| format!("{:.6e}", column[row])));
+        table = table.row(cells);
+    }
+    Ok(left_out(section.push(table), &groups))
+}
+
+fn axis_name(varied: bool) -> &'static str {
+    if varied { "angle deg" } else { "point" }
+}

@@ -1,0 +1,81 @@
+//! Curves of a speed sweep, up and down.
+
+use std::f64::consts::TAU;
+
+use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult, is_prominent, split_unit};
+
+use super::columns::{MOST_CHARTS, quantity, readable};
+use super::transient::run_table;
+use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
+
+/// What is drawn over the speed: name and value.
+type Figure = (&'static str, fn(&Figures) -> f64);
+
+pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
+    let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
+        "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
+    ));
+    let rpm = |speed: f64| speed * 60.0 / TAU;
+    let mut speeds: Vec<f64> = sweep
+        .windows
+        .iter()
+        .map(|w| rpm(w.speed_rad_per_s))
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * b.abs().max(1.0));
+    let curve = |column: usize, up: bool, value: fn(&Figures) -> f64| -> Vec<f64> {
+        let at = |speed: &f64| {
+            let windows = sweep.windows.iter().zip(&sweep.figures);
+            let mut here = windows.filter(|(w, _)| {
+                w.up == up && (rpm(w.speed_rad_per_s) - speed).abs() < 1e-9 * speed.abs().max(1.0)
+            });
+            here.next().map_or(f64::NAN, |(_, f)| value(&f[column]))
+        };
+        speeds.iter().map(at).collect()
+    };
+    let varying = sweep.varying();
+    let interesting = |name: &str| {
+        is_prominent(name)
+            || name.starts_with("joints/") && matches!(split_unit(name).1, "N" | "N·m")
+            || name.starts_with("bodies/") && split_unit(name).1 == "m"
+    };
+    let mut chosen: Vec<usize> = (0..sweep.columns.len())
+        .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
+        .collect();
+    chosen.sort_by_key(|c| !sweep.columns[*c].starts_with("elements/"));
+    for &column in chosen.iter().take(MOST_CHARTS) {
+        let (name, unit) = split_unit(&sweep.columns[column]);
+        let mut chart = LineChart::new(
+            readable(name),
+            Axis::new("speed", "rpm"),
+            Axis::new(quantity(unit), unit),
+        )
+        .x_values(speeds.clone());
+        let figures: [Figure; 4] = [
+            ("peak to peak", Figures::peak_to_peak),
+            ("RMS about the mean", |f| f.deviation),
+            ("mean", |f| f.mean),
+            ("least", |f| f.least),
+        ];
+        for (k, (figure, value)) in figures.into_iter().enumerate() {
+            for (up, way, style) in [
+                (true, "up", LineStyle::Solid),
+                (false, "down", LineStyle::Dashed),
+            ] {
+                if !sweep.windows.iter().any(|w| w.up == up) {
+                    continue;
+                }
+                let values = curve(column, up, value);
+                let series = LineSeries::new(format!("{figure}, {way}"), values)
+                    .style(style)
+                    .colour(SeriesColour::Palette(k));
+                chart = chart.series(if k == 0 { series } else { series.hidden() });
+            }
+        }
+        section = section.push(chart);
+    }
+    if let Some(record) = &r.record {
+        section = section.push(run_table(record));
+    }
+    section
+}

@@ -1,0 +1,228 @@
+//! Time histories, spectra, energy and accuracy of a run in time.
+
+use gearmesh_model::FileError;
+use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, split_unit};
+use gearmesh_signal::{Window, amplitude_spectrum};
+
+use super::columns::{
+    MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, short, varies,
+};
+use crate::min_max;
+use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
+
+/// Lines of a series that are transformed: the last so many.
+const LONGEST: usize = 1 << 20;
+
+/// Decades below the strongest line that a spectrum shows.
+const DECADES: f64 = 1e-6;
+
+/// Harmonics of a mesh frequency that are marked.
+const HARMONICS: usize = 5;
+
+/// Highest frequency of a spectrum over the mesh frequency.
+const SPECTRUM_END: f64 = 12.0;
+
+pub(super) fn columns_table(r: &SystemResult) -> Result<Table, FileError> {
+    let mut table = Table::new("Channels of force elements and speeds over the whole run")
+        .column("column", Align::Left)
+        .column("unit", Align::Left)
+        .column("mean", Align::Right)
+        .column("RMS about the mean", Align::Right)
+        .column("least", Align::Right)
+        .column("largest", Align::Right)
+        .column("peak to peak", Align::Right)
+        .column("dominant Hz", Align::Right);
+    for column in r.summaries(is_prominent)? {
+        let (name, unit) = split_unit(&column.name);
+        let f = column.figures;
+        table = table.row([
+            readable(name),
+            unit.to_owned(),
+            short(f.mean),
+            short(f.deviation),
+            short(f.least),
+            short(f.largest),
+            short(f.peak_to_peak()),
+            column.dominant_hz.map_or("-".to_owned(), short),
+        ]);
+    }
+    Ok(table)
+}
+
+pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
+    let times = r.rows.read("time_s")?;
+    let x = min_max::abscissas(&times);
+    let groups = groups(r, varies(r));
+    let mut section = Section::new(format!("{}: time histories", r.head.title));
+    for group in groups.iter().take(MOST_CHARTS) {
+        let read = |(column, _): &(String, String)| r.rows.read(column);
+        let columns = group.columns.iter().map(read);
+        let mut curves = columns.collect::<Result<Vec<_>, _>>()?;
+        curves.iter_mut().for_each(|y| *y = min_max::values(y));
+        let unit = scaled(group.unit, curves.iter_mut());
+        let mut chart = LineChart::new(
+            group.title.clone(),
+            Axis::new("time", "s"),
+            Axis::new(quantity(group.unit), unit),
+        )
+        .x_values(x.clone());
+        for ((_, name), values) in group.columns.iter().zip(curves) {
+            chart = chart.series(LineSeries::new(name.clone(), values));
+        }
+        section = section.push(chart);
+    }
+    if times.len() > x.len() {
+        section = section.push(Text::paragraph(format!(
+            "{} rows: the charts show the smallest and the largest value of every {}.",
+            times.len(),
+            (2 * times.len()).div_ceil(x.len())
+        )));
+    }
+    Ok(left_out(section, &groups))
+}
+
+/// Amplitude spectra of the channels of force elements, second half of the run.
+pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
+    let interval_s = r.interval_s()?;
+    let meshes = mesh_frequencies(r)?;
+    let mut section = Section::new(format!("{}: spectra", r.head.title)).push(Text::paragraph(
+        "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over the whole run.",
+    ));
+    let mut charts = 0;
+    for group in groups(r, varies(r)) {
+        let of_elements = group.columns.iter().all(|(c, _)| is_prominent(c));
+        if !of_elements || charts == MOST_CHARTS {
+            continue;
+        }
+        let mut curves = Vec::new();
+        let mut lines = Vec::new();
+        for (column, curve) in &group.columns {
+            let all = r.rows.read(column)?;
+            let half = all.len().div_ceil(2).min(LONGEST);
+            let values = &all[all.len() - half..];
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let centred: Vec<f64> = values.iter().map(|x| x - mean).collect();
+            let Ok(spectrum) = amplitude_spectrum(&centred, 1.0 / interval_s, Window::Hann) else {
+                continue;
+            };
+            lines = (0..spectrum.values.len()).map(|i| spectrum.at(i)).collect();
+            curves.push((curve, spectrum.values));
+        }
+        let end = meshes
+            .iter()
+            .map(|(_, hz)| SPECTRUM_END * hz)
+            .fold(0.0_f64, f64::max);
+        let shown = if end > 0.0 {
+            lines.partition_point(|f| *f <= end)
+        } else {
+            lines.len()
+        };
+        if shown < 4 {
+            continue;
+        }
+        if curves
+            .iter()
+            .all(|(_, values)| values[1..shown].iter().all(|v| *v == 0.0))
+        {
+            continue;
+        }
+        let unit = scaled(group.unit, curves.iter_mut().map(|(_, values)| values));
+        let strongest = curves
+            .iter()
+            .flat_map(|(_, values)| values[1..shown].iter().copied())
+            .fold(0.0, f64::max);
+        let mut chart = LineChart::new(
+            group.title.clone(),
+            Axis::new("frequency", "Hz"),
+            Axis::new("amplitude", unit),
+        )
+        .y_scale(AxisScale::Logarithmic)
+        .x_values(min_max::abscissas(&lines[1..shown]));
+        for (curve, values) in curves {
+            let floor = DECADES * strongest;
+            let values = min_max::values(&values[1..shown]);
+            let values = values.into_iter().map(|v| v.max(floor)).collect();
+            chart = chart.series(LineSeries::new(curve.clone(), values));
+        }
+        for (name, hz) in &meshes {
+            for k in 1..=HARMONICS {
+                chart = chart.mark(
+                    k as f64 * hz,
+                    if k == 1 {
+                        name.clone()
+                    } else {
+                        format!("{k}×")
+                    },
+                );
+            }
+        }
+        section = section.push(chart);
+        charts += 1;
+    }
+    Ok((charts > 0).then_some(section))
+}
+
+pub(super) fn accuracy(r: &SystemResult) -> Result<Section, FileError> {
+    let times = r.rows.read("time_s")?;
+    let x = min_max::abscissas(&times);
+    let chart = |title: &str, y: Axis, curves: &[(&str, &str)], scale| {
+        let mut chart = LineChart::new(title, Axis::new("time", "s"), y)
+            .y_scale(scale)
+            .x_values(x.clone());
+        for (column, curve) in curves {
+            let values = r.rows.read(column)?;
+            chart = chart.series(LineSeries::new(*curve, min_max::values(&values)));
+        }
+        Ok::<_, FileError>(chart)
+    };
+    let mut section = Section::new(format!("{}: energy and accuracy", r.head.title));
+    if let Some(record) = &r.record {
+        section = section.push(run_table(record));
+    }
+    Ok(section
+        .push(chart(
+            "Energies",
+            Axis::new("energy", "J"),
+            &[
+                ("energy/kinetic_J", "kinetic"),
+                ("energy/potential_J", "potential"),
+                ("energy/dissipated_J", "dissipated"),
+                ("energy/supplied_J", "supplied"),
+            ],
+            AxisScale::Linear,
+        )?)
+        .push(chart(
+            "Error of the energy balance",
+            Axis::new("energy", "J"),
+            &[("energy/error_J", "error")],
+            AxisScale::Linear,
+        )?)
+        .push(chart(
+            "Largest violation of a joint so far",
+            Axis::new("violation", "m or rad"),
+            &[("run/largest_violation", "violation")],
+            AxisScale::Logarithmic,
+        )?)
+        .push(chart(
+            "Step",
+            Axis::new("step", "s"),
+            &[("run/step_s", "step")],
+            AxisScale::Logarithmic,
+        )?))
+}
+
+pub(super) fn run_table(record: &RunRecord) -> Table {
+    let mut table = Table::new("The run")
+        .column("figure", Align::Left)
+        .column("value", Align::Right)
+        .column("unit", Align::Left);
+    for (name, unit, value) in record.entries() {
+        let (stem, _) = split_unit(name);
+        let (value, unit) = match unit {
+            "1" => (format!("{value}"), ""),
+            _ => (short(value), unit),
+        };
+        table = table.row([stem.replace('_', " "), value, unit.to_owned()]);
+    }
+    table
+}

@@ -1,0 +1,13 @@
+//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs` says what will
+//! be computed, `run.rs` computes, `result.rs` keeps and stores, `warnings.rs` tells where the model's assumptions are strained.
+
+pub mod plan;
+pub mod result;
+pub mod run;
+pub mod scene_file;
+pub mod warnings;
+
+pub use plan::Plan;
+pub use result::{RESULT_FORMAT, SceneResult, StrainSeries};
+pub use run::{LoadedScene, RunError, load, run};
+pub use scene_file::Scene;

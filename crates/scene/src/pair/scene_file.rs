@@ -1,0 +1,320 @@
+//! The scene file: a gear pair, its models, torques, angle range and gauges.
+
+use gearmesh_contact::{ContactOptions, Friction, LocalContact};
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneTable {
+    /// Title in prints and reports.
+    title: String,
+    /// The gears and how they stand.
+    pair: PairTable,
+    /// Model of the teeth.
+    mesh: MeshTable,
+    /// Torques and angles.
+    run: RunTable,
+    /// Gauges to read.
+    #[serde(default)]
+    gauges: GaugesTable,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PairTable {
+    /// Reduced model (.h5) of the driving gear, relative to the scene.
+    gear_1: PathBuf,
+    /// Reduced model of the driven gear.
+    gear_2: PathBuf,
+    /// Centre distance.
+    centre_distance_mm: f64,
+    /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
+    #[serde(default = "default_flank")]
+    flank: FlankSide,
+    /// Axis error in the plane of the axes; 0 where not given.
+    #[serde(default)]
+    inclination_mrad: f64,
+    /// Axis error across the plane of the axes; 0 where not given.
+    #[serde(default)]
+    deviation_mrad: f64,
+}
+
+fn default_flank() -> FlankSide {
+    FlankSide::Right
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum MeshModel {
+    Hybrid,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum LocalTable {
+    None,
+    WeberBanaschek,
+    Calibrated,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum PathTable {
+    LineOfAction,
+    Extended,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct MeshTable {
+    #[allow(dead_code)]
+    model: MeshModel,
+    /// Local contact; "calibrated" where not given.
+    local: Option<LocalTable>,
+    /// Ends of the path of contact; "line-of-action" where not given.
+    path: Option<PathTable>,
+    /// With path = "extended": radius of the tip edges; 100 where not given.
+    edge_radius_um: Option<f64>,
+    /// Tooth friction; none where not given.
+    friction: Option<FrictionTable>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum FrictionModel {
+    Coulomb,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct FrictionTable {
+    #[allow(dead_code)]
+    model: FrictionModel,
+    /// Coefficient.
+    coefficient: f64,
+    /// Distance from the pitch point within which friction turns round; 20 where not given.
+    #[serde(default = "default_reversal")]
+    reversal_um: f64,
+}
+
+fn default_reversal() -> f64 {
+    20.0
+}
+
+/// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
+const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+struct RunTable {
+    /// Torques on gear 2.
+    torques_Nm: Vec<f64>,
+    /// First driver angle; 0 where not given.
+    #[serde(default)]
+    start_deg: f64,
+    /// Pitches of gear 1 to run through.
+    pitches: usize,
+    /// Positions per pitch.
+    points_per_pitch: usize,
+}
+
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+struct GaugesTable {
+    /// Gauges of gear 1, by name.
+    #[serde(default)]
+    gear_1: Vec<String>,
+    /// Gauges of gear 2, by name.
+    #[serde(default)]
+    gear_2: Vec<String>,
+}
+
+/// A scene that has been read and checked. Paths are relative to the scene file's folder.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Title in prints and reports.
+    pub title: String,
+    /// Reduced model of the driving gear.
+    pub gear_1: PathBuf,
+    /// Reduced model of the driven gear.
+    pub gear_2: PathBuf,
+    /// Centre distance \[m\].
+    pub centre_distance_m: f64,
+    /// Hand of the flanks in contact, on both gears.
+    pub flank: FlankSide,
+    /// Axis errors.
+    pub misalignment: Misalignment,
+    /// Local contact and friction.
+    pub contact: ContactOptions,
+    /// Radius of the tip edges \[m\] where the path is `extended`; none where it is `line-of-action`.
+    pub edge_radius_m: Option<f64>,
+    /// Torques on gear 2 \[N·m\].
+    pub torques_nm: Vec<f64>,
+    /// First driver angle \[rad\].
+    pub start_rad: f64,
+    /// Pitches of gear 1 to run through.
+    pub pitches: usize,
+    /// Positions per pitch.
+    pub points_per_pitch: usize,
+    /// Gauges to read on gear 1, by name.
+    pub gauges_1: Vec<String>,
+    /// Gauges to read on gear 2, by name.
+    pub gauges_2: Vec<String>,
+    /// The file, for later complaints and provenance.
+    pub document: InputDocument,
+}
+
+impl Scene {
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, key, what was found and what is allowed.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_document(InputDocument::read(path)?, folder)
+    }
+
+    /// Checks a scene that is already in memory; model paths are taken relative to `folder`.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        let table: SceneTable = document.parse()?;
+        let require = |key: &str, value: f64, ok: bool, allowed: &str| {
+            if ok && value.is_finite() {
+                Ok(())
+            } else {
+                Err(document.error(key, format!("found {value}, allowed is {allowed}")))
+            }
+        };
+        let pair = &table.pair;
+        require(
+            "pair.centre_distance_mm",
+            pair.centre_distance_mm,
+            pair.centre_distance_mm > 0.0,
+            "more than 0",
+        )?;
+        for (key, value) in [
+            ("pair.inclination_mrad", pair.inclination_mrad),
+            ("pair.deviation_mrad", pair.deviation_mrad),
+        ] {
+            require(
+                key,
+                value,
+                value.abs() <= 10.0,
+                "-10 to 10: the misalignment is treated as small",
+            )?;
+        }
+        if table.run.torques_Nm.is_empty() {
+            return Err(document.error(
+                "run.torques_Nm",
+                "is empty; name at least one torque on gear 2",
+            ));
+        }
+        for (i, &torque) in table.run.torques_Nm.iter().enumerate() {
+            require(
+                &format!("run.torques_Nm.{i}"),
+                torque,
+                torque > 0.0,
+                "more than 0: the static solution needs a load that closes the contact",
+            )?;
+        }
+        require(
+            "run.start_deg",
+            table.run.start_deg,
+            table.run.start_deg.abs() <= 360.0,
+            "-360 to 360",
+        )?;
+        require(
+            "run.pitches",
+            table.run.pitches as f64,
+            (1..=10_000).contains(&table.run.pitches),
+            "1 to 10000",
+        )?;
+        let points = table.run.points_per_pitch;
+        require(
+            "run.points_per_pitch",
+            points as f64,
+            (4..=100_000).contains(&points),
+            "4 to 100000",
+        )?;
+        let friction = match &table.mesh.friction {
+            None => None,
+            Some(f) => {
+                require(
+                    "mesh.friction.coefficient",
+                    f.coefficient,
+                    (0.0..=1.0).contains(&f.coefficient),
+                    "0 to 1",
+                )?;
+                require(
+                    "mesh.friction.reversal_um",
+                    f.reversal_um,
+                    f.reversal_um > 0.0,
+                    "more than 0",
+                )?;
+                Some(Friction {
+                    coefficient: f.coefficient,
+                    reversal_m: f.reversal_um * 1e-6,
+                })
+            }
+        };
+        let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
+            (Some(PathTable::Extended), radius) => {
+                let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
+                require(
+                    "mesh.edge_radius_um",
+                    radius,
+                    (1.0..=1000.0).contains(&radius),
+                    "1 to 1000",
+                )?;
+                Some(radius * 1e-6)
+            }
+            (Some(PathTable::LineOfAction) | None, Some(_)) => {
+                return Err(document.error(
+                    "mesh.edge_radius_um",
+                    "is not used on the line of action; set mesh.path = \"extended\" or leave it out",
+                ));
+            }
+            (Some(PathTable::LineOfAction) | None, None) => None,
+        };
+        Ok(Self {
+            title: table.title,
+            gear_1: folder.join(&pair.gear_1),
+            gear_2: folder.join(&pair.gear_2),
+            centre_distance_m: pair.centre_distance_mm * 1e-3,
+            flank: pair.flank,
+            misalignment: Misalignment {
+                inclination_rad: pair.inclination_mrad * 1e-3,
+                deviation_rad: pair.deviation_mrad * 1e-3,
+            },
+            contact: ContactOptions {
+                local: match table.mesh.local {
+                    Some(LocalTable::None) => LocalContact::None,
+                    Some(LocalTable::WeberBanaschek) => LocalContact::WeberBanaschek,
+                    Some(LocalTable::Calibrated) => LocalContact::Calibrated,
+                    None => LocalContact::default(),
+                },
+                friction,
+            },
+            edge_radius_m,
+            torques_nm: table.run.torques_Nm,
+            start_rad: table.run.start_deg.to_radians(),
+            pitches: table.run.pitches,
+            points_per_pitch: points,
+            gauges_1: table.gauges.gear_1,
+            gauges_2: table.gauges.gear_2,
+            document,
+        })
+    }
+
+    /// Number of positions.
+    pub fn positions(&self) -> usize {
+        self.pitches * self.points_per_pitch
+    }
+}

@@ -1,0 +1,29 @@
+//! JSON Schema of scene files and study files.
+
+use schemars::{JsonSchema, Schema, schema_for};
+
+use crate::pair::scene_file::SceneTable;
+use crate::study::StudyTables;
+use crate::system::SystemTables;
+
+/// A scene file of either kind.
+#[derive(JsonSchema)]
+#[schemars(untagged, title = "gearmesh scene")]
+#[allow(dead_code)]
+enum SceneTables {
+    /// One gear pair, static positions over driver angles.
+    Pair(Box<SceneTable>),
+    /// A multibody system.
+    System(Box<SystemTables>),
+}
+
+/// JSON Schema (draft 2020-12) of scene files: of a pair, or of a multibody system. What depends on other keys, such as the keys of one mesh
+/// model, is said in the descriptions and checked when the scene is read.
+pub fn scene() -> Schema {
+    schema_for!(SceneTables)
+}
+
+/// JSON Schema of study files.
+pub fn study() -> Schema {
+    schema_for!(StudyTables)
+}

@@ -1,0 +1,388 @@
+//! `[[body]]` to bodies in their places, and markers on them.
+
+use std::sync::Arc;
+
+use gearmesh_drivetrain::{modal_gear_body, modes_up_to};
+use gearmesh_dynamics::state::BodyMotion;
+use gearmesh_dynamics::{Body, BodyId, GROUND, Marker};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+use super::gears::Gear;
+use crate::system::names;
+use crate::system::tables::MM;
+use crate::system::tables::body::{BodyTable, Flexibility};
+
+/// The world in scene files.
+pub(super) const GROUND_NAME: &str = "ground";
+
+/// A body at its start.
+#[derive(Debug, Clone)]
+pub(super) struct PlacedBody {
+    pub body: Body,
+    /// Where mass and inertia come from.
+    pub source: String,
+    pub gear: Option<Arc<Gear>>,
+    /// Natural modes that the body has; none unless it is modal.
+    pub modes: usize,
+    /// Nobody has said where it is.
+    pub place_is_free: bool,
+    /// Nobody has said how far it is turned about its z.
+    pub turn_is_free: bool,
+    /// Nobody has said how fast it turns.
+    pub speed_is_free: bool,
+}
+
+impl PlacedBody {
+    /// A body of the scene.
+    pub(super) fn new(
+        table: &BodyTable,
+        keys: &TableKeys<'_>,
+        gear: Option<Arc<Gear>>,
+    ) -> Result<Self, InputError> {
+        if table.name.is_empty() || table.name == GROUND_NAME {
+            return Err(keys.error(
+                "name",
+                "is empty or \"ground\", which is the world; give the body a name of its own",
+            ));
+        }
+        let mut body = match &gear {
+            Some(gear) if table.mass_kg.is_none() && table.inertia_kg_m2.is_none() => {
+                gear.body(keys)?
+            }
+            _ => stated_mass(table, keys)?,
+        };
+        body.name.clone_from(&table.name);
+        if let Some(centre) = table.centre_of_mass_mm {
+            body.center_of_mass_m = vector(keys, "centre_of_mass_mm", centre, MM)?;
+        }
+        if let Some(position) = table.position_mm {
+            body.position_m = vector(keys, "position_mm", position, MM)?;
+        }
+        if let Some(velocity) = table.velocity_mm_per_s {
+            body.velocity_m_per_s = vector(keys, "velocity_mm_per_s", velocity, MM)?;
+        }
+        let mode_count = modes(table, keys, gear.as_deref(), &mut body)?;
+        let mut turn_is_free = true;
+        if let Some(angles) = &table.cardan_deg {
+            let angle = |i: usize| angles.get(i).copied().unwrap_or(0.0);
+            if !(2..=3).contains(&angles.len()) {
+                return Err(keys.error(
+                    "cardan_deg",
+                    format!(
+                        "found {} angles, allowed are 3, or 2 where a mesh sets the third",
+                        angles.len()
+                    ),
+                ));
+            }
+            vector(keys, "cardan_deg", [angle(0), angle(1), angle(2)], 1.0)?;
+            let about = |axis: Vector3<f64>, degrees: f64| {
+                UnitQuaternion::from_scaled_axis(axis * degrees.to_radians())
+            };
+            body.orientation = about(Vector3::x(), angle(0))
+                * about(Vector3::y(), angle(1))
+                * about(Vector3::z(), angle(2));
+            turn_is_free = angles.len() == 2;
+        }
+        match (table.speed_rpm, table.angular_velocity_rad_per_s) {
+            (None, None) => {}
+            (Some(rpm), None) => {
+                keys.require("speed_rpm", rpm, true, "a finite number")?;
+                body.angular_velocity_rad_per_s =
+                    Vector3::new(0.0, 0.0, rpm * std::f64::consts::TAU / 60.0);
+            }
+            (None, Some(omega)) => {
+                body.angular_velocity_rad_per_s =
+                    vector(keys, "angular_velocity_rad_per_s", omega, 1.0)?;
+            }
+            (Some(_), Some(_)) => {
+                return Err(keys.error(
+                    "speed_rpm",
+                    "is given together with angular_velocity_rad_per_s; remove one of the two",
+                ));
+            }
+        }
+        body.validate()
+            .map_err(|e| keys.error(fault_key(table), e))?;
+        Ok(Self {
+            source: match &gear {
+                Some(gear) if mode_count > 0 => format!("{}, {mode_count} modes", gear.source()),
+                Some(gear) => gear.source(),
+                None => "mass and inertia as stated".to_string(),
+            },
+            modes: mode_count,
+            body,
+            place_is_free: table.position_mm.is_none(),
+            turn_is_free,
+            speed_is_free: table.speed_rpm.is_none() && table.angular_velocity_rad_per_s.is_none(),
+            gear,
+        })
+    }
+
+    /// Its motion at the start.
+    pub(super) fn motion(&self) -> BodyMotion {
+        let body = &self.body;
+        BodyMotion {
+            position_m: body.position_m,
+            orientation: body.orientation,
+            rotation: *body.orientation.to_rotation_matrix().matrix(),
+            velocity_m_per_s: body.velocity_m_per_s,
+            angular_velocity_rad_per_s: body.angular_velocity_rad_per_s,
+        }
+    }
+
+    /// Its z axis in the world.
+    pub(super) fn axis(&self) -> Vector3<f64> {
+        self.body.orientation * Vector3::z()
+    }
+
+    /// Turns it further about its own z.
+    pub(super) fn turn(&mut self, angle_rad: f64) {
+        self.body.orientation *=
+            UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, angle_rad));
+    }
+}
+
+/// The key that a body's own check most likely complains about: everything else has been checked before.
+fn fault_key(table: &BodyTable) -> &'static str {
+    match (&table.mass_kg, &table.inertia_kg_m2) {
+        (Some(mass), _) if !(*mass > 0.0 && mass.is_finite()) => "mass_kg",
+        (_, Some(_)) => "inertia_kg_m2",
+        _ => "",
+    }
+}
+
+/// Gives a modal body its modes; how many they are.
+fn modes(
+    table: &BodyTable,
+    keys: &TableKeys<'_>,
+    gear: Option<&Gear>,
+    body: &mut Body,
+) -> Result<usize, InputError> {
+    let word = table.flexibility.map_or("", Flexibility::name);
+    keys.refuse_unused(
+        ("flexibility", word),
+        &[
+            ("modes_up_to_Hz", table.modes_up_to_hz.is_some(), &["modal"]),
+            (
+                "modal_damping_ratio",
+                table.modal_damping_ratio.is_some(),
+                &["modal"],
+            ),
+        ],
+    )?;
+    if table.flexibility != Some(Flexibility::Modal) {
+        return Ok(0);
+    }
+    let model = gear.and_then(|gear| gear.model.as_deref()).ok_or_else(|| {
+        keys.error(
+            "flexibility",
+            "is \"modal\", which needs a reduced gear (.h5) with modes",
+        )
+    })?;
+    let ratio = table.modal_damping_ratio.unwrap_or(0.0);
+    let allowed = "0 to below 1";
+    keys.require(
+        "modal_damping_ratio",
+        ratio,
+        (0.0..1.0).contains(&ratio),
+        allowed,
+    )?;
+    let count = match table.modes_up_to_hz {
+        Some(up_to_hz) => {
+            modes_up_to(model, up_to_hz).map_err(|e| keys.error("modes_up_to_Hz", e))?
+        }
+        None => model
+            .modal_basis()
+            .map_err(|e| keys.error("flexibility", e))?
+            .count(),
+    };
+    if count == 0 {
+        return Err(keys.error(
+            "modes_up_to_Hz",
+            "no mode of the model lies below; raise it, or write flexibility = \"reduced\"",
+        ));
+    }
+    let modal = modal_gear_body(model, count, ratio).map_err(|e| keys.error("flexibility", e))?;
+    body.modes = modal.modes;
+    Ok(count)
+}
+
+fn stated_mass(table: &BodyTable, keys: &TableKeys<'_>) -> Result<Body, InputError> {
+    let whose = match table.gear {
+        Some(_) => "a mass or inertia that is stated for a gear",
+        None => "a body without gear",
+    };
+    let mass = keys.needed("mass_kg", table.mass_kg, whose)?;
+    let inertia = keys.needed("inertia_kg_m2", table.inertia_kg_m2.as_ref(), whose)?;
+    let tensor = match inertia[..] {
+        [x, y, z] => Matrix3::from_diagonal(&Vector3::new(x, y, z)),
+        [x, y, z, xy, xz, yz] => Matrix3::new(x, xy, xz, xy, y, yz, xz, yz, z),
+        _ => {
+            return Err(keys.error(
+                "inertia_kg_m2",
+                format!("found {} numbers, allowed are 3 or 6", inertia.len()),
+            ));
+        }
+    };
+    Ok(Body {
+        inertia_kg_m2: tensor,
+        ..Body::rigid(&table.name, mass, [1.0; 3])
+    })
+}
+
+/// Three finite numbers times a unit.
+pub(super) fn vector(
+    keys: &TableKeys<'_>,
+    key: &str,
+    values: [f64; 3],
+    unit: f64,
+) -> Result<Vector3<f64>, InputError> {
+    for (i, &value) in values.iter().enumerate() {
+        keys.require(&format!("{key}.{i}"), value, true, "a finite number")?;
+    }
+    Ok(unit * Vector3::from(values))
+}
+
+/// A direction, scaled to length 1.
+pub(super) fn direction(
+    keys: &TableKeys<'_>,
+    key: &str,
+    values: [f64; 3],
+) -> Result<Vector3<f64>, InputError> {
+    let direction = vector(keys, key, values, 1.0)?;
+    let length = direction.norm();
+    keys.require(
+        key,
+        length,
+        length > 0.0,
+        "a direction: its length must be more than 0",
+    )?;
+    Ok(direction / length)
+}
+
+/// Axes with z along a direction; x and y are any that fit.
+pub(super) fn axes_along(z_axis: &Vector3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::rotation_between(&Vector3::z(), z_axis).unwrap_or_else(|| {
+        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+    })
+}
+
+/// A frame in the world at the start.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    pub origin_m: Vector3<f64>,
+    pub axes: UnitQuaternion<f64>,
+}
+
+/// All bodies, and their numbers once the system has them.
+#[derive(Debug, Default)]
+pub(super) struct Bodies {
+    pub list: Vec<PlacedBody>,
+    pub ids: Vec<BodyId>,
+}
+
+impl Bodies {
+    /// Number of a body in the list; none for the ground.
+    pub(super) fn find(
+        &self,
+        keys: &TableKeys<'_>,
+        key: &str,
+        name: &str,
+    ) -> Result<Option<usize>, InputError> {
+        if name == GROUND_NAME {
+            return Ok(None);
+        }
+        match self.list.iter().position(|placed| placed.body.name == name) {
+            Some(index) => Ok(Some(index)),
+            None => {
+                let mut known = vec![GROUND_NAME];
+                known.extend(self.list.iter().map(|placed| placed.body.name.as_str()));
+                Err(keys.error(key, names::unknown("body", name, &known)))
+            }
+        }
+    }
+
+    /// Number of a body that must not be the ground.
+    pub(super) fn find_body(
+        &self,
+        keys: &TableKeys<'_>,
+        key: &str,
+        name: &str,
+    ) -> Result<usize, InputError> {
+        self.find(keys, key, name)?
+            .ok_or_else(|| keys.error(key, "found the ground, allowed is a body"))
+    }
+
+    /// The two bodies of a connection, which must differ; the ground where none is named.
+    pub(super) fn find_pair(
+        &self,
+        keys: &TableKeys<'_>,
+        body_1: Option<&str>,
+        body_2: &str,
+    ) -> Result<[Option<usize>; 2], InputError> {
+        let first = self.find(keys, "body_1", body_1.unwrap_or(GROUND_NAME))?;
+        let second = self.find(keys, "body_2", body_2)?;
+        if first == second {
+            return Err(keys.error(
+                "body_2",
+                format!("found `{body_2}`, the same as body_1; two different bodies are needed"),
+            ));
+        }
+        Ok([first, second])
+    }
+
+    /// Name in the scene.
+    pub(super) fn name(&self, body: Option<usize>) -> &str {
+        body.map_or(GROUND_NAME, |index| &self.list[index].body.name)
+    }
+
+    /// Number in the system.
+    pub(super) fn id(&self, body: Option<usize>) -> BodyId {
+        body.map_or(GROUND, |index| self.ids[index])
+    }
+
+    /// Origin and axes of a body at the start.
+    pub(super) fn frame(&self, body: Option<usize>) -> Frame {
+        match body {
+            None => Frame {
+                origin_m: Vector3::zeros(),
+                axes: UnitQuaternion::identity(),
+            },
+            Some(index) => {
+                let body = &self.list[index].body;
+                Frame {
+                    origin_m: body.position_m,
+                    axes: body.orientation,
+                }
+            }
+        }
+    }
+
+    /// A frame of the world at the start, fixed on a body.
+    pub(super) fn marker(&self, body: Option<usize>, frame: &Frame) -> Marker {
+        let own = self.frame(body);
+        let back = own.axes.inverse();
+        let position = back * (frame.origin_m - own.origin_m);
+        Marker::at(self.id(body), position.into()).oriented(back * frame.axes)
+    }
+
+    /// The frame that a connection states: at a place, z along an axis; those of body 2 where not given.
+    pub(super) fn stated_frame(
+        &self,
+        keys: &TableKeys<'_>,
+        body_2: Option<usize>,
+        at_mm: Option<[f64; 3]>,
+        axis: Option<[f64; 3]>,
+    ) -> Result<Frame, InputError> {
+        let mut frame = self.frame(body_2);
+        if let Some(at) = at_mm {
+            frame.origin_m = vector(keys, "at_mm", at, MM)?;
+        }
+        if let Some(axis) = axis {
+            frame.axes = axes_along(&direction(keys, "axis", axis)?);
+        }
+        Ok(frame)
+    }
+}

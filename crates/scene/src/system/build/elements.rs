@@ -1,0 +1,259 @@
+//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[bearing]]` to force elements.
+
+use std::path::Path;
+
+use gearmesh_dynamics::elements::{
+    AppliedLoad, Axes, Bushing, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
+};
+use gearmesh_dynamics::{MarkerPair, SystemBuilder, TimeFunction};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use nalgebra::{Matrix6, Vector3};
+
+use super::bodies::{Bodies, Frame, direction, vector};
+use super::parts::Parts;
+use crate::system::scene::SystemTables;
+use crate::system::tables::MM;
+use crate::system::tables::connection::{BearingKind, BushingTable};
+use crate::system::tables::load::{AxesWord, LoadTable};
+
+/// N/mm in N/m, N·s/mm in N·s/m.
+const PER_MM: f64 = 1e3;
+
+/// Adds all of them; loads are multiplied by `load_factor`.
+pub(super) fn add(
+    tables: &SystemTables,
+    (document, folder): (&InputDocument, &Path),
+    load_factor: f64,
+    bodies: &Bodies,
+    builder: &mut SystemBuilder,
+    parts: &mut Parts,
+) -> Result<(), InputError> {
+    for (i, table) in tables.load.iter().enumerate() {
+        let key = format!("load.{i}");
+        let keys = TableKeys::new(document, &key);
+        let body = bodies.find_body(&keys, "body", &table.body)?;
+        builder.element(load(table, &keys, folder, load_factor, bodies, body)?);
+        parts.element_on(&table.name(), "load", bodies, body);
+    }
+    springs(tables, document, bodies, builder, parts)?;
+    for (i, table) in tables.bushing.iter().enumerate() {
+        let key = format!("bushing.{i}");
+        let keys = TableKeys::new(document, &key);
+        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
+        let pair = pair(
+            bodies,
+            ends,
+            &bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?,
+        );
+        builder.element(
+            bushing(table, &keys)?
+                .between(&table.name, pair)
+                .map_err(|e| keys.error("", e))?,
+        );
+        parts.element(&table.name, "bushing", bodies, ends);
+    }
+    for (i, table) in tables.bearing.iter().enumerate() {
+        let key = format!("bearing.{i}");
+        let keys = TableKeys::new(document, &key);
+        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
+        let pair = pair(
+            bodies,
+            ends,
+            &bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?,
+        );
+        let BearingKind::Linear = table.kind;
+        let bearing = LinearBearing {
+            radial_stiffness_n_per_m: PER_MM * table.radial_stiffness_N_per_mm,
+            axial_stiffness_n_per_m: PER_MM * table.axial_stiffness_N_per_mm,
+            tilt_stiffness_nm_per_rad: table.tilt_stiffness_Nm_per_rad,
+            radial_damping_n_s_per_m: PER_MM * table.radial_damping_N_s_per_mm,
+            axial_damping_n_s_per_m: PER_MM * table.axial_damping_N_s_per_mm,
+            tilt_damping_nm_s_per_rad: table.tilt_damping_Nm_s_per_rad,
+        };
+        builder.element(
+            bearing
+                .between(&table.name, pair)
+                .map_err(|e| keys.error("", e))?,
+        );
+        parts.element(&table.name, "linear bearing", bodies, ends);
+    }
+    Ok(())
+}
+
+fn pair(bodies: &Bodies, ends: [Option<usize>; 2], frame: &Frame) -> MarkerPair {
+    let [a, b] = ends.map(|end| bodies.marker(end, frame));
+    MarkerPair { a, b }
+}
+
+fn load(
+    table: &LoadTable,
+    keys: &TableKeys<'_>,
+    folder: &Path,
+    factor: f64,
+    bodies: &Bodies,
+    body: usize,
+) -> Result<AppliedLoad, InputError> {
+    let (key, function, kind) = match (&table.torque_Nm, &table.force_N) {
+        (Some(torque), None) => {
+            if table.at_mm.is_some() {
+                return Err(keys.error("at_mm", "is not used by a torque; remove it"));
+            }
+            ("torque_Nm", torque, LoadKind::Torque)
+        }
+        (None, Some(force)) => {
+            let point_m = vector(keys, "at_mm", table.at_mm.unwrap_or_default(), MM)?.into();
+            ("force_N", force, LoadKind::Force { point_m })
+        }
+        (Some(_), Some(_)) => {
+            return Err(keys.error(
+                "force_N",
+                "is given together with torque_Nm; make it two loads",
+            ));
+        }
+        (None, None) => {
+            return Err(keys.error("torque_Nm", "missing; a load needs torque_Nm or force_N"));
+        }
+    };
+    let magnitude = function.function(keys, key, 1.0, folder)?;
+    let magnitude = if factor == 1.0 {
+        magnitude
+    } else {
+        TimeFunction::Product(
+            Box::new(TimeFunction::Constant(factor)),
+            Box::new(magnitude),
+        )
+    };
+    let along = match (table.along, table.axes, kind) {
+        (Some(along), axes, _) => {
+            let axes = match axes.unwrap_or_default() {
+                AxesWord::World => Axes::World,
+                AxesWord::Body => Axes::Body,
+            };
+            (axes, direction(keys, "along", along)?.into())
+        }
+        (None, Some(_), _) => {
+            return Err(keys.error("axes", "is given without `along`, whose axes it states"));
+        }
+        (None, None, LoadKind::Torque) => (Axes::Body, [0.0, 0.0, 1.0]),
+        (None, None, LoadKind::Force { .. }) => {
+            return Err(keys.error("along", "missing; a force needs a direction"));
+        }
+    };
+    AppliedLoad::new(&table.name(), bodies.id(Some(body)), kind, along, magnitude)
+        .map_err(|e| keys.error("", e))
+}
+
+fn springs(
+    tables: &SystemTables,
+    document: &InputDocument,
+    bodies: &Bodies,
+    builder: &mut SystemBuilder,
+    parts: &mut Parts,
+) -> Result<(), InputError> {
+    for (i, table) in tables.spring.iter().enumerate() {
+        let key = format!("spring.{i}");
+        let keys = TableKeys::new(document, &key);
+        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
+        let first = vector(&keys, "at_1_mm", table.at_1_mm, MM)?;
+        let second = match table.at_2_mm {
+            Some(at) => vector(&keys, "at_2_mm", at, MM)?,
+            None => bodies.frame(ends[1]).origin_m,
+        };
+        let marker = |end: usize, origin_m: Vector3<f64>| {
+            let axes = bodies.frame(ends[end]).axes;
+            bodies.marker(ends[end], &Frame { origin_m, axes })
+        };
+        let spring = SpringDamper {
+            stiffness_n_per_m: PER_MM * table.stiffness_N_per_mm,
+            damping_n_s_per_m: PER_MM * table.damping_N_s_per_mm,
+            free_length_m: table
+                .free_length_mm
+                .map_or((second - first).norm(), |length| MM * length),
+        };
+        let pair = MarkerPair {
+            a: marker(0, first),
+            b: marker(1, second),
+        };
+        builder.element(
+            spring
+                .between(&table.name, pair)
+                .map_err(|e| keys.error("", e))?,
+        );
+        parts.element(&table.name, "spring", bodies, ends);
+    }
+    for (i, table) in tables.torsion_spring.iter().enumerate() {
+        let key = format!("torsion_spring.{i}");
+        let keys = TableKeys::new(document, &key);
+        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
+        let pair = pair(
+            bodies,
+            ends,
+            &bodies.stated_frame(&keys, ends[1], None, table.axis)?,
+        );
+        keys.require(
+            "free_angle_deg",
+            table.free_angle_deg,
+            true,
+            "a finite number",
+        )?;
+        let mut spring = TorsionSpring::new(table.stiffness_Nm_per_rad, table.damping_Nm_s_per_rad);
+        spring.free_angle_rad = table.free_angle_deg.to_radians();
+        builder.element(
+            spring
+                .between(&table.name, pair)
+                .map_err(|e| keys.error("", e))?,
+        );
+        parts.element(&table.name, "torsion spring", bodies, ends);
+    }
+    Ok(())
+}
+
+fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {
+    let diagonals = [
+        ("stiffness_N_per_mm", table.stiffness_N_per_mm.is_some()),
+        ("stiffness_Nm_per_rad", table.stiffness_Nm_per_rad.is_some()),
+        ("damping_N_s_per_mm", table.damping_N_s_per_mm.is_some()),
+        ("damping_Nm_s_per_rad", table.damping_Nm_s_per_rad.is_some()),
+    ];
+    if let Some(stiffness) = &table.stiffness_matrix_SI {
+        if let Some((key, _)) = diagonals.iter().find(|(_, given)| *given) {
+            return Err(keys.error(
+                key,
+                "is given together with stiffness_matrix_SI; remove one of the two",
+            ));
+        }
+        let matrix = |rows: &[[f64; 6]; 6]| Matrix6::from_fn(|i, j| rows[i][j]);
+        return Ok(Bushing {
+            stiffness: matrix(stiffness),
+            damping: table
+                .damping_matrix_SI
+                .as_ref()
+                .map_or_else(Matrix6::zeros, matrix),
+            free_displacement_m: Vector3::zeros(),
+        });
+    }
+    if table.damping_matrix_SI.is_some() {
+        return Err(keys.error(
+            "damping_matrix_SI",
+            "is given without stiffness_matrix_SI; give both, or the diagonals",
+        ));
+    }
+    if !diagonals[0].1 && !diagonals[1].1 {
+        return Err(keys.error(
+            "stiffness_N_per_mm",
+            "missing; a bushing needs a stiffness, as diagonals or as stiffness_matrix_SI",
+        ));
+    }
+    let six = |along: Option<[f64; 3]>, about: Option<[f64; 3]>| {
+        let (a, b) = (
+            along.unwrap_or_default().map(|value| PER_MM * value),
+            about.unwrap_or_default(),
+        );
+        [a[0], a[1], a[2], b[0], b[1], b[2]]
+    };
+    Ok(Bushing::diagonal(
+        six(table.stiffness_N_per_mm, table.stiffness_Nm_per_rad),
+        six(table.damping_N_s_per_mm, table.damping_Nm_s_per_rad),
+    ))
+}

@@ -1,0 +1,139 @@
+//! The gears that bodies name: teeth, body and, for models, static patterns.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gearmesh_drivetrain::{DrivetrainError, GearInertia, gear_body};
+use gearmesh_dynamics::Body;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{GearDefinition, InputError};
+use gearmesh_model::{ReducedGear, read_reduced_gear};
+use nalgebra::{Matrix3, Vector3};
+
+/// A gear from a gear file or a model.
+#[derive(Debug)]
+pub(super) struct Gear {
+    pub file: PathBuf,
+    pub definition: GearDefinition,
+    pub model: Option<Arc<ReducedGear>>,
+}
+
+/// Gears by file, so that each is read once.
+#[derive(Debug, Default)]
+pub(super) struct GearFiles(BTreeMap<PathBuf, Arc<Gear>>);
+
+impl GearFiles {
+    /// The gear of a file.
+    pub(super) fn get(
+        &mut self,
+        path: &Path,
+        keys: &TableKeys<'_>,
+    ) -> Result<Arc<Gear>, InputError> {
+        if let Some(gear) = self.0.get(path) {
+            return Ok(Arc::clone(gear));
+        }
+        let gear = Arc::new(Gear::read(path, keys)?);
+        self.0.insert(path.to_path_buf(), Arc::clone(&gear));
+        Ok(gear)
+    }
+}
+
+impl Gear {
+    fn read(path: &Path, keys: &TableKeys<'_>) -> Result<Self, InputError> {
+        let shown = path.display();
+        match path.extension().and_then(|e| e.to_str()) {
+            Some("toml") => {
+                if !path.exists() {
+                    return Err(keys.error("gear", format!("the gear file {shown} does not exist")));
+                }
+                Ok(Self {
+                    file: path.to_path_buf(),
+                    definition: GearDefinition::read(path)?,
+                    model: None,
+                })
+            }
+            Some("h5") => {
+                if !path.exists() {
+                    let problem = format!(
+                        "the model {shown} does not exist; make it with `gearmesh reduce GEAR.toml -o {shown}`"
+                    );
+                    return Err(keys.error("gear", problem));
+                }
+                let model = read_reduced_gear(path).map_err(|e| keys.error("gear", e))?;
+                let source = format!("gear file inside {shown}");
+                let definition = GearDefinition::from_document(&InputDocument::new(
+                    source,
+                    model.input_toml.clone(),
+                ))?;
+                Ok(Self {
+                    file: path.to_path_buf(),
+                    definition,
+                    model: Some(Arc::new(model)),
+                })
+            }
+            _ => Err(keys.error(
+                "gear",
+                format!("found {shown}, allowed is a gear file (.toml) or a reduced gear (.h5)"),
+            )),
+        }
+    }
+
+    /// Mass and inertia: of the model's mesh, or in closed form.
+    pub(super) fn body(&self, keys: &TableKeys<'_>) -> Result<Body, InputError> {
+        let hint = |error: DrivetrainError| {
+            keys.error(
+                "gear",
+                format!(
+                    "{error} (mass_kg and inertia_kg_m2 of this table take the place of the gear's)"
+                ),
+            )
+        };
+        if let Some(model) = &self.model {
+            return gear_body(model).map_err(hint);
+        }
+        let gear = &self.definition;
+        let Some(density) = gear.material.density_kg_per_m3 else {
+            let problem = format!(
+                "{} has no density, hence no mass: give material.density_kg_per_m3 there, or mass_kg and inertia_kg_m2 here",
+                self.file.display()
+            );
+            return Err(keys.error("gear", problem));
+        };
+        let found = GearInertia::new(&gear.profile, &gear.blank, gear.tooth.face_width_m, density)
+            .map_err(hint)?;
+        let [x, y] = found.centre_xy_m;
+        let centre = Vector3::new(x, y, found.centre_z_m);
+        let about_origin = Vector3::new(found.across_kg_m2, found.across_kg_m2, found.polar_kg_m2);
+        let steiner = found.mass_kg
+            * (centre.norm_squared() * Matrix3::identity() - centre * centre.transpose());
+        Ok(Body {
+            center_of_mass_m: centre,
+            inertia_kg_m2: Matrix3::from_diagonal(&about_origin) - steiner,
+            ..Body::rigid(&gear.name, found.mass_kg, [1.0; 3])
+        })
+    }
+
+    /// Whether the gear file states any microgeometry.
+    pub(super) fn has_microgeometry(&self) -> bool {
+        let m = &self.definition.microgeometry;
+        m.profile_crowning.is_some()
+            || m.tip_relief.is_some()
+            || m.lead_crowning_m != 0.0
+            || m.flank_angle_m != 0.0
+    }
+
+    /// Where it comes from, in words.
+    pub(super) fn source(&self) -> String {
+        let kind = if self.model.is_some() {
+            "model"
+        } else {
+            "gear file"
+        };
+        format!(
+            "{kind} {}, z {}",
+            self.file.display(),
+            self.definition.profile.teeth
+        )
+    }
+}

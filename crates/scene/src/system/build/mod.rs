@@ -1,0 +1,429 @@
+//! From the tables of a scene to a multibody system.
+//!
+//! | step | file |
+//! | --- | --- |
+//! | read the gears that bodies name | `gears.rs` |
+//! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
+//! | shafts | `shafts.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs` |
+//! | speeds and angles that nobody states | `start.rs` |
+//! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
+
+mod bodies;
+mod elements;
+mod gear_mesh;
+mod gears;
+mod joints;
+mod lump;
+mod parts;
+mod shafts;
+mod start;
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use gearmesh_dynamics::{Motion, System, SystemBuilder};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+
+use self::bodies::{Bodies, PlacedBody};
+use self::gear_mesh::PreparedMesh;
+use self::gears::{Gear, GearFiles};
+use self::parts::Parts;
+use self::shafts::PlacedShaft;
+use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
+use super::names;
+use super::scene::SystemScene;
+use super::tables::body::Flexibility;
+use super::tables::gear_mesh::MeshModel;
+
+/// A scene whose gears have been read. Systems can be built from it again and again.
+#[derive(Debug, Clone)]
+pub struct LoadedSystem {
+    /// The scene.
+    pub scene: SystemScene,
+    /// The gear of each `[[body]]`.
+    gears: Vec<Option<Arc<Gear>>>,
+}
+
+/// How one system of a series differs from the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variation {
+    /// Other functions for motions, by name.
+    pub motions: Vec<(String, Motion)>,
+    /// Share of all `[[load]]` that acts.
+    pub load_factor: f64,
+}
+
+impl Default for Variation {
+    fn default() -> Self {
+        Self {
+            motions: Vec::new(),
+            load_factor: 1.0,
+        }
+    }
+}
+
+impl SystemScene {
+    /// Reads the gears that bodies name.
+    ///
+    /// # Errors
+    /// [`InputError`] at the body, or in the gear's file.
+    pub fn load(self) -> Result<LoadedSystem, InputError> {
+        let mut files = GearFiles::default();
+        let mut gears = Vec::new();
+        for (i, table) in self.tables.body.iter().enumerate() {
+            let key = format!("body.{i}");
+            let keys = TableKeys::new(&self.document, &key);
+            gears.push(match &table.gear {
+                None => None,
+                Some(path) => Some(files.get(&self.folder.join(path), &keys)?),
+            });
+        }
+        Ok(LoadedSystem { scene: self, gears })
+    }
+}
+
+impl LoadedSystem {
+    /// The system of the scene.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, key, what was found and what is allowed.
+    pub fn build(&self) -> Result<BuiltSystem, InputError> {
+        self.build_varied(&Variation::default())
+    }
+
+    /// The system of the scene with some things changed.
+    ///
+    /// # Errors
+    /// As [`LoadedSystem::build`].
+    pub fn build_varied(&self, variation: &Variation) -> Result<BuiltSystem, InputError> {
+        let (tables, document) = (&self.scene.tables, &self.scene.document);
+        let files = (document, self.scene.folder.as_path());
+        let mut parts = Parts::default();
+        let mut bodies = self.bodies()?;
+        let mut shafts = Vec::new();
+        for (i, table) in tables.shaft.iter().enumerate() {
+            shafts.push(PlacedShaft::new(
+                table,
+                (document, format!("shaft.{i}")),
+                &mut bodies,
+            )?);
+        }
+        self.refuse_repeated_names()?;
+        let mut meshes: Vec<PreparedMesh> = Vec::new();
+        for (i, table) in tables.gear_mesh.iter().enumerate() {
+            let mesh =
+                PreparedMesh::new(table, files, format!("gear_mesh.{i}"), &bodies, &mut parts)?;
+            if let Some(earlier) = meshes
+                .iter()
+                .find(|other| other.bodies.iter().all(|body| mesh.bodies.contains(body)))
+            {
+                let keys = TableKeys::new(document, &mesh.key);
+                let problem = format!(
+                    "`{}` and `{}` are in mesh already in `{}`; remove one of the two",
+                    table.gear_1, table.gear_2, earlier.name
+                );
+                return Err(keys.error("gear_2", problem));
+            }
+            meshes.push(mesh);
+        }
+        self.check_flexibility(&bodies, &meshes)?;
+        let joints = joints::place(&tables.joint, document, &bodies)?;
+        let motions = joints::motions(&tables.motion, files, &joints, &variation.motions)?;
+        start::settle_speeds(
+            &mut bodies,
+            (&joints, &motions),
+            &shafts,
+            &meshes,
+            &mut parts.notes,
+        );
+        start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
+        // Gears have been turned: frames along their axes are the same, others follow.
+        let joints = joints::place(&tables.joint, document, &bodies)?;
+
+        let mut builder = System::builder();
+        for (i, placed) in bodies.list.iter().enumerate() {
+            let key = if i < tables.body.len() {
+                format!("body.{i}")
+            } else {
+                "shaft".to_string()
+            };
+            let id = builder
+                .body(placed.body.clone())
+                .map_err(|e| document.error(&key, e))?;
+            bodies.ids.push(id);
+        }
+        joints::add_joints(&joints, document, &bodies, &mut builder, &mut parts)?;
+        for shaft in &shafts {
+            shaft.connect(document, &bodies, &mut builder, &mut parts)?;
+        }
+        joints::add_motions(
+            &motions,
+            &joints,
+            document,
+            &bodies,
+            &mut builder,
+            &mut parts,
+        )?;
+        elements::add(
+            tables,
+            files,
+            variation.load_factor,
+            &bodies,
+            &mut builder,
+            &mut parts,
+        )?;
+        let gauges = self.gauges(&bodies, &meshes)?;
+        let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
+        for mesh in meshes {
+            let key = mesh.key.clone();
+            let keys = TableKeys::new(document, &key);
+            mesh.add(&bodies, &gauges, &keys, &mut builder, &mut parts)?;
+        }
+        self.add_gravity(&bodies, &mut builder, &mut parts)?;
+        self.check_output(&bodies, &parts)?;
+        let system = builder.build().map_err(|e| self.scene.complaint(&e))?;
+        for redundancy in system.redundant() {
+            let (joint, count) = (&redundancy.joint, redundancy.equations);
+            parts.notes.push(format!(
+                "joint `{joint}`: {count} of its equations follow from {}; they are watched, and its reaction is shared among these joints as the first of them take it",
+                redundancy.implied_by.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+            ));
+        }
+        let built_bodies = bodies
+            .list
+            .into_iter()
+            .zip(bodies.ids)
+            .map(|(placed, id)| BuiltBody {
+                name: placed.body.name,
+                id,
+                source: placed.source,
+                model: placed.gear.and_then(|gear| gear.model.clone()),
+            });
+        Ok(BuiltSystem {
+            system,
+            bodies: built_bodies.collect(),
+            joints: parts.joints,
+            elements: parts.elements,
+            meshes: built_meshes,
+            gauges,
+            notes: parts.notes,
+            effects: parts.effects,
+        })
+    }
+
+    fn bodies(&self) -> Result<Bodies, InputError> {
+        let mut bodies = Bodies::default();
+        for (i, (table, gear)) in self.scene.tables.body.iter().zip(&self.gears).enumerate() {
+            let key = format!("body.{i}");
+            let keys = TableKeys::new(&self.scene.document, &key);
+            bodies
+                .list
+                .push(PlacedBody::new(table, &keys, gear.clone())?);
+        }
+        Ok(bodies)
+    }
+
+    /// Names of bodies, of joints with motions, and of force elements must differ among each other.
+    fn refuse_repeated_names(&self) -> Result<(), InputError> {
+        let [bodies, joints, elements] = self.scene.named_tables();
+        for (what, names) in [
+            ("body or shaft", bodies),
+            ("joint or motion", joints),
+            ("load, spring, bearing or mesh", elements),
+        ] {
+            for (i, (key, name)) in names.iter().enumerate() {
+                let keys = TableKeys::new(&self.scene.document, key);
+                if name.is_empty() {
+                    return Err(keys.error("name", "is empty"));
+                }
+                if names[..i].iter().any(|(_, earlier)| earlier == name) {
+                    return Err(keys.error(
+                        "name",
+                        format!("`{name}` is the name of another {what}; give each its own"),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A stated flexibility must be one that the meshes of the body can feel.
+    fn check_flexibility(
+        &self,
+        bodies: &Bodies,
+        meshes: &[PreparedMesh],
+    ) -> Result<(), InputError> {
+        for (i, table) in self.scene.tables.body.iter().enumerate() {
+            let Some(flexibility) = table.flexibility else {
+                continue;
+            };
+            let key = format!("body.{i}");
+            let keys = TableKeys::new(&self.scene.document, &key);
+            let hybrid = meshes
+                .iter()
+                .find(|mesh| mesh.model == MeshModel::Hybrid && mesh.bodies.contains(&i));
+            let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
+                (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
+                (Flexibility::Rigid, Some(mesh), _) => format!(
+                    "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
+                    mesh.name
+                ),
+                (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
+                    "is \"{}\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"",
+                    flexibility.name()
+                ),
+                _ => continue,
+            };
+            return Err(keys.error("flexibility", problem));
+        }
+        Ok(())
+    }
+
+    fn gauges(
+        &self,
+        bodies: &Bodies,
+        meshes: &[PreparedMesh],
+    ) -> Result<Vec<BuiltGauge>, InputError> {
+        let mut gauges = Vec::new();
+        for (i, table) in self.scene.tables.gauge.iter().enumerate() {
+            let key = format!("gauge.{i}");
+            let keys = TableKeys::new(&self.scene.document, &key);
+            let body = bodies.find_body(&keys, "body", &table.body)?;
+            let model = bodies.list[body]
+                .gear
+                .as_ref()
+                .and_then(|gear| gear.model.as_ref());
+            let model = model.ok_or_else(|| {
+                keys.error(
+                    "body",
+                    format!(
+                        "`{}` is no reduced gear (.h5), which alone has gauges",
+                        table.body
+                    ),
+                )
+            })?;
+            let of_body = |mesh: &&PreparedMesh| {
+                mesh.model == MeshModel::Hybrid && mesh.bodies.contains(&body)
+            };
+            let loaded: Vec<(String, usize)> = meshes
+                .iter()
+                .filter(of_body)
+                .map(|mesh| {
+                    (
+                        mesh.name.clone(),
+                        if mesh.bodies[0] == body { 1 } else { 2 },
+                    )
+                })
+                .collect();
+            if loaded.is_empty() {
+                return Err(keys.error(
+                    "body",
+                    format!(
+                        "`{}` is in no hybrid mesh, whose slice forces a gauge reads",
+                        table.body
+                    ),
+                ));
+            }
+            let known: Vec<&str> = model
+                .gauges
+                .iter()
+                .map(|gauge| gauge.name.as_str())
+                .collect();
+            for (k, name) in table.names.iter().enumerate() {
+                let index = known.iter().position(|gauge| gauge == name);
+                let index = index.ok_or_else(|| {
+                    keys.error(&format!("names.{k}"), names::unknown("gauge", name, &known))
+                })?;
+                gauges.push(BuiltGauge {
+                    name: name.clone(),
+                    body: table.body.clone(),
+                    index,
+                    model: Arc::clone(model),
+                    meshes: loaded.clone(),
+                });
+            }
+        }
+        Ok(gauges)
+    }
+
+    fn add_gravity(
+        &self,
+        bodies: &Bodies,
+        builder: &mut SystemBuilder,
+        parts: &mut Parts,
+    ) -> Result<(), InputError> {
+        let Some(gravity) = self.scene.tables.gravity_m_per_s2 else {
+            parts.effect("weight", None);
+            return Ok(());
+        };
+        let keys = TableKeys::new(&self.scene.document, "");
+        let gravity = bodies::vector(&keys, "gravity_m_per_s2", gravity, 1.0)?;
+        builder.gravity(gravity.into());
+        for (i, placed) in bodies.list.iter().enumerate() {
+            // The name that the element of dynamics has.
+            parts.element_on(
+                &format!("weight of {}", placed.body.name),
+                "weight",
+                bodies,
+                i,
+            );
+        }
+        parts.effect(
+            "weight",
+            Some(format!(
+                "[{}, {}, {}] m/s2",
+                gravity[0], gravity[1], gravity[2]
+            )),
+        );
+        Ok(())
+    }
+
+    /// Names in `[output]` must exist.
+    fn check_output(&self, bodies: &Bodies, parts: &Parts) -> Result<(), InputError> {
+        let keys = TableKeys::new(&self.scene.document, "output");
+        let output = &self.scene.output;
+        let body_names: Vec<&str> = bodies
+            .list
+            .iter()
+            .map(|placed| placed.body.name.as_str())
+            .collect();
+        let joint_names: Vec<&str> = parts
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str())
+            .collect();
+        let element_names: Vec<&str> = parts
+            .elements
+            .iter()
+            .map(|element| element.name.as_str())
+            .collect();
+        for (key, what, stated, known) in [
+            ("bodies", "body", &output.bodies, body_names),
+            ("joints", "joint or motion", &output.joints, joint_names),
+            ("elements", "force element", &output.elements, element_names),
+        ] {
+            for (i, name) in stated.iter().flatten().enumerate() {
+                if !known.contains(&name.as_str()) {
+                    return Err(
+                        keys.error(&format!("{key}.{i}"), names::unknown(what, name, &known))
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
+    let gear_1 = &bodies.list[mesh.bodies[0]].body;
+    BuiltMesh {
+        name: mesh.name.clone(),
+        gears: mesh.bodies.map(|body| bodies.list[body].body.name.clone()),
+        teeth: mesh.teeth,
+        base_radii_m: mesh.base_radii_m,
+        model: mesh.model.name(),
+        frequency_hz: mesh.teeth[0] as f64 * gear_1.angular_velocity_rad_per_s.z.abs() / TAU,
+    }
+}

@@ -1,0 +1,366 @@
+//! `[[shaft]]` to bodies, and to the beams or fixed joints that hold them together.
+//!
+//! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and polar inertia of
+//! the shaft are exact. A body on a seat takes the station's place.
+
+use gearmesh_dynamics::elements::BeamSection;
+use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction, vector};
+use super::lump::Lump;
+use super::parts::Parts;
+use crate::system::tables::MM;
+use crate::system::tables::shaft::{ShaftKind, ShaftTable};
+
+/// A shaft whose bodies are in the list.
+pub(super) struct PlacedShaft {
+    name: String,
+    key: String,
+    kind: ShaftKind,
+    axes: UnitQuaternion<f64>,
+    /// Places of the stations in the world \[m\].
+    points_m: Vec<Vector3<f64>>,
+    lengths_m: Vec<f64>,
+    sections: Vec<BeamSection>,
+    /// Body of each station; the shaft's one body for a rigid shaft.
+    pub stations: Vec<usize>,
+    /// Bodies that are fixed on a rigid shaft, with their stations.
+    seated: Vec<(usize, usize)>,
+}
+
+impl PlacedShaft {
+    /// All bodies that turn with the shaft.
+    pub(super) fn bodies(&self) -> impl Iterator<Item = usize> + '_ {
+        self.stations
+            .iter()
+            .copied()
+            .chain(self.seated.iter().map(|(body, _)| *body))
+    }
+
+    /// Adds the shaft's bodies to the list and puts the seated ones in their places.
+    pub(super) fn new(
+        table: &ShaftTable,
+        (document, key): (&InputDocument, String),
+        bodies: &mut Bodies,
+    ) -> Result<Self, InputError> {
+        let keys = TableKeys::new(document, &key);
+        let rigid = table.kind == ShaftKind::Rigid;
+        keys.refuse_unused(
+            ("kind", if rigid { "rigid" } else { "beam" }),
+            &[
+                ("young_GPa", table.young_GPa.is_some(), &["beam"]),
+                ("poisson", table.poisson.is_some(), &["beam"]),
+                ("damping_s", table.damping_s.is_some(), &["beam"]),
+            ],
+        )?;
+        let origin = vector(&keys, "origin_mm", table.origin_mm, MM)?;
+        let axis = direction(&keys, "axis", table.axis.unwrap_or([0.0, 0.0, 1.0]))?;
+        let axes = axes_along(&axis);
+        let z = stations(table, &keys)?;
+        let radii = radii(table, &keys, z.len() - 1)?;
+        keys.require(
+            "density_kg_per_m3",
+            table.density_kg_per_m3,
+            table.density_kg_per_m3 > 0.0,
+            "more than 0",
+        )?;
+        let omega = match table.speed_rpm {
+            None => None,
+            Some(rpm) => {
+                keys.require("speed_rpm", rpm, true, "a finite number")?;
+                Some(rpm * std::f64::consts::TAU / 60.0)
+            }
+        };
+        let lumps = lumps(table, &keys, &z, &radii)?;
+        let points_m: Vec<Vector3<f64>> = z.iter().map(|z| origin + *z * axis).collect();
+        let new_body = |name: String, position_m: Vector3<f64>, lump: Lump| {
+            let mut body = Body {
+                position_m,
+                orientation: axes,
+                ..Body::rigid(&name, 1.0, [1.0; 3])
+            };
+            body.angular_velocity_rad_per_s.z = omega.unwrap_or(0.0);
+            lump.put_on(&mut body);
+            PlacedBody {
+                body,
+                source: format!("shaft `{}`", table.name),
+                gear: None,
+                modes: 0,
+                place_is_free: false,
+                turn_is_free: false,
+                speed_is_free: omega.is_none(),
+            }
+        };
+        let mut own: Vec<Option<usize>> = vec![None; z.len()];
+        let mut seated = Vec::new();
+        for (i, seat) in table.seat.iter().enumerate() {
+            let at = format!("{key}.seat.{i}");
+            let keys = TableKeys::new(document, &at);
+            if seat.station >= z.len() {
+                return Err(keys.error(
+                    "station",
+                    format!(
+                        "found {}, the shaft has stations 0 to {}",
+                        seat.station,
+                        z.len() - 1
+                    ),
+                ));
+            }
+            let index = bodies.find_body(&keys, "body", &seat.body)?;
+            let placed = &mut bodies.list[index];
+            if placed.place_is_free {
+                placed.body.position_m = points_m[seat.station];
+                placed.place_is_free = false;
+                let turn = placed.body.orientation;
+                placed.body.orientation = if turn == UnitQuaternion::identity() {
+                    axes
+                } else {
+                    turn
+                };
+            }
+            if placed.speed_is_free
+                && let Some(omega) = omega
+            {
+                let sense = placed.axis().dot(&axis).signum();
+                placed.body.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, sense * omega);
+                placed.speed_is_free = false;
+            }
+            if rigid {
+                seated.push((index, seat.station));
+            } else {
+                if own[seat.station].replace(index).is_some() {
+                    return Err(keys.error("station", format!("station {} has a body already; a second one can be fixed to it by a joint", seat.station)));
+                }
+                let back = placed.body.orientation.inverse();
+                let turn = *(back * axes).to_rotation_matrix().matrix();
+                let shift = back * (points_m[seat.station] - placed.body.position_m);
+                let all = Lump::sum(&[
+                    Lump::of(&placed.body),
+                    lumps[seat.station].moved(&turn, &shift),
+                ]);
+                all.put_on(&mut placed.body);
+            }
+        }
+        let stations = if rigid {
+            let along: Vec<Lump> = lumps
+                .iter()
+                .zip(&z)
+                .map(|(lump, z)| lump.moved(&Matrix3::identity(), &Vector3::new(0.0, 0.0, *z)))
+                .collect();
+            bodies
+                .list
+                .push(new_body(table.name.clone(), origin, Lump::sum(&along)));
+            vec![bodies.list.len() - 1]
+        } else {
+            let each = own.iter().enumerate().map(|(i, seat)| {
+                seat.unwrap_or_else(|| {
+                    bodies.list.push(new_body(
+                        format!("{}/{i}", table.name),
+                        points_m[i],
+                        lumps[i],
+                    ));
+                    bodies.list.len() - 1
+                })
+            });
+            each.collect()
+        };
+        Ok(Self {
+            name: table.name.clone(),
+            kind: table.kind,
+            axes,
+            points_m,
+            lengths_m: z.windows(2).map(|pair| pair[1] - pair[0]).collect(),
+            sections: if rigid {
+                Vec::new()
+            } else {
+                sections(table, &keys, &radii)?
+            },
+            stations,
+            seated,
+            key,
+        })
+    }
+
+    /// Adds beams, or the joints that hold bodies on a rigid shaft.
+    pub(super) fn connect(
+        &self,
+        document: &InputDocument,
+        bodies: &Bodies,
+        builder: &mut SystemBuilder,
+        parts: &mut Parts,
+    ) -> Result<(), InputError> {
+        let keys = TableKeys::new(document, &self.key);
+        let frame = |station: usize| Frame {
+            origin_m: self.points_m[station],
+            axes: self.axes,
+        };
+        for (number, (section, length_m)) in self.sections.iter().zip(&self.lengths_m).enumerate() {
+            let ends = [self.stations[number], self.stations[number + 1]].map(Some);
+            let pair = MarkerPair {
+                a: bodies.marker(ends[0], &frame(number)),
+                b: bodies.marker(ends[1], &frame(number + 1)),
+            };
+            let name = format!("{}/{number}-{}", self.name, number + 1);
+            let beam = section
+                .between(&name, pair, *length_m)
+                .map_err(|e| keys.error("", e))?;
+            builder.element(beam);
+            parts.element(&name, "beam", bodies, ends);
+        }
+        for &(body, station) in &self.seated {
+            let ends = [Some(self.stations[0]), Some(body)];
+            let name = format!("seat of {}", bodies.name(Some(body)));
+            let [a, b] = ends.map(|end| bodies.marker(end, &frame(station)));
+            builder
+                .joint(Joint::new(&name, JointKind::Fixed, a, b).map_err(|e| keys.error("", e))?);
+            parts.joint(&name, "fixed", bodies, ends);
+        }
+        Ok(())
+    }
+
+    /// Kind in words.
+    pub(super) fn describe(&self) -> String {
+        match self.kind {
+            ShaftKind::Rigid => format!("shaft `{}`: `rigid`", self.name),
+            ShaftKind::Beam => format!(
+                "shaft `{}`: `beam`, {} stations",
+                self.name,
+                self.stations.len()
+            ),
+        }
+    }
+}
+
+fn stations(table: &ShaftTable, keys: &TableKeys<'_>) -> Result<Vec<f64>, InputError> {
+    let z = &table.stations_mm;
+    if z.len() < 2 {
+        return Err(keys.error(
+            "stations_mm",
+            format!("found {} stations, at least 2 are needed", z.len()),
+        ));
+    }
+    for (i, value) in z.iter().enumerate() {
+        let ok = i == 0 || *value > z[i - 1];
+        keys.require(
+            &format!("stations_mm.{i}"),
+            *value,
+            ok,
+            "more than the station before",
+        )?;
+    }
+    Ok(z.iter().map(|z| MM * z).collect())
+}
+
+/// Inner and outer radius of each section \[m\].
+fn radii(
+    table: &ShaftTable,
+    keys: &TableKeys<'_>,
+    count: usize,
+) -> Result<Vec<[f64; 2]>, InputError> {
+    let solid = vec![0.0; count];
+    let inner = table.inner_diameters_mm.as_ref().unwrap_or(&solid);
+    for (key, values) in [
+        ("outer_diameters_mm", &table.outer_diameters_mm),
+        ("inner_diameters_mm", inner),
+    ] {
+        if values.len() != count {
+            return Err(keys.error(
+                key,
+                format!(
+                    "found {} diameters, {count} are needed: one between each station and the next",
+                    values.len()
+                ),
+            ));
+        }
+    }
+    let mut radii = Vec::new();
+    for (i, (&inner, &outer)) in inner.iter().zip(&table.outer_diameters_mm).enumerate() {
+        keys.require(
+            &format!("inner_diameters_mm.{i}"),
+            inner,
+            inner >= 0.0,
+            "0 or more",
+        )?;
+        keys.require(
+            &format!("outer_diameters_mm.{i}"),
+            outer,
+            outer > inner,
+            "more than the inner diameter",
+        )?;
+        radii.push([0.5 * MM * inner, 0.5 * MM * outer]);
+    }
+    Ok(radii)
+}
+
+fn sections(
+    table: &ShaftTable,
+    keys: &TableKeys<'_>,
+    radii: &[[f64; 2]],
+) -> Result<Vec<BeamSection>, InputError> {
+    let young = keys.needed("young_GPa", table.young_GPa, "kind = \"beam\"")?;
+    keys.require("young_GPa", young, young > 0.0, "more than 0")?;
+    let poisson = keys.needed("poisson", table.poisson, "kind = \"beam\"")?;
+    keys.require(
+        "poisson",
+        poisson,
+        (0.0..0.5).contains(&poisson),
+        "0 to below 0.5",
+    )?;
+    let damping_s = table.damping_s.unwrap_or(0.0);
+    keys.require("damping_s", damping_s, damping_s >= 0.0, "0 or more")?;
+    let round = |[inner, outer]: &[f64; 2]| BeamSection {
+        damping_s,
+        ..BeamSection::round(*outer, *inner, 1e9 * young, poisson)
+    };
+    Ok(radii.iter().map(round).collect())
+}
+
+/// What each station carries, from the station, in the shaft's axes.
+fn lumps(
+    table: &ShaftTable,
+    keys: &TableKeys<'_>,
+    z: &[f64],
+    radii: &[[f64; 2]],
+) -> Result<Vec<Lump>, InputError> {
+    let mut parts: Vec<Vec<Lump>> = vec![Vec::new(); z.len()];
+    for (i, radii) in radii.iter().enumerate() {
+        let half = 0.5 * (z[i + 1] - z[i]);
+        parts[i].push(Lump::tube(*radii, table.density_kg_per_m3, [0.0, half]));
+        parts[i + 1].push(Lump::tube(*radii, table.density_kg_per_m3, [-half, 0.0]));
+    }
+    for (i, part) in table.part.iter().enumerate() {
+        let key = |name: &str| format!("part.{i}.{name}");
+        if part.station >= z.len() {
+            return Err(keys.error(
+                &key("station"),
+                format!(
+                    "found {}, the shaft has stations 0 to {}",
+                    part.station,
+                    z.len() - 1
+                ),
+            ));
+        }
+        keys.require(
+            &key("mass_kg"),
+            part.mass_kg,
+            part.mass_kg > 0.0,
+            "more than 0",
+        )?;
+        let inertia = vector(keys, &key("inertia_kg_m2"), part.inertia_kg_m2, 1.0)?;
+        keys.require(
+            &key("inertia_kg_m2"),
+            inertia.min(),
+            inertia.min() >= 0.0,
+            "0 or more",
+        )?;
+        parts[part.station].push(Lump {
+            mass_kg: part.mass_kg,
+            centre_m: Vector3::zeros(),
+            inertia_kg_m2: Matrix3::from_diagonal(&inertia),
+        });
+    }
+    Ok(parts.iter().map(|parts| Lump::sum(parts)).collect())
+}

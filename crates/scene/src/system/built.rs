@@ -1,0 +1,91 @@
+//! What a scene becomes: a multibody system with the names of its parts.
+
+use std::sync::Arc;
+
+use gearmesh_dynamics::{BodyId, System};
+use gearmesh_model::ReducedGear;
+
+/// A system that is ready to run.
+pub struct BuiltSystem {
+    /// Bodies, joints, force elements.
+    pub system: System,
+    /// Bodies, in the order of their numbers in the system.
+    pub bodies: Vec<BuiltBody>,
+    /// Joints and motions, in the order of the system.
+    pub joints: Vec<BuiltPart>,
+    /// Force elements, in the order of the system.
+    pub elements: Vec<BuiltPart>,
+    /// Gear meshes.
+    pub meshes: Vec<BuiltMesh>,
+    /// Gauges to read.
+    pub gauges: Vec<BuiltGauge>,
+    /// What was assumed or found: phases, redundant joint equations, speeds that follow from a mesh.
+    pub notes: Vec<String>,
+    /// Effects that are computed, and those that could be and are not.
+    pub effects: Vec<Effect>,
+}
+
+/// A body.
+#[derive(Debug, Clone)]
+pub struct BuiltBody {
+    /// Name.
+    pub name: String,
+    /// Number in the system.
+    pub id: BodyId,
+    /// Where mass and inertia come from: "stated", "gear file …", "model file …", "station of shaft …".
+    pub source: String,
+    /// The reduced gear, where the body is one.
+    pub model: Option<Arc<ReducedGear>>,
+}
+
+/// A joint, motion or force element.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BuiltPart {
+    /// Name.
+    pub name: String,
+    /// Kind as in the scene: "revolute", "motion", "torsion spring", "impact mesh", …
+    pub kind: &'static str,
+    /// Names of the bodies, "ground" among them.
+    pub bodies: Vec<String>,
+}
+
+/// A gear mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BuiltMesh {
+    /// Name of the force element, or of the joint for `kinematic`.
+    pub name: String,
+    /// Names of the bodies of gear 1 and gear 2.
+    pub gears: [String; 2],
+    /// Numbers of teeth.
+    pub teeth: [usize; 2],
+    /// Base radii \[m\].
+    pub base_radii_m: [f64; 2],
+    /// Model as in the scene.
+    pub model: &'static str,
+    /// Frequency of the mesh at the start \[Hz\]: teeth times speed of gear 1 about its axis.
+    pub frequency_hz: f64,
+}
+
+/// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and `…_method2_ustrain`.
+#[derive(Debug, Clone)]
+pub struct BuiltGauge {
+    /// Name as in the model.
+    pub name: String,
+    /// Name of the body.
+    pub body: String,
+    /// Number among the model's gauges.
+    pub index: usize,
+    /// The model.
+    pub model: Arc<ReducedGear>,
+    /// The `hybrid` meshes that load the gear: name of the force element, and whether the body is its gear 1 or 2.
+    pub meshes: Vec<(String, usize)>,
+}
+
+/// An effect that a scene may name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Effect {
+    /// What.
+    pub name: String,
+    /// How it is computed; none where it is not.
+    pub computed: Option<String>,
+}

@@ -1,0 +1,24 @@
+//! Scenes of multibody systems: bodies, joints, forces and gear meshes, each with its model; nothing else is computed.
+//!
+//! | step | type | file |
+//! | --- | --- | --- |
+//! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
+//! | read the gears that it names | [`LoadedSystem`] | `build/gears.rs` |
+//! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
+//! | what will be computed, and what it costs | [`SystemPlan`] | `plan.rs` |
+
+pub mod build;
+pub mod built;
+mod complaint;
+pub(crate) mod names;
+pub mod plan;
+pub mod scene;
+pub mod tables;
+
+pub use build::{LoadedSystem, Variation};
+pub use built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect};
+pub use plan::SystemPlan;
+pub use scene::{SystemScene, SystemTables};
+pub use tables::output::Output;
+pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};
+pub use tables::solver::{Solver, Start};

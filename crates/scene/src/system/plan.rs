@@ -1,0 +1,247 @@
+//! What a multibody scene will compute, before it is computed.
+
+use std::time::Instant;
+
+use gearmesh_dynamics::scheme::StepControl;
+use gearmesh_dynamics::{DynamicsError, Simulation, natural_modes};
+use gearmesh_geometry::InputError;
+
+use super::built::BuiltSystem;
+use super::scene::SystemScene;
+use super::tables::run::{Direction, Run, Schedule};
+
+/// Steps that are timed for the cost, after as many that are not.
+const TIMED_STEPS: usize = 20;
+
+/// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
+const MOST_FOR_MODES: usize = 120;
+
+/// Steps a period of the highest natural frequency below which the plan says so: the scheme damps what it does not resolve.
+const RESOLVED: f64 = 10.0;
+
+/// Size, effects and cost of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemPlan {
+    /// Lines for people.
+    pub lines: Vec<String>,
+    /// Degrees of freedom of all bodies, joints not counted.
+    pub degrees_of_freedom: usize,
+    /// Joint equations, redundant ones included.
+    pub equations: usize,
+    /// Degrees of freedom that the joints leave.
+    pub mobility: usize,
+    /// Highest natural frequency at the start \[Hz\].
+    pub highest_frequency_hz: Option<f64>,
+    /// Steps of a run that steps through time; for adaptive steps the fewest possible.
+    pub steps: Option<f64>,
+    /// Time of one step on this machine \[s\], from the first ones.
+    pub step_cost_s: Option<f64>,
+}
+
+impl SystemPlan {
+    /// Derives the plan; makes some steps to see what they cost.
+    ///
+    /// # Errors
+    /// [`InputError`] when the first steps fail: the run would, too.
+    pub fn new(scene: &SystemScene, built: BuiltSystem) -> Result<Self, InputError> {
+        Self::derive(scene, built).map_err(|error| scene.complaint(&error))
+    }
+
+    fn derive(scene: &SystemScene, mut built: BuiltSystem) -> Result<Self, DynamicsError> {
+        let mut lines = vec![
+            format!("scene      {}", scene.title),
+            format!("run        {}", run_in_words(&scene.run)),
+        ];
+        let system = &built.system;
+        let (degrees_of_freedom, equations, mobility) = (
+            system.degrees_of_freedom(),
+            system.equations(),
+            system.mobility(),
+        );
+        for body in &built.bodies {
+            let mass = system
+                .bodies()
+                .iter()
+                .find(|other| other.name == body.name)
+                .map_or(0.0, |other| other.mass_kg);
+            lines.push(format!(
+                "body       {}: {mass:.6} kg, {}",
+                body.name, body.source
+            ));
+        }
+        lines.push(format!(
+            "size       {} bodies, {degrees_of_freedom} degrees of freedom, {equations} joint equations, {mobility} degrees of freedom left",
+            built.bodies.len()
+        ));
+        for (word, parts) in [("joint", &built.joints), ("force", &built.elements)] {
+            for part in parts {
+                lines.push(format!(
+                    "{word:<10} {}: {}, on {}",
+                    part.name,
+                    part.kind,
+                    part.bodies.join(" and ")
+                ));
+            }
+        }
+        for mesh in &built.meshes {
+            let [z1, z2] = mesh.teeth;
+            lines.push(format!(
+                "mesh       {}: `{}`, {} z {z1} with {} z {z2}, ratio {:.6}, mesh frequency at the start {:.3} Hz",
+                mesh.name,
+                mesh.model,
+                mesh.gears[0],
+                mesh.gears[1],
+                z2 as f64 / z1 as f64,
+                mesh.frequency_hz
+            ));
+        }
+        for gauge in &built.gauges {
+            lines.push(format!("gauge      {} of {}", gauge.name, gauge.body));
+        }
+        for effect in &built.effects {
+            let how = effect.computed.as_deref().unwrap_or("not computed");
+            lines.push(format!("effect     {}: {how}", effect.name));
+        }
+        lines.extend(built.notes.iter().map(|note| format!("note       {note}")));
+
+        let highest_frequency_hz = highest_frequency(&mut built)?;
+        if let Some(highest) = highest_frequency_hz {
+            lines.push(format!(
+                "frequency  highest natural frequency at the start {highest:.3} Hz"
+            ));
+        }
+        let mut plan = Self {
+            lines,
+            degrees_of_freedom,
+            equations,
+            mobility,
+            highest_frequency_hz,
+            steps: None,
+            step_cost_s: None,
+        };
+        plan.add_cost(scene, built)?;
+        Ok(plan)
+    }
+
+    fn add_cost(&mut self, scene: &SystemScene, built: BuiltSystem) -> Result<(), DynamicsError> {
+        let (Some(params), Some(simulated)) = (scene.solver.params, scene.run.simulated_s()) else {
+            return Ok(());
+        };
+        let (step_s, word) = match params.step {
+            StepControl::Fixed { step_s } => (step_s, "fixed"),
+            StepControl::Adaptive(limits) => (limits.largest_step_s, "adaptive, at most"),
+        };
+        if let Some(highest) = self.highest_frequency_hz
+            && highest * step_s * RESOLVED > 1.0
+        {
+            self.lines.push(format!(
+                "note       a step of {step_s} s has {:.1} steps in a period of the highest natural frequency: what is above {:.1} Hz is damped by the scheme, not resolved",
+                1.0 / (highest * step_s),
+                1.0 / (RESOLVED * step_s)
+            ));
+        }
+        let mut simulation = Simulation::new(built.system, params)?;
+        let mut first = || {
+            for _ in 0..TIMED_STEPS {
+                simulation.step()?;
+            }
+            Ok::<_, DynamicsError>(())
+        };
+        first()?;
+        let clock = Instant::now();
+        first()?;
+        let cost_s = clock.elapsed().as_secs_f64() / TIMED_STEPS as f64;
+        let steps = simulated / step_s;
+        self.lines.push(format!(
+            "cost       {simulated} s in steps of {step_s} s ({word}): {steps:.0} steps of {:.1} us as the first ones take, about {} s",
+            1e6 * cost_s,
+            rounded(steps * cost_s)
+        ));
+        self.steps = Some(steps);
+        self.step_cost_s = Some(cost_s);
+        Ok(())
+    }
+}
+
+/// Two digits that count.
+fn rounded(seconds: f64) -> String {
+    if seconds >= 10.0 {
+        format!("{seconds:.0}")
+    } else {
+        format!("{seconds:.2}")
+    }
+}
+
+fn highest_frequency(built: &mut BuiltSystem) -> Result<Option<f64>, DynamicsError> {
+    if built.system.degrees_of_freedom() > MOST_FOR_MODES {
+        return Ok(None);
+    }
+    let start = built.system.start().clone();
+    let modes = natural_modes(&mut built.system, &start)?;
+    let frequencies = modes.iter().map(|mode| mode.frequency_hz());
+    Ok(frequencies.fold(None, |most: Option<f64>, f| {
+        if f > 0.0 {
+            Some(most.map_or(f, |m| m.max(f)))
+        } else {
+            most
+        }
+    }))
+}
+
+fn run_in_words(run: &Run) -> String {
+    match run {
+        Run::Transient { end_s } => format!("transient to {end_s} s"),
+        Run::Static {
+            load_factors,
+            angles_rad,
+        } => {
+            let angles = angles_rad.as_ref().map_or(String::new(), |angles| {
+                format!(" x {} angles of `{}`", angles.values.len(), angles.motion)
+            });
+            format!("static, {} load factors{angles}", load_factors.len())
+        }
+        Run::Eigen {
+            settle_s,
+            load_factors,
+            speeds_rad_per_s,
+            ..
+        } => {
+            let about = settle_s.map_or("the static equilibrium".to_string(), |settle| {
+                format!("the motion after {settle} s")
+            });
+            let speeds = speeds_rad_per_s.as_ref().map_or(String::new(), |speeds| {
+                format!(" x {} speeds of `{}`", speeds.values.len(), speeds.motion)
+            });
+            format!(
+                "eigen about {about}, {} load factors{speeds}",
+                load_factors.len()
+            )
+        }
+        Run::SpeedSweep(sweep) => {
+            let rpm = |speed: f64| speed * 60.0 / std::f64::consts::TAU;
+            let way = match sweep.direction {
+                Direction::Up => "up",
+                Direction::Down => "down",
+                Direction::UpDown => "up and down",
+            };
+            let how = match sweep.schedule {
+                Schedule::Stepped {
+                    speeds,
+                    settle_s,
+                    measure_s,
+                } => {
+                    format!(
+                        "{speeds} speeds, each {settle_s} s to settle and {measure_s} s measured"
+                    )
+                }
+                Schedule::Ramped { ramp_s } => format!("ramps of {ramp_s} s"),
+            };
+            format!(
+                "speed-sweep of `{}` {way} between {:.6} and {:.6} rpm, {how}",
+                sweep.motion,
+                rpm(sweep.from_rad_per_s),
+                rpm(sweep.to_rad_per_s)
+            )
+        }
+    }
+}

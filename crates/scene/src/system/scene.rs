@@ -1,0 +1,145 @@
+//! The scene file of a multibody system, read and checked as far as no other file is needed.
+
+use std::path::{Path, PathBuf};
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::tables::body::BodyTable;
+use super::tables::connection::{BearingTable, BushingTable, SpringTable, TorsionSpringTable};
+use super::tables::gear_mesh::GearMeshTable;
+use super::tables::joint::{JointTable, MotionTable};
+use super::tables::load::LoadTable;
+use super::tables::output::{Output, OutputTable};
+use super::tables::run::{Run, RunTable};
+use super::tables::shaft::ShaftTable;
+use super::tables::solver::{Solver, SolverTable};
+
+/// The keys of the file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SystemTables {
+    /// Title in prints and reports.
+    pub title: String,
+    /// What is done.
+    pub run: RunTable,
+    /// Integrator and start.
+    #[serde(default)]
+    pub solver: SolverTable,
+    /// What is written.
+    #[serde(default)]
+    pub output: OutputTable,
+    /// Acceleration of weight, world axes; no weight where not given.
+    pub gravity_m_per_s2: Option<[f64; 3]>,
+    /// Bodies.
+    pub body: Vec<BodyTable>,
+    /// Joints.
+    #[serde(default)]
+    pub joint: Vec<JointTable>,
+    /// Prescribed motions.
+    #[serde(default)]
+    pub motion: Vec<MotionTable>,
+    /// Forces and torques.
+    #[serde(default)]
+    pub load: Vec<LoadTable>,
+    /// Line springs.
+    #[serde(default)]
+    pub spring: Vec<SpringTable>,
+    /// Torsion springs.
+    #[serde(default)]
+    pub torsion_spring: Vec<TorsionSpringTable>,
+    /// Bushings.
+    #[serde(default)]
+    pub bushing: Vec<BushingTable>,
+    /// Bearings.
+    #[serde(default)]
+    pub bearing: Vec<BearingTable>,
+    /// Shafts.
+    #[serde(default)]
+    pub shaft: Vec<ShaftTable>,
+    /// Gear meshes.
+    #[serde(default)]
+    pub gear_mesh: Vec<GearMeshTable>,
+    /// Strain gauges of reduced gears.
+    #[serde(default)]
+    pub gauge: Vec<GaugeTable>,
+}
+
+/// `[[gauge]]`: gauges of a reduced gear that are read.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GaugeTable {
+    /// The gear's body.
+    pub body: String,
+    /// Names of gauges in its model.
+    pub names: Vec<String>,
+}
+
+/// A scene of a multibody system. Other files are relative to `folder`.
+#[derive(Debug, Clone)]
+pub struct SystemScene {
+    /// Title in prints and reports.
+    pub title: String,
+    /// What is done.
+    pub run: Run,
+    /// Integrator and start.
+    pub solver: Solver,
+    /// What is written.
+    pub output: Output,
+    /// The tables of the file.
+    pub tables: SystemTables,
+    /// The file, for later complaints and provenance.
+    pub document: InputDocument,
+    /// The file's folder.
+    pub folder: PathBuf,
+}
+
+impl SystemScene {
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, key, what was found and what is allowed.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_document(InputDocument::read(path)?, folder)
+    }
+
+    /// Checks a scene that is already in memory.
+    ///
+    /// # Errors
+    /// As [`SystemScene::read`].
+    pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        let tables: SystemTables = document.parse()?;
+        if tables.body.is_empty() {
+            return Err(document.error("body", "is empty; a scene has at least one body"));
+        }
+        let run = tables.run.check(&document)?;
+        let solver = tables.solver.check(&document, &run)?;
+        let output = tables.output.check(&document, &run)?;
+        if let Some(name) = run.varied_motion() {
+            let keys = TableKeys::new(&document, "run");
+            let named = tables.motion.iter().find(|table| table.name() == name);
+            let motion = named.ok_or_else(|| {
+                let names: Vec<String> = tables.motion.iter().map(MotionTable::name).collect();
+                keys.error("motion", super::names::unknown("motion", name, &names))
+            })?;
+            if motion.angle_deg.is_none() && motion.speed_rpm.is_none() {
+                let problem = format!(
+                    "`{name}` drives a place along an axis; allowed is a motion with angle_deg or speed_rpm"
+                );
+                return Err(keys.error("motion", problem));
+            }
+        }
+        Ok(Self {
+            title: tables.title.clone(),
+            run,
+            solver,
+            output,
+            tables,
+            document,
+            folder: folder.to_path_buf(),
+        })
+    }
+}

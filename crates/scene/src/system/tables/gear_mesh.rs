@@ -1,0 +1,190 @@
+//! `[[gear_mesh]]`: two gears, the model of their teeth and what else is computed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::flank_errors::{CrackTable, FlankErrorTable};
+
+/// `[[gear_mesh]]` as it stands in the file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct GearMeshTable {
+    /// Name.
+    pub name: String,
+    /// Body of gear 1.
+    pub gear_1: String,
+    /// Body of gear 2.
+    pub gear_2: String,
+    /// Model of the teeth.
+    pub model: MeshModel,
+    /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right flanks touch where gear 1
+    /// drives clockwise. "both" where not given. Not with `kinematic`.
+    pub flanks: Option<FlanksWord>,
+    /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not. "extended" where not given. Not
+    /// with `kinematic`.
+    pub path: Option<PathWord>,
+    /// Slices across the face width, 1 where not given. Not with `kinematic`, nor with `hybrid`, whose models state them.
+    pub slices: Option<usize>,
+    /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
+    pub stiffness_N_per_mm_e: Option<f64>,
+    /// `impact`: e, at least 1.
+    pub exponent: Option<f64>,
+    /// `impact`: largest damping, none where not given.
+    pub damping_N_s_per_mm: Option<f64>,
+    /// `impact` with damping: depth from which it acts in full.
+    pub full_damping_depth_um: Option<f64>,
+    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where not given.
+    pub stiffness_N_per_mm_um: Option<f64>,
+    /// `iso6336` without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
+    pub line_load_N_per_mm: Option<f64>,
+    /// `iso6336`: amplitude of the stiffness over the mesh cycle, over its mean, below 1; constant where not given.
+    pub stiffness_amplitude: Option<f64>,
+    /// `hybrid`: local contact; "calibrated" where not given.
+    pub local: Option<LocalWord>,
+    /// `hybrid`: normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100 N/mm times the
+    /// face width where not given.
+    pub nominal_force_N: Option<f64>,
+    /// Damping of `iso6336`, `analytic` and `hybrid`; none where not given.
+    pub damping: Option<DampingTable>,
+    /// Friction; none where not given. Not with `kinematic`.
+    pub friction: Option<FrictionTable>,
+    /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336` know no flanks: with them
+    /// it must be set to false for gears that have microgeometry.
+    pub microgeometry: Option<bool>,
+    /// Errors and faults of gear 1. Not with `kinematic` and `iso6336`.
+    #[serde(default)]
+    pub errors_1: Vec<FlankErrorTable>,
+    /// Errors and faults of gear 2.
+    #[serde(default)]
+    pub errors_2: Vec<FlankErrorTable>,
+    /// `analytic`: root cracks of gear 1.
+    #[serde(default)]
+    pub cracks_1: Vec<CrackTable>,
+    /// `analytic`: root cracks of gear 2.
+    #[serde(default)]
+    pub cracks_2: Vec<CrackTable>,
+    /// Place of gear 1 on its body: runout and wobble. Not with `kinematic`.
+    pub eccentricity_1: Option<EccentricityTable>,
+    /// Place of gear 2 on its body.
+    pub eccentricity_2: Option<EccentricityTable>,
+}
+
+/// `gear_mesh.model`, cheapest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeshModel {
+    /// An ideal ratio.
+    Kinematic,
+    /// K δ^e with damping, as in ADAMS.
+    Impact,
+    /// One spring for the whole mesh, after ISO 6336-1.
+    Iso6336,
+    /// Each tooth a beam on its foundation, Hertz.
+    Analytic,
+    /// Reduced gears and the complementarity problem.
+    Hybrid,
+}
+
+impl MeshModel {
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kinematic => "kinematic",
+            Self::Impact => "impact",
+            Self::Iso6336 => "iso6336",
+            Self::Analytic => "analytic",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}
+
+/// Flanks that can touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FlanksWord {
+    /// Both sides of the teeth.
+    #[default]
+    Both,
+    /// Right flanks.
+    Right,
+    /// Left flanks.
+    Left,
+}
+
+/// Ends of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PathWord {
+    /// Contact on the rigid path only.
+    LineOfAction,
+    /// Tip edges go on touching.
+    #[default]
+    Extended,
+}
+
+/// Local contact of `hybrid`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LocalWord {
+    /// None.
+    None,
+    /// As in seed 004.
+    WeberBanaschek,
+    /// By the model's plane-strain calibration.
+    #[default]
+    Calibrated,
+}
+
+/// `damping`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub enum DampingTable {
+    /// The teeth feel the gap g + τ ġ.
+    StiffnessProportional {
+        /// τ: damping over stiffness.
+        time_s: f64,
+        /// Depth from which it acts in full.
+        full_depth_um: f64,
+    },
+    /// c for each pair of teeth.
+    Viscous {
+        /// c.
+        damping_N_s_per_mm: f64,
+        /// Depth from which it acts in full.
+        full_depth_um: f64,
+    },
+}
+
+/// `friction`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(tag = "model", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum FrictionTable {
+    /// Coulomb, regularised in the sliding velocity.
+    Coulomb {
+        /// Coefficient at `static_speed_mm_per_s`; that of sliding where not given.
+        static_coefficient: Option<f64>,
+        /// Coefficient from `dynamic_speed_mm_per_s` on.
+        dynamic_coefficient: f64,
+        /// Sliding speed of the static coefficient; 10 where not given.
+        static_speed_mm_per_s: Option<f64>,
+        /// Sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
+        dynamic_speed_mm_per_s: Option<f64>,
+    },
+}
+
+/// `eccentricity_1` and `eccentricity_2`.
+#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct EccentricityTable {
+    /// Distance of the gear's axis from the body's z axis.
+    pub offset_um: f64,
+    /// Its direction from the body's x axis.
+    pub direction_deg: f64,
+    /// Tilt of the gear's axis.
+    pub tilt_mrad: f64,
+    /// Direction of the tilt's axis from the body's x axis.
+    pub tilt_direction_deg: f64,
+}

@@ -1,0 +1,19 @@
+//! The tables of a scene file: keys as they stand in the file, and their checks. One file per table.
+
+pub mod body;
+pub mod connection;
+pub mod flank_errors;
+pub mod function;
+pub mod gear_mesh;
+pub mod joint;
+pub mod load;
+pub mod number_table;
+pub mod output;
+pub mod run;
+pub mod shaft;
+pub mod solver;
+
+/// A millimetre in metres.
+pub(crate) const MM: f64 = 1e-3;
+/// A micrometre in metres.
+pub(crate) const UM: f64 = 1e-6;

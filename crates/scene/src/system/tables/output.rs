@@ -1,0 +1,70 @@
+//! `[output]`: what is written, and how often.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::run::Run;
+
+/// `[output]` as it stands in the file.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OutputTable {
+    /// Distance of the output times, for runs that step through time.
+    pub interval_s: Option<f64>,
+    /// Names of the bodies whose motion is written; all where not given.
+    pub bodies: Option<Vec<String>>,
+    /// Names of the joints and motions whose reactions and angles are written; all where not given.
+    pub joints: Option<Vec<String>>,
+    /// Names of the force elements and gear meshes whose channels are written; all where not given.
+    pub elements: Option<Vec<String>>,
+}
+
+/// What is written, checked; names are checked when the system is built.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Output {
+    /// Distance of the output times \[s\]; none for runs that do not step through time.
+    pub interval_s: Option<f64>,
+    /// Bodies; all where not given.
+    pub bodies: Option<Vec<String>>,
+    /// Joints and motions; all where not given.
+    pub joints: Option<Vec<String>>,
+    /// Force elements and gear meshes; all where not given.
+    pub elements: Option<Vec<String>>,
+}
+
+impl OutputTable {
+    /// Checks the table for a run.
+    ///
+    /// # Errors
+    /// [`InputError`] naming the key.
+    pub fn check(&self, document: &InputDocument, run: &Run) -> Result<Output, InputError> {
+        let keys = TableKeys::new(document, "output");
+        let kind = run.kind().name();
+        let interval_s = match (run.simulated_s(), self.interval_s) {
+            (None, None) => None,
+            (None, Some(_)) => {
+                return Err(keys.error("interval_s", format!("is not used by run.kind = \"{kind}\", which does not step through time; remove it")));
+            }
+            (Some(simulated), given) => {
+                let interval =
+                    keys.needed("interval_s", given, &format!("run.kind = \"{kind}\""))?;
+                let allowed = format!("more than 0, at most the {simulated} s of the run");
+                keys.require(
+                    "interval_s",
+                    interval,
+                    interval > 0.0 && interval <= simulated,
+                    &allowed,
+                )?;
+                Some(interval)
+            }
+        };
+        Ok(Output {
+            interval_s,
+            bodies: self.bodies.clone(),
+            joints: self.joints.clone(),
+            elements: self.elements.clone(),
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! `[solver]`: the integrator and where it starts.
+
+use gearmesh_dynamics::scheme::{AdaptiveStep, Params, StepControl};
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::run::Run;
+
+/// `[solver]` as it stands in the file. Used by runs that step through time.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SolverTable {
+    /// What is left of the highest frequencies after a step, 0 to 1; 0.8 where not given.
+    pub rho_infinity: Option<f64>,
+    /// Fixed step.
+    pub step_s: Option<f64>,
+    /// Adaptive step, instead of `step_s`.
+    pub adaptive: Option<AdaptiveTable>,
+    /// End of Newton's iteration: share of the step's own increment; 1e-10 where not given.
+    pub newton_tolerance: Option<f64>,
+    /// Newton iterations after which a step is given up; 20 where not given.
+    pub most_iterations: Option<usize>,
+    /// Where the motion begins; "as-given" where not given.
+    pub start: Option<Start>,
+}
+
+/// `[solver.adaptive]`.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AdaptiveTable {
+    /// Longest step.
+    pub largest_step_s: f64,
+    /// First step; a thousandth of the longest where not given.
+    pub first_step_s: Option<f64>,
+    /// Shortest step, below which the run ends with advice; a millionth of the longest where not given.
+    pub least_step_s: Option<f64>,
+    /// Allowed error of a place in one step.
+    pub translation_tolerance_um: f64,
+    /// Allowed error of a rotation in one step.
+    pub rotation_tolerance_urad: f64,
+}
+
+/// Where a motion begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// Places and speeds as the bodies state them, moved onto the joints.
+    #[default]
+    AsGiven,
+    /// Places in static equilibrium under the loads at t = 0, speeds as the bodies state them.
+    Equilibrium,
+}
+
+/// The integrator and the start, checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solver {
+    /// Parameters of the integrator; none for runs that do not step through time.
+    pub params: Option<Params>,
+    /// Where the motion begins.
+    pub start: Start,
+}
+
+impl SolverTable {
+    /// Checks the table for a run.
+    ///
+    /// # Errors
+    /// [`InputError`] naming the key.
+    pub fn check(&self, document: &InputDocument, run: &Run) -> Result<Solver, InputError> {
+        let keys = TableKeys::new(document, "solver");
+        if run.simulated_s().is_none() {
+            for (key, given) in [
+                ("rho_infinity", self.rho_infinity.is_some()),
+                ("step_s", self.step_s.is_some()),
+                ("adaptive", self.adaptive.is_some()),
+                ("newton_tolerance", self.newton_tolerance.is_some()),
+                ("most_iterations", self.most_iterations.is_some()),
+                ("start", self.start.is_some()),
+            ] {
+                if given {
+                    let kind = run.kind().name();
+                    return Err(keys.error(key, format!("is not used by run.kind = \"{kind}\", which does not step through time; remove it")));
+                }
+            }
+            return Ok(Solver {
+                params: None,
+                start: Start::AsGiven,
+            });
+        }
+        let mut params = match (self.step_s, self.adaptive) {
+            (Some(step_s), None) => {
+                keys.require("step_s", step_s, step_s > 0.0, "more than 0")?;
+                Params::fixed(step_s)
+            }
+            (None, Some(adaptive)) => {
+                adaptive.check(&TableKeys::new(document, "solver.adaptive"))?
+            }
+            (Some(_), Some(_)) => {
+                return Err(keys.error(
+                    "step_s",
+                    "is given together with solver.adaptive; remove one of the two",
+                ));
+            }
+            (None, None) => {
+                return Err(keys.error(
+                    "step_s",
+                    "missing; give a fixed step, or a table [solver.adaptive]",
+                ));
+            }
+        };
+        if let Some(rho) = self.rho_infinity {
+            keys.require("rho_infinity", rho, (0.0..=1.0).contains(&rho), "0 to 1")?;
+            params.rho_infinity = rho;
+        }
+        if let Some(tolerance) = self.newton_tolerance {
+            keys.require(
+                "newton_tolerance",
+                tolerance,
+                (1e-14..=1e-3).contains(&tolerance),
+                "1e-14 to 1e-3",
+            )?;
+            params.newton_tolerance = tolerance;
+        }
+        if let Some(most) = self.most_iterations {
+            keys.require(
+                "most_iterations",
+                most as f64,
+                (2..=1000).contains(&most),
+                "2 to 1000",
+            )?;
+            params.most_iterations = most;
+        }
+        let longest = match params.step {
+            StepControl::Fixed { step_s } => step_s,
+            StepControl::Adaptive(limits) => limits.largest_step_s,
+        };
+        if let Some(simulated) = run.simulated_s()
+            && longest > simulated
+        {
+            let key = if self.step_s.is_some() {
+                "step_s"
+            } else {
+                "adaptive.largest_step_s"
+            };
+            return Err(keys.error(
+                key,
+                format!("found {longest}, longer than the run of {simulated} s"),
+            ));
+        }
+        Ok(Solver {
+            params: Some(params),
+            start: self.start.unwrap_or_default(),
+        })
+    }
+}
+
+impl AdaptiveTable {
+    fn check(&self, keys: &TableKeys<'_>) -> Result<Params, InputError> {
+        let largest = self.largest_step_s;
+        keys.require("largest_step_s", largest, largest > 0.0, "more than 0")?;
+        for (key, value) in [
+            ("translation_tolerance_um", self.translation_tolerance_um),
+            ("rotation_tolerance_urad", self.rotation_tolerance_urad),
+        ] {
+            keys.require(key, value, value > 0.0, "more than 0")?;
+        }
+        let mut params = Params::adaptive(
+            largest,
+            1e-6 * self.translation_tolerance_um,
+            1e-6 * self.rotation_tolerance_urad,
+        );
+        if let StepControl::Adaptive(limits) = &mut params.step {
+            let AdaptiveStep {
+                first_step_s,
+                least_step_s,
+                ..
+            } = limits;
+            if let Some(first) = self.first_step_s {
+                keys.require(
+                    "first_step_s",
+                    first,
+                    first > 0.0 && first <= largest,
+                    "more than 0, at most largest_step_s",
+                )?;
+                *first_step_s = first;
+                *least_step_s = least_step_s.min(first);
+            }
+            if let Some(least) = self.least_step_s {
+                let ok = least > 0.0 && least <= *first_step_s;
+                keys.require(
+                    "least_step_s",
+                    least,
+                    ok,
+                    "more than 0, at most the first step",
+                )?;
+                *least_step_s = least;
+            }
+        }
+        Ok(params)
+    }
+}

@@ -1,0 +1,297 @@
+//! What a scene file asks for, as a job.
+
+use std::path::Path;
+
+use gearmesh_dynamics::{DynamicsError, Interpolation, Motion, System, Table, TimeFunction};
+use gearmesh_geometry::InputError;
+use gearmesh_model::{bytes_digest, file_digest};
+
+use super::error::SystemRunError;
+use super::job::{
+    EigenJob, EigenPoint, InTime, MeshRecord, RunHead, RunJob, RunKind, Settling, StaticJob,
+    StaticPoint,
+};
+use super::recorder::Selection;
+use super::speed_plan::SpeedPlan;
+use crate::system::tables::function::FunctionTable;
+use crate::system::tables::joint::MotionTable;
+use crate::system::tables::load::LoadTable;
+use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Variation};
+
+impl RunJob {
+    /// The job of a scene.
+    ///
+    /// # Errors
+    /// [`SystemRunError::Input`] with file, line, key, what was found and what is allowed.
+    pub fn from_scene(loaded: LoadedSystem) -> Result<Self, SystemRunError> {
+        let scene = &loaded.scene;
+        let params = scene.solver.params;
+        let needs_solver = || scene.document.error("solver", "missing; give a step");
+        let in_time = |end_s: f64, windows| {
+            Ok::<InTime, InputError>(InTime {
+                params: params.ok_or_else(needs_solver)?,
+                start: scene.solver.start,
+                end_s,
+                interval_s: scene.output.interval_s.unwrap_or(end_s),
+                windows,
+            })
+        };
+        let mut variation = Variation::default();
+        let kind = match &scene.run {
+            Run::Transient { end_s } => RunKind::Transient(in_time(*end_s, Vec::new())?),
+            Run::SpeedSweep(sweep) => {
+                let plan = SpeedPlan::new(sweep);
+                let speed = plan
+                    .function()
+                    .map_err(|e| scene.document.error("run", e))?;
+                variation = varied(&sweep.motion, Motion::Speed(speed), 1.0);
+                RunKind::SpeedSweep(in_time(plan.end_s(), plan.windows().to_vec())?)
+            }
+            Run::Static {
+                load_factors,
+                angles_rad,
+            } => {
+                if let Some(angles) = angles_rad {
+                    refuse_functions(&loaded, &angles.motion)?;
+                }
+                RunKind::Static(static_job(&loaded, load_factors, angles_rad.clone())?)
+            }
+            Run::Eigen {
+                settle_s,
+                load_factors,
+                speeds_rad_per_s,
+                most_frequency_hz,
+            } => {
+                let settle = match settle_s {
+                    Some(time_s) => Some(Settling {
+                        time_s: *time_s,
+                        params: params.ok_or_else(needs_solver)?,
+                        start: scene.solver.start,
+                    }),
+                    None => None,
+                };
+                let speeds = speeds_rad_per_s.clone();
+                let mut job = eigen_job(&loaded, load_factors, speeds);
+                (job.settle, job.most_frequency_hz) = (settle, *most_frequency_hz);
+                RunKind::Eigen(job)
+            }
+        };
+        let built = loaded.build_varied(&variation)?;
+        Ok(Self {
+            head: head(&loaded, &built),
+            selection: selection(&loaded, &built.system),
+            system: built.system,
+            kind,
+        })
+    }
+}
+
+fn varied(motion: &str, function: Motion, load_factor: f64) -> Variation {
+    Variation {
+        motions: vec![(motion.to_owned(), function)],
+        load_factor,
+    }
+}
+
+/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the angles.
+fn static_job(
+    loaded: &LoadedSystem,
+    load_factors: &[f64],
+    angles: Option<MotionValues>,
+) -> Result<StaticJob, SystemRunError> {
+    let values = angles.as_ref().map(|angles| &angles.values[..]);
+    let of_factor = |&load_factor: &f64| {
+        let count = values.map_or(1, <[f64]>::len);
+        (0..count).map(move |i| StaticPoint {
+            angle_rad: values.map(|values| values[i]),
+            time_s: i as f64,
+            load_factor,
+        })
+    };
+    let points = load_factors.iter().flat_map(of_factor).collect();
+    let function = angles.map(series_in_time).transpose()?;
+    let loaded = loaded.clone();
+    Ok(StaticJob {
+        points,
+        system_at: Box::new(move |load_factor| {
+            let motions = function.clone().into_iter().collect();
+            let variation = Variation {
+                motions,
+                load_factor,
+            };
+            Ok(loaded.build_varied(&variation)?.system)
+        }),
+    })
+}
+
+/// Value i at t = i seconds.
+fn series_in_time(series: MotionValues) -> Result<(String, Motion), DynamicsError> {
+    let function = if let [only] = series.values[..] {
+        TimeFunction::Constant(only)
+    } else {
+        let times = (0..series.values.len()).map(|i| i as f64).collect();
+        TimeFunction::Table(Table::new(
+            "angles_deg",
+            times,
+            series.values,
+            Interpolation::Linear,
+        )?)
+    };
+    Ok((series.motion, Motion::Position(function)))
+}
+
+/// Natural frequencies at every speed and load factor.
+fn eigen_job(
+    loaded: &LoadedSystem,
+    load_factors: &[f64],
+    speeds: Option<MotionValues>,
+) -> EigenJob {
+    let all: Vec<Option<f64>> = match &speeds {
+        None => vec![None],
+        Some(speeds) => speeds.values.iter().copied().map(Some).collect(),
+    };
+    let points = load_factors.iter().flat_map(|&load_factor| {
+        all.iter().map(move |&speed_rad_per_s| EigenPoint {
+            speed_rad_per_s,
+            load_factor,
+        })
+    });
+    let points = points.collect();
+    let motion = speeds.map(|speeds| speeds.motion);
+    let loaded = loaded.clone();
+    EigenJob {
+        points,
+        settle: None,
+        most_frequency_hz: None,
+        system_at: Box::new(move |point| {
+            let function = |speed| Motion::Speed(TimeFunction::Constant(speed));
+            let variation = match (&motion, point.speed_rad_per_s) {
+                (Some(motion), Some(speed)) => varied(motion, function(speed), point.load_factor),
+                _ => Variation {
+                    load_factor: point.load_factor,
+                    ..Variation::default()
+                },
+            };
+            Ok(loaded.build_varied(&variation)?.system)
+        }),
+    }
+}
+
+/// A series of angles counts by the time, at which loads that vary with it would be taken.
+fn refuse_functions(loaded: &LoadedSystem, motion: &str) -> Result<(), InputError> {
+    let (tables, document) = (&loaded.scene.tables, &loaded.scene.document);
+    let is_constant = |function: &Option<FunctionTable>| {
+        matches!(function, None | Some(FunctionTable::Constant(_)))
+    };
+    let varies = |key: String| {
+        let problem = "found a function of time; with run.angles_deg loads and other motions must be numbers, which run.load_factors multiply";
+        Err(document.error(&key, problem))
+    };
+    for (
+        i,
+        LoadTable {
+            torque_Nm, force_N, ..
+        },
+    ) in tables.load.iter().enumerate()
+    {
+        for (key, function) in [("torque_Nm", torque_Nm), ("force_N", force_N)] {
+            if !is_constant(function) {
+                return varies(format!("load.{i}.{key}"));
+            }
+        }
+    }
+    for (i, table) in tables.motion.iter().enumerate() {
+        if table.name() == motion {
+            continue;
+        }
+        let MotionTable {
+            angle_deg,
+            speed_rpm,
+            position_mm,
+            speed_mm_per_s,
+            ..
+        } = table;
+        for (key, function) in [("angle_deg", angle_deg), ("position_mm", position_mm)] {
+            if !is_constant(function) {
+                return varies(format!("motion.{i}.{key}"));
+            }
+        }
+        for (key, function) in [("speed_rpm", speed_rpm), ("speed_mm_per_s", speed_mm_per_s)] {
+            if function.is_some() {
+                return varies(format!("motion.{i}.{key}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
+    let scene = &loaded.scene;
+    let meshes = built.meshes.iter().map(|mesh| MeshRecord {
+        name: mesh.name.clone(),
+        bodies: mesh.gears.clone(),
+        teeth: mesh.teeth,
+    });
+    RunHead {
+        title: scene.title.clone(),
+        scene_toml: scene.document.text.clone(),
+        inputs: inputs(&scene.document.text, &scene.folder),
+        notes: built.notes.clone(),
+        meshes: meshes.collect(),
+    }
+}
+
+/// Names and digests of all files that a scene names.
+fn inputs(text: &str, folder: &Path) -> Vec<String> {
+    fn collect(value: &toml::Value, folder: &Path, found: &mut Vec<String>) {
+        match value {
+            toml::Value::String(name) => {
+                let path = folder.join(name);
+                if !name.is_empty() && path.is_file() {
+                    // The seal of a model names its content; anything else is read.
+                    let digest = file_digest(&path)
+                        .ok()
+                        .or_else(|| std::fs::read(&path).ok().map(|bytes| bytes_digest(&bytes)));
+                    found.push(format!("{name} {}", digest.unwrap_or_default()));
+                }
+            }
+            toml::Value::Array(values) => values.iter().for_each(|v| collect(v, folder, found)),
+            toml::Value::Table(table) => table.values().for_each(|v| collect(v, folder, found)),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    if let Ok(table) = text.parse::<toml::Table>() {
+        collect(&toml::Value::Table(table), folder, &mut found);
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// What `[output]` names; all of a kind where it names none.
+fn selection(loaded: &LoadedSystem, system: &System) -> Selection {
+    let output = &loaded.scene.output;
+    let chosen = |names: &Option<Vec<String>>, name: &str| {
+        names
+            .as_ref()
+            .is_none_or(|names| names.iter().any(|known| known == name))
+    };
+    let bodies = system.body_ids().zip(system.bodies());
+    let joints = system.joints().iter().enumerate();
+    let elements = system.elements().enumerate();
+    Selection {
+        bodies: bodies
+            .filter(|(_, body)| chosen(&output.bodies, &body.name))
+            .map(|(id, _)| id)
+            .collect(),
+        joints: joints
+            .filter(|(_, joint)| chosen(&output.joints, joint.name()))
+            .map(|(index, _)| index)
+            .collect(),
+        elements: elements
+            .filter(|(_, name)| chosen(&output.elements, name))
+            .map(|(index, _)| index)
+            .collect(),
+    }
+}

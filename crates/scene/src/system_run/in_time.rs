@@ -1,0 +1,309 @@
+//! Runs in time: `transient`, whose rows go to the log, and `speed-sweep`, whose rows go to the statistics of a window.
+//!
+//! Every so often, on demand, and never in the midst of a step, the run is broken off, its state is kept beside the result, and it goes
+//! on. A run that is resumed from there gives the same bits as one that was never stopped.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use gearmesh_dynamics::{
+    Accepted, EnergyBalance, OutputGrid, Simulation, StaticParams, System, equilibrium,
+};
+use gearmesh_model::{Column, DataTree, FileError, RowLog};
+
+use super::column_statistics::ColumnStatistics;
+use super::error::{MOST_ROWS, SystemRunError};
+use super::job::{Advance, InTime, Outcome, RunHead, RunOptions};
+use super::part_folder::PartFolder;
+use super::recorder::{Course, Moment, Recorder, Selection};
+use super::result;
+use super::run_record::RunRecord;
+use super::stored_checkpoint::{Recorded, from_tree, to_tree};
+use crate::system::Start;
+
+/// Wall time between two calls of the progress.
+const TOLD_EVERY: Duration = Duration::from_millis(200);
+
+/// Begins a simulation; what the static equilibrium had to hold is added to the notes.
+///
+/// # Errors
+/// [`SystemRunError::Dynamics`].
+pub(super) fn begin(
+    mut system: System,
+    run: (&gearmesh_dynamics::Params, Start),
+    notes: &mut Vec<String>,
+) -> Result<Simulation, SystemRunError> {
+    let (params, start) = run;
+    if start == Start::AsGiven {
+        return Ok(Simulation::new(system, *params)?);
+    }
+    let given = system.start().clone();
+    let found = equilibrium(&mut system, &given, &StaticParams::default())?;
+    for motion in found.held {
+        notes.push(format!(
+            "static equilibrium at the start: nothing resists {motion}, held where it was"
+        ));
+    }
+    Ok(Simulation::from_state(system, found.state, *params)?)
+}
+
+/// What is made of the accepted steps.
+struct Tape<'a> {
+    run: &'a InTime,
+    samples: u64,
+    recorder: Recorder,
+    grid: OutputGrid,
+    /// Of all rows.
+    statistics: ColumnStatistics,
+    /// Of the window that is open.
+    window: ColumnStatistics,
+    closed: usize,
+    /// Of the windows that are closed.
+    figures: Vec<f64>,
+    /// Energy at the start of the step.
+    before: EnergyBalance,
+}
+
+impl<'a> Tape<'a> {
+    fn new(
+        run: &'a InTime,
+        system: &System,
+        selection: &Selection,
+    ) -> Result<Self, SystemRunError> {
+        let refused = |problem| SystemRunError::Interval {
+            interval_s: run.interval_s,
+            end_s: run.end_s,
+            problem,
+        };
+        let samples = (run.end_s / run.interval_s + 1e-9).floor() + 1.0;
+        if samples.is_nan() || samples < 2.0 {
+            return Err(refused("there is no row but the first"));
+        }
+        if samples > MOST_ROWS {
+            return Err(refused("there are too many rows"));
+        }
+        let time = Column {
+            name: "time_s".to_owned(),
+            unit: "s".to_owned(),
+            description: "time".to_owned(),
+        };
+        let start = system.start();
+        let recorder = Recorder::new(system, start, selection, vec![time], Course::InTime);
+        let columns = recorder.columns().len();
+        Ok(Self {
+            run,
+            samples: samples as u64,
+            recorder,
+            grid: OutputGrid::new(run.interval_s, start),
+            statistics: ColumnStatistics::new(columns),
+            window: ColumnStatistics::new(columns),
+            closed: 0,
+            figures: Vec::new(),
+            before: EnergyBalance::default(),
+        })
+    }
+
+    /// Turns are counted and energy is balanced from here.
+    fn start_at(&mut self, simulation: &Simulation, selection: &Selection) {
+        let abscissas = vec![self.recorder.columns()[0].clone()];
+        let (system, state) = (simulation.system(), simulation.state());
+        self.recorder = Recorder::new(system, state, selection, abscissas, Course::InTime);
+        self.before = simulation.info().energy;
+    }
+
+    fn resume_at(&mut self, simulation: &Simulation, recorded: Recorded) {
+        self.recorder.restore(&recorded.angles);
+        let start = simulation.state();
+        self.grid = OutputGrid::new(self.run.interval_s, start).from_index(recorded.next_sample);
+        self.statistics.restore(&recorded.statistics[0]);
+        self.window.restore(&recorded.statistics[1]);
+        (self.closed, self.figures) = (recorded.closed, recorded.windows);
+        self.before = simulation.info().energy;
+    }
+
+    fn recorded(&self, wall_s: f64) -> Recorded {
+        Recorded {
+            next_sample: self.grid.next_index(),
+            wall_s,
+            angles: self.recorder.save(),
+            statistics: [self.statistics.save(), self.window.save()],
+            windows: self.figures.clone(),
+            closed: self.closed,
+        }
+    }
+
+    fn is_complete(&self) -> bool {
+        self.grid.next_index() >= self.samples
+    }
+
+    /// Takes the output times within a step. Allocates nothing, but where a window closes.
+    fn take(&mut self, step: &mut Accepted<'_>, log: &mut RowLog) -> Result<(), FileError> {
+        let (from_s, to_s) = (step.from.time_s, step.to.time_s);
+        let (info, to) = (step.info, step.to);
+        let lambda = [step.lambda_from, step.lambda];
+        let acceleration = [step.acceleration_from, step.acceleration];
+        let Self {
+            run,
+            samples,
+            recorder,
+            grid,
+            statistics,
+            window,
+            closed,
+            figures,
+            before,
+        } = self;
+        let mut outcome = Ok(());
+        let mut index = grid.next_index();
+        grid.visit(step, |state, system| {
+            let due = index < *samples && outcome.is_ok();
+            index += 1;
+            // Rounding must not move a sample out of its window.
+            let now = state.time_s + 1e-9 * run.interval_s;
+            while let Some(open) = run.windows.get(*closed).filter(|open| now >= open.to_s) {
+                debug_assert!(open.from_s < open.to_s);
+                close(window, figures);
+                *closed += 1;
+            }
+            let open = run.windows.get(*closed);
+            if !due || (!run.windows.is_empty() && open.is_none_or(|open| now < open.from_s)) {
+                return;
+            }
+            let row = recorder.row(
+                system,
+                &Moment {
+                    abscissas: &[state.time_s],
+                    state,
+                    lambda,
+                    acceleration,
+                    share: (state.time_s - from_s) / (to_s - from_s),
+                    energy: [before, &info.energy],
+                    step_s: to_s - from_s,
+                    largest_violation: info.largest_violation,
+                },
+            );
+            statistics.add(row);
+            if run.windows.is_empty() {
+                outcome = log.append(row);
+            } else {
+                window.add(row);
+            }
+        });
+        recorder.commit(step.system, to);
+        *before = info.energy;
+        outcome
+    }
+
+    /// Closes the windows that reach the end of the run.
+    fn finish(&mut self) {
+        while self.closed < self.run.windows.len() {
+            close(&mut self.window, &mut self.figures);
+            self.closed += 1;
+        }
+    }
+}
+
+fn close(window: &mut ColumnStatistics, figures: &mut Vec<f64>) {
+    for column in window.figures() {
+        figures.extend([column.mean, column.deviation, column.least, column.largest]);
+    }
+    *window = ColumnStatistics::new(window.columns());
+}
+
+/// Runs to the end, or until it is asked to stop.
+pub(super) fn run_in_time(
+    mut head: RunHead,
+    system: System,
+    selection: &Selection,
+    (kind, run): (&str, &InTime),
+    options: &RunOptions<'_>,
+) -> Result<Outcome, SystemRunError> {
+    let mut tape = Tape::new(run, &system, selection)?;
+    let columns = tape.recorder.columns().to_vec();
+    let (mut part, saved) = PartFolder::open(
+        options.output,
+        &head.identity(),
+        columns.len(),
+        options.restart,
+    )?;
+    let tell = |time_s: f64, resumed| {
+        (options.progress)(Advance {
+            done: time_s.min(run.end_s),
+            total: run.end_s,
+            resumed,
+        });
+    };
+    let mut wall_s = 0.0;
+    let mut simulation = match saved {
+        None => {
+            let simulation = begin(system, (&run.params, run.start), &mut head.notes)?;
+            tape.start_at(&simulation, selection);
+            simulation
+        }
+        Some(mut tree) => {
+            let damaged = |source| SystemRunError::Checkpoint { source };
+            let path = PartFolder::beside(options.output);
+            let (checkpoint, recorded) = from_tree(&mut tree, &path).map_err(damaged)?;
+            let simulation = Simulation::resume(system, run.params, &checkpoint)?;
+            wall_s = recorded.wall_s;
+            head.notes = notes_of(&mut tree, &path).map_err(damaged)?;
+            tape.resume_at(&simulation, recorded);
+            simulation
+        }
+    };
+    tell(simulation.state().time_s, wall_s > 0.0);
+    let mut begun = Instant::now();
+    while !tape.is_complete() {
+        let (leg, mut told) = (Instant::now(), Instant::now());
+        let (mut written, mut stopped) = (Ok(()), false);
+        simulation.run(f64::INFINITY, |step| {
+            written = tape.take(step, part.log());
+            let now = Instant::now();
+            if now - told > TOLD_EVERY {
+                told = now;
+                tell(step.to.time_s, false);
+            }
+            stopped = options.stop.load(Ordering::Relaxed);
+            let due = now - leg >= options.checkpoint_interval;
+            if written.is_err() || tape.is_complete() || stopped || due {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+        written?;
+        wall_s += begun.elapsed().as_secs_f64();
+        begun = Instant::now();
+        if !tape.is_complete() {
+            let mut tree = to_tree(&simulation.checkpoint(), &tape.recorded(wall_s));
+            tree.put_text(NOTES, head.notes.join("\n"));
+            part.save(tree)?;
+            if stopped {
+                return Ok(Outcome::Stopped);
+            }
+        }
+    }
+    tape.finish();
+    let record = RunRecord::new(simulation.info(), simulation.state().time_s, wall_s);
+    let mut tree = result::base(&head, kind, Some(&record));
+    if run.windows.is_empty() {
+        result::put_statistics(&mut tree, &tape.statistics.figures());
+        let rows = ("time", &columns[..], part.log());
+        result::write_rows(options.output, &tree, rows)?;
+    } else {
+        result::put_sweep(&mut tree, &columns, &run.windows, &tape.figures);
+        result::write(options.output, &tree)?;
+    }
+    part.finish()?;
+    Ok(Outcome::Finished)
+}
+
+/// Text of a checkpoint with the notes of the start, which a resumed run does not make again.
+const NOTES: &str = "notes";
+
+fn notes_of(tree: &mut DataTree, path: &Path) -> Result<Vec<String>, FileError> {
+    let notes = tree.take_text(path, NOTES)?;
+    Ok(notes.lines().map(str::to_owned).collect())
+}

@@ -1,0 +1,194 @@
+//! What is to be run, free of how the scene file says it.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use gearmesh_dynamics::{Params, System};
+use gearmesh_model::bytes_digest;
+
+use crate::system::Start;
+
+use super::error::SystemRunError;
+use super::recorder::Selection;
+use super::speed_plan::Window;
+
+/// One of a series of equilibria.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StaticPoint {
+    /// Angle of the varied motion \[rad\], if there is one.
+    pub angle_rad: Option<f64>,
+    /// Time at which loads and prescribed motions are taken \[s\].
+    pub time_s: f64,
+    /// Share of the scene's loads.
+    pub load_factor: f64,
+}
+
+/// Makes the system that a point of a series needs.
+pub type SystemAt<P> = Box<dyn Fn(P) -> Result<System, SystemRunError>>;
+
+/// A series of equilibria.
+pub struct StaticJob {
+    /// The points; those of one load factor stand together.
+    pub points: Vec<StaticPoint>,
+    /// Makes the system for a load factor.
+    pub system_at: SystemAt<f64>,
+}
+
+/// An operating point whose natural frequencies are sought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EigenPoint {
+    /// Speed of the varied motion \[rad/s\], if there is one.
+    pub speed_rad_per_s: Option<f64>,
+    /// Share of the scene's loads.
+    pub load_factor: f64,
+}
+
+/// A motion that settles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settling {
+    /// For so long \[s\].
+    pub time_s: f64,
+    /// Parameters of the integrator.
+    pub params: Params,
+    /// Where it begins.
+    pub start: Start,
+}
+
+/// Natural frequencies at some operating points.
+pub struct EigenJob {
+    /// The points.
+    pub points: Vec<EigenPoint>,
+    /// The operating point is where the motion stands after this time \[s\]; the static equilibrium where not given.
+    pub settle: Option<Settling>,
+    /// Highest frequency that is kept \[Hz\].
+    pub most_frequency_hz: Option<f64>,
+    /// Makes the system for a point.
+    pub system_at: SystemAt<EigenPoint>,
+}
+
+/// A run in time from t = 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InTime {
+    /// Parameters of the integrator.
+    pub params: Params,
+    /// Where it begins.
+    pub start: Start,
+    /// End \[s\].
+    pub end_s: f64,
+    /// Output interval \[s\].
+    pub interval_s: f64,
+    /// What a sweep measures, in the order of time. Without windows all rows are kept.
+    pub windows: Vec<Window>,
+}
+
+/// What a run computes.
+pub enum RunKind {
+    /// A motion, recorded.
+    Transient(InTime),
+    /// A motion whose prescribed speed goes through the windows, measured in each.
+    SpeedSweep(InTime),
+    /// Equilibria, each found from the one before.
+    Static(StaticJob),
+    /// Natural frequencies.
+    Eigen(EigenJob),
+}
+
+impl RunKind {
+    /// The word of the scene file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Transient(_) => "transient",
+            Self::SpeedSweep(_) => "speed-sweep",
+            Self::Static(_) => "static",
+            Self::Eigen(_) => "eigen",
+        }
+    }
+
+    /// Whether an unfinished run can go on.
+    pub fn resumes(&self) -> bool {
+        matches!(self, Self::Transient(_) | Self::SpeedSweep(_))
+    }
+}
+
+/// A gear mesh, for the frequencies that a reader looks for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshRecord {
+    /// Force element.
+    pub name: String,
+    /// Bodies of gear 1 and 2.
+    pub bodies: [String; 2],
+    /// Teeth of gear 1 and 2.
+    pub teeth: [usize; 2],
+}
+
+/// Where a result comes from; kept in it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RunHead {
+    /// Title of the scene.
+    pub title: String,
+    /// The scene file, verbatim.
+    pub scene_toml: String,
+    /// Digests of all other files that the system was made from.
+    pub inputs: Vec<String>,
+    /// Assumptions and warnings.
+    pub notes: Vec<String>,
+    /// Gear meshes.
+    pub meshes: Vec<MeshRecord>,
+}
+
+impl RunHead {
+    /// Digest of scene, input files and program version: an unfinished run may go on if it has the same.
+    pub fn identity(&self) -> String {
+        let own = [&self.scene_toml[..], env!("CARGO_PKG_VERSION")];
+        let inputs = self.inputs.iter().map(String::as_str);
+        let parts: Vec<&str> = own.into_iter().chain(inputs).collect();
+        bytes_digest(parts.join("\0").as_bytes())
+    }
+}
+
+/// Everything that a run needs.
+pub struct RunJob {
+    /// Where it comes from.
+    pub head: RunHead,
+    /// The system.
+    pub system: System,
+    /// What is recorded.
+    pub selection: Selection,
+    /// What is computed.
+    pub kind: RunKind,
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Done, as a share of `total`: time \[s\] or points.
+    pub done: f64,
+    /// All of it.
+    pub total: f64,
+    /// Whether the run goes on from a checkpoint; told once.
+    pub resumed: bool,
+}
+
+/// How to run.
+pub struct RunOptions<'a> {
+    /// Result file.
+    pub output: &'a Path,
+    /// Discard an unfinished run.
+    pub restart: bool,
+    /// Wall time between checkpoints.
+    pub checkpoint_interval: Duration,
+    /// Set from outside: write a checkpoint and stop.
+    pub stop: &'a AtomicBool,
+    /// Told now and then.
+    pub progress: &'a dyn Fn(Advance),
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The result is written.
+    Finished,
+    /// Stopped on demand; the same command goes on.
+    Stopped,
+}

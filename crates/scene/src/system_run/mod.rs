@@ -1,0 +1,64 @@
+//! Runs of multibody systems and their results.
+//!
+//! | question | answer | file |
+//! | --- | --- | --- |
+//! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
+//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs` |
+//! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
+//! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
+//! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
+//! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
+//! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
+
+mod column_names;
+mod column_statistics;
+mod counted_angles;
+mod eigen_run;
+mod error;
+mod from_scene;
+mod in_time;
+mod job;
+mod part_folder;
+mod recorder;
+mod result;
+mod run_record;
+mod speed_plan;
+mod static_series;
+mod stored_checkpoint;
+mod summary;
+
+pub use column_names::{is_prominent, split_unit, varying};
+pub use column_statistics::{ColumnStatistics, Figures};
+pub use eigen_run::participation;
+pub use error::SystemRunError;
+pub use job::{
+    Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
+    RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
+};
+pub use part_folder::PartFolder;
+pub use recorder::{Course, Moment, Recorder, Selection};
+pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
+pub use run_record::RunRecord;
+pub use speed_plan::{SpeedPlan, Window};
+pub use summary::ColumnSummary;
+
+/// Runs a job and writes its result.
+///
+/// # Errors
+/// [`SystemRunError`].
+pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunError> {
+    let RunJob {
+        head,
+        system,
+        selection,
+        kind,
+    } = job;
+    let name = kind.name();
+    match &kind {
+        RunKind::Transient(run) | RunKind::SpeedSweep(run) => {
+            in_time::run_in_time(head, system, &selection, (name, run), options)
+        }
+        RunKind::Static(job) => static_series::run_static(head, &system, &selection, job, options),
+        RunKind::Eigen(job) => eigen_run::run_eigen(head, job, options),
+    }
+}

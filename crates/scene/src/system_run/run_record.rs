@@ -1,0 +1,196 @@
+//! What a run in time has needed and how exact it was, as scalars of the result.
+
+use std::path::Path;
+
+use gearmesh_dynamics::RunInfo;
+use gearmesh_model::{DataArray, DataTree, FileError};
+
+/// Effort and accuracy of a run in time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RunRecord {
+    /// End of the last step \[s\].
+    pub simulated_s: f64,
+    /// Wall time, that of all legs of a resumed run \[s\].
+    pub wall_s: f64,
+    /// Accepted steps.
+    pub steps: f64,
+    /// Steps repeated because the estimated error was too large.
+    pub rejected: f64,
+    /// Steps repeated because Newton's iteration did not converge.
+    pub unconverged: f64,
+    /// Newton iterations.
+    pub iterations: f64,
+    /// Factorisations of the iteration matrix.
+    pub factorisations: f64,
+    /// Evaluations of the equations.
+    pub evaluations: f64,
+    /// Shortest accepted step \[s\].
+    pub least_step_s: f64,
+    /// Longest accepted step \[s\].
+    pub largest_step_s: f64,
+    /// Largest violation of a joint equation (m or rad).
+    pub largest_violation: f64,
+    /// Largest violation of the rate of a joint equation (m/s or rad/s).
+    pub largest_violation_rate: f64,
+    /// Kinetic and potential energy at the start \[J\].
+    pub first_energy_j: f64,
+    /// Kinetic and potential energy at the end \[J\].
+    pub last_energy_j: f64,
+    /// Heat \[J\].
+    pub dissipated_j: f64,
+    /// Work of loads and prescribed motions \[J\].
+    pub supplied_j: f64,
+    /// Largest error of the energy balance \[J\].
+    pub largest_energy_error_j: f64,
+}
+
+/// Name in the file, unit, description, place in the record.
+type Field = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&mut RunRecord) -> &mut f64,
+);
+
+const FIELDS: [Field; 17] = [
+    ("simulated_s", "s", "end of the last step", |r| {
+        &mut r.simulated_s
+    }),
+    ("wall_s", "s", "wall time of the run", |r| &mut r.wall_s),
+    ("steps", "1", "accepted steps", |r| &mut r.steps),
+    (
+        "rejected",
+        "1",
+        "steps repeated for their estimated error",
+        |r| &mut r.rejected,
+    ),
+    (
+        "unconverged",
+        "1",
+        "steps repeated because Newton's iteration did not converge",
+        |r| &mut r.unconverged,
+    ),
+    ("iterations", "1", "Newton iterations", |r| {
+        &mut r.iterations
+    }),
+    (
+        "factorisations",
+        "1",
+        "factorisations of the iteration matrix",
+        |r| &mut r.factorisations,
+    ),
+    ("evaluations", "1", "evaluations of the equations", |r| {
+        &mut r.evaluations
+    }),
+    ("least_step_s", "s", "shortest accepted step", |r| {
+        &mut r.least_step_s
+    }),
+    ("largest_step_s", "s", "longest accepted step", |r| {
+        &mut r.largest_step_s
+    }),
+    (
+        "largest_violation",
+        "m or rad",
+        "largest violation of a joint equation",
+        |r| &mut r.largest_violation,
+    ),
+    (
+        "largest_violation_rate",
+        "m/s or rad/s",
+        "largest violation of the rate of a joint equation",
+        |r| &mut r.largest_violation_rate,
+    ),
+    (
+        "first_energy_J",
+        "J",
+        "kinetic and potential energy at the start",
+        |r| &mut r.first_energy_j,
+    ),
+    (
+        "last_energy_J",
+        "J",
+        "kinetic and potential energy at the end",
+        |r| &mut r.last_energy_j,
+    ),
+    ("dissipated_J", "J", "heat", |r| &mut r.dissipated_j),
+    (
+        "supplied_J",
+        "J",
+        "work of loads and prescribed motions",
+        |r| &mut r.supplied_j,
+    ),
+    (
+        "largest_energy_error_J",
+        "J",
+        "largest error of the energy balance",
+        |r| &mut r.largest_energy_error_j,
+    ),
+];
+
+impl RunRecord {
+    /// The record of a simulation.
+    pub fn new(info: &RunInfo, simulated_s: f64, wall_s: f64) -> Self {
+        Self {
+            simulated_s,
+            wall_s,
+            steps: info.steps as f64,
+            rejected: info.rejected as f64,
+            unconverged: info.unconverged as f64,
+            iterations: info.iterations as f64,
+            factorisations: info.factorisations as f64,
+            evaluations: info.evaluations as f64,
+            least_step_s: info.step_range_s.0,
+            largest_step_s: info.step_range_s.1,
+            largest_violation: info.largest_violation,
+            largest_violation_rate: info.largest_violation_rate,
+            first_energy_j: info.energy.first.total_j(),
+            last_energy_j: info.energy.last.total_j(),
+            dissipated_j: info.energy.dissipated_j,
+            supplied_j: info.energy.supplied_j,
+            largest_energy_error_j: info.energy.largest_error_j,
+        }
+    }
+
+    /// Simulated over wall time: above 1 the simulation runs ahead of the clock.
+    pub fn real_time_factor(&self) -> f64 {
+        self.simulated_s / self.wall_s
+    }
+
+    /// Largest error of the energy balance over the largest of the energies at the ends, heat and work.
+    pub fn relative_energy_error(&self) -> f64 {
+        let energies = [
+            self.first_energy_j,
+            self.last_energy_j,
+            self.dissipated_j,
+            self.supplied_j,
+        ];
+        let largest = energies.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        if largest > 0.0 {
+            self.largest_energy_error_j / largest
+        } else {
+            0.0
+        }
+    }
+
+    /// Names in the file and values.
+    pub fn entries(mut self) -> impl Iterator<Item = (&'static str, &'static str, f64)> {
+        FIELDS
+            .into_iter()
+            .map(move |(name, unit, _, field)| (name, unit, *field(&mut self)))
+    }
+
+    pub(super) fn put(mut self, tree: &mut DataTree) {
+        for (name, unit, text, field) in FIELDS {
+            let value = DataArray::scalar(*field(&mut self), unit, text);
+            tree.put(format!("run/{name}"), value);
+        }
+    }
+
+    pub(super) fn take(tree: &mut DataTree, path: &Path) -> Result<Self, FileError> {
+        let mut record = Self::default();
+        for (name, _, _, field) in FIELDS {
+            *field(&mut record) = tree.take_scalar(path, &format!("run/{name}"))?;
+        }
+        Ok(record)
+    }
+}

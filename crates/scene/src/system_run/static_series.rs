@@ -1,0 +1,110 @@
+//! `static`: equilibria, one after the other, each found from the one before; each load factor in a system of its own.
+
+use gearmesh_dynamics::{
+    EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium,
+};
+use gearmesh_model::Column;
+use std::sync::atomic::Ordering;
+
+use super::error::SystemRunError;
+use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
+use super::part_folder::PartFolder;
+use super::recorder::{Course, Moment, Recorder, Selection};
+use super::result;
+
+/// Runs a series. It is not resumed: an unfinished one begins anew.
+pub(super) fn run_static(
+    mut head: RunHead,
+    nominal: &System,
+    selection: &Selection,
+    job: &StaticJob,
+    options: &RunOptions<'_>,
+) -> Result<Outcome, SystemRunError> {
+    let points = &job.points;
+    let abscissas = abscissas(points.iter().any(|point| point.angle_rad.is_some()));
+    let start = nominal.start();
+    let mut recorder = Recorder::new(nominal, start, selection, abscissas, Course::Static);
+    let columns = recorder.columns().to_vec();
+    let (mut part, _) = PartFolder::open(options.output, &head.identity(), columns.len(), true)?;
+    let still = vec![0.0; nominal.degrees_of_freedom()];
+    let none = EnergyBalance::default();
+    // Each load factor begins where the first one began, then goes on from point to point.
+    let mut first: Option<State> = None;
+    let mut last: Option<(f64, System, State)> = None;
+    for (number, point) in points.iter().enumerate() {
+        let params = StaticParams::default();
+        let same = last
+            .take()
+            .filter(|(factor, ..)| factor.to_bits() == point.load_factor.to_bits());
+        let (mut system, found) = match same {
+            Some((_, mut system, mut state)) => {
+                state.time_s = point.time_s;
+                let found = next_equilibrium(&mut system, &state, &params)?;
+                (system, found)
+            }
+            None => {
+                let mut system = (job.system_at)(point.load_factor)?;
+                let mut state = first.clone().unwrap_or_else(|| system.start().clone());
+                state.time_s = point.time_s;
+                let found = equilibrium(&mut system, &state, &params)?;
+                (system, found)
+            }
+        };
+        if number == 0 {
+            let held = found.held.iter();
+            let notes = held.map(|motion| format!("nothing resists {motion}: held where it was"));
+            head.notes.extend(notes);
+        }
+        recorder.commit(&system, &found.state);
+        let mut values = vec![number as f64, point.load_factor];
+        values.extend(point.angle_rad);
+        values.push(found.iterations as f64);
+        let row = recorder.row(
+            &mut system,
+            &Moment {
+                abscissas: &values,
+                state: &found.state,
+                lambda: [&found.lambda; 2],
+                acceleration: [&still; 2],
+                share: 1.0,
+                energy: [&none; 2],
+                step_s: 0.0,
+                largest_violation: 0.0,
+            },
+        );
+        part.log().append(row)?;
+        first.get_or_insert_with(|| found.state.clone());
+        last = Some((point.load_factor, system, found.state));
+        (options.progress)(Advance {
+            done: number as f64 + 1.0,
+            total: points.len() as f64,
+            resumed: false,
+        });
+        if options.stop.load(Ordering::Relaxed) {
+            part.finish()?;
+            return Ok(Outcome::Stopped);
+        }
+    }
+    let tree = result::base(&head, "static", None);
+    let rows = ("equilibrium", &columns[..], part.log());
+    result::write_rows(options.output, &tree, rows)?;
+    part.finish()?;
+    Ok(Outcome::Finished)
+}
+
+fn abscissas(varied: bool) -> Vec<Column> {
+    let column = |name: &str, unit: &str, description: &str| Column {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        description: description.to_owned(),
+    };
+    let mut columns = vec![
+        column("point", "1", "number of the equilibrium"),
+        column("load_factor", "1", "share of the scene's loads"),
+    ];
+    if varied {
+        columns.push(column("angle_rad", "rad", "angle of the varied motion"));
+    }
+    columns.push(column("iterations", "1", "iterations of the solver"));
+    columns
+}

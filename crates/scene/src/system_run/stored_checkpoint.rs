@@ -1,0 +1,89 @@
+//! The checkpoint of a simulation and of what is recorded, as arrays of a file.
+
+use std::path::Path;
+
+use gearmesh_dynamics::Checkpoint;
+use gearmesh_model::{DataArray, DataTree, FileError, Values};
+
+/// What a run in time carries besides the simulation.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recorded {
+    /// Number of the next output time.
+    pub next_sample: u64,
+    /// Wall time used \[s\].
+    pub wall_s: f64,
+    /// Counted angles.
+    pub angles: Vec<f64>,
+    /// Statistics of all rows, then of the window that is open.
+    pub statistics: [Vec<f64>; 2],
+    /// Figures of the windows that are closed: mean, deviation, least, largest of every column.
+    pub windows: Vec<f64>,
+    /// Number of closed windows.
+    pub closed: usize,
+}
+
+/// Both as arrays.
+pub fn to_tree(checkpoint: &Checkpoint, recorded: &Recorded) -> DataTree {
+    let mut tree = DataTree::default();
+    let counts = |values: &[u64]| values.iter().map(|&n| n as f64).collect::<Vec<_>>();
+    let c = checkpoint;
+    let r = recorded;
+    let progress = [r.next_sample as f64, r.wall_s, r.closed as f64];
+    for (name, values) in [
+        ("simulation/scalars", c.scalars.clone()),
+        ("simulation/counts", counts(&c.counts)),
+        ("simulation/positions", c.positions_m.clone()),
+        ("simulation/quaternions", c.quaternions.clone()),
+        ("simulation/modal", c.modal.clone()),
+        ("simulation/velocities", c.velocities.clone()),
+        ("simulation/reactions", c.reactions.clone()),
+        ("simulation/internal", c.internal.clone()),
+        ("simulation/factors", c.factors.clone()),
+        ("simulation/permutation", counts(&c.permutation)),
+        ("recorded/progress", progress.to_vec()),
+        ("recorded/angles", r.angles.clone()),
+        ("recorded/statistics", r.statistics[0].clone()),
+        ("recorded/window", r.statistics[1].clone()),
+        ("recorded/windows", r.windows.clone()),
+    ] {
+        let axes = [("entry", values.len())];
+        let text = "internal state of an unfinished run";
+        tree.put(name, DataArray::new(Values::F64(values), &axes, "SI", text));
+    }
+    tree
+}
+
+/// The way back; `path` is named in errors.
+///
+/// # Errors
+/// [`FileError::Missing`], [`FileError::WrongShape`], [`FileError::WrongType`].
+pub fn from_tree(tree: &mut DataTree, path: &Path) -> Result<(Checkpoint, Recorded), FileError> {
+    let mut take = |name: &str| {
+        let [length] = tree.shape(path, name)?;
+        tree.take_f64(path, name, &[length])
+    };
+    let counts = |values: Vec<f64>| values.into_iter().map(|n| n as u64).collect::<Vec<_>>();
+    let checkpoint = Checkpoint {
+        scalars: take("simulation/scalars")?,
+        counts: counts(take("simulation/counts")?),
+        positions_m: take("simulation/positions")?,
+        quaternions: take("simulation/quaternions")?,
+        modal: take("simulation/modal")?,
+        velocities: take("simulation/velocities")?,
+        reactions: take("simulation/reactions")?,
+        internal: take("simulation/internal")?,
+        factors: take("simulation/factors")?,
+        permutation: counts(take("simulation/permutation")?),
+    };
+    let [next_sample, wall_s, closed]: [f64; 3] =
+        take("recorded/progress")?.try_into().unwrap_or([0.0; 3]);
+    let recorded = Recorded {
+        next_sample: next_sample as u64,
+        wall_s,
+        closed: closed as usize,
+        angles: take("recorded/angles")?,
+        statistics: [take("recorded/statistics")?, take("recorded/window")?],
+        windows: take("recorded/windows")?,
+    };
+    Ok((checkpoint, recorded))
+}

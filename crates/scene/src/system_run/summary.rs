@@ -1,0 +1,98 @@
+//! Figures of the columns of a transient result at a glance.
+
+use gearmesh_model::{Column, FileError};
+use gearmesh_signal::{Window, amplitude_spectrum};
+
+use super::column_names::varying;
+use super::column_statistics::Figures;
+use super::result::SystemResult;
+
+/// Longest series that is transformed: the last so many rows.
+const LONGEST: usize = 1 << 20;
+
+/// Lines of the spectrum that belong to the mean under the Hann window.
+const MEAN_LINES: f64 = 3.0;
+
+/// One column of a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnSummary {
+    /// Name with unit.
+    pub name: String,
+    /// Mean, deviation, extremes.
+    pub figures: Figures,
+    /// Frequency of the strongest line \[Hz\]; none where nothing varies.
+    pub dominant_hz: Option<f64>,
+}
+
+impl SystemResult {
+    /// Distance of the rows of a transient result \[s\].
+    ///
+    /// # Errors
+    /// [`FileError`] if the result has no times.
+    pub fn interval_s(&self) -> Result<f64, FileError> {
+        let times = self.rows.read("time_s")?;
+        let steps = times.len().max(2) - 1;
+        Ok((times.last().copied().unwrap_or(f64::NAN) - times[0]) / steps as f64)
+    }
+
+    /// Which columns of a transient result vary by more than rounding.
+    #[must_use]
+    pub fn varying(&self) -> Vec<bool> {
+        let columns = self.rows.columns().iter().zip(&self.statistics);
+        varying(columns.map(|(column, f)| (column.name.as_str(), f.least, f.largest)))
+    }
+
+    /// Columns of a transient result whose names `wanted` accepts.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn summaries(
+        &self,
+        wanted: impl Fn(&str) -> bool,
+    ) -> Result<Vec<ColumnSummary>, FileError> {
+        let interval_s = self.interval_s()?;
+        let columns = self.rows.columns().iter().zip(&self.statistics);
+        let summary = |((column, figures), varies): ((&Column, &Figures), bool)| {
+            let dominant_hz = if varies && !is_progressive(&column.name) {
+                dominant_hz(&self.rows.read(&column.name)?, interval_s)
+            } else {
+                None
+            };
+            Ok(ColumnSummary {
+                name: column.name.clone(),
+                figures: *figures,
+                dominant_hz,
+            })
+        };
+        columns
+            .zip(self.varying())
+            .filter(|((column, _), _)| wanted(&column.name))
+            .map(summary)
+            .collect()
+    }
+}
+
+/// Columns that grow with the run: a frequency of theirs says nothing.
+fn is_progressive(name: &str) -> bool {
+    let counted = [
+        "/turn_rad",
+        "/angle_rad",
+        "cardan_x_rad",
+        "cardan_y_rad",
+        "cardan_z_rad",
+    ];
+    name == "time_s"
+        || name.starts_with("energy/")
+        || name.starts_with("run/")
+        || counted.iter().any(|end| name.ends_with(end))
+}
+
+/// Place of the strongest line above the mean \[Hz\].
+fn dominant_hz(values: &[f64], interval_s: f64) -> Option<f64> {
+    let values = &values[values.len().saturating_sub(LONGEST)..];
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let centred: Vec<f64> = values.iter().map(|x| x - mean).collect();
+    let spectrum = amplitude_spectrum(&centred, 1.0 / interval_s, Window::Hann).ok()?;
+    let from = MEAN_LINES * spectrum.line_spacing;
+    spectrum.peak_place(from, spectrum.highest()).ok()
+}

@@ -1,0 +1,43 @@
+//! Scenes for the tests of multibody scene files.
+#![allow(clippy::unwrap_used, clippy::expect_used, dead_code, missing_docs)]
+
+use std::path::{Path, PathBuf};
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::system::{BuiltSystem, SystemScene};
+
+/// The folder of the shipped scenes.
+pub fn fe_models() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models")
+}
+
+pub fn text(name: &str) -> String {
+    std::fs::read_to_string(fe_models().join(name)).unwrap()
+}
+
+/// Reads and builds a scene in a folder, by default that of the shipped ones.
+pub fn build_in(text: &str, folder: &Path) -> Result<BuiltSystem, InputError> {
+    let document = InputDocument::new("scene.toml", text);
+    SystemScene::from_document(document, folder)?
+        .load()?
+        .build()
+}
+
+pub fn build(text: &str) -> Result<BuiltSystem, InputError> {
+    build_in(text, &fe_models())
+}
+
+/// `text` with `from`, which must be there once, replaced.
+pub fn changed(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "`{from}` in {text}");
+    text.replacen(from, to, 1)
+}
+
+/// Line of the first place of a text, from 1.
+pub fn line_of(text: &str, part: &str) -> usize {
+    let place = text
+        .find(part)
+        .unwrap_or_else(|| panic!("`{part}` is not in {text}"));
+    text[..place].matches('\n').count() + 1
+}

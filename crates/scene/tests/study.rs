@@ -1,0 +1,175 @@
+//! Parameter studies: a wheel under a constant torque, whose speed is known.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::study::{Study, StudyOutcome, run_study};
+
+/// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
+const SCENE: &str = r#"
+title = "wheel"
+[run]
+kind = "transient"
+end_s = 1.0
+[solver]
+step_s = 1e-2
+[output]
+interval_s = 1e-2
+[[body]]
+name = "wheel"
+mass_kg = 1.0
+inertia_kg_m2 = [0.5, 0.5, 0.5]
+[[joint]]
+name = "axis"
+kind = "revolute"
+body_2 = "wheel"
+[[load]]
+body = "wheel"
+torque_Nm = 2.0
+"#;
+
+const SPEED: &str = "bodies/wheel/angular_velocity_z_rad_per_s";
+
+fn study(parameters: &str) -> Study {
+    let text = format!(
+        "title = \"s\"\nscene = \"scene.toml\"\ncolumns = [\"{SPEED}\"]\nfrom_s = 0.5\n{parameters}"
+    );
+    Study::from_document(InputDocument::new("study.toml", text), Path::new("")).unwrap()
+}
+
+fn run_in(folder: &Path, parameters: &str) -> (Result<StudyOutcome, String>, usize) {
+    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
+    let mut study = study(parameters);
+    study.folder = folder.to_owned();
+    let told = Mutex::new(0);
+    let outcome = run_study(
+        &study,
+        &folder.join("out"),
+        &AtomicBool::new(false),
+        &|_, count| {
+            *told.lock().unwrap() = count;
+        },
+    );
+    (
+        outcome.map_err(|e| e.to_string()),
+        told.into_inner().unwrap(),
+    )
+}
+
+const TORQUE: &str = "[[parameter]]\nname = \"torque\"\nkeys = [\"load.0.torque_Nm\"]\n";
+
+#[test]
+fn every_case_has_the_speed_of_its_torque() {
+    let folder = tempfile::tempdir().unwrap();
+    let parameters = format!("{TORQUE}values = [4.0, 2.0, -1.0]\n");
+    let (outcome, runs) = run_in(folder.path(), &parameters);
+    let outcome = outcome.unwrap();
+    assert!(!outcome.stopped);
+    // The scene as it is has 2 N m: that case and the second value are one run.
+    assert_eq!((outcome.cases.len(), runs), (4, 3));
+    assert_eq!(outcome.cases[0].file, outcome.cases[2].file);
+    for (case, torque) in outcome.cases.iter().zip([2.0, 4.0, 2.0, -1.0]) {
+        let figures = case.figures.as_ref().unwrap()[0].figures;
+        let [first, last] = [0.5_f64, 1.0].map(|time| torque / 0.5 * time);
+        assert!(
+            (figures.least - first.min(last)).abs() < 1e-9,
+            "{figures:?}"
+        );
+        assert!(
+            (figures.largest - first.max(last)).abs() < 1e-9,
+            "{figures:?}"
+        );
+        assert!(
+            (figures.mean - 0.5 * (first + last)).abs() < 1e-9,
+            "{figures:?}"
+        );
+    }
+    let table = std::fs::read_to_string(folder.path().join("out/study.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(
+        lines[0],
+        "torque,column,mean,deviation,least,largest,file,failure"
+    );
+    assert!(lines[2].starts_with(&format!("4.0,{SPEED},")), "{table}");
+    assert_eq!(lines.len(), 5);
+}
+
+/// Results that are there are kept, to the byte; a further value makes one more.
+#[test]
+fn a_study_goes_on_where_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    run_in(folder.path(), &format!("{TORQUE}values = [4.0]\n"))
+        .0
+        .unwrap();
+    let written = |folder: &Path| {
+        let entries = std::fs::read_dir(folder.join("out")).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path());
+        let results = paths.filter(|path| path.extension().is_some_and(|e| e == "h5"));
+        let mut all: Vec<_> = results
+            .map(|p| (p.clone(), std::fs::read(p).unwrap()))
+            .collect();
+        all.sort();
+        all
+    };
+    let before = written(folder.path());
+    assert_eq!(before.len(), 2);
+    run_in(folder.path(), &format!("{TORQUE}values = [4.0, 8.0]\n"))
+        .0
+        .unwrap();
+    let after = written(folder.path());
+    assert_eq!(after.len(), 3);
+    assert!(before.iter().all(|file| after.contains(file)));
+}
+
+#[test]
+fn a_key_that_is_not_in_the_scene_is_told_before_anything_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    for (parameters, told) in [
+        (
+            "[[parameter]]\nname = \"x\"\nkeys = [\"load.1.torque_Nm\"]\nvalues = [1.0]\n",
+            "study.toml:7: parameter.0.keys: `load.1.torque_Nm` is not in the scene: load has items 0 to 0, not `1`",
+        ),
+        (
+            "[[parameter]]\nname = \"x\"\nkeys = [\"load.0.torque_Nm\"]\nvalues = [\"much\"]\n",
+            "study.toml:7: parameter.0.keys: `load.0.torque_Nm` is float in the scene and cannot be string",
+        ),
+    ] {
+        let (outcome, runs) = run_in(folder.path(), parameters);
+        assert_eq!(outcome.unwrap_err(), told);
+        assert_eq!(runs, 0);
+    }
+    // A value that the scene refuses names the scene and what was changed in it.
+    let parameters =
+        "[[parameter]]\nname = \"mass\"\nkeys = [\"body.0.mass_kg\"]\nvalues = [-1.0]\n";
+    let outcome = run_in(folder.path(), parameters).0;
+    let told = match outcome {
+        Err(told) => told,
+        Ok(outcome) => outcome.cases[1].figures.clone().unwrap_err(),
+    };
+    assert!(told.contains("mass = -1"), "{told}");
+}
+
+/// A column that is not there fails its case, and says which there are.
+#[test]
+fn a_column_that_is_not_there_names_those_that_are() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    let text = "title = \"s\"\nscene = \"scene.toml\"\ncolumns = [\"speed\"]\nparameter = []\n";
+    let study =
+        Study::from_document(InputDocument::new("study.toml", text), folder.path()).unwrap();
+    let out = folder.path().join("out");
+    let outcome = run_study(&study, &out, &AtomicBool::new(false), &|_, _| ()).unwrap();
+    let told = outcome.cases[0].figures.clone().unwrap_err();
+    assert!(
+        told.contains("no column `speed`; it has time_s, ") && told.contains(SPEED),
+        "{told}"
+    );
+    let table = std::fs::read_to_string(out.join("study.csv")).unwrap();
+    assert!(
+        table.lines().nth(1).unwrap().contains("no column"),
+        "{table}"
+    );
+}
