@@ -15,6 +15,7 @@ mod gear_mesh;
 mod gears;
 mod joints;
 mod lump;
+mod mesh_model;
 mod parts;
 mod shafts;
 mod start;

@@ -1,0 +1,528 @@
+//! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: stiffness, damping, friction, errors, and what of it is computed.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
+use gearmesh_drivetrain::models::iso6336::blank_factor;
+use gearmesh_drivetrain::{
+    BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh, Impact,
+    MeshKinematics, MeshSpring, PathEnds, PowerStiffness, ReducedTeeth, SingleStiffness,
+    TeethModel,
+};
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{FlankSide, GearPair, InputError};
+use gearmesh_model::ReducedGear;
+
+use super::gears::Gear;
+use super::parts::Parts;
+use crate::system::tables::gear_mesh::{
+    DampingTable, FlanksWord, FrictionTable, GearMeshTable, LocalWord, MeshModel, PathWord,
+};
+use crate::system::tables::{MM, UM};
+
+/// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene does not state.
+const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
+/// Sliding speed of the static coefficient of friction where a scene states none \[m/s\]: small against the sliding of gears that run at some rpm,
+/// large enough for steps of some microseconds.
+const DEFAULT_STATIC_SPEED_M_PER_S: f64 = 10e-3;
+
+pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    let touching: &[&str] = &["impact", "iso6336", "analytic", "hybrid"];
+    let elastic: &[&str] = &["iso6336", "analytic", "hybrid"];
+    let single_teeth: &[&str] = &["impact", "analytic", "hybrid"];
+    keys.refuse_unused(
+        ("model", table.model.name()),
+        &[
+            ("flanks", table.flanks.is_some(), touching),
+            ("path", table.path.is_some(), touching),
+            (
+                "slices",
+                table.slices.is_some(),
+                &["impact", "iso6336", "analytic"],
+            ),
+            (
+                "stiffness_N_per_mm_e",
+                table.stiffness_N_per_mm_e.is_some(),
+                &["impact"],
+            ),
+            ("exponent", table.exponent.is_some(), &["impact"]),
+            (
+                "damping_N_s_per_mm",
+                table.damping_N_s_per_mm.is_some(),
+                &["impact"],
+            ),
+            (
+                "full_damping_depth_um",
+                table.full_damping_depth_um.is_some(),
+                &["impact"],
+            ),
+            (
+                "stiffness_N_per_mm_um",
+                table.stiffness_N_per_mm_um.is_some(),
+                &["iso6336"],
+            ),
+            (
+                "line_load_N_per_mm",
+                table.line_load_N_per_mm.is_some(),
+                &["iso6336"],
+            ),
+            (
+                "stiffness_amplitude",
+                table.stiffness_amplitude.is_some(),
+                &["iso6336"],
+            ),
+            ("local", table.local.is_some(), &["hybrid"]),
+            (
+                "nominal_force_N",
+                table.nominal_force_N.is_some(),
+                &["hybrid"],
+            ),
+            ("damping", table.damping.is_some(), elastic),
+            ("friction", table.friction.is_some(), touching),
+            ("errors_1", !table.errors_1.is_empty(), single_teeth),
+            ("errors_2", !table.errors_2.is_empty(), single_teeth),
+            ("cracks_1", !table.cracks_1.is_empty(), &["analytic"]),
+            ("cracks_2", !table.cracks_2.is_empty(), &["analytic"]),
+            ("eccentricity_1", table.eccentricity_1.is_some(), touching),
+            ("eccentricity_2", table.eccentricity_2.is_some(), touching),
+        ],
+    )
+}
+
+/// A table with all that its models are made from.
+pub(super) struct SceneMesh<'a> {
+    pub table: &'a GearMeshTable,
+    pub keys: TableKeys<'a>,
+    pub folder: &'a Path,
+    pub gears: [&'a Arc<Gear>; 2],
+    pub pair: &'a GearPair,
+}
+
+impl SceneMesh<'_> {
+    fn fault(&self) -> impl Fn(DrivetrainError) -> InputError + '_ {
+        |error| self.keys.error("", error)
+    }
+
+    /// Face width that both gears have \[m\].
+    fn face_width_m(&self) -> f64 {
+        let [a, b] = self.gears.map(|gear| gear.definition.tooth.face_width_m);
+        a.min(b)
+    }
+
+    fn models(&self) -> Result<[&ReducedGear; 2], InputError> {
+        let model = |i: usize| {
+            self.gears[i].model.as_deref().ok_or_else(|| {
+                let key = ["gear_1", "gear_2"][i];
+                self.keys.error(
+                    key,
+                    format!(
+                        "model = \"hybrid\" needs reduced gears (.h5), found {}",
+                        self.gears[i].file.display()
+                    ),
+                )
+            })
+        };
+        Ok([model(0)?, model(1)?])
+    }
+
+    /// The microgeometry of the gear files that acts.
+    pub(super) fn microgeometry(&self) -> Result<[FlankErrors; 2], InputError> {
+        let on = self.table.microgeometry.unwrap_or(true);
+        let blind = matches!(self.table.model, MeshModel::Kinematic | MeshModel::Iso6336);
+        let mut errors: [FlankErrors; 2] = [Vec::new(), Vec::new()];
+        for (gear, list) in self.gears.iter().zip(&mut errors) {
+            if !on || !gear.has_microgeometry() {
+                continue;
+            }
+            if blind {
+                let problem = format!(
+                    "the gear of {} has microgeometry, which model = \"{}\" cannot feel: set microgeometry = false to leave it out, or take another model",
+                    gear.file.display(),
+                    self.table.model.name()
+                );
+                return Err(self.keys.error("microgeometry", problem));
+            }
+            list.push(Arc::new(gear.definition.microgeometry.clone()) as Arc<dyn FlankError>);
+        }
+        if blind && self.table.microgeometry == Some(true) {
+            let problem = format!(
+                "is true, but model = \"{}\" knows no flanks; remove it",
+                self.table.model.name()
+            );
+            return Err(self.keys.error("microgeometry", problem));
+        }
+        Ok(errors)
+    }
+
+    fn errors(&self) -> Result<[FlankErrors; 2], InputError> {
+        let mut errors = self.microgeometry()?;
+        for (number, tables) in [&self.table.errors_1, &self.table.errors_2]
+            .into_iter()
+            .enumerate()
+        {
+            let gear = &self.gears[number].definition;
+            for (i, table) in tables.iter().enumerate() {
+                let key = format!("errors_{}.{i}", number + 1);
+                let made = table.on_gear(
+                    (&gear.profile, gear.tooth.face_width_m),
+                    (&self.keys, &key),
+                    self.folder,
+                )?;
+                errors[number].push(made);
+            }
+        }
+        Ok(errors)
+    }
+
+    /// Centres of the slices \[m\], for models that do not state them.
+    fn slices_m(&self) -> Result<Vec<f64>, InputError> {
+        let count = self.table.slices.unwrap_or(1);
+        self.keys.require(
+            "slices",
+            count as f64,
+            (1..=200).contains(&count),
+            "1 to 200",
+        )?;
+        let width = self.face_width_m() / count as f64;
+        Ok((0..count)
+            .map(|k| (k as f64 + 0.5) * width - 0.5 * self.face_width_m())
+            .collect())
+    }
+
+    pub(super) fn mesh(&self, sides: &[FlankSide]) -> Result<GearMesh, InputError> {
+        let mut teeth: Vec<(FlankSide, Box<dyn TeethModel>)> = Vec::new();
+        let mut slices = self.slices_m()?;
+        match self.table.model {
+            MeshModel::Kinematic | MeshModel::Impact => {
+                let law = self.impact(slices.len())?;
+                teeth.extend(
+                    sides
+                        .iter()
+                        .map(|side| (*side, Box::new(law) as Box<dyn TeethModel>)),
+                );
+            }
+            MeshModel::Iso6336 => {
+                let spring = self.spring(slices.len())?;
+                for side in sides {
+                    teeth.push((*side, self.damped(spring, slices.len())?));
+                }
+            }
+            MeshModel::Analytic => {
+                let beams = self.beams(slices.len())?;
+                for side in sides {
+                    teeth.push((*side, self.damped(beams.clone(), slices.len())?));
+                }
+            }
+            MeshModel::Hybrid => {
+                for side in sides {
+                    let reduced = self.reduced(*side)?;
+                    slices = reduced.slice_centres_m().to_vec();
+                    teeth.push((*side, self.damped(reduced, slices.len())?));
+                }
+            }
+        }
+        let ends = match self.table.path.unwrap_or_default() {
+            PathWord::LineOfAction => PathEnds::LineOfAction,
+            PathWord::Extended => PathEnds::Extended,
+        };
+        let gears = [self.pair.gear_1.clone(), self.pair.gear_2.clone()];
+        let kinematics = MeshKinematics::new(
+            gears,
+            self.errors()?,
+            self.pair.centre_distance_m,
+            slices,
+            ends,
+        )
+        .map_err(self.fault())?;
+        let mut teeth = teeth.into_iter();
+        let Some((side, model)) = teeth.next() else {
+            return Err(self.keys.error("flanks", "names no flanks"));
+        };
+        let mut mesh = GearMesh::new(kinematics, side, model).map_err(self.fault())?;
+        for (side, model) in teeth {
+            mesh = mesh.with_side(side, model).map_err(self.fault())?;
+        }
+        Ok(match self.friction()? {
+            None => mesh,
+            Some(friction) => mesh.with_friction(friction),
+        })
+    }
+
+    /// Lets the gears vibrate in their modes. Other models than `hybrid` do not feel them.
+    pub(super) fn modal(
+        &self,
+        mut mesh: GearMesh,
+        modes: [usize; 2],
+    ) -> Result<GearMesh, InputError> {
+        if self.table.model != MeshModel::Hybrid {
+            return Ok(mesh);
+        }
+        let models = self.models()?;
+        for gear in 0..2 {
+            if modes[gear] > 0 {
+                mesh = mesh
+                    .with_modes(gear + 1, models[gear], modes[gear])
+                    .map_err(self.fault())?;
+            }
+        }
+        Ok(mesh)
+    }
+
+    fn impact(&self, slices: usize) -> Result<Impact, InputError> {
+        let needed_by = "model = \"impact\"";
+        let table = self.table;
+        let k = self.keys.needed(
+            "stiffness_N_per_mm_e",
+            table.stiffness_N_per_mm_e,
+            needed_by,
+        )?;
+        let e = self.keys.needed(
+            "exponent",
+            table.exponent,
+            "the unit of stiffness_N_per_mm_e, N/mm^e,",
+        )?;
+        self.keys
+            .require("stiffness_N_per_mm_e", k, k > 0.0, "more than 0")?;
+        self.keys
+            .require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
+        let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(self.fault())?;
+        let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
+            // Without damping the depth has no meaning.
+            (None, None) => (0.0, UM),
+            (damping, depth) => {
+                let damping =
+                    self.keys
+                        .needed("damping_N_s_per_mm", damping, "full_damping_depth_um")?;
+                let depth =
+                    self.keys
+                        .needed("full_damping_depth_um", depth, "damping_N_s_per_mm")?;
+                self.keys
+                    .require("damping_N_s_per_mm", damping, damping >= 0.0, "0 or more")?;
+                self.keys
+                    .require("full_damping_depth_um", depth, depth > 0.0, "more than 0")?;
+                (damping / MM, UM * depth)
+            }
+        };
+        Impact::new(stiffness, damping, depth_m, slices).map_err(self.fault())
+    }
+
+    fn spring(&self, slices: usize) -> Result<MeshSpring, InputError> {
+        let table = self.table;
+        let per_width = match (table.stiffness_N_per_mm_um, table.line_load_N_per_mm) {
+            (Some(_), Some(_)) => {
+                return Err(self.keys.error(
+                    "line_load_N_per_mm",
+                    "is not used where stiffness_N_per_mm_um is stated; remove one of the two",
+                ));
+            }
+            (Some(stiffness), None) => {
+                self.keys.require(
+                    "stiffness_N_per_mm_um",
+                    stiffness,
+                    stiffness > 0.0,
+                    "more than 0",
+                )?;
+                1e9 * stiffness
+            }
+            (None, line_load) => {
+                let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| q / MM);
+                self.keys.require(
+                    "line_load_N_per_mm",
+                    line_load * MM,
+                    line_load > 0.0,
+                    "more than 0",
+                )?;
+                self.iso_stiffness(line_load)
+                    .mesh_n_per_m2(self.pair.contact_ratio())
+            }
+        };
+        let middle = self.pair.working_pressure_angle_rad.tan();
+        let spring = MeshSpring::new(per_width * self.face_width_m(), slices, middle)
+            .map_err(self.fault())?;
+        match table.stiffness_amplitude {
+            None => Ok(spring),
+            Some(amplitude) => {
+                self.keys.require(
+                    "stiffness_amplitude",
+                    amplitude,
+                    (0.0..1.0).contains(&amplitude),
+                    "0 to below 1",
+                )?;
+                spring
+                    .with_sine(amplitude, middle, self.pair.gear_1.teeth)
+                    .map_err(self.fault())
+            }
+        }
+    }
+
+    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank counts.
+    fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
+        let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
+        if pinion.profile.teeth > wheel.profile.teeth {
+            std::mem::swap(&mut pinion, &mut wheel);
+        }
+        let blanks = [pinion, wheel].map(|gear| {
+            gear.blank.web.map_or(1.0, |web| {
+                let rim =
+                    (gear.profile.root_radius_m - web.rim_inner_radius_m) / gear.tooth.module_m;
+                blank_factor(web.thickness_m / gear.tooth.face_width_m, rim)
+            })
+        });
+        let [e1, e2] = [pinion.material.young_pa, wheel.material.young_pa];
+        SingleStiffness {
+            virtual_teeth: [pinion, wheel].map(|gear| gear.profile.virtual_teeth()),
+            profile_shifts: [pinion, wheel].map(|gear| gear.tooth.profile_shift),
+            helix_angle_rad: pinion.tooth.helix_angle_rad.abs(),
+            rack_dedendum: 0.5 * (pinion.tooth.dedendum + wheel.tooth.dedendum),
+            rack_pressure_angle_rad: pinion.tooth.pressure_angle_rad,
+            blank_factor: blanks[0].min(blanks[1]),
+            young_pa: 2.0 * e1 * e2 / (e1 + e2),
+            line_load_n_per_m,
+        }
+    }
+
+    fn beams(&self, slices: usize) -> Result<BeamTeeth, InputError> {
+        let tooth = |i: usize| {
+            let gear = &self.gears[i].definition;
+            BeamTooth {
+                gear: i + 1,
+                tooth: &gear.profile,
+                material: gear.material,
+                face_width_m: gear.tooth.face_width_m,
+                bore_radius_m: gear.blank.bore_radius_m,
+            }
+        };
+        let cracks = [&self.table.cracks_1, &self.table.cracks_2];
+        let [first, second] =
+            cracks.map(|list| list.iter().map(|crack| crack.crack()).collect::<Vec<_>>());
+        BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
+    }
+
+    fn reduced(&self, side: FlankSide) -> Result<ReducedTeeth, InputError> {
+        let models = self.models()?;
+        let reference = REFERENCE_LINE_LOAD_N_PER_M * self.face_width_m();
+        let nominal = self.table.nominal_force_N.unwrap_or(reference);
+        self.keys
+            .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
+        let local = match self.table.local.unwrap_or_default() {
+            LocalWord::None => LocalContact::None,
+            LocalWord::WeberBanaschek => LocalContact::WeberBanaschek,
+            LocalWord::Calibrated => LocalContact::Calibrated,
+        };
+        ReducedTeeth::new(self.pair, side, models, local, nominal).map_err(|error| {
+            let hint = match self.table.flanks.unwrap_or_default() {
+                FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
+                _ => "",
+            };
+            self.keys.error("", format!("{} flanks: {error}{hint}", side.name()))
+        })
+    }
+
+    fn damped(
+        &self,
+        teeth: impl TeethModel + 'static,
+        slices: usize,
+    ) -> Result<Box<dyn TeethModel>, InputError> {
+        let damping = match &self.table.damping {
+            None => return Ok(Box::new(teeth)),
+            Some(DampingTable::StiffnessProportional {
+                time_s,
+                full_depth_um,
+            }) => Damping::StiffnessProportional {
+                time_s: *time_s,
+                full_depth_m: UM * full_depth_um,
+            },
+            Some(DampingTable::Viscous {
+                damping_N_s_per_mm,
+                full_depth_um,
+            }) => Damping::Viscous {
+                coefficient_n_s_per_m: damping_N_s_per_mm / MM,
+                full_depth_m: UM * full_depth_um,
+            },
+        };
+        let damped =
+            Damped::new(teeth, damping, slices).map_err(|e| self.keys.error("damping", e))?;
+        Ok(Box::new(damped))
+    }
+
+    fn friction(&self) -> Result<Option<Friction>, InputError> {
+        let Some(FrictionTable::Coulomb {
+            static_coefficient,
+            dynamic_coefficient,
+            static_speed_mm_per_s,
+            dynamic_speed_mm_per_s,
+        }) = &self.table.friction
+        else {
+            return Ok(None);
+        };
+        let slow = static_speed_mm_per_s.map_or(DEFAULT_STATIC_SPEED_M_PER_S, |speed| MM * speed);
+        let fast = dynamic_speed_mm_per_s.map_or(10.0 * slow, |speed| MM * speed);
+        let coefficients = [
+            static_coefficient.unwrap_or(*dynamic_coefficient),
+            *dynamic_coefficient,
+        ];
+        Friction::new(coefficients, [slow, fast])
+            .map(Some)
+            .map_err(|e| self.keys.error("friction", e))
+    }
+
+    pub(super) fn effects(&self, parts: &mut Parts) {
+        let table = self.table;
+        let name = |what: &str| format!("mesh `{}`: {what}", table.name);
+        if table.model == MeshModel::Kinematic {
+            return;
+        }
+        let flanks = match table.flanks.unwrap_or_default() {
+            FlanksWord::Both => Some(format!(
+                "both sides, {:.1} um of backlash",
+                self.pair.backlash_m() / UM
+            )),
+            FlanksWord::Right | FlanksWord::Left => None,
+        };
+        parts.effect(name("backlash"), flanks);
+        let damping = match (&table.damping, table.damping_N_s_per_mm) {
+            (Some(DampingTable::StiffnessProportional { .. }), _) => {
+                Some("proportional to stiffness".to_string())
+            }
+            (Some(DampingTable::Viscous { .. }), _) => Some("viscous".to_string()),
+            (None, Some(_)) => Some("STEP of the depth".to_string()),
+            (None, None) => None,
+        };
+        parts.effect(name("damping"), damping);
+        parts.effect(
+            name("friction"),
+            table
+                .friction
+                .as_ref()
+                .map(|_| "`coulomb`, regularised".to_string()),
+        );
+        let on = table.microgeometry.unwrap_or(true)
+            && self.gears.iter().any(|gear| gear.has_microgeometry());
+        parts.effect(
+            name("microgeometry"),
+            on.then(|| "of the gear files".to_string()),
+        );
+        let kinds: Vec<&str> = table
+            .errors_1
+            .iter()
+            .chain(&table.errors_2)
+            .map(|error| error.kind())
+            .collect();
+        let cracks = table.cracks_1.len() + table.cracks_2.len();
+        let kinds: Vec<&str> = kinds
+            .into_iter()
+            .chain(std::iter::repeat_n("root-crack", cracks))
+            .collect();
+        parts.effect(
+            name("errors and faults"),
+            (!kinds.is_empty()).then(|| kinds.join(", ")),
+        );
+        let eccentric = table.eccentricity_1.is_some() || table.eccentricity_2.is_some();
+        parts.effect(
+            name("eccentricity"),
+            eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
+        );
+    }
+}
