@@ -114,7 +114,15 @@ fn effort(r: &RunRecord) -> Vec<String> {
 
 fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut found = result.summaries(is_prominent).map_err(Failure::work)?;
-    found.sort_by_key(|column| !column.name.starts_with("elements/"));
+    let of_a_mesh = |name: &str| {
+        let mut meshes = result.head.meshes.iter();
+        meshes.any(|mesh| name.starts_with(&format!("elements/{}/", mesh.name)))
+    };
+    // Gear meshes, other force elements, speeds.
+    found.sort_by_key(|column| {
+        let name = &column.name[..];
+        (!of_a_mesh(name), !name.starts_with("elements/"))
+    });
     let width = found
         .iter()
         .take(MOST_LINES)
