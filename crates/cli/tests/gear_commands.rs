@@ -33,6 +33,8 @@ fn help_names_all_commands() {
       compare     Compare a result with a reference record
       report      Write a report page
       check       Check a gear file, scene, model or result
+      study       Run a multibody scene again and again with some of its keys changed
+      schema      Print the JSON Schema of scene, study or gear files
       demo        Make gear pairs A and B from definition to report
       help        Print this message or the help of the given subcommand(s)
     
@@ -51,6 +53,8 @@ fn help_names_all_commands() {
         "compare",
         "report",
         "check",
+        "study",
+        "schema",
         "demo",
     ] {
         let help = succeeds(&[command, "--help"]).stdout;
