@@ -1,7 +1,6 @@
 //! `gearmesh study`: cases, figures, what is wrong with a study.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
-#[allow(dead_code)]
 mod common;
 
 use common::{Desk, argument, changed, gearmesh, number, refused, succeeds};
