@@ -15,7 +15,7 @@ use mesh_common::running_pair::*;
 const PERIODS: usize = 400;
 
 /// Name, mesh model, steps of a mesh period, whether every step is written out, and gauges.
-const CASES: [(&str, &str, usize, bool, usize); 5] = [
+const CASES: [(&str, &str, usize, bool, usize); 6] = [
     ("impact", "impact", STEPS_A_PERIOD, false, 0),
     ("impact, 12 steps a period", "impact", 12, false, 0),
     ("hybrid", "hybrid", STEPS_A_PERIOD, false, 0),
@@ -27,7 +27,11 @@ const CASES: [(&str, &str, usize, bool, usize); 5] = [
         true,
         8,
     ),
+    (HELICAL, "hybrid", STEPS_A_PERIOD, false, 0),
 ];
+
+/// The case with helical teeth.
+const HELICAL: &str = "hybrid, helical";
 
 struct Case {
     run: Simulation,
@@ -39,8 +43,11 @@ struct Case {
 }
 
 impl Case {
-    fn new(mesh: &str, steps: usize, output: bool, gauges: usize) -> Self {
-        let pair = pair_a();
+    fn new((name, mesh, steps, output, gauges): (&str, &str, usize, bool, usize)) -> Self {
+        let pair = match name {
+            HELICAL => helical_pair_a(),
+            _ => pair_a(),
+        };
         let system = running_pair(&pair, running_mesh(mesh, &pair), gauges);
         let step_s = STEP_S * STEPS_A_PERIOD as f64 / steps as f64;
         let params = Params {
@@ -84,8 +91,7 @@ fn main() {
         "{:26} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "mesh", "fastest µs", "middle µs", "real time", "iterations", "factors"
     );
-    let mut cases =
-        CASES.map(|(_, mesh, steps, output, gauges)| Case::new(mesh, steps, output, gauges));
+    let mut cases = CASES.map(Case::new);
     let mut times_us = CASES.map(|_| Vec::new());
     for case in &mut cases {
         (0..10).for_each(|_| case.period());

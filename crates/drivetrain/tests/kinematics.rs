@@ -102,7 +102,7 @@ fn gaps_are_those_of_the_static_scene() {
                         .unwrap_or_else(|| panic!("teeth {:?}", line.teeth));
                     // The same second order over the length of the line of action.
                     let roll_tolerance = 1e-12 + 100.0 * tolerance;
-                    assert!((line.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
+                    assert!((line.middle.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
                     let (first, count) = line.contacts;
                     assert_eq!(count, SLICES);
                     for contact in &found.contacts[first..first + count] {
@@ -132,7 +132,7 @@ fn flank_points_are_the_gap_apart() {
         for line in &found.lines {
             let point = |gear: usize, tooth: &gearmesh_geometry::ToothGeometry| {
                 let turn = std::f64::consts::TAU * line.teeth[gear] as f64 / tooth.teeth as f64;
-                let p = tooth.flank_point_m(side, line.roll_rad[gear]);
+                let p = tooth.flank_point_m(side, line.middle.roll_rad[gear]);
                 let (sin, cos) = (turn + phi[gear]).sin_cos();
                 Vector2::new(cos * p[0] - sin * p[1], sin * p[0] + cos * p[1])
             };
@@ -184,9 +184,9 @@ fn derivatives_agree_with_differences() {
                 assert!(off.abs() < 2e-9, "gap {i} by {direction}: {off:e}");
                 let line = &here.lines[contact.line];
                 for gear in 0..2 {
-                    let roll = |set: &FlankContacts| set.lines[contact.line].roll_rad[gear];
+                    let roll = |set: &FlankContacts| set.lines[contact.line].middle.roll_rad[gear];
                     let off = (roll(&after) - roll(&before)) / (2.0 * h)
-                        - line.roll_gradient[gear][direction];
+                        - line.middle.roll_gradient[gear][direction];
                     assert!(off.abs() < 1e-7, "roll by {direction}: {off:e}");
                 }
             }
@@ -204,12 +204,12 @@ fn derivatives_agree_with_differences() {
             );
             for (i, contact) in base.contacts.iter().enumerate() {
                 let line = &base.lines[contact.line];
-                if (0..2).any(|g| line.roll_rad[g] > line.touching_roll_rad[g]) {
+                if (0..2).any(|gear| !line.middle.walks(gear)) {
                     continue;
                 }
                 let change = (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
-                let curvature =
-                    base.planes[contact.slice].gap_curvature(&at, side, pair.gear_2.base_radius_m);
+                let plane = &base.planes[contact.slice];
+                let curvature = ideal.gap_curvature(plane, &at, side, line.middle.roll_rad[1]);
                 let off = (change - curvature.column(direction)).norm();
                 assert!(
                     off < 1e-6 * (1.0 + change.norm()),
