@@ -29,7 +29,10 @@ fn both_stages_of_the_train_come_to_rest_on_their_flanks() {
     // The ratio holds in the mean over a mesh period only: at rest the teeth's own elastic energy has a slope.
     let torque = value("coupling", "moment_z_Nm").abs();
     let expected = 100.0 * 27.0 / 61.0 * 31.0 / 71.0;
-    assert!((torque / expected - 1.0).abs() < 0.01, "{torque} {expected}");
+    assert!(
+        (torque / expected - 1.0).abs() < 0.01,
+        "{torque} {expected}"
+    );
     // One side of the teeth carries in each stage, 1 to 2 pairs of it.
     for mesh in ["first stage", "second stage"] {
         let sides = ["normal_force_right_N", "normal_force_left_N"].map(|side| value(mesh, side));
