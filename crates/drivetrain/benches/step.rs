@@ -1,7 +1,8 @@
 //! A pair at 600 rpm, both gears with six degrees of freedom: time of a step against real time, fastest and middle mesh period of many;
 //! then the same with every step written out, without and with eight gauges.
 //!
-//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something.
+//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something. With
+//! `-- NAME` only the case of that name.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
@@ -91,8 +92,17 @@ fn main() {
         "{:26} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "mesh", "fastest µs", "middle µs", "real time", "iterations", "factors"
     );
-    let mut cases = CASES.map(Case::new);
-    let mut times_us = CASES.map(|_| Vec::new());
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let is_wanted = |name: &str| {
+        !wanted
+            .iter()
+            .any(|one| !one.starts_with('-') && one != name)
+    };
+    let chosen: Vec<_> = (CASES.into_iter())
+        .filter(|(name, ..)| is_wanted(name))
+        .collect();
+    let mut cases: Vec<Case> = chosen.iter().copied().map(Case::new).collect();
+    let mut times_us = vec![Vec::new(); cases.len()];
     for case in &mut cases {
         (0..10).for_each(|_| case.period());
     }
@@ -104,7 +114,7 @@ fn main() {
             times.push(start.elapsed().as_secs_f64() * 1e6 / case.steps as f64);
         }
     }
-    for (((name, ..), case), mut times) in CASES.iter().zip(&cases).zip(times_us) {
+    for (((name, ..), case), mut times) in chosen.iter().zip(&cases).zip(times_us) {
         times.sort_by(f64::total_cmp);
         let info = case.run.info();
         let steps = info.steps as f64;

@@ -5,7 +5,7 @@ mod mesh_common;
 
 use std::f64::consts::FRAC_PI_2;
 
-use gearmesh_drivetrain::mesh_element::PairForce;
+use gearmesh_drivetrain::mesh_element::PairTangents;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::state::BodyMotion;
@@ -229,10 +229,18 @@ impl Scene {
         Self { pair, bodies }
     }
 
-    fn force(&self, mesh: &mut GearMesh, tangents: bool) -> PairForce {
+    /// Generalised force on both bodies, and its tangents (zero unless asked for).
+    fn loads(&self, mesh: &mut GearMesh, tangents: bool) -> (SVector<f64, 12>, PairTangents) {
         let motion = self.pair.motion(&self.bodies[0], &self.bodies[1]);
         let load = mesh.evaluate(&Pose::from(&motion), tangents).unwrap();
-        PairForce::new(&load, &motion, tangents)
+        (
+            motion.generalised_force(&load.load),
+            PairTangents::new(&load, &motion),
+        )
+    }
+
+    fn force(&self, mesh: &mut GearMesh) -> SVector<f64, 12> {
+        self.loads(mesh, false).0
     }
 
     /// Moved by an increment of the bodies' degrees of freedom, or by a change of their velocities.
@@ -290,7 +298,7 @@ fn action_is_reaction() {
             let mut mesh = damped(name, &pair, DAMPINGS[0]).with_friction(friction());
             for at in loaded_poses(&pair) {
                 let scene = Scene::new(&at);
-                let force = scene.force(&mut mesh, false).force;
+                let force = scene.force(&mut mesh);
                 let [(f1, m1), (f2, m2)] = [0, 1].map(|body| about_origin(&scene, &force, body));
                 assert!(f1.norm() > 100.0);
                 assert!((f1 + f2).norm() < 1e-12 * f1.norm(), "{name}");
@@ -317,7 +325,7 @@ fn tangents_agree_with_differences() {
                     }
                     for (number, at) in loaded_poses(&pair).iter().enumerate() {
                         let scene = Scene::new(at);
-                        let here = scene.force(&mut mesh, true);
+                        let (force, here) = scene.loads(&mut mesh, true);
                         for dof in 0..12 {
                             let angular = dof % 6 >= 3;
                             for velocity in [false, true] {
@@ -326,12 +334,7 @@ fn tangents_agree_with_differences() {
                                     (false, true) => 2e-9,
                                     (true, _) => 1e-6,
                                 };
-                                let mut at = |by| {
-                                    scene
-                                        .changed(dof, by, velocity)
-                                        .force(&mut mesh, false)
-                                        .force
-                                };
+                                let mut at = |by| scene.changed(dof, by, velocity).force(&mut mesh);
                                 let difference = (at(h) - at(-h)) / (2.0 * h);
                                 let (tangent, whole) = if velocity {
                                     (here.by_velocity.column(dof), &here.by_velocity)
@@ -345,7 +348,7 @@ fn tangents_agree_with_differences() {
                                     .norm();
                                     let column = 3 * (dof / 3);
                                     let scale = whole.fixed_view::<3, 3>(rows, column).norm();
-                                    let noise = 1e-9 * here.force.norm() / h * 1e-3;
+                                    let noise = 1e-9 * force.norm() / h * 1e-3;
                                     assert!(
                                         off <= tolerance * scale + noise,
                                         "{name} {damping:?} {effects} {number} dof {dof} rows {rows} velocity {velocity}: {off:e} of {scale:e}"
@@ -381,10 +384,7 @@ fn loads_turn_with_the_scene() {
                         )
                     }),
                 };
-                let (before, after) = (
-                    scene.force(&mut mesh, false).force,
-                    turned.force(&mut mesh, false).force,
-                );
+                let (before, after) = (scene.force(&mut mesh), turned.force(&mut mesh));
                 let rotation: Matrix3<f64> = *turn.to_rotation_matrix().matrix();
                 for rows in [0, 6] {
                     let (f, m) = (
