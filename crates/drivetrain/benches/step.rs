@@ -1,7 +1,8 @@
 //! A pair at 600 rpm, both gears with six degrees of freedom: time of a step against real time, fastest and middle mesh period of many;
 //! then the same with every step written out, without and with eight gauges.
 //!
-//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something.
+//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something. With
+//! `-- NAME` only the case of that name.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
@@ -15,7 +16,7 @@ use mesh_common::running_pair::*;
 const PERIODS: usize = 400;
 
 /// Name, mesh model, steps of a mesh period, whether every step is written out, and gauges.
-const CASES: [(&str, &str, usize, bool, usize); 5] = [
+const CASES: [(&str, &str, usize, bool, usize); 6] = [
     ("impact", "impact", STEPS_A_PERIOD, false, 0),
     ("impact, 12 steps a period", "impact", 12, false, 0),
     ("hybrid", "hybrid", STEPS_A_PERIOD, false, 0),
@@ -27,7 +28,11 @@ const CASES: [(&str, &str, usize, bool, usize); 5] = [
         true,
         8,
     ),
+    (HELICAL, "hybrid", STEPS_A_PERIOD, false, 0),
 ];
+
+/// The case with helical teeth.
+const HELICAL: &str = "hybrid, helical";
 
 struct Case {
     run: Simulation,
@@ -39,8 +44,11 @@ struct Case {
 }
 
 impl Case {
-    fn new(mesh: &str, steps: usize, output: bool, gauges: usize) -> Self {
-        let pair = pair_a();
+    fn new((name, mesh, steps, output, gauges): (&str, &str, usize, bool, usize)) -> Self {
+        let pair = match name {
+            HELICAL => helical_pair_a(),
+            _ => pair_a(),
+        };
         let system = running_pair(&pair, running_mesh(mesh, &pair), gauges);
         let step_s = STEP_S * STEPS_A_PERIOD as f64 / steps as f64;
         let params = Params {
@@ -84,9 +92,17 @@ fn main() {
         "{:26} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "mesh", "fastest µs", "middle µs", "real time", "iterations", "factors"
     );
-    let mut cases =
-        CASES.map(|(_, mesh, steps, output, gauges)| Case::new(mesh, steps, output, gauges));
-    let mut times_us = CASES.map(|_| Vec::new());
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let is_wanted = |name: &str| {
+        !wanted
+            .iter()
+            .any(|one| !one.starts_with('-') && one != name)
+    };
+    let chosen: Vec<_> = (CASES.into_iter())
+        .filter(|(name, ..)| is_wanted(name))
+        .collect();
+    let mut cases: Vec<Case> = chosen.iter().copied().map(Case::new).collect();
+    let mut times_us = vec![Vec::new(); cases.len()];
     for case in &mut cases {
         (0..10).for_each(|_| case.period());
     }
@@ -98,7 +114,7 @@ fn main() {
             times.push(start.elapsed().as_secs_f64() * 1e6 / case.steps as f64);
         }
     }
-    for (((name, ..), case), mut times) in CASES.iter().zip(&cases).zip(times_us) {
+    for (((name, ..), case), mut times) in chosen.iter().zip(&cases).zip(times_us) {
         times.sort_by(f64::total_cmp);
         let info = case.run.info();
         let steps = info.steps as f64;

@@ -5,19 +5,21 @@ mod common;
 mod made_up_gears;
 mod system_runs;
 
-use common::{build_in, load};
+use common::load;
 use gearmesh_dynamics::{Motion, Params, TimeFunction};
 use gearmesh_geometry::Material;
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_rating::{
     BelowTable, MeanStress, Passage, RootConstruction, RootSection, SnCurve, SnPoint, SurfaceState,
     flank_pressure, highest_single_contact_rolls_rad, history_damage, lewis_stress_pa,
     root_stress_pa,
 };
-use gearmesh_scene::system::{FatigueJob, RatingJob, RatingRule, SystemPlan};
+use gearmesh_scene::system::{
+    FatigueJob, LoadedSystem, RatingJob, RatingRule, SystemPlan, SystemScene,
+};
 use gearmesh_scene::system_run::*;
 use made_up_gears::{YOUNG_PA, pair, scene, write_models};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::path::Path;
 use system_runs::{Desk, driven_wheel, job, transient};
 
 const STEEL: Material = Material {
@@ -273,9 +275,17 @@ interval_s = 1e-4"#;
     assert_eq!(result.ratings[0].figure("largest_force_N"), Some(expected));
 }
 
+/// The scene with its ratings is refused; its gears are those that `sound` has read.
 #[track_caller]
-fn refused(folder: &Path, text: &str, parts: &[&str]) {
-    let complaint = match build_in(text, folder) {
+fn refused(sound: &LoadedSystem, text: &str, parts: &[&str]) {
+    let document = InputDocument::new("scene.toml", text);
+    let scene = SystemScene::from_document(document, &sound.scene.folder);
+    let built = scene.and_then(|scene| {
+        let mut changed = sound.clone();
+        changed.scene = scene;
+        changed.build()
+    });
+    let complaint = match built {
         Ok(_) => panic!("accepted:\n{text}"),
         Err(error) => error.to_string(),
     };
@@ -287,6 +297,7 @@ fn refused(folder: &Path, text: &str, parts: &[&str]) {
 #[test]
 fn ratings_that_cannot_be_are_refused() {
     let folder = folder();
+    let sound = load(&scene(RUN, -60.0, "", RATED), folder.path()).unwrap();
     let of = |rating: &str| scene(RUN, -60.0, "", rating);
     let with = |from: &str, to: &str| {
         assert!(RATED.contains(from), "{from}");
@@ -355,13 +366,15 @@ fn ratings_that_cannot_be_are_refused() {
             "rating.0.kind: is for runs in time (run.kind = \"transient\" or \"speed-sweep\"), found run.kind = \"static\"",
         ),
     ] {
-        refused(folder.path(), &text, &["scene.toml:", part]);
+        refused(&sound, &text, &["scene.toml:", part]);
     }
 }
 
 #[test]
 fn bad_sn_tables_are_refused_at_their_line() {
     let folder = folder();
+    let text = scene(RUN, -60.0, "", RATED);
+    let sound = load(&text, folder.path()).unwrap();
     for (from, to, part) in [
         (
             "[900, 520, 300]",
@@ -398,6 +411,6 @@ fn bad_sn_tables_are_refused_at_their_line() {
     ] {
         assert!(TABLE.contains(from));
         std::fs::write(folder.path().join("sn.toml"), TABLE.replacen(from, to, 1)).unwrap();
-        refused(folder.path(), &scene(RUN, -60.0, "", RATED), &[part]);
+        refused(&sound, &text, &[part]);
     }
 }

@@ -43,6 +43,22 @@ pub fn pair_a() -> GearPair {
     GearPair::new(gear(), gear(), 0.150, Misalignment::default()).unwrap()
 }
 
+/// 55/55 teeth with a helix of 15 degrees, about as large.
+pub fn helical_pair_a() -> GearPair {
+    let gear = |helix_deg: f64| {
+        ToothGeometry::new(&ToothDefinition {
+            module_m: 2.6e-3,
+            rack_tip_radius: 0.38,
+            helix_angle_rad: helix_deg.to_radians(),
+            ..super::pair_common::tooth(55, 0.33, 0.0)
+        })
+        .unwrap()
+    };
+    let (gear_1, gear_2) = (gear(15.0), gear(-15.0));
+    let centre = 2.0 * gear_1.reference_radius_m + 0.66 * 2.6e-3;
+    GearPair::new(gear_1, gear_2, centre, Misalignment::default()).unwrap()
+}
+
 fn crowned(gear: &ToothGeometry) -> Arc<dyn FlankError> {
     Arc::new(Microgeometry {
         tip_roll_rad: gear.tip_roll_rad,

@@ -12,7 +12,10 @@ pub(super) fn ratings(r: &SystemResult) -> Option<Section> {
     }
     let mut section = Section::new(format!("{}: rating", r.head.title));
     for rated in &r.ratings {
-        section = section.push(Text::note(format!("{}: {}.", rated.name, rated.method)));
+        section = section.push(Text::paragraph(format!(
+            "{}: {}.",
+            rated.name, rated.method
+        )));
         section = match &rated.problem {
             Some(problem) => section.push(Text::note(format!("Not rated: {problem}"))),
             None => section.push(table(rated)),
