@@ -68,6 +68,7 @@ struct PlacedTeeth<'a> {
 }
 
 /// Ideal flanks in a slice plane.
+#[derive(Clone, Copy)]
 struct IdealFlanks {
     roll_rad: [f64; 2],
     roll_gradient: [Vector6; 2],
@@ -209,9 +210,14 @@ impl MeshKinematics {
             }
             at.slices.push(line);
         }
-        if at.middle.is_none() {
-            at.middle = Some(CentreLine::new(&self.gears, pose, 0.0)?);
-        }
+        let middle = match at.middle {
+            Some(middle) => middle,
+            None => CentreLine::new(&self.gears, pose, 0.0)?,
+        };
+        at.slices
+            .iter_mut()
+            .for_each(|line| line.turn_next_to(&middle));
+        at.middle = Some(middle);
         at.spin_rad = pose.spin_rad();
         Ok(())
     }
@@ -291,9 +297,13 @@ impl MeshKinematics {
         let line = found.lines.len();
         let first = found.contacts.len();
         let rates = placed.pose.rates();
+        let mut at_middle = None;
         for slice in 0..found.planes.len() {
             let plane = found.planes[slice];
             let ideal = self.ideal_flanks(placed, &plane);
+            if plane.z_m == middle.z_m {
+                at_middle = Some(ideal);
+            }
             let own = match &self.helix {
                 None => None,
                 Some(helix) => match self.own_section(helix, placed.side, &ideal) {
@@ -335,7 +345,7 @@ impl MeshKinematics {
         if self.helix.is_some() && contacts.1 == 0 {
             return;
         }
-        let ideal = self.ideal_flanks(placed, middle);
+        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, middle));
         let middle = Section {
             contacts,
             ..self.section(&ideal)

@@ -1,5 +1,7 @@
 //! A plane across gear 1's axis at a pose: where gear 2's axis crosses it, and the line of action in it.
 
+use std::f64::consts::TAU;
+
 use gearmesh_geometry::{FlankSide, ToothGeometry};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -87,6 +89,12 @@ impl CentreLine {
             length_m,
             polar_rad: d[1].atan2(d[0]),
         })
+    }
+
+    /// Takes the polar angle within half a turn of that of the middle: where gear 1 has turned by half a turn, those of some slices would be π,
+    /// of others −π, and teeth that are counted in the middle would be a whole turn off.
+    pub(crate) fn turn_next_to(&mut self, middle: &Self) {
+        self.polar_rad += TAU * ((middle.polar_rad - self.polar_rad) / TAU).round();
     }
 
     /// The slice plane for flanks of one side.

@@ -35,6 +35,42 @@ fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
     }
 }
 
+/// Half a turn of gear 1, where the polar angle of the tilted centre line is π in some slices and −π in others: 15 pitches, so that all is as at
+/// the start.
+#[test]
+fn half_a_turn_leaves_no_slice_behind() {
+    let pair = spur_pair();
+    assert_eq!(pair.gear_1.teeth % 2, 0);
+    for side in SIDES {
+        for tilt in [0.0, 1e-7, -1e-4] {
+            let found = |turns: f64| {
+                let [at, _] = angles(&pair, side, 0.0, 0.0);
+                let theta = side.mirror() * at - turns * std::f64::consts::TAU;
+                let phi = angles(&pair, side, theta, -10e-6);
+                let at = pose(&pair, phi, Vector3::zeros(), Vector3::new(tilt, tilt, 0.0));
+                let mut found = FlankContacts::default();
+                let kinematics = kinematics(&pair);
+                kinematics.contacts(&at, side, &mut found).unwrap();
+                let gaps = found.contacts.iter().map(|c| (c.slice, c.gap_m));
+                gaps.collect::<Vec<_>>()
+            };
+            let expected = found(0.0);
+            assert!(expected.len() >= SLICES);
+            for turns in [-0.5, 0.5, 1.5] {
+                let at = found(turns);
+                assert_eq!(at.len(), expected.len());
+                for ((slice, gap), (of, other)) in at.iter().zip(&expected) {
+                    let off = (gap - other).abs();
+                    assert!(
+                        slice == of && off < 1e-12,
+                        "{turns} turns, tilt {tilt}: {off:e} m"
+                    );
+                }
+            }
+        }
+    }
+}
+
 /// Both kinematics see the same pairs, roll angles and gaps, on parallel axes and, to first order, on tilted ones.
 #[test]
 fn gaps_are_those_of_the_static_scene() {
