@@ -106,6 +106,7 @@ fn shipped_scenes_are_built() {
         [
             "dynamics_17_25.toml",
             "dynamics_25_30.toml",
+            "dynamics_helical.toml",
             "dynamics_two_stage.toml"
         ]
     );
