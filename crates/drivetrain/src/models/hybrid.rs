@@ -8,6 +8,7 @@
 //! roll angles: its part of the generalised force, ½ Fᵀ(∂C/∂ξ)F and that of the local laws, is included, so that undamped teeth keep
 //! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
 //! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes give way at rest.
+//! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
 use gearmesh_contact::LocalContact;

@@ -1,4 +1,5 @@
-//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, seed 003.
+//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, a cracked
+//! tooth, seed 003.
 //!
 //! One program, so that its libraries are linked once.
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
@@ -10,5 +11,6 @@ mod conservation;
 mod hard_cases;
 mod instability;
 mod resonance;
+mod root_crack;
 mod scene;
 mod seed_003;
