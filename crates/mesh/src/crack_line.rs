@@ -1,6 +1,6 @@
 //! A crack in the cross-section of a tooth: a chain of sides of quads from the root's outline to the wanted tip.
 //!
-//! The mouth is the node of the outline next to the place asked for; from there the shortest chain of sides that keeps close to the
+//! The mouth is the node of the outline next to the place asked for, moved there along the outline; from there the shortest chain of sides that keeps close to the
 //! straight line is followed to the node next to the wanted tip. That node is moved to the very place, and the nodes around give way as
 //! long as that makes the quads better: depth and angle are those asked for, the sides in between are as ragged as the mesh. All
 //! teeth have the same section, the sound ones too.
@@ -71,7 +71,13 @@ impl CrackLine {
         };
         let off = |i: &usize| (cell.outline_arc_m[*i] - wanted).abs();
         let place = (1..cell.outline.len() - 1).min_by(|a, b| off(a).total_cmp(&off(b)));
-        let mouth = cell.outline[place.unwrap_or_default()];
+        let place = place.unwrap_or_default();
+        let mouth = cell.outline[place];
+        // The ends of the tooth-only submodel's cut stay.
+        if !cell.cut.contains(&mouth) {
+            cell.outline_arc_m[place] = wanted;
+            cell.nodes[mouth] = on_outline(&curve, total, wanted);
+        }
         let (sin, cos) = crack.angle_rad.sin_cos();
         let line = Line {
             mouth: cell.nodes[mouth],
@@ -80,6 +86,12 @@ impl CrackLine {
         };
         let path = follow(cell, mouth, &line)?;
         place_tip(cell, &path, line.at(line.depth));
+        for side in [place - 1, place] {
+            if let Some(&middle) = cell.outline_mid_sides.get(side) {
+                let arc = 0.5 * (cell.outline_arc_m[side] + cell.outline_arc_m[side + 1]);
+                cell.nodes[middle] = on_outline(&curve, total, arc);
+            }
+        }
         let (left, right) = sides(cell, &path);
         let mut doubled = path[..path.len() - 1].to_vec();
         doubled.extend(path.windows(2).filter_map(|edge| middle(cell, edge)));
@@ -94,6 +106,12 @@ impl CrackLine {
             path,
         })
     }
+}
+
+/// Point of the whole outline at an arc length from the right tooth space, of `total` to the left one.
+fn on_outline(curve: &ProfileCurve, total: f64, arc_m: f64) -> [f64; 2] {
+    let [x, y] = curve.point_at(arc_m.min(total - arc_m));
+    [x, if 2.0 * arc_m > total { -y } else { y }]
 }
 
 /// Node in the middle of a side, where elements are quadratic.
@@ -196,7 +214,7 @@ fn follow(cell: &ToothCell, mouth: usize, line: &Line) -> Result<Vec<usize>, Mes
     Ok(path)
 }
 
-/// Moves the end of the path to its place and lets the nodes around give way.
+/// Moves the end of the path to its place and lets the nodes around it and around the mouth give way.
 fn place_tip(cell: &mut ToothCell, path: &[usize], place: [f64; 2]) {
     let tip = path[path.len() - 1];
     cell.nodes[tip] = place;
@@ -205,7 +223,7 @@ fn place_tip(cell: &mut ToothCell, path: &[usize], place: [f64; 2]) {
         .chain([tip])
         .collect();
     let next = neighbours(cell);
-    let mut near = BTreeSet::from([tip]);
+    let mut near = BTreeSet::from([tip, path[0]]);
     for _ in 0..REACH {
         let around = near.iter().flat_map(|n| next[n].iter().copied());
         near = near.iter().copied().chain(around).collect();
@@ -233,7 +251,7 @@ fn place_tip(cell: &mut ToothCell, path: &[usize], place: [f64; 2]) {
             }
         }
     }
-    let moved = |n: usize| near.contains(&n) && (n == tip || !held.contains(&n));
+    let moved = |n: usize| near.contains(&n) && (n == tip || n == path[0] || !held.contains(&n));
     for (quad, middles) in cell.quads.iter().zip(&cell.mid_sides) {
         for k in 0..4 {
             let (a, b) = (quad[k], quad[(k + 1) % 4]);

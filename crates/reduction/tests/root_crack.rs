@@ -1,4 +1,4 @@
-//! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and in mesh convergence.
+//! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and by its depth.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod common;
@@ -187,8 +187,8 @@ fn both_ways_to_solve_agree() {
     };
     let beside = most(0).max(most(2)) / most(1);
     println!("a crack adds {beside:.1e} of its own tooth's compliance to its neighbours'");
-    // A thin rim with slots: without them and on a solid blank it is less.
-    assert!(beside < 0.06, "{beside}");
+    // Of 18 teeth on a thin rim with slots, whose feet hang together more than most.
+    assert!(beside < 0.1, "{beside}");
     // Most of it is bending: a few rows of many jumps.
     let rows = crack.count(18, cyclic.grid.len());
     assert!(rows < 40, "{rows}");
