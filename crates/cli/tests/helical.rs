@@ -7,6 +7,7 @@ use common::{
     Desk, SOLID, THIN, argument, changed, gearmesh, largest_difference, number, refused, succeeds,
 };
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::SystemResult;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -100,6 +101,7 @@ fn both_hands_run_through_the_whole_chain() {
     let same = again.strain.iter().find(|s| s.name == "tension").unwrap();
     assert_eq!(same.method_2, a.strain[0].method_2);
     drop(other_desk);
+    at_rest_between_axles(&desk, &a, axial);
 
     let extended = desk.file("extended.toml", scene("path = \"extended\""));
     let unwanted = desk.path("unwanted.h5");
@@ -111,4 +113,45 @@ fn both_hands_run_through_the_whole_chain() {
     let twins = desk.file("twins.toml", changed(&twins, "[\"tension\"]", "[]"));
     let answer = gearmesh(&["plan", argument(&twins)]);
     refused(&answer, 2, &["opposite hand"]);
+}
+
+/// The same models as bodies on axles: at rest the transmission error of the static contact over the pitch, on the rigid path (positions differ
+/// in phase: the mean is compared), and axles that hold the axial force, that of gear 1 to +z.
+fn at_rest_between_axles(desk: &Desk, pair: &SceneResult, axial_n: f64) {
+    let gear = |number: usize, x_mm: f64| {
+        format!(
+            "[[body]]\nname = \"g{number}\"\ngear = \"gear{number}.h5\"\nmass_kg = 0.2\ninertia_kg_m2 = [3e-5, 3e-5, 5e-5]\n\
+             position_mm = [{x_mm}, 0, 0]\n[[joint]]\nname = \"axle {number}\"\nkind = \"revolute\"\nbody_2 = \"g{number}\"\n"
+        )
+    };
+    let points = 24;
+    let angles: Vec<String> = (0..points)
+        .map(|k| format!("{:.6}", -20.0 * f64::from(k) / f64::from(points)))
+        .collect();
+    let text = format!(
+        "title = \"helical, at rest\"\n[run]\nkind = \"static\"\nmotion = \"motion of axle 1\"\nangles_deg = [{}]\n{}{}\
+         [[motion]]\njoint = \"axle 1\"\nspeed_rpm = -60.0\n[[load]]\nbody = \"g2\"\ntorque_Nm = -{TORQUE_NM}\n\
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"g1\"\ngear_2 = \"g2\"\nmodel = \"hybrid\"\nflanks = \"right\"\npath = \"line-of-action\"\n",
+        angles.join(", "),
+        gear(1, 0.0),
+        gear(2, 58.9)
+    );
+    let file = desk.file("axles.toml", text);
+    let result = desk.path("axles.h5");
+    succeeds(&["run", argument(&file), "-o", argument(&result)]);
+    let rows = SystemResult::open(&result).unwrap().rows;
+    let read = |name: &str| rows.read(name).unwrap();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (found, expected) = (
+        mean(&read("elements/mesh/transmission_error_m")),
+        mean(&pair.te_m),
+    );
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    // The joints act on the gears; what the shrinking of slices adds is of the order of deflection over pitch.
+    for (name, sign) in [("axle 1", -1.0), ("axle 2", 1.0)] {
+        for force in read(&format!("joints/{name}/force_z_N")) {
+            let off = force / (sign * axial_n) - 1.0;
+            assert!(off.abs() < 0.02, "{name} {force} {axial_n}");
+        }
+    }
 }

@@ -16,10 +16,8 @@ use gearmesh_scene::{SceneResult, StrainSeries};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A multibody scene with the two reduced gears in a `hybrid` mesh: planned with its gauges; a flank that one model does not carry, a gauge that it
-/// does not have and a body that cannot be rigid are refused.
-#[test]
-fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
+/// A multibody scene with the two reduced gears in a `hybrid` mesh, for a millisecond.
+fn hybrid_scene() -> String {
     let gear = |name: &str, model: &Path, x_mm: f64| {
         format!(
             "[[body]]\nname = \"{name}\"\ngear = \"{}\"\nmass_kg = 0.2\ninertia_kg_m2 = [3e-5, 3e-5, 5e-5]\nposition_mm = [{x_mm}, 0, 0]\n\
@@ -27,14 +25,20 @@ fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
             model.display()
         )
     };
-    let scene = format!(
+    format!(
         "title = \"hybrid\"\n[run]\nkind = \"transient\"\nend_s = 1e-3\n[solver]\nstep_s = 1e-6\n[output]\ninterval_s = 1e-5\n{}{}\
          [[motion]]\njoint = \"axle of solid\"\nspeed_rpm = -60.0\n[[load]]\nbody = \"thin\"\ntorque_Nm = -10.0\n\
          [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"solid\"\ngear_2 = \"thin\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\nflanks = \"right\"\n\
          [[gauge]]\nbody = \"thin\"\nnames = [\"tension\"]\n",
         gear("solid", &workshop().solid, 0.0),
         gear("thin", &workshop().thin, 54.7)
-    );
+    )
+}
+
+/// Planned with its gauges; a flank that one model does not carry, a gauge that it does not have and a body that cannot be rigid are refused.
+#[test]
+fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
+    let scene = hybrid_scene();
     let desk = Desk::new();
     let file = desk.file("scene.toml", &scene);
     let plan = succeeds(&["plan", argument(&file)]).stdout;
@@ -70,6 +74,57 @@ fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
     ] {
         let file = desk.file("scene.toml", changed(&scene, from, to));
         refused(&gearmesh(&["plan", argument(&file)]), 2, parts);
+    }
+}
+
+/// Ratings are printed, kept and drawn; what cannot be judged is told and does not take the run with it.
+#[test]
+fn a_run_is_rated() {
+    let desk = Desk::new();
+    desk.file(
+        "sn.toml",
+        "cycles = [1e3, 1e6]\nstress_amplitude_MPa = [1e-6, 1e-7]\nbelow = \"last-slope\"\n",
+    );
+    let scene = hybrid_scene()
+        + "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\n\
+           [[rating]]\nkind = \"fatigue\"\ngauge = \"tension\"\nsn_table = \"sn.toml\"\n";
+    let (file, output) = (desk.file("scene.toml", &scene), desk.path("result.h5"));
+    let run = ["run", argument(&file), "-o", argument(&output)];
+    let answer = succeeds(&run);
+    for part in [
+        "rating of mesh mesh: Lewis's root stress",
+        "  hertz_pressure_Pa ",
+        "rating of gauge tension of thin: cycles and damage",
+        "  not rated: a stress amplitude of ",
+    ] {
+        assert!(
+            answer.stdout.contains(part),
+            "`{part}` is not in {answer:#?}"
+        );
+    }
+    let warning = "gauge tension of thin is not rated: a stress amplitude of";
+    assert!(answer.stderr.contains(warning), "{answer:#?}");
+    let table = desk.file(
+        "sn.toml",
+        "cycles = [1e3, 1e6]\nstress_amplitude_MPa = [900, 300]\nbelow = \"endurance-limit\"\n",
+    );
+    assert!(table.exists());
+    let json = succeeds(&[&run[..], &["--json"]].concat()).json();
+    let figures = |rating: usize| &json["ratings"][rating]["figures"];
+    let [force, pressure] =
+        ["largest_force_N", "hertz_pressure_Pa"].map(|name| number(&figures(0)[name]));
+    assert!(force > 100.0 && pressure > 1e8, "{json:#}");
+    assert_eq!(number(&figures(1)["damage"]), 0.0);
+    // An infinite life is no number of JSON.
+    assert!(figures(1)["life_h"].is_null());
+    let page = desk.path("report.html");
+    succeeds(&["report", argument(&output), "-o", argument(&page)]);
+    let page = std::fs::read_to_string(page).unwrap();
+    for part in ["Lewis&#39;s nominal root stress of gear 1", "no damage"] {
+        assert!(
+            page.contains(part) || page.contains(&part.replace("&#39;", "'")),
+            "`{part}` is not on the page"
+        );
     }
 }
 

@@ -6,26 +6,7 @@ mod common;
 use common::{Desk, argument, changed, gearmesh, number, refused, succeeds};
 
 /// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
-const SCENE: &str = r#"title = "wheel"
-[run]
-kind = "transient"
-end_s = 1.0
-[solver]
-step_s = 1e-2
-[output]
-interval_s = 1e-2
-[[body]]
-name = "wheel"
-mass_kg = 1.0
-inertia_kg_m2 = [0.5, 0.5, 0.5]
-[[joint]]
-name = "axis"
-kind = "revolute"
-body_2 = "wheel"
-[[load]]
-body = "wheel"
-torque_Nm = 2.0
-"#;
+const SCENE: &str = include_str!("../../../tests/support/wheel.toml");
 
 const STUDY: &str = r#"title = "Torque"
 scene = "scene.toml"

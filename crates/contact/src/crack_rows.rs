@@ -113,15 +113,23 @@ impl CrackRows {
     /// Between two slices, each at its own place \[m/N\].
     #[must_use]
     pub fn between(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        let at = |slice: &PlacedSlice, row: usize| {
-            let place = &slice.place;
-            self.at(
-                (slice.tooth, row),
-                place.first(),
-                place.all_shares(),
-                slice.slice,
-            )
-        };
-        (0..self.rows).map(|row| at(a, row) * at(b, row)).sum()
+        self.sum(a, a.place.all_shares(), b)
+    }
+
+    /// Derivative of [`Self::between`] by the roll angle of `a` \[m/(N·rad)\]; of a slice with itself half of what its compliance changes by.
+    #[must_use]
+    pub fn between_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
+        self.sum(a, a.place.all_rates(), b)
+    }
+
+    /// Σ over the rows with weights of the stations on the side of `a`.
+    fn sum(&self, a: &PlacedSlice, w: &[f64; SHARES], b: &PlacedSlice) -> f64 {
+        let shares = b.place.all_shares();
+        (0..self.rows)
+            .map(|row| {
+                self.at((a.tooth, row), a.place.first(), w, a.slice)
+                    * self.at((b.tooth, row), b.place.first(), shares, b.slice)
+            })
+            .sum()
     }
 }

@@ -63,11 +63,13 @@ impl LocalContact {
     }
 }
 
-/// How the law of a slice changes as its contact walks, per radian of roll.
+/// How the law of a slice changes as its contact walks, per radian of roll, or as its width grows, per unit of the share of the slice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LawRate {
     /// α′ \[m/(N·rad)\].
     pub alpha: f64,
+    /// β′ \[m/(N·rad)\]: only a changing width changes β.
+    pub beta: f64,
     /// Derivative of the cap \[N/rad\].
     pub cap: f64,
 }
@@ -89,14 +91,47 @@ impl LocalContact {
                 let [own, other] = [body, 1 - body].map(|i| contact.bodies[i].depth_m);
                 let depth = if own <= other { depth_growth } else { 0.0 };
                 let cap = law.cap_n() * (2.0 * depth - radius_growth);
-                LawRate { alpha, cap }
+                LawRate {
+                    alpha,
+                    beta: 0.0,
+                    cap,
+                }
             }
             // Where the slope has fallen to a share of β: ln F_c = α/β − …
             Self::Calibrated => LawRate {
                 alpha,
+                beta: 0.0,
                 cap: law.cap_n() * alpha / law.beta(),
             },
         }
+    }
+
+    /// Change of a law with the share s of the slice's width that touches, where the depths grow by these shares of themselves: α s and
+    /// β s are those of a line load, α s with the logarithm of the load's own width.
+    pub fn law_rate_by_share(
+        self,
+        (contact, law): (&LineContact, &LocalLaw),
+        depth_growths: [f64; 2],
+        share: f64,
+    ) -> LawRate {
+        let (alpha, beta) = (law.alpha(), law.beta());
+        let deeper: f64 = (0..2)
+            .map(|body| contact.alpha_rate(body, depth_growths[body], 0.0))
+            .sum();
+        let rate = LawRate {
+            alpha: (beta - alpha) / share + deeper,
+            beta: -beta / share,
+            cap: 0.0,
+        };
+        let cap = match self {
+            Self::None => return LawRate::default(),
+            // (½ h/c)², 1/c² in proportion to the width; the depth is that of the body.
+            Self::WeberBanaschek => law.cap_n() / share,
+            Self::Calibrated => {
+                law.cap_n() * (rate.alpha * beta - alpha * rate.beta) / (beta * beta)
+            }
+        };
+        LawRate { cap, ..rate }
     }
 }
 

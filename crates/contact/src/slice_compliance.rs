@@ -47,6 +47,17 @@ pub struct PlacedSlice {
     pub place: RollPlace,
 }
 
+/// Depth of the local logarithm on one flank, and how it grows as the contact moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalDepth {
+    /// h \[m\].
+    pub depth_m: f64,
+    /// ∂(ln h)/∂ξ \[1/rad\].
+    pub growth_by_roll: f64,
+    /// ∂(ln h)/∂(share of the width).
+    pub growth_by_share: f64,
+}
+
 /// Which part of the compliance is taken from the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompliancePart {
@@ -147,7 +158,7 @@ impl SliceCompliance {
                     let c = hats.centroids_rad();
                     let roll = (1.0 - share) * c[station] + share * c[station + 1];
                     let place = hats.place(roll);
-                    let missing = field.missing(roll, &place, 1.0).0;
+                    let missing = field.missing(roll, &place, 1.0).value;
                     let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
                     let term = neighbours.at(k, missing, field.half_width_m, sizes);
                     term.min(largest_neighbour_term(&blocks, slices, &place))
@@ -208,11 +219,12 @@ impl SliceCompliance {
     /// q = F/(share b_s), but its hats still spread F over the whole slice: the calibration then adds
     /// q (c₀ − share w_h − k ln(a/a₀)). With the share the force goes to zero, as it must.
     pub fn local_depth_m(&self, roll_rad: f64, share: f64) -> f64 {
-        self.local_depth(roll_rad, &self.place(roll_rad), share).0
+        self.local_depth(roll_rad, &self.place(roll_rad), share)
+            .depth_m
     }
 
-    /// [`Self::local_depth_m`] at a roll angle whose place is known, and the derivative of its logarithm by the roll angle.
-    pub fn local_depth(&self, roll_rad: f64, place: &RollPlace, share: f64) -> (f64, f64) {
+    /// [`Self::local_depth_m`] at a roll angle whose place is known, and how it changes.
+    pub fn local_depth(&self, roll_rad: f64, place: &RollPlace, share: f64) -> LocalDepth {
         let Some(field) = &self.near_field else {
             let (low, high) = (
                 self.opposite_distance_m[place.station],
@@ -225,12 +237,19 @@ impl SliceCompliance {
             } else {
                 0.0
             };
-            return (depth, slope / depth);
+            return LocalDepth {
+                depth_m: depth,
+                growth_by_roll: slope / depth,
+                growth_by_share: 0.0,
+            };
         };
-        let (missing, rate) = field.missing(roll_rad, place, share);
+        let missing = field.missing(roll_rad, place, share);
         let k = 2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young_pa);
-        let depth = effective_depth_m(missing, field.half_width_m, self.material());
-        (depth, rate / k)
+        LocalDepth {
+            depth_m: effective_depth_m(missing.value, field.half_width_m, self.material()),
+            growth_by_roll: missing.by_roll / k,
+            growth_by_share: missing.by_share / k,
+        }
     }
 
     /// Distance of the centroids of a station's hat and the next one's \[rad\].
@@ -320,11 +339,7 @@ impl SliceCompliance {
             return 0.0;
         }
         match a.slice.abs_diff(b.slice) {
-            0 => {
-                let neighbours = [a.slice > 0, a.slice + 1 < self.slices];
-                let count = neighbours.into_iter().filter(|exists| *exists).count();
-                -(count as f64) * self.spread_at(&a.place).0
-            }
+            0 => -self.neighbours(a.slice) * self.spread_at(&a.place).0,
             1 => 0.5 * (self.spread_at(&a.place).0 + self.spread_at(&b.place).0),
             _ => 0.0,
         }
@@ -347,6 +362,36 @@ impl SliceCompliance {
             .sum::<f64>()
             + self.spread_between(a, b)
             + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(&a, &b))
+    }
+
+    /// Derivative of [`Self::between_slices`] by the roll angle of slice `a` \[m/(N·rad)\]; of a slice with itself half of what its
+    /// compliance changes by.
+    pub fn between_slices_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
+        let pair = self.pair(a.tooth, b.tooth);
+        let entry = a.slice * self.slices + b.slice;
+        let along = |station: usize| -> f64 {
+            let shares = b.place.shares();
+            shares
+                .map(|(other, share)| share * self.blocks.block(pair, station, other)[entry])
+                .sum()
+        };
+        let rates = a.place.rates();
+        let rate: f64 = rates.map(|(station, rate)| rate * along(station)).sum();
+        // As in `spread_between`: in sum over both slices of a term half of its change.
+        let spread = match a.slice.abs_diff(b.slice) {
+            _ if a.tooth != b.tooth => 0.0,
+            0 => -0.5 * self.neighbours(a.slice) * self.spread_at(&a.place).1,
+            1 => 0.5 * self.spread_at(&a.place).1,
+            _ => 0.0,
+        };
+        let crack = self.crack.as_ref();
+        rate + spread + crack.map_or(0.0, |crack| crack.between_rate(a, b))
+    }
+
+    /// How many slices stand beside a slice.
+    fn neighbours(&self, slice: usize) -> f64 {
+        let beside = [slice > 0, slice + 1 < self.slices];
+        beside.into_iter().filter(|exists| *exists).count() as f64
     }
 }
 
@@ -409,8 +454,8 @@ impl CalibratedField {
         })
     }
 
-    /// c₀ − share · w_h \[m²/N\] with w_h = Φᵀ W Φ, and its derivative by the roll angle.
-    fn missing(&self, roll_rad: f64, place: &RollPlace, share: f64) -> (f64, f64) {
+    /// c₀ − share · w_h with w_h = Φᵀ W Φ.
+    fn missing(&self, roll_rad: f64, place: &RollPlace, share: f64) -> Missing {
         let (contact, rate) = self.contact.at(roll_rad);
         let (mut mesh, mut mesh_rate) = (0.0, 0.0);
         let (shares, rates) = (place.all_shares(), place.all_rates());
@@ -421,8 +466,19 @@ impl CalibratedField {
                 mesh_rate += (rates[a] * shares[b] + shares[a] * rates[b]) * row[b];
             }
         }
-        (contact - share * mesh, rate - share * mesh_rate)
+        Missing {
+            value: contact - share * mesh,
+            by_roll: rate - share * mesh_rate,
+            by_share: -mesh,
+        }
     }
+}
+
+/// What the mesh lacks of a slice's own deflection \[m²/N\], and its derivatives by the roll angle and the share of the width.
+struct Missing {
+    value: f64,
+    by_roll: f64,
+    by_share: f64,
 }
 
 #[cfg(test)]

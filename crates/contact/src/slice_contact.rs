@@ -11,11 +11,13 @@ use crate::nlcp::{
     Problem, Workspace, solve_load, solve_position,
 };
 use crate::roll_shares::RollPlace;
-use crate::slice_compliance::{PlacedSlice, SliceCompliance};
+use crate::slice_compliance::{LocalDepth, PlacedSlice, SliceCompliance};
 use crate::static_contact::ContactError;
 use crate::station_blocks::LineBlock;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
+
+mod energy_rates;
 
 /// What is given besides the separations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,11 +52,13 @@ pub struct SliceContact {
     /// Compliance of each gear between a line and another one after it, with its changes; only those of pairs of different lines and
     /// of lines with themselves in use.
     line_blocks: Vec<LineBlock>,
-    /// How the depths of the local logarithm grow with the roll angle, for each law that was made: the slices of a spur line share one.
-    depth_growths: Vec<[f64; 2]>,
-    /// How the local law of each line changes with the roll angle on both gears.
+    /// Depths of the local logarithm for each law that was made: the slices of a spur line share one.
+    depths: Vec<[LocalDepth; 2]>,
+    /// How each of these laws changes with the roll angle on both gears.
     law_rates: Vec<[LawRate; 2]>,
+    /// Of helical teeth: where each slice stands on both gears, and the share of its width that touches.
     placed: Vec<[PlacedSlice; 2]>,
+    shares: Vec<f64>,
     c: Vec<f64>,
     /// Hertz contact of each touching slice, and the edge where it is one.
     hertz: Vec<(LineContact, Option<EdgeContact>)>,
@@ -109,8 +113,9 @@ impl SliceContact {
         Ok(Self {
             places: Vec::with_capacity(most_lines),
             line_blocks: vec![LineBlock::new(slices); 2 * most_lines * most_lines],
-            depth_growths: Vec::with_capacity(capacity),
-            law_rates: Vec::with_capacity(most_lines),
+            depths: Vec::with_capacity(capacity),
+            law_rates: Vec::with_capacity(capacity),
+            shares: Vec::with_capacity(capacity),
             lines,
             compliance_1,
             compliance_2,
@@ -215,35 +220,6 @@ impl SliceContact {
         self.fill_laws(touching, floor_n)
     }
 
-    /// [`Self::prepare`] for spur teeth on the path, with what [`Self::energy_by_roll`] needs.
-    ///
-    /// # Errors
-    /// As [`Self::prepare`].
-    pub fn prepare_with_rates(
-        &mut self,
-        active: &[ContactLine],
-        touching: &[ContactSlice],
-        floor_n: f64,
-    ) -> Result<(), (LocalLawError, usize)> {
-        self.find_places(active);
-        self.fill_compliance_by_lines(active, true);
-        self.fill_laws(touching, floor_n)?;
-        let slices = self.slices();
-        self.law_rates.clear();
-        for (number, line) in active.iter().enumerate() {
-            let (contact, law) = (&self.hertz[number * slices].0, &self.local[number * slices]);
-            let rates = std::array::from_fn(|gear| {
-                let growths = [
-                    self.depth_growths[number][gear],
-                    self.lines.relative_radius_growth(line, gear),
-                ];
-                self.local_contact.law_rate((contact, law), gear, growths)
-            });
-            self.law_rates.push(rates);
-        }
-        Ok(())
-    }
-
     fn find_places(&mut self, active: &[ContactLine]) {
         let (first, second) = (&self.compliance_1, &self.compliance_2);
         let both =
@@ -259,7 +235,7 @@ impl SliceContact {
     ) -> Result<(), (LocalLawError, usize)> {
         self.hertz.clear();
         self.local.clear();
-        self.depth_growths.clear();
+        self.depths.clear();
         let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
         for (number, slice) in touching.iter().enumerate() {
             let (hertz, law) = match last {
@@ -268,11 +244,11 @@ impl SliceContact {
                     (hertz, law)
                 }
                 _ => {
-                    let (contact, edge, growths) = self.line_contact(slice);
+                    let (contact, edge, depths) = self.line_contact(slice);
                     let law = (self.local_contact.law(&contact, floor_n))
                         .map_err(|cause| (cause, number))?
                         .with_edge(edge);
-                    self.depth_growths.push(growths);
+                    self.depths.push(depths);
                     ((contact, edge), law)
                 }
             };
@@ -319,34 +295,11 @@ impl SliceContact {
         0.5 * quadratic + local
     }
 
-    /// ∂/∂ξ (½ FᵀCF + Σ∫δ dF) \[J/rad\] at the forces of the last solve: how the complementary energy changes as the contact line
-    /// `line` walks over gear 0 or 1. Spur teeth on the path, after [`Self::prepare_with_rates`].
-    ///
-    /// # Panics
-    /// If the lines were prepared without rates.
-    pub fn energy_by_roll(&self, line: usize, gear: usize) -> f64 {
-        let slices = self.slices();
-        let of_line = |number: usize| &self.work.forces()[number * slices..(number + 1) * slices];
-        let own = of_line(line);
-        let (law, rate) = (&self.local[line * slices], self.law_rates[line][gear]);
-        let local: f64 = (own.iter())
-            .map(|force| law.complementary_energy_rate(*force, rate.alpha, rate.cap))
-            .sum();
-        let lines = self.places.len();
-        let with_others = (0..lines).map(|other| {
-            let block =
-                &self.line_blocks[block_number(lines, gear, line.min(other), line.max(other))];
-            if other < line {
-                bilinear(of_line(other), &block.by_b, own)
-            } else {
-                bilinear(own, &block.by_a, of_line(other))
-            }
-        });
-        local + with_others.sum::<f64>()
-    }
-
-    /// Hertz contact of a slice, its edge, and how the depths of both bodies grow with their roll angles.
-    fn line_contact(&self, slice: &ContactSlice) -> (LineContact, Option<EdgeContact>, [f64; 2]) {
+    /// Hertz contact of a slice, its edge, and the depths of both bodies.
+    fn line_contact(
+        &self,
+        slice: &ContactSlice,
+    ) -> (LineContact, Option<EdgeContact>, [LocalDepth; 2]) {
         let line = &slice.section;
         let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
         let gears = [
@@ -361,7 +314,7 @@ impl SliceContact {
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
-                depth_m: depths[gear].0,
+                depth_m: depths[gear].depth_m,
             }
         };
         let contact = LineContact {
@@ -371,7 +324,7 @@ impl SliceContact {
         };
         let edge = (self.lines.edge(line))
             .and_then(|(tilt_rad, radius_m)| EdgeContact::new(&contact, tilt_rad, radius_m));
-        (contact, edge, depths.map(|(_, growth)| growth))
+        (contact, edge, depths)
     }
 
     /// C of slices that share the place of their line, block by block.
@@ -421,6 +374,8 @@ impl SliceContact {
     fn fill_compliance_by_slices(&mut self, touching: &[ContactSlice]) {
         let n = touching.len();
         let gears = [&self.compliance_1, &self.compliance_2];
+        self.shares.clear();
+        self.shares.extend(touching.iter().map(|slice| slice.share));
         self.placed.clear();
         self.placed.extend(touching.iter().map(|s| {
             let line = &s.section;
@@ -455,12 +410,6 @@ impl SliceContact {
 /// Number of the block of lines a ≤ b on a gear among those of so many lines.
 fn block_number(lines: usize, gear: usize, a: usize, b: usize) -> usize {
     (gear * lines + a) * lines + b
-}
-
-/// xᵀ M y, M in rows.
-fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
-    let rows = matrix.chunks_exact(y.len().max(1));
-    x.iter().zip(rows).map(|(x, row)| x * dot(row, y)).sum()
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use gearmesh_contact::LocalContact;
 use gearmesh_contact::nlcp::{
     ContactBody, EdgeContact, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw, LocalLawError,
     WEDGE_WIDTH,
@@ -112,6 +113,39 @@ fn slope_and_energy_are_derivative_and_integral() {
         assert!((work / (force * law.slope(force)) - 1.0).abs() < 1e-6);
     }
     assert_eq!(law.stored_energy(0.0), 0.0);
+}
+
+/// A slice that touches over a share of its width: the complementary energy changes with the share at constant force as the rate says, below
+/// the floor, on the logarithm and beyond the cap.
+#[test]
+fn the_energy_grows_with_the_width_as_the_rate_says() {
+    let share = 0.37;
+    for (local, growths) in [
+        (LocalContact::WeberBanaschek, [0.0, 0.0]),
+        (LocalContact::Calibrated, [-0.3, -0.2]),
+    ] {
+        let at = |share_now: f64| {
+            let mut contact = contact();
+            contact.width_m *= share_now;
+            for (body, growth) in contact.bodies.iter_mut().zip(growths) {
+                body.depth_m *= (growth * (share_now - share)).exp();
+            }
+            (contact, local.law(&contact, 1e-3).unwrap())
+        };
+        let (contact, law) = at(share);
+        let rate = local.law_rate_by_share((&contact, &law), growths, share);
+        for force in [5e-4, 1.0, 300.0, 2.0 * law.cap_n()] {
+            let h = 1e-5;
+            let [more, less] = [share + h, share - h].map(|s| at(s).1.complementary_energy(force));
+            let expected = (more - less) / (2.0 * h);
+            let found = law.complementary_energy_rate(force, rate.alpha, rate.cap)
+                + rate.beta * law.complementary_energy_by_beta(force);
+            assert!(
+                (found / expected - 1.0).abs() < 1e-7,
+                "{local:?} {force}: {found} {expected}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -1,32 +1,87 @@
 //! A pair at 600 rpm, both gears with six degrees of freedom: time of a step against real time, fastest and middle mesh period of many;
 //! then the same with every step written out, without and with eight gauges.
 //!
-//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something.
+//! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something. With
+//! `-- NAME` only the cases of that name.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
 mod mesh_common;
 
+use std::f64::consts::TAU;
 use std::time::Instant;
 
-use gearmesh_dynamics::{Params, Simulation, StepControl};
+use gearmesh_dynamics::{Params, Simulation};
+use gearmesh_geometry::GearPair;
 use mesh_common::running_pair::*;
 
 const PERIODS: usize = 400;
 
-/// Name, mesh model, steps of a mesh period, whether every step is written out, and gauges.
-const CASES: [(&str, &str, usize, bool, usize); 5] = [
-    ("impact", "impact", STEPS_A_PERIOD, false, 0),
-    ("impact, 12 steps a period", "impact", 12, false, 0),
-    ("hybrid", "hybrid", STEPS_A_PERIOD, false, 0),
-    ("hybrid, output", "hybrid", STEPS_A_PERIOD, true, 0),
-    (
-        "hybrid, output, 8 gauges",
-        "hybrid",
-        STEPS_A_PERIOD,
-        true,
-        8,
-    ),
+/// Share of the step's own motion to which Newton's method goes, four orders below what the steps of 50 to a mesh period cost
+/// (docs/theory/gear_meshes.md, "Cost").
+const TOLERANCE: f64 = 1e-6;
+
+#[derive(Clone, Copy)]
+struct Kind {
+    name: &'static str,
+    pair: fn() -> GearPair,
+    mesh: &'static str,
+    steps: usize,
+    tolerance: f64,
+    output: bool,
+    gauges: usize,
+}
+
+const HYBRID: Kind = Kind {
+    name: "hybrid",
+    pair: pair_a,
+    mesh: "hybrid",
+    steps: STEPS_A_PERIOD,
+    tolerance: TOLERANCE,
+    output: false,
+    gauges: 0,
+};
+
+const IMPACT: Kind = Kind {
+    name: "impact",
+    mesh: "impact",
+    ..HYBRID
+};
+
+const KINDS: [Kind; 8] = [
+    IMPACT,
+    Kind {
+        name: "impact, 12 steps a period",
+        steps: 12,
+        ..IMPACT
+    },
+    Kind {
+        name: "impact, seed 002",
+        pair: pair_of_seed_002,
+        ..IMPACT
+    },
+    HYBRID,
+    Kind {
+        name: "hybrid, tolerance 1e-10",
+        tolerance: 1e-10,
+        ..HYBRID
+    },
+    Kind {
+        name: "hybrid, output",
+        output: true,
+        ..HYBRID
+    },
+    Kind {
+        name: "hybrid, output, 8 gauges",
+        output: true,
+        gauges: 8,
+        ..HYBRID
+    },
+    Kind {
+        name: "hybrid, helical",
+        pair: helical_pair_a,
+        ..HYBRID
+    },
 ];
 
 struct Case {
@@ -39,13 +94,13 @@ struct Case {
 }
 
 impl Case {
-    fn new(mesh: &str, steps: usize, output: bool, gauges: usize) -> Self {
-        let pair = pair_a();
-        let system = running_pair(&pair, running_mesh(mesh, &pair), gauges);
-        let step_s = STEP_S * STEPS_A_PERIOD as f64 / steps as f64;
+    fn new(kind: &Kind) -> Self {
+        let pair = (kind.pair)();
+        let system = running_pair(&pair, running_mesh(kind.mesh, &pair), kind.gauges);
+        let step_s = TAU / SPEED / (pair.gear_1.teeth * kind.steps) as f64;
         let params = Params {
-            step: StepControl::Fixed { step_s },
-            ..params()
+            newton_tolerance: kind.tolerance,
+            ..Params::fixed(step_s)
         };
         let run = Simulation::new(system.build().unwrap(), params).unwrap();
         let names = run.system().channels();
@@ -54,8 +109,8 @@ impl Case {
         Self {
             counts,
             out: vec![0.0; names.len()],
-            output,
-            steps,
+            output: kind.output,
+            steps: kind.steps,
             step_s,
             run,
         }
@@ -84,9 +139,14 @@ fn main() {
         "{:26} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "mesh", "fastest µs", "middle µs", "real time", "iterations", "factors"
     );
-    let mut cases =
-        CASES.map(|(_, mesh, steps, output, gauges)| Case::new(mesh, steps, output, gauges));
-    let mut times_us = CASES.map(|_| Vec::new());
+    let wanted: Vec<String> = (std::env::args().skip(1))
+        .filter(|one| !one.starts_with('-'))
+        .collect();
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|one| one == name);
+    let kinds = KINDS.iter().filter(|kind| is_wanted(kind.name));
+    let chosen: Vec<&Kind> = kinds.collect();
+    let mut cases: Vec<Case> = chosen.iter().map(|kind| Case::new(kind)).collect();
+    let mut times_us = vec![Vec::new(); cases.len()];
     for case in &mut cases {
         (0..10).for_each(|_| case.period());
     }
@@ -98,7 +158,8 @@ fn main() {
             times.push(start.elapsed().as_secs_f64() * 1e6 / case.steps as f64);
         }
     }
-    for (((name, ..), case), mut times) in CASES.iter().zip(&cases).zip(times_us) {
+    for ((kind, case), mut times) in chosen.iter().zip(&cases).zip(times_us) {
+        let name = kind.name;
         times.sort_by(f64::total_cmp);
         let info = case.run.info();
         let steps = info.steps as f64;

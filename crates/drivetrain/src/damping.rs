@@ -11,7 +11,7 @@
 //! Neither pulls. The first spends τ ġᵀ K s ġ (to first order in τ ġ/δ), the second c s ġ².
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::mesh_kinematics::FlankContacts;
+use crate::flank_contacts::FlankContacts;
 use crate::step::step;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -96,6 +96,7 @@ impl<M: TeethModel> Damped<M> {
         [time_s, full_m]: [f64; 2],
     ) -> Result<(), DrivetrainError> {
         self.felt.lines.clone_from(&flanks.lines);
+        self.felt.sections.clone_from(&flanks.sections);
         self.felt.contacts.clone_from(&flanks.contacts);
         self.felt.modal.clone_from(&flanks.modal);
         self.felt_by.clear();
@@ -144,6 +145,7 @@ impl<M: TeethModel> Damped<M> {
             if !everywhere && loads.normal_n[i] == 0.0 {
                 continue;
             }
+            let each = each * flanks.section(contact).share;
             let (share, slope) = step(-contact.gap_m, [0.0, 0.0], [full_m, 1.0]);
             let rate = contact.gap_rate_m_per_s;
             let damped = loads.normal_n[i] - each * share * rate;

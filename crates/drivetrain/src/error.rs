@@ -40,14 +40,21 @@ pub enum DrivetrainError {
         /// The length needed.
         expected: usize,
     },
-    /// Helical teeth.
+    /// Helices that do not fit.
     #[error(
-        "the mesh of helical gears in space is not modelled yet (base helix angle {base_helix_deg:.3} deg): use spur gears"
+        "the base helix angles are {helix_1_deg:.4} and {helix_2_deg:.4} deg: gears on parallel axes need equal angles of opposite hand"
     )]
-    Helical {
-        /// Base helix angle.
-        base_helix_deg: f64,
+    Helix {
+        /// Base helix angle of gear 1, positive for a right hand.
+        helix_1_deg: f64,
+        /// Base helix angle of gear 2.
+        helix_2_deg: f64,
     },
+    /// Slice planes of helical teeth that are not evenly spaced.
+    #[error(
+        "the slice planes of helical gears must rise in even steps, each the width of a slice, which leaves the path of contact bit by bit"
+    )]
+    UnevenSlices,
     /// A body that is no sum of rings.
     #[error(
         "mass and inertia in closed form are for hub and web with plane faces: take those of a contour or an imported mesh from the reduced gear's model file, or state them"

@@ -14,7 +14,7 @@ use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
 use crate::error::DrivetrainError;
-use crate::mesh_kinematics::FlankContacts;
+use crate::flank_contacts::FlankContacts;
 use crate::pose::Vector6;
 
 /// Shapes of one gear's modes at the contacts of one side; empty for gears without modes.
@@ -149,16 +149,16 @@ impl FlankModes {
         rows.shapes.resize(found.contacts.len() * modes, 0.0);
         rows.slopes.clear();
         rows.slopes.resize(found.contacts.len() * modes, 0.0);
-        for line in &found.lines {
-            let roll = line.touching_roll_rad[gear];
+        for section in &found.sections {
+            let roll = section.touching_roll_rad[gear];
             let place = self.hats.place(roll);
-            let walks = roll == line.roll_rad[gear];
-            let along = &line.roll_gradient[gear];
+            let walks = section.walks(gear);
+            let along = &section.roll_gradient[gear];
             let roll_rate = along.dot(pose_rates);
-            let first = line.teeth[gear] * self.stations;
-            let (start, count) = line.contacts;
+            let (start, count) = section.contacts;
             for number in start..start + count {
                 let contact = &mut found.contacts[number];
+                let first = found.lines[contact.line].teeth[gear] * self.stations;
                 let row = |station: usize| {
                     let row = ((first + station) * self.slices + contact.slice) * modes;
                     &self.rows[row..row + modes]

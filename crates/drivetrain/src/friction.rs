@@ -14,8 +14,8 @@
 use nalgebra::Vector3;
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::mesh_kinematics::{Matrix6, SlicePlane};
 use crate::pose::{Pose, Vector6};
+use crate::slice_plane::{Matrix6, SlicePlane};
 use crate::step::step;
 
 /// Coefficients and transition speeds.

@@ -1,7 +1,7 @@
 //! A gear mesh: kinematics, a model for each side of the teeth, friction; force and tangents on the six relative increments.
 //!
 //! ```text
-//! load = Σ_i (F_i g_i + T_i k_i) + Σ_lines Σ_gears (∂E*/∂ξ) ∂ξ            g = ∂gap, k: friction direction
+//! load = Σ_i (F_i g_i + T_i k_i) + Σ_sections [Σ_gears (∂E*/∂ξ) ∂ξ + (∂E*/∂s) ∂s]     g = ∂gap, k: friction direction
 //! ∂load = Σ_i (g_i − μ_i k_i) ∂F_iᵀ + Σ_i F_i ∂g_i + friction,   ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j)
 //! ```
 //!
@@ -13,11 +13,13 @@ use gearmesh_geometry::FlankSide;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
+use crate::flank_contacts::{FlankContacts, ToothContact};
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::{Friction, Sliding};
-use crate::mesh_kinematics::{FlankContacts, Matrix6, MeshKinematics, PoseGeometry};
+use crate::mesh_kinematics::MeshKinematics;
 use crate::modal_loads::{ContactChange, ModalLoads};
 use crate::pose::{Pose, Vector6};
+use crate::slice_plane::{Matrix6, PoseGeometry};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What a mesh does at a pose.
@@ -186,8 +188,8 @@ impl GearMesh {
         self.sides.iter().map(|side| side.flank)
     }
 
-    /// Transmission error along the line of action \[m\] of the last pose on the first side: the gap that ideal flanks would have,
-    /// r_b2 θ₂ − r_b1 θ₁ at the nominal centre distance. None where no teeth face each other.
+    /// Transmission error along the transverse line of action \[m\] of the last pose on the first side: the gap that ideal flanks would have,
+    /// r_b2 θ₂ − r_b1 θ₁ at the nominal centre distance and without axial displacement. None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
         let line = self.sides.first()?.found.lines.first()?;
@@ -255,7 +257,7 @@ impl GearMesh {
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
-        let base_radii = [0, 1].map(|i| self.kinematics.gears()[i].base_radius_m);
+        let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
         self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
             (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
@@ -264,8 +266,8 @@ impl GearMesh {
                     modes.bend(gear, modal, &rates, &mut side.found);
                 }
             }
-            let (contacts, lines) = (side.found.contacts.len(), side.found.lines.len());
-            side.loads.begin(contacts, lines);
+            let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
+            side.loads.begin(contacts, sections);
             side.friction.clear();
             side.friction.resize(contacts, 0.0);
             if contacts == 0 {
@@ -281,7 +283,8 @@ impl GearMesh {
                 found: &side.found,
                 loads: &side.loads,
                 flank: side.flank,
-                base_radii,
+                kinematics: &self.kinematics,
+                base_radius_1_m,
                 friction: self.friction,
             };
             let parts = Parts {
@@ -311,7 +314,8 @@ struct Assembly<'a> {
     found: &'a FlankContacts,
     loads: &'a TeethLoads,
     flank: FlankSide,
-    base_radii: [f64; 2],
+    kinematics: &'a MeshKinematics,
+    base_radius_1_m: f64,
     friction: Option<Friction>,
 }
 
@@ -319,9 +323,15 @@ impl Assembly<'_> {
     fn add(&self, parts: Parts<'_>, tangents: bool) {
         let (found, loads, result) = (self.found, self.loads, parts.result);
         let sigma = self.flank.mirror();
-        for (line, energy) in found.lines.iter().zip(&loads.energy_by_roll) {
-            for (rate, gradient) in energy.iter().zip(&line.roll_gradient) {
+        for (section, energy) in found.sections.iter().zip(&loads.energy_by_roll) {
+            for (rate, gradient) in energy.iter().zip(&section.roll_gradient) {
                 result.load += *rate * gradient;
+            }
+        }
+        for (section, energy) in found.sections.iter().zip(&loads.energy_by_share) {
+            // Whole slices do not change their width.
+            if section.share < 1.0 {
+                result.load += *energy * section.share_gradient;
             }
         }
         for (i, contact) in found.contacts.iter().enumerate() {
@@ -330,11 +340,12 @@ impl Assembly<'_> {
             if force <= 0.0 {
                 continue;
             }
-            let (plane, line) = (&found.planes[contact.slice], &found.lines[contact.line]);
+            let plane = &found.planes[contact.slice];
             let mut direction = contact.gradient;
             if let Some(friction) = self.friction {
                 parts.effort.friction += 1;
-                let on_gear_1 = (self.base_radii[0], line.touching_roll_rad[0]);
+                let roll_1_rad = found.section(contact).touching_roll_rad[0];
+                let on_gear_1 = (self.base_radius_1_m, roll_1_rad);
                 let sliding = Sliding::new(plane, self.pose, sigma, on_gear_1);
                 let (mu, slope) = friction.coefficient(sliding.speed_m_per_s);
                 parts.coefficients[i] = mu;
@@ -385,25 +396,36 @@ impl Assembly<'_> {
             let damping = loads.damping_n_s_per_m[i * n + j];
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
-                let plane = &found.planes[contact.slice];
-                let curvature = plane.gap_curvature(self.pose, self.flank, self.base_radii[1]);
+                let roll_2_rad = self.roll_2_rad(contact);
+                let curvature = self.gap_curvature(contact.slice, roll_2_rad);
                 by_pose -= damping * (curvature.tr_mul(&self.rates));
             }
         }
         (by_pose, by_rates)
     }
 
+    /// Roll angle on gear 2 in the middle of a slice: that of the section but for a slice that is partly on the path.
+    fn roll_2_rad(&self, contact: &ToothContact) -> f64 {
+        self.found.section(contact).roll_rad[1]
+    }
+
+    /// Second derivative of the gaps in a slice plane.
+    fn gap_curvature(&self, slice: usize, roll_2_rad: f64) -> Matrix6 {
+        let plane = &self.found.planes[slice];
+        (self.kinematics).gap_curvature(plane, self.pose, self.flank, roll_2_rad)
+    }
+
     fn add_curvature(&self, result: &mut MeshLoad) {
         let (found, loads) = (self.found, self.loads);
-        for (slice, plane) in found.planes.iter().enumerate() {
-            let forces = found.contacts.iter().zip(&loads.normal_n);
-            let of_plane: f64 = forces
-                .filter(|(contact, _)| contact.slice == slice)
-                .map(|(_, force)| force)
-                .sum();
+        for slice in 0..found.planes.len() {
+            let (mut of_plane, mut rolled) = (0.0, 0.0);
+            let in_plane = found.contacts.iter().zip(&loads.normal_n);
+            for (contact, force) in in_plane.filter(|(contact, _)| contact.slice == slice) {
+                of_plane += force;
+                rolled += force * self.roll_2_rad(contact);
+            }
             if of_plane > 0.0 {
-                result.by_position +=
-                    of_plane * plane.gap_curvature(self.pose, self.flank, self.base_radii[1]);
+                result.by_position += of_plane * self.gap_curvature(slice, rolled / of_plane);
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs` |
+//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
@@ -12,12 +12,15 @@
 //! | errors and faults of teeth | [`FlankError`] | `flank_error.rs`, `errors/` |
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
-//! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur gears.
+//! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur and helical gears on
+//! parallel axes.
 //! The theory is in docs/theory/gear_meshes.md.
 
+mod base_helix;
 pub mod damping;
 pub mod error;
 pub mod errors;
+pub mod flank_contacts;
 pub mod flank_error;
 pub mod flank_modes;
 pub mod friction;
@@ -28,7 +31,9 @@ pub mod mesh_element;
 pub mod mesh_kinematics;
 pub mod modal_loads;
 pub mod models;
+pub mod path_ends;
 pub mod pose;
+pub mod slice_plane;
 pub mod step;
 pub mod strain_gauges;
 pub mod teeth_model;
@@ -36,6 +41,7 @@ pub mod tooth_compliance;
 
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
+pub use flank_contacts::FlankContacts;
 pub use flank_error::{FlankError, FlankPoint, Removed};
 pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
@@ -43,12 +49,13 @@ pub use gear_body::{gear_body, modal_gear_body, modes_up_to};
 pub use gear_inertia::GearInertia;
 pub use gear_mesh::{GearMesh, MeshEffort, MeshLoad};
 pub use mesh_element::MeshElement;
-pub use mesh_kinematics::{FlankContacts, MeshKinematics, PathEnds};
+pub use mesh_kinematics::MeshKinematics;
 pub use models::analytic::BeamTeeth;
 pub use models::hybrid::ReducedTeeth;
 pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
+pub use path_ends::PathEnds;
 pub use pose::Pose;
 pub use strain_gauges::{ModalPart, StrainGauges};
 pub use teeth_model::{TeethLoads, TeethModel};

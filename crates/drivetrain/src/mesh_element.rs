@@ -6,8 +6,6 @@ use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMoti
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::ReducedGear;
 
-use nalgebra::SVector;
-
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
@@ -25,35 +23,26 @@ impl From<&RelativeMotion> for Pose {
     }
 }
 
-/// Generalised force of a mesh on its two bodies, and its tangents; order as in [`gearmesh_dynamics::elements::Loads`].
+/// Tangents of the generalised force of a mesh on its two bodies; order as in [`gearmesh_dynamics::elements::Loads`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairForce {
-    /// Force and moment on body 1, then on body 2.
-    pub force: SVector<f64, 12>,
-    /// ∂force/∂increments; zero unless asked for.
+pub struct PairTangents {
+    /// ∂force/∂increments.
     pub by_position: PairTangent,
-    /// ∂force/∂velocities; zero unless asked for.
+    /// ∂force/∂velocities.
     pub by_velocity: PairTangent,
 }
 
-impl PairForce {
-    /// Brings a load from gear 1's frame to the bodies.
+impl PairTangents {
+    /// Brings the tangents of a load from gear 1's frame to the bodies.
     #[must_use]
-    pub fn new(mesh: &MeshLoad, motion: &RelativeMotion, tangents: bool) -> Self {
-        let mut on_pair = Self {
-            force: motion.generalised_force(&mesh.load),
-            by_position: PairTangent::zeros(),
-            by_velocity: PairTangent::zeros(),
-        };
-        if tangents {
-            let jacobian = motion.jacobian();
-            let along =
-                mesh.by_position * jacobian + mesh.by_velocity * motion.rate_jacobian(&jacobian);
-            on_pair.by_position =
-                jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &mesh.load);
-            on_pair.by_velocity = jacobian.tr_mul(&(mesh.by_velocity * jacobian));
+    pub fn new(mesh: &MeshLoad, motion: &RelativeMotion) -> Self {
+        let jacobian = motion.jacobian();
+        let along =
+            mesh.by_position * jacobian + mesh.by_velocity * motion.rate_jacobian(&jacobian);
+        Self {
+            by_position: jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &mesh.load),
+            by_velocity: jacobian.tr_mul(&(mesh.by_velocity * jacobian)),
         }
-        on_pair
     }
 }
 
@@ -198,13 +187,14 @@ impl ForceElement for MeshElement {
         let mesh = self.load(view, &motion, tangents)?;
         self.mesh.remember();
         loads.power = mesh.power;
-        let on_pair = PairForce::new(&mesh, &motion, tangents);
+        let force = motion.generalised_force(&mesh.load);
         // Modal coordinates of gear 1 stand between the two.
         let places = [0, 6 + view.modal(self.bodies[0]).len()];
         for (half, place) in places.iter().enumerate() {
-            loads.add_force(*place, &on_pair.force.as_slice()[6 * half..6 * half + 6]);
+            loads.add_force(*place, &force.as_slice()[6 * half..6 * half + 6]);
         }
         if tangents {
+            let on_pair = PairTangents::new(&mesh, &motion);
             for column in 0..12 {
                 let to = places[column / 6] + column % 6;
                 for row in 0..12 {

@@ -1,172 +1,88 @@
-//! Which tooth flanks face each other at a pose of two spur gears, and how far apart they are.
+//! Which tooth flanks face each other at a pose of two gears, and how far apart they are.
 //!
 //! Everything is seen in gear 1's frame, slice plane by slice plane. With b gear 2's axis, σ = ±1 for right and left flanks, and
 //! at the plane z
 //!
 //! ```text
 //! d = u + z b,   a = |d_xy|,   β = polar angle of d,   cos α = R/a,   R = r_b1 + r_b2,   L = a sin α
-//! ξ₁ = α + ψ_b1 − σ(−β + k₁τ₁),      ξ₂ = α + ψ_b2 − σ(γ − β − π + k₂τ₂)        roll angles on the line of action
-//! g  = L − r_b1 ξ₁ − r_b2 ξ₂ + e₁(ξ₁, z) + e₂(ξ₂, z)                               gap, e: material removed
+//! ξ₁ = α + ψ_b1 − σ(−β + k₁τ₁ + κ₁z₁),  ξ₂ = α + ψ_b2 − σ(γ − β − π + k₂τ₂ + κ₂z)   roll angles on the line of action
+//! g  = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂) + e₁(ξ₁, z) + e₂(ξ₂, z)                       gap, e: material removed
 //! ```
 //!
-//! for tooth k₁ against tooth k₂. The gradient is in closed form: with w the unit vector of the line of action (the force on gear 2),
-//! w⊥ = e_z × w and t = ∂γ/∂ϑ,
+//! for tooth k₁ against tooth k₂; κ turns helical sections (base_helix.rs) and is zero on spur teeth. The gradient is in closed form: with w
+//! the unit vector of the line of action (the transverse force on gear 2), w⊥ = e_z × w and t = ∂γ/∂ϑ,
 //!
 //! ```text
-//! ∂ξ₁/∂(u, ϑ) = (σ w⊥/L, z b × σ w⊥/L),     ∂ξ₂ = ∂ξ₁ − (0, σ t)
-//! ∂g/∂(u, ϑ)  = (w, z b × w + σ r_b2 t) + e₁′ ∂ξ₁ + e₂′ ∂ξ₂
+//! ∂ξ₁/∂(u, ϑ) = (σ w⊥/L, z b × σ w⊥/L) − σ κ₁ ∂z₁,     ∂ξ₂ = (σ w⊥/L, z b × σ w⊥/L) − (0, σ t)
+//! ∂g/∂(u, ϑ)  = cos β_b (w, z b × w + σ r_b2 t) + σ sin β_b ∂z₁ + e₁′ ∂ξ₁ + e₂′ ∂ξ₂
 //! ```
 //!
 //! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again. Derivation, and
 //! the second derivative: docs/theory/gear_meshes.md.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
-use gearmesh_contact::tip_contact::LARGEST_GAP_OVER_BASE_PITCH;
 use gearmesh_geometry::{FlankSide, ToothGeometry};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::Vector3;
 
+use crate::base_helix::BaseHelix;
 use crate::error::DrivetrainError;
-use crate::flank_error::{FlankError, FlankPoint};
-use crate::flank_modes::ModalRows;
+use crate::flank_contacts::{FlankContacts, FlankErrors, Section, TeethLine, ToothContact};
+use crate::flank_error::FlankPoint;
+use crate::path_ends::{PathEnds, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-
-/// 6×6 matrix on the increments of a pose.
-pub type Matrix6 = SMatrix<f64, 6, 6>;
+use crate::slice_plane::{CentreLine, Matrix6, PoseGeometry, SlicePlane, line_of_action, stacked};
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
 /// of its square, 1e-4 of the lengths. The static scene has the same limit.
 pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
 
-/// What happens where the rigid path of contact ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PathEnds {
-    /// Pairs touch on the rigid path only: a loaded pair ends abruptly, its force jumps to zero and its elastic energy is lost.
-    LineOfAction,
-    /// Beyond the end the tip edge goes on touching with a gap that grows as ½ δ² ρ_tip L/ρ_mate, δ the roll angle beyond: the exact
-    /// gap of an edge to second order. Force and energy are then continuous.
-    #[default]
-    Extended,
-}
+/// How far the spacing of slice planes may vary, as a share of it: rounding.
+const UNEVEN: f64 = 1e-6;
 
-/// Two tooth flanks that face each other; roll angles at mid-face.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TeethLine {
-    /// Teeth of gear 1 and gear 2.
-    pub teeth: [usize; 2],
-    /// Roll angles where the flanks cross the line of action \[rad\]; continued beyond the ends of the path.
-    pub roll_rad: [f64; 2],
-    /// The same, at most at the end of the flank.
-    pub touching_roll_rad: [f64; 2],
-    /// Derivatives of the roll angles by the increments of the pose.
-    pub roll_gradient: [Vector6; 2],
-    /// Gap that ideal flanks would have at mid-face \[m\].
-    pub ideal_gap_m: f64,
-    /// First of its contacts, and how many there are.
-    pub contacts: (usize, usize),
-}
-
-/// One slice of such a pair.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ToothContact {
-    /// Number of its line.
-    pub line: usize,
-    /// Number of the slice plane.
-    pub slice: usize,
-    /// Gap \[m\] along the line of action, open positive.
-    pub gap_m: f64,
-    /// Rate of the gap \[m/s\].
-    pub gap_rate_m_per_s: f64,
-    /// Derivative of the gap by the increments of the pose.
-    pub gradient: Vector6,
-}
-
-/// A slice plane at a pose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlicePlane {
-    /// Axial position \[m\].
-    pub z_m: f64,
-    /// w: unit vector of the line of action, direction of the force on gear 2, gear 1 axes.
-    pub normal: Vector3<f64>,
-    /// w⊥ = e_z × w.
-    pub across: Vector3<f64>,
-    /// L: length of the line of action between the base circles \[m\].
-    pub length_m: f64,
-    /// Working pressure angle α \[rad\].
-    pub pressure_angle_rad: f64,
-    /// β: polar angle of gear 2's axis from gear 1's \[rad\].
-    pub polar_rad: f64,
-}
-
-/// What both sides of the teeth share in a slice plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct CentreLine {
-    z_m: f64,
-    /// e_r(β)
-    radial: Vector3<f64>,
-    /// sin α and cos α.
-    pressure_angle: (f64, f64),
-    pressure_angle_rad: f64,
-    length_m: f64,
-    polar_rad: f64,
-}
-
-/// Slice planes at a pose, what both sides of the teeth share. Reused from call to call.
-#[derive(Debug, Clone, Default)]
-pub struct PoseGeometry {
-    slices: Vec<CentreLine>,
-    middle: Option<CentreLine>,
-    spin_rad: f64,
-}
-
-/// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
-#[derive(Debug, Clone, Default)]
-pub struct FlankContacts {
-    /// Slice planes.
-    pub planes: Vec<SlicePlane>,
-    /// Pairs of teeth.
-    pub lines: Vec<TeethLine>,
-    /// Their slices, line by line.
-    pub contacts: Vec<ToothContact>,
-    /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
-    pub modal: [ModalRows; 2],
-}
-
-impl FlankContacts {
-    /// Memory for so many slice planes and contacts.
-    #[must_use]
-    pub fn with_capacity(planes: usize, contacts: usize) -> Self {
-        Self {
-            planes: Vec::with_capacity(planes),
-            lines: Vec::with_capacity(contacts),
-            contacts: Vec::with_capacity(contacts),
-            modal: [ModalRows::default(), ModalRows::default()],
-        }
-    }
-}
-
-/// Deviations of one gear's flanks.
-pub type FlankErrors = Vec<Arc<dyn FlankError>>;
-
-/// Two spur gears with their deviations.
+/// Two gears with their deviations.
 #[derive(Clone)]
 pub struct MeshKinematics {
     gears: [ToothGeometry; 2],
     errors: [FlankErrors; 2],
     slices_m: Vec<f64>,
     ends: PathEnds,
-    /// Where the flank ends, and how far beyond its end a tip edge is followed \[rad\].
-    reach_rad: [f64; 2],
-    /// Gap of a tip edge over δ² \[m/rad²\].
-    edge_m_per_rad2: [f64; 2],
+    edges: TipEdges,
+    /// Roll angles up to which flanks touch, tip edges included.
+    ends_rad: [f64; 2],
+    helix: Option<BaseHelix>,
+    /// Width of a slice \[m\]; none where there is one slice, which then stands for the whole face.
+    slice_width_m: Option<f64>,
+}
+
+/// A pair of teeth in the slice planes of a pose: what its sections share.
+struct PlacedTeeth<'a> {
+    pose: &'a Pose,
+    side: FlankSide,
+    spin_rad: f64,
+    axis: Vector3<f64>,
+    turn: Vector3<f64>,
+    /// Pitches from tooth 0 against the sense of growing roll.
+    counts: [f64; 2],
+    teeth: [usize; 2],
+}
+
+/// Ideal flanks in a slice plane.
+#[derive(Clone, Copy)]
+struct IdealFlanks {
+    roll_rad: [f64; 2],
+    roll_gradient: [Vector6; 2],
+    /// Along the normal \[m\].
+    gap_m: f64,
+    gradient: Vector6,
 }
 
 impl MeshKinematics {
-    /// Two gears that run at about `centre_distance_m`, with slice planes at `slices_m` \[m\].
+    /// Two gears that run at about `centre_distance_m`, with slice planes at `slices_m` \[m\], evenly spaced on helical gears.
     ///
     /// # Errors
-    /// [`DrivetrainError::Helical`], [`DrivetrainError::CentreDistance`], or [`DrivetrainError::Length`] without slices.
+    /// [`DrivetrainError::Helix`] if the helices do not fit, [`DrivetrainError::CentreDistance`], [`DrivetrainError::Length`] without
+    /// slices, or [`DrivetrainError::UnevenSlices`].
     pub fn new(
         gears: [ToothGeometry; 2],
         errors: [FlankErrors; 2],
@@ -174,12 +90,12 @@ impl MeshKinematics {
         slices_m: Vec<f64>,
         ends: PathEnds,
     ) -> Result<Self, DrivetrainError> {
-        for gear in &gears {
-            if gear.helix_angle_rad != 0.0 {
-                return Err(DrivetrainError::Helical {
-                    base_helix_deg: gear.base_helix_angle_rad().to_degrees(),
-                });
-            }
+        let [helix_1, helix_2] = [0, 1].map(|i: usize| gears[i].base_helix_angle_rad());
+        if (helix_1 + helix_2).abs() > 1e-6 * helix_1.abs() {
+            return Err(DrivetrainError::Helix {
+                helix_1_deg: helix_1.to_degrees(),
+                helix_2_deg: helix_2.to_degrees(),
+            });
         }
         if slices_m.is_empty() {
             return Err(DrivetrainError::Length {
@@ -189,26 +105,26 @@ impl MeshKinematics {
                 expected: 1,
             });
         }
+        let helix = BaseHelix::new(&gears);
+        let slice_width_m = match helix {
+            None => None,
+            Some(_) => even_width_m(&slices_m)?,
+        };
         let (length, _) = line_of_action(&gears, centre_distance_m)?;
-        let mut edge_m_per_rad2 = [0.0; 2];
-        let mut reach_rad = [0.0; 2];
-        if ends == PathEnds::Extended {
-            for (i, gear) in gears.iter().enumerate() {
-                let tip = gear.base_radius_m * gear.flank_end_roll_rad;
-                let mate = length - tip;
-                let pitch = TAU / gear.teeth as f64;
-                edge_m_per_rad2[i] = 0.5 * tip * length / mate;
-                let largest = LARGEST_GAP_OVER_BASE_PITCH * pitch * gear.base_radius_m;
-                reach_rad[i] = (largest / edge_m_per_rad2[i]).sqrt().min(0.5 * pitch);
-            }
-        }
+        let edges = match ends {
+            PathEnds::LineOfAction => TipEdges::default(),
+            PathEnds::Extended => TipEdges::new(&gears, length, helix.map_or(1.0, |h| h.cos)),
+        };
+        let ends_rad = [0, 1].map(|i: usize| gears[i].flank_end_roll_rad + edges.reach_rad[i]);
         Ok(Self {
             gears,
             errors,
             slices_m,
             ends,
-            reach_rad,
-            edge_m_per_rad2,
+            ends_rad,
+            edges,
+            helix,
+            slice_width_m,
         })
     }
 
@@ -245,11 +161,18 @@ impl MeshKinematics {
     /// Largest number of slices that can face each other at once, for sizing.
     #[must_use]
     pub fn capacity(&self) -> usize {
-        let span = self.gears[0].flank_end_roll_rad + self.reach_rad[0];
+        let span = self.ends_rad[0] + 2.0 * self.slant_1_rad();
         (span / self.pitch_rad(0)).ceil() as usize * self.slices_m.len() + self.slices_m.len()
     }
 
-    /// Roll angle of tooth 0 on gear 0 or 1 in a plane, and σ.
+    /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\].
+    fn slant_1_rad(&self) -> f64 {
+        let outermost = (self.slices_m.iter()).fold(0.0, |most: f64, z| most.max(z.abs()));
+        let half_width = outermost + 0.5 * self.slice_width_m.unwrap_or(0.0);
+        (self.helix).map_or(0.0, |helix| helix.twist_rad_per_m[0].abs() * half_width)
+    }
+
+    /// Roll angle of tooth 0 on gear 0 or 1 in a plane, before its section turns with the helix.
     fn roll_of_tooth_0(
         &self,
         gear: usize,
@@ -263,22 +186,6 @@ impl MeshKinematics {
         };
         plane.pressure_angle_rad + self.gears[gear].base_half_angle_rad
             - side.mirror() * seen_from_mate
-    }
-
-    /// The centre line in the plane z.
-    fn centre_line(&self, pose: &Pose, z_m: f64) -> Result<CentreLine, DrivetrainError> {
-        let d = pose.displacement_m + z_m * pose.axis_2();
-        let distance = d[0].hypot(d[1]);
-        let (length_m, pressure_angle_rad) = line_of_action(&self.gears, distance)?;
-        let sum = self.gears[0].base_radius_m + self.gears[1].base_radius_m;
-        Ok(CentreLine {
-            z_m,
-            radial: Vector3::new(d[0] / distance, d[1] / distance, 0.0),
-            pressure_angle: (length_m / distance, sum / distance),
-            pressure_angle_rad,
-            length_m,
-            polar_rad: d[1].atan2(d[0]),
-        })
     }
 
     /// Finds what both sides of the teeth share.
@@ -297,15 +204,20 @@ impl MeshKinematics {
         at.slices.clear();
         at.middle = None;
         for &z in &self.slices_m {
-            let line = self.centre_line(pose, z)?;
+            let line = CentreLine::new(&self.gears, pose, z)?;
             if z == 0.0 {
                 at.middle = Some(line);
             }
             at.slices.push(line);
         }
-        if at.middle.is_none() {
-            at.middle = Some(self.centre_line(pose, 0.0)?);
-        }
+        let middle = match at.middle {
+            Some(middle) => middle,
+            None => CentreLine::new(&self.gears, pose, 0.0)?,
+        };
+        at.slices
+            .iter_mut()
+            .for_each(|line| line.turn_next_to(&middle));
+        at.middle = Some(middle);
         at.spin_rad = pose.spin_rad();
         Ok(())
     }
@@ -334,95 +246,209 @@ impl MeshKinematics {
         side: FlankSide,
         found: &mut FlankContacts,
     ) {
-        found.planes.clear();
-        found.lines.clear();
-        found.contacts.clear();
+        found.clear();
         let Some(middle) = &at.middle else {
             return;
         };
         let planes = at.slices.iter().map(|line| line.plane(side));
         found.planes.extend(planes);
-        let (middle, spin) = (middle.plane(side), at.spin_rad);
+        let (middle, spin_rad) = (middle.plane(side), at.spin_rad);
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
-        let ends = [0, 1].map(|i| self.gears[i].flank_end_roll_rad + self.reach_rad[i]);
-        let zero_1 = self.roll_of_tooth_0(0, side, &middle, spin);
-        let zero_2 = self.roll_of_tooth_0(1, side, &middle, spin);
+        let ends = self.ends_rad;
+        let slant = self.slant_1_rad();
+        let mut zero_1 = self.roll_of_tooth_0(0, side, &middle, spin_rad);
+        if let Some(helix) = &self.helix {
+            zero_1 -= side.mirror() * helix.twist_rad_per_m[0] * pose.displacement_m[2];
+        }
+        let zero_2 = self.roll_of_tooth_0(1, side, &middle, spin_rad);
         let start_1 = (middle.length_m - r2 * ends[1]) / r1;
-        let first = ((zero_1 - ends[0]) / pitch_1).ceil() as i64;
-        let last = ((zero_1 - start_1) / pitch_1).floor() as i64;
+        let first = ((zero_1 - ends[0] - slant) / pitch_1).ceil() as i64;
+        let last = ((zero_1 - start_1 + slant) / pitch_1).floor() as i64;
         for count_1 in first..=last {
             let roll_1 = zero_1 - count_1 as f64 * pitch_1;
             // The mate is the tooth whose flank is nearest.
             let touching = (middle.length_m - r1 * roll_1) / r2;
             let count_2 = ((zero_2 - touching) / pitch_2).round();
+            let counts = [count_1 as f64, count_2];
             let roll_2 = zero_2 - count_2 * pitch_2;
-            if roll_2 <= ends[1] {
-                let counts = [count_1 as f64, count_2];
-                self.add_line(pose, side, (&middle, spin, counts), found);
+            if self.helix.is_none() && roll_2 > ends[1] {
+                continue;
             }
+            let teeth = [0, 1].map(|i| {
+                let ahead = side.mirror() * counts[i];
+                ahead.rem_euclid(self.gears[i].teeth as f64) as usize
+            });
+            let placed = PlacedTeeth {
+                pose,
+                side,
+                spin_rad,
+                axis: pose.axis_2(),
+                turn: pose.spin_gradient(),
+                counts,
+                teeth,
+            };
+            self.add_line(&placed, &middle, found);
         }
     }
 
-    /// Adds the pair of teeth that stand `counts` pitches from tooth 0 against the sense of growing roll.
-    fn add_line(
-        &self,
-        pose: &Pose,
-        side: FlankSide,
-        (middle, spin, counts): (&SlicePlane, f64, [f64; 2]),
-        found: &mut FlankContacts,
-    ) {
-        let sigma = side.mirror();
-        let axis = pose.axis_2();
-        let turn = pose.spin_gradient();
-        let teeth =
-            [0, 1].map(|i| (sigma * counts[i]).rem_euclid(self.gears[i].teeth as f64) as usize);
-        let rolls = |plane: &SlicePlane| {
-            [0, 1]
-                .map(|i| self.roll_of_tooth_0(i, side, plane, spin) - counts[i] * self.pitch_rad(i))
-        };
-        let roll_gradients = |plane: &SlicePlane| {
-            let along = sigma / plane.length_m * plane.across;
-            let of_1 = stacked(along, plane.z_m * axis.cross(&along));
-            [of_1, of_1 - stacked(Vector3::zeros(), sigma * turn)]
-        };
+    /// Adds a pair of teeth with its slices, unless all of them are off the path.
+    fn add_line(&self, placed: &PlacedTeeth<'_>, middle: &SlicePlane, found: &mut FlankContacts) {
         let line = found.lines.len();
         let first = found.contacts.len();
-        let rates = pose.rates();
-        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        for (slice, plane) in found.planes.iter().enumerate() {
-            let roll = rolls(plane);
-            let by_pose = roll_gradients(plane);
-            let mut gap_m = plane.length_m - r1 * roll[0] - r2 * roll[1];
-            let moment = plane.z_m * axis.cross(&plane.normal) + sigma * r2 * turn;
-            let mut gradient = stacked(plane.normal, moment);
-            for gear in 0..2 {
-                let (depth, slope) = self.removed(gear, teeth[gear], (side, roll[gear], plane.z_m));
-                gap_m += depth;
-                gradient += slope * by_pose[gear];
+        let rates = placed.pose.rates();
+        let mut at_middle = None;
+        for slice in 0..found.planes.len() {
+            let plane = found.planes[slice];
+            let ideal = self.ideal_flanks(placed, &plane);
+            if plane.z_m == middle.z_m {
+                at_middle = Some(ideal);
             }
-            if gap_m.is_finite() {
-                found.contacts.push(ToothContact {
-                    line,
-                    slice,
-                    gap_m,
-                    gap_rate_m_per_s: gradient.dot(&rates),
-                    gradient,
+            let own = match &self.helix {
+                None => None,
+                Some(helix) => match self.own_section(helix, placed.side, &ideal) {
+                    None => continue,
+                    section => section,
+                },
+            };
+            let (roll_rad, roll_gradient) = (own.as_ref())
+                .map_or((&ideal.roll_rad, &ideal.roll_gradient), |section| {
+                    (&section.roll_rad, &section.roll_gradient)
                 });
+            let (mut gap_m, mut gradient) = (ideal.gap_m, ideal.gradient);
+            for gear in 0..2 {
+                let at = (placed.side, roll_rad[gear], plane.z_m);
+                let (depth, slope) = self.removed(gear, placed.teeth[gear], at);
+                gap_m += depth;
+                gradient += slope * roll_gradient[gear];
             }
+            if !gap_m.is_finite() {
+                continue;
+            }
+            // A spur line has one section, made below.
+            let mut section = line;
+            if let Some(own) = own {
+                section = found.sections.len();
+                let contacts = (found.contacts.len(), 1);
+                found.sections.push(Section { contacts, ..own });
+            }
+            found.contacts.push(ToothContact {
+                line,
+                slice,
+                section,
+                gap_m,
+                gap_rate_m_per_s: gradient.dot(&rates),
+                gradient,
+            });
         }
-        let roll_rad = rolls(middle);
+        let contacts = (first, found.contacts.len() - first);
+        if self.helix.is_some() && contacts.1 == 0 {
+            return;
+        }
+        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, middle));
+        let middle = Section {
+            contacts,
+            ..self.section(&ideal)
+        };
+        if self.helix.is_none() {
+            found.sections.push(middle);
+        }
         found.lines.push(TeethLine {
-            teeth,
-            roll_rad,
-            touching_roll_rad: [0, 1].map(|i| {
-                let gear = &self.gears[i];
-                roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
-            }),
-            ideal_gap_m: middle.length_m - r1 * roll_rad[0] - r2 * roll_rad[1],
-            roll_gradient: roll_gradients(middle),
-            contacts: (first, found.contacts.len() - first),
+            teeth: placed.teeth,
+            middle,
+            ideal_gap_m: ideal.gap_m / self.helix.map_or(1.0, |helix| helix.cos),
+            contacts,
         });
+    }
+
+    /// Ideal flanks in a plane.
+    fn ideal_flanks(&self, placed: &PlacedTeeth<'_>, plane: &SlicePlane) -> IdealFlanks {
+        let sigma = placed.side.mirror();
+        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let mut roll_rad = [0, 1].map(|i| {
+            self.roll_of_tooth_0(i, placed.side, plane, placed.spin_rad)
+                - placed.counts[i] * self.pitch_rad(i)
+        });
+        let along = sigma / plane.length_m * plane.across;
+        let mut of_1 = stacked(along, plane.z_m * placed.axis.cross(&along));
+        let of_2 = of_1 - stacked(Vector3::zeros(), sigma * placed.turn);
+        let moment = plane.z_m * placed.axis.cross(&plane.normal) + sigma * r2 * placed.turn;
+        let mut gradient = stacked(plane.normal, moment);
+        let mut helix_cos = 1.0;
+        if let Some(helix) = &self.helix {
+            helix_cos = helix.cos;
+            let [twist_1, twist_2] = helix.twist_rad_per_m;
+            roll_rad[1] -= sigma * twist_2 * plane.z_m;
+            let height = helix.height(plane, placed.pose, sigma, roll_rad[1]);
+            roll_rad[0] -= sigma * twist_1 * height.z_m;
+            of_1 -= sigma * twist_1 * height.gradient;
+            gradient = helix.cos * (gradient + sigma * helix.tan * height.gradient);
+        }
+        IdealFlanks {
+            gap_m: helix_cos * (plane.length_m - r1 * roll_rad[0] - r2 * roll_rad[1]),
+            roll_rad,
+            roll_gradient: [of_1, of_2],
+            gradient,
+        }
+    }
+
+    /// The section of a whole slice, without its contacts.
+    fn section(&self, ideal: &IdealFlanks) -> Section {
+        Section {
+            roll_rad: ideal.roll_rad,
+            touching_roll_rad: self.touching_roll_rad(ideal.roll_rad),
+            roll_gradient: ideal.roll_gradient,
+            share: 1.0,
+            share_gradient: Vector6::zeros(),
+            contacts: (0, 0),
+        }
+    }
+
+    fn touching_roll_rad(&self, roll_rad: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| {
+            let gear = &self.gears[i];
+            roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
+        })
+    }
+
+    /// The section of a helical slice in its middle, on the rigid path in the middle of the part that is on it; none off the path.
+    fn own_section(
+        &self,
+        helix: &BaseHelix,
+        side: FlankSide,
+        ideal: &IdealFlanks,
+    ) -> Option<Section> {
+        let mut section = self.section(ideal);
+        let touches = match (self.ends, self.slice_width_m) {
+            (PathEnds::LineOfAction, Some(width_m)) => {
+                let slopes = helix.twist_rad_per_m.map(|twist| -side.mirror() * twist);
+                part_on_path(&mut section, (slopes, self.ends_rad), width_m)
+            }
+            _ => (0..2).all(|i| section.roll_rad[i] <= self.ends_rad[i]),
+        };
+        section.touching_roll_rad = self.touching_roll_rad(section.roll_rad);
+        touches.then_some(section)
+    }
+
+    /// Second derivative of the gap in a plane by the increments, microgeometry left out: that is of the order of the load times its
+    /// curvature, 1e-6 of the stiffness. `roll_2_rad`: of the contact, or the mean of several ones weighted by their forces; unused on
+    /// spur teeth.
+    #[must_use]
+    pub fn gap_curvature(
+        &self,
+        plane: &SlicePlane,
+        pose: &Pose,
+        side: FlankSide,
+        roll_2_rad: f64,
+    ) -> Matrix6 {
+        let base_radius_2_m = self.gears[1].base_radius_m;
+        let transverse = plane.transverse_curvature(pose, side, base_radius_2_m);
+        let Some(helix) = &self.helix else {
+            return transverse;
+        };
+        let sigma = side.mirror();
+        let along_axis = helix.height_curvature(plane, pose, sigma, roll_2_rad);
+        helix.cos * transverse + sigma * helix.sin * along_axis
     }
 
     /// Depth \[m\] and slope \[m/rad\] of everything removed at a flank, the tip edge's gap beyond the flank's end included.
@@ -436,7 +462,7 @@ impl MeshKinematics {
         let beyond = roll - end;
         let (mut depth, mut slope) = (0.0, 0.0);
         if beyond > 0.0 {
-            let edge = self.edge_m_per_rad2[gear];
+            let edge = self.edges.gap_m_per_rad2[gear];
             depth += edge * beyond * beyond;
             slope += 2.0 * edge * beyond;
         }
@@ -456,61 +482,14 @@ impl MeshKinematics {
     }
 }
 
-/// Length L \[m\] of the line of action between the base circles, and working pressure angle \[rad\].
-fn line_of_action(
-    gears: &[ToothGeometry; 2],
-    distance_m: f64,
-) -> Result<(f64, f64), DrivetrainError> {
-    let sum = gears[0].base_radius_m + gears[1].base_radius_m;
-    if distance_m.is_nan() || distance_m <= sum {
-        return Err(DrivetrainError::CentreDistance {
-            found_mm: distance_m * 1e3,
-            smallest_mm: sum * 1e3,
-        });
+/// Width of evenly spaced slices \[m\]; none where there is one.
+fn even_width_m(slices_m: &[f64]) -> Result<Option<f64>, DrivetrainError> {
+    let steps = || slices_m.windows(2).map(|pair| pair[1] - pair[0]);
+    let Some(width) = steps().next() else {
+        return Ok(None);
+    };
+    if width > 0.0 && steps().all(|step| (step - width).abs() <= UNEVEN * width) {
+        return Ok(Some(width));
     }
-    let length = ((distance_m - sum) * (distance_m + sum)).sqrt();
-    Ok((length, length.atan2(sum)))
-}
-
-fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
-    Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
-}
-
-impl CentreLine {
-    /// The slice plane for flanks of one side.
-    fn plane(&self, side: FlankSide) -> SlicePlane {
-        let (sin, cos) = self.pressure_angle;
-        let tangential = Vector3::new(-self.radial[1], self.radial[0], 0.0);
-        let normal = sin * self.radial - side.mirror() * cos * tangential;
-        SlicePlane {
-            z_m: self.z_m,
-            normal,
-            across: Vector3::new(-normal[1], normal[0], 0.0),
-            length_m: self.length_m,
-            pressure_angle_rad: self.pressure_angle_rad,
-            polar_rad: self.polar_rad,
-        }
-    }
-}
-
-impl SlicePlane {
-    /// Second derivative of the gap by the increments, microgeometry left out: that is of the order of the load times its curvature,
-    /// 1e-6 of the stiffness.
-    #[must_use]
-    pub fn gap_curvature(&self, pose: &Pose, side: FlankSide, base_radius_2_m: f64) -> Matrix6 {
-        let axis = pose.axis_2().cross_matrix();
-        let carried: Matrix3<f64> = -self.z_m * axis;
-        let normal_by_d = self.across * self.across.transpose() / self.length_m;
-        let moment_by_turn = -carried * normal_by_d * carried
-            + self.z_m * self.normal.cross_matrix() * axis
-            + side.mirror() * base_radius_2_m * pose.spin_curvature();
-        let mut h = Matrix6::zeros();
-        h.fixed_view_mut::<3, 3>(0, 0).copy_from(&normal_by_d);
-        h.fixed_view_mut::<3, 3>(0, 3)
-            .copy_from(&(normal_by_d * carried));
-        h.fixed_view_mut::<3, 3>(3, 0)
-            .copy_from(&(-carried * normal_by_d));
-        h.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment_by_turn);
-        h
-    }
+    Err(DrivetrainError::UnevenSlices)
 }

@@ -6,8 +6,8 @@
 //!
 //! Left out of the tangent: how φ changes with the roll angle, of the order of deflection over pitch as all that the mesh leaves out.
 
+use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::add_scaled;
-use crate::mesh_kinematics::FlankContacts;
 use crate::pose::Vector6;
 use crate::teeth_model::TeethLoads;
 

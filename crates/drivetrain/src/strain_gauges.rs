@@ -109,17 +109,18 @@ impl StrainGauges {
                 continue;
             };
             let friction = mesh.friction_coefficients(*side);
-            for line in &found.lines {
-                let (first, count) = line.contacts;
+            for section in &found.sections {
+                let (first, count) = section.contacts;
                 if forces[first..first + count].iter().all(|f| *f <= 0.0) {
                     continue;
                 }
-                let roll_rad = line.touching_roll_rad[self.gear];
+                let roll_rad = section.touching_roll_rad[self.gear];
                 let place = gauges.place(roll_rad);
                 for number in first..first + count {
+                    let contact = &found.contacts[number];
                     let loaded = LoadedSlice {
-                        tooth: line.teeth[self.gear],
-                        slice: found.contacts[number].slice,
+                        tooth: found.lines[contact.line].teeth[self.gear],
+                        slice: contact.slice,
                         roll_rad,
                         // The tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ σ > 0.
                         components: [1.0, side.mirror() * friction[number]],

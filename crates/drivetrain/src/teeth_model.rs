@@ -9,7 +9,7 @@
 //! | `hybrid` | two reduced gears and the complementarity problem | `models/hybrid.rs` |
 
 use crate::error::DrivetrainError;
-use crate::mesh_kinematics::FlankContacts;
+use crate::flank_contacts::FlankContacts;
 
 /// Normal forces of the contacts of one side of the teeth, and their derivatives. Reused from call to call.
 #[derive(Debug, Clone, Default)]
@@ -20,9 +20,11 @@ pub struct TeethLoads {
     pub stiffness_n_per_m: Vec<f64>,
     /// D = −∂F/∂(gap rate) \[N·s/m\], row: force.
     pub damping_n_s_per_m: Vec<f64>,
-    /// ∂E*/∂ξ at constant forces \[J/rad\] for each line, gear 1 and gear 2: how the complementary energy of the teeth changes as the
+    /// ∂E*/∂ξ at constant forces \[J/rad\] for each section, gear 1 and gear 2: how the complementary energy of the teeth changes as the
     /// contacts walk over them. The mesh feels it as a generalised force.
     pub energy_by_roll: Vec<[f64; 2]>,
+    /// ∂E*/∂(share of the width) \[J\] for each section; felt alike.
+    pub energy_by_share: Vec<f64>,
     /// Elastic energy \[J\].
     pub stored_j: f64,
     /// Power turned into heat by the normal forces \[W\].
@@ -31,7 +33,7 @@ pub struct TeethLoads {
 
 impl TeethLoads {
     /// Sizes for a set of contacts, all zero.
-    pub fn begin(&mut self, contacts: usize, lines: usize) {
+    pub fn begin(&mut self, contacts: usize, sections: usize) {
         let zero = |values: &mut Vec<f64>, size: usize| {
             values.clear();
             values.resize(size, 0.0);
@@ -40,7 +42,8 @@ impl TeethLoads {
         zero(&mut self.stiffness_n_per_m, contacts * contacts);
         zero(&mut self.damping_n_s_per_m, contacts * contacts);
         self.energy_by_roll.clear();
-        self.energy_by_roll.resize(lines, [0.0; 2]);
+        self.energy_by_roll.resize(sections, [0.0; 2]);
+        zero(&mut self.energy_by_share, sections);
         self.stored_j = 0.0;
         self.dissipated_w = 0.0;
     }

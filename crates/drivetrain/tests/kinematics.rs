@@ -35,6 +35,42 @@ fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
     }
 }
 
+/// Half a turn of gear 1, where the polar angle of the tilted centre line is π in some slices and −π in others: 15 pitches, so that all is as at
+/// the start.
+#[test]
+fn half_a_turn_leaves_no_slice_behind() {
+    let pair = spur_pair();
+    assert_eq!(pair.gear_1.teeth % 2, 0);
+    for side in SIDES {
+        for tilt in [0.0, 1e-7, -1e-4] {
+            let found = |turns: f64| {
+                let [at, _] = angles(&pair, side, 0.0, 0.0);
+                let theta = side.mirror() * at - turns * std::f64::consts::TAU;
+                let phi = angles(&pair, side, theta, -10e-6);
+                let at = pose(&pair, phi, Vector3::zeros(), Vector3::new(tilt, tilt, 0.0));
+                let mut found = FlankContacts::default();
+                let kinematics = kinematics(&pair);
+                kinematics.contacts(&at, side, &mut found).unwrap();
+                let gaps = found.contacts.iter().map(|c| (c.slice, c.gap_m));
+                gaps.collect::<Vec<_>>()
+            };
+            let expected = found(0.0);
+            assert!(expected.len() >= SLICES);
+            for turns in [-0.5, 0.5, 1.5] {
+                let at = found(turns);
+                assert_eq!(at.len(), expected.len());
+                for ((slice, gap), (of, other)) in at.iter().zip(&expected) {
+                    let off = (gap - other).abs();
+                    assert!(
+                        slice == of && off < 1e-12,
+                        "{turns} turns, tilt {tilt}: {off:e} m"
+                    );
+                }
+            }
+        }
+    }
+}
+
 /// Both kinematics see the same pairs, roll angles and gaps, on parallel axes and, to first order, on tilted ones.
 #[test]
 fn gaps_are_those_of_the_static_scene() {
@@ -102,7 +138,7 @@ fn gaps_are_those_of_the_static_scene() {
                         .unwrap_or_else(|| panic!("teeth {:?}", line.teeth));
                     // The same second order over the length of the line of action.
                     let roll_tolerance = 1e-12 + 100.0 * tolerance;
-                    assert!((line.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
+                    assert!((line.middle.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
                     let (first, count) = line.contacts;
                     assert_eq!(count, SLICES);
                     for contact in &found.contacts[first..first + count] {
@@ -132,7 +168,7 @@ fn flank_points_are_the_gap_apart() {
         for line in &found.lines {
             let point = |gear: usize, tooth: &gearmesh_geometry::ToothGeometry| {
                 let turn = std::f64::consts::TAU * line.teeth[gear] as f64 / tooth.teeth as f64;
-                let p = tooth.flank_point_m(side, line.roll_rad[gear]);
+                let p = tooth.flank_point_m(side, line.middle.roll_rad[gear]);
                 let (sin, cos) = (turn + phi[gear]).sin_cos();
                 Vector2::new(cos * p[0] - sin * p[1], sin * p[0] + cos * p[1])
             };
@@ -184,9 +220,9 @@ fn derivatives_agree_with_differences() {
                 assert!(off.abs() < 2e-9, "gap {i} by {direction}: {off:e}");
                 let line = &here.lines[contact.line];
                 for gear in 0..2 {
-                    let roll = |set: &FlankContacts| set.lines[contact.line].roll_rad[gear];
+                    let roll = |set: &FlankContacts| set.lines[contact.line].middle.roll_rad[gear];
                     let off = (roll(&after) - roll(&before)) / (2.0 * h)
-                        - line.roll_gradient[gear][direction];
+                        - line.middle.roll_gradient[gear][direction];
                     assert!(off.abs() < 1e-7, "roll by {direction}: {off:e}");
                 }
             }
@@ -204,12 +240,12 @@ fn derivatives_agree_with_differences() {
             );
             for (i, contact) in base.contacts.iter().enumerate() {
                 let line = &base.lines[contact.line];
-                if (0..2).any(|g| line.roll_rad[g] > line.touching_roll_rad[g]) {
+                if (0..2).any(|gear| !line.middle.walks(gear)) {
                     continue;
                 }
                 let change = (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
-                let curvature =
-                    base.planes[contact.slice].gap_curvature(&at, side, pair.gear_2.base_radius_m);
+                let plane = &base.planes[contact.slice];
+                let curvature = ideal.gap_curvature(plane, &at, side, line.middle.roll_rad[1]);
                 let off = (change - curvature.column(direction)).norm();
                 assert!(
                     off < 1e-6 * (1.0 + change.norm()),

@@ -65,7 +65,8 @@ fn loaded_poses(pair: &GearPair) -> Vec<Pose> {
             Vector3::new(2e-6, -1e-6, 1e-4),
             Vector3::new(1e-4, -0.5e-4, 0.0),
         );
-        pose(pair, phi, shift, tilt)
+        let screwed = [phi[0], phi[1] + screw_rad(pair, shift[2])];
+        pose(pair, screwed, shift, tilt)
     })
     .to_vec()
 }
@@ -106,33 +107,34 @@ fn at_rest(mesh: &mut GearMesh, pose: &Pose, modes: [usize; 2]) -> (Vec<f64>, Me
 /// the whole compliance. Loads to 1e-9, those of the walking contacts included.
 #[test]
 fn modal_gears_at_rest_are_reduced_gears() {
-    let pair = spur_pair();
-    let models = models(&pair);
-    let mut reduced = hybrid(&pair, &models, [0, 0], kinematics(&pair));
-    for modes in [[COUNT, COUNT], [3, 0], [0, 2]] {
-        let mut modal = hybrid(&pair, &models, modes, kinematics(&pair));
-        for at in loaded_poses(&pair) {
-            let expected = reduced.evaluate(&at, false).unwrap();
-            let (eta, found) = at_rest(&mut modal, &at, modes);
-            let scale = expected.load.fixed_rows::<3>(0).norm();
-            assert!(scale > 100.0);
-            let off = (found.load - expected.load).norm() / scale;
-            assert!(off < 1e-9, "{modes:?}: {off:e}");
-            let strain: f64 = eta
-                .iter()
-                .enumerate()
-                .map(|(i, eta)| {
-                    let mode = if i < modes[0] { i } else { i - modes[0] };
-                    0.5 * (TAU * MODES[mode].0 * eta).powi(2)
-                })
-                .sum();
-            assert!(
-                strain > 1e-3 * expected.power.stored_j,
-                "the modes carry a share"
-            );
-            let whole = found.power.stored_j + strain;
-            let off = (whole / expected.power.stored_j - 1.0).abs();
-            assert!(off < 1e-9, "{modes:?}: energy {off:e}");
+    for pair in pairs() {
+        let models = models(&pair);
+        let mut reduced = hybrid(&pair, &models, [0, 0], kinematics(&pair));
+        for modes in [[COUNT, COUNT], [3, 0], [0, 2]] {
+            let mut modal = hybrid(&pair, &models, modes, kinematics(&pair));
+            for at in loaded_poses(&pair) {
+                let expected = reduced.evaluate(&at, false).unwrap();
+                let (eta, found) = at_rest(&mut modal, &at, modes);
+                let scale = expected.load.fixed_rows::<3>(0).norm();
+                assert!(scale > 100.0);
+                let off = (found.load - expected.load).norm() / scale;
+                assert!(off < 1e-9, "{modes:?}: {off:e}");
+                let strain: f64 = eta
+                    .iter()
+                    .enumerate()
+                    .map(|(i, eta)| {
+                        let mode = if i < modes[0] { i } else { i - modes[0] };
+                        0.5 * (TAU * MODES[mode].0 * eta).powi(2)
+                    })
+                    .sum();
+                assert!(
+                    strain > 1e-3 * expected.power.stored_j,
+                    "the modes carry a share"
+                );
+                let whole = found.power.stored_j + strain;
+                let off = (whole / expected.power.stored_j - 1.0).abs();
+                assert!(off < 1e-9, "{modes:?}: energy {off:e}");
+            }
         }
     }
 }
@@ -140,33 +142,34 @@ fn modal_gears_at_rest_are_reduced_gears() {
 /// At rest a gauge on a `modal` gear reads what it reads on a `reduced` one, with all modes or some, by both methods.
 #[test]
 fn gauges_at_rest_read_as_on_reduced_gears() {
-    let pair = spur_pair();
-    let models = models(&pair);
-    let names = ["g0", "g1", "g5", "g7"];
-    let mut reduced = hybrid(&pair, &models, [0, 0], kinematics(&pair));
-    let part = ModalPart::Included;
-    for modes in [[COUNT, COUNT], [3, 2]] {
-        let mut modal = hybrid(&pair, &models, modes, kinematics(&pair));
-        for at in loaded_poses(&pair) {
-            reduced.evaluate(&at, false).unwrap();
-            let (eta, _) = at_rest(&mut modal, &at, modes);
-            for gear in [1, 2] {
-                let model = &models[gear - 1];
-                let own = match gear {
-                    1 => &eta[..modes[0]],
-                    _ => &eta[modes[0]..],
-                };
-                let gauges = |mesh, part| StrainGauges::new(mesh, gear, model, &names, part);
-                let expected = gauges(&reduced, part).unwrap().read(&reduced, &[]).to_vec();
-                let found = gauges(&modal, part).unwrap().read(&modal, own).to_vec();
-                let elsewhere = gauges(&modal, ModalPart::ElsewhereIncluded).unwrap();
-                let without = elsewhere.clone().read(&modal, own).to_vec();
-                for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                    let scale = expected.method_2.abs();
-                    assert!(scale > 1e-8);
-                    assert!((found.method_1 - expected.method_1).abs() < 1e-9 * scale);
-                    assert!((found.method_2 - expected.method_2).abs() < 1e-9 * scale);
-                    assert!((found.method_2 - without[k].method_2).abs() > 1e-3 * scale);
+    for pair in pairs() {
+        let models = models(&pair);
+        let names = ["g0", "g1", "g5", "g7"];
+        let mut reduced = hybrid(&pair, &models, [0, 0], kinematics(&pair));
+        let part = ModalPart::Included;
+        for modes in [[COUNT, COUNT], [3, 2]] {
+            let mut modal = hybrid(&pair, &models, modes, kinematics(&pair));
+            for at in loaded_poses(&pair) {
+                reduced.evaluate(&at, false).unwrap();
+                let (eta, _) = at_rest(&mut modal, &at, modes);
+                for gear in [1, 2] {
+                    let model = &models[gear - 1];
+                    let own = match gear {
+                        1 => &eta[..modes[0]],
+                        _ => &eta[modes[0]..],
+                    };
+                    let gauges = |mesh, part| StrainGauges::new(mesh, gear, model, &names, part);
+                    let expected = gauges(&reduced, part).unwrap().read(&reduced, &[]).to_vec();
+                    let found = gauges(&modal, part).unwrap().read(&modal, own).to_vec();
+                    let elsewhere = gauges(&modal, ModalPart::ElsewhereIncluded).unwrap();
+                    let without = elsewhere.clone().read(&modal, own).to_vec();
+                    for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                        let scale = expected.method_2.abs();
+                        assert!(scale > 1e-8);
+                        assert!((found.method_1 - expected.method_1).abs() < 1e-9 * scale);
+                        assert!((found.method_2 - expected.method_2).abs() < 1e-9 * scale);
+                        assert!((found.method_2 - without[k].method_2).abs() > 1e-3 * scale);
+                    }
                 }
             }
         }
@@ -176,47 +179,48 @@ fn gauges_at_rest_read_as_on_reduced_gears() {
 /// Loads on bodies and modes are minus the gradient of the teeth's energy at any vibration.
 #[test]
 fn loads_on_modes_follow_from_the_energy() {
-    let pair = spur_pair();
-    let models = models(&pair);
-    let mut mesh = hybrid(&pair, &models, [COUNT, COUNT], kinematics(&pair));
-    for at in loaded_poses(&pair) {
-        let (mut eta, _) = at_rest(&mut mesh, &at, [COUNT, COUNT]);
-        for (i, eta) in eta.iter_mut().enumerate() {
-            *eta += 2e-6 * (i as f64).sin();
-        }
-        let mut energy = |at: &Pose, eta: &[f64]| {
-            let motion = ModalMotion {
-                coordinates: [&eta[..COUNT], &eta[COUNT..]],
-                ..ModalMotion::default()
+    for pair in pairs() {
+        let models = models(&pair);
+        let mut mesh = hybrid(&pair, &models, [COUNT, COUNT], kinematics(&pair));
+        for at in loaded_poses(&pair) {
+            let (mut eta, _) = at_rest(&mut mesh, &at, [COUNT, COUNT]);
+            for (i, eta) in eta.iter_mut().enumerate() {
+                *eta += 2e-6 * (i as f64).sin();
+            }
+            let mut energy = |at: &Pose, eta: &[f64]| {
+                let motion = ModalMotion {
+                    coordinates: [&eta[..COUNT], &eta[COUNT..]],
+                    ..ModalMotion::default()
+                };
+                let load = mesh.evaluate_modal(at, &motion, false).unwrap();
+                (
+                    load.power.stored_j,
+                    load.load,
+                    mesh.modal_loads().force.clone(),
+                )
             };
-            let load = mesh.evaluate_modal(at, &motion, false).unwrap();
-            (
-                load.power.stored_j,
-                load.load,
-                mesh.modal_loads().force.clone(),
-            )
-        };
-        let (_, load, force) = energy(&at, &eta);
-        let scale = load.fixed_rows::<3>(0).norm();
-        for (i, force) in force.iter().enumerate() {
-            let h = 3e-9;
-            let mut moved = eta.clone();
-            moved[i] += h;
-            let after = energy(&at, &moved).0;
-            moved[i] -= 2.0 * h;
-            let slope = (after - energy(&at, &moved).0) / (2.0 * h);
-            let off = (slope + force).abs() / (0.3 * scale);
-            assert!(off < 3e-6, "mode {i}: {off:e}");
-        }
-        for direction in 0..6 {
-            let h = if direction < 3 { 1e-9 } else { 2e-8 };
-            let mut step = Vector6::zeros();
-            step[direction] = h;
-            let after = energy(&moved(&at, &step), &eta).0;
-            let slope = (after - energy(&moved(&at, &-step), &eta).0) / (2.0 * h);
-            let unit = if direction < 3 { 1.0 } else { 0.05 };
-            let off = (slope + load[direction]).abs() / (scale * unit);
-            assert!(off < 3e-6, "direction {direction}: {off:e}");
+            let (_, load, force) = energy(&at, &eta);
+            let scale = load.fixed_rows::<3>(0).norm();
+            for (i, force) in force.iter().enumerate() {
+                let h = 3e-9;
+                let mut moved = eta.clone();
+                moved[i] += h;
+                let after = energy(&at, &moved).0;
+                moved[i] -= 2.0 * h;
+                let slope = (after - energy(&at, &moved).0) / (2.0 * h);
+                let off = (slope + force).abs() / (0.3 * scale);
+                assert!(off < 3e-6, "mode {i}: {off:e}");
+            }
+            for direction in 0..6 {
+                let h = if direction < 3 { 1e-9 } else { 2e-8 };
+                let mut step = Vector6::zeros();
+                step[direction] = h;
+                let after = energy(&moved(&at, &step), &eta).0;
+                let slope = (after - energy(&moved(&at, &-step), &eta).0) / (2.0 * h);
+                let unit = if direction < 3 { 1.0 } else { 0.05 };
+                let off = (slope + load[direction]).abs() / (scale * unit);
+                assert!(off < 3e-6, "direction {direction}: {off:e}");
+            }
         }
     }
 }
@@ -224,53 +228,55 @@ fn loads_on_modes_follow_from_the_energy() {
 /// Tangents by place and speed of bodies and modes against central differences, with damping.
 #[test]
 fn modal_tangents_agree_with_differences() {
-    let pair = spur_pair();
-    let models = models(&pair);
-    let damping = Damping::StiffnessProportional {
-        time_s: 5e-6,
-        full_depth_m: 1e-6,
-    };
-    let local = LocalContact::WeberBanaschek;
-    for side in [FlankSide::Right, FlankSide::Left] {
-        let of = |side| {
-            let teeth =
-                ReducedTeeth::new(&pair, side, [&models[0], &models[1]], local, 4000.0).unwrap();
-            Damped::new(teeth, damping, SLICES).unwrap()
+    for pair in pairs() {
+        let models = models(&pair);
+        let damping = Damping::StiffnessProportional {
+            time_s: 5e-6,
+            full_depth_m: 1e-6,
         };
-        let mut mesh = GearMesh::new(kinematics(&pair), side, of(side))
-            .unwrap()
-            .with_modes(1, &models[0], COUNT)
-            .unwrap()
-            .with_modes(2, &models[1], COUNT)
-            .unwrap();
-        let phi = angles(&pair, side, 0.11, -14e-6);
-        let at = pose(
-            &pair,
-            phi,
-            Vector3::new(2e-6, 0.0, 0.0),
-            Vector3::new(1e-4, 0.0, 0.0),
-        );
-        let (eta, _) = at_rest(&mut mesh, &at, [COUNT, COUNT]);
-        let n = 6 + 2 * COUNT;
-        // Force on (pose, modes) at a change of place and of speed.
-        let mut force = |place: &DVector<f64>, speed: &DVector<f64>, tangents: bool| {
-            let six = |v: &DVector<f64>| Vector6::from_fn(|i, _| v[i]);
-            let moved = moving(&moved(&at, &six(place)), &six(speed));
-            let eta: Vec<f64> = (0..2 * COUNT).map(|i| eta[i] + place[6 + i]).collect();
-            let rate: Vec<f64> = (0..2 * COUNT).map(|i| speed[6 + i]).collect();
-            let motion = ModalMotion {
-                coordinates: [&eta[..COUNT], &eta[COUNT..]],
-                rates: [&rate[..COUNT], &rate[COUNT..]],
+        let local = LocalContact::WeberBanaschek;
+        for side in [FlankSide::Right, FlankSide::Left] {
+            let of = |side| {
+                let teeth = ReducedTeeth::new(&pair, side, [&models[0], &models[1]], local, 4000.0)
+                    .unwrap();
+                Damped::new(teeth, damping, SLICES).unwrap()
             };
-            let load = mesh.evaluate_modal(&moved, &motion, tangents).unwrap();
-            let modal = mesh.modal_loads();
-            let value = DVector::from_fn(n, |i, _| match i {
-                0..6 => load.load[i],
-                _ => modal.force[i - 6],
-            });
-            let m = 2 * COUNT;
-            let tangent =
-                |pose: &SMatrix<f64, 6, 6>, rows: &[Vector6], columns: &[Vector6], own: &[f64]| {
+            let mut mesh = GearMesh::new(kinematics(&pair), side, of(side))
+                .unwrap()
+                .with_modes(1, &models[0], COUNT)
+                .unwrap()
+                .with_modes(2, &models[1], COUNT)
+                .unwrap();
+            let phi = angles(&pair, side, 0.11, -14e-6);
+            let at = pose(
+                &pair,
+                phi,
+                Vector3::new(2e-6, 0.0, 0.0),
+                Vector3::new(1e-4, 0.0, 0.0),
+            );
+            let (eta, _) = at_rest(&mut mesh, &at, [COUNT, COUNT]);
+            let n = 6 + 2 * COUNT;
+            // Force on (pose, modes) at a change of place and of speed.
+            let mut force = |place: &DVector<f64>, speed: &DVector<f64>, tangents: bool| {
+                let six = |v: &DVector<f64>| Vector6::from_fn(|i, _| v[i]);
+                let moved = moving(&moved(&at, &six(place)), &six(speed));
+                let eta: Vec<f64> = (0..2 * COUNT).map(|i| eta[i] + place[6 + i]).collect();
+                let rate: Vec<f64> = (0..2 * COUNT).map(|i| speed[6 + i]).collect();
+                let motion = ModalMotion {
+                    coordinates: [&eta[..COUNT], &eta[COUNT..]],
+                    rates: [&rate[..COUNT], &rate[COUNT..]],
+                };
+                let load = mesh.evaluate_modal(&moved, &motion, tangents).unwrap();
+                let modal = mesh.modal_loads();
+                let value = DVector::from_fn(n, |i, _| match i {
+                    0..6 => load.load[i],
+                    _ => modal.force[i - 6],
+                });
+                let m = 2 * COUNT;
+                let tangent = |pose: &SMatrix<f64, 6, 6>,
+                               rows: &[Vector6],
+                               columns: &[Vector6],
+                               own: &[f64]| {
                     DMatrix::from_fn(n, n, |i, j| match (i < 6, j < 6) {
                         (true, true) => pose[(i, j)],
                         (false, true) => rows[i - 6][j],
@@ -278,57 +284,59 @@ fn modal_tangents_agree_with_differences() {
                         (false, false) => own[(i - 6) * m + j - 6],
                     })
                 };
-            let by_place = tangent(
-                &load.by_position,
-                &modal.force_by_pose,
-                &modal.load_by_coordinates,
-                &modal.by_coordinates,
-            );
-            let by_speed = tangent(
-                &load.by_velocity,
-                &modal.force_by_rates,
-                &modal.load_by_rates,
-                &modal.by_rates,
-            );
-            (value, by_place, by_speed)
-        };
-        let zero = DVector::zeros(n);
-        let speed = DVector::from_fn(n, |i, _| 0.01 * (1.0 + 3.0 * i as f64).sin());
-        let (_, by_place, by_speed) = force(&zero, &speed, true);
-        for dof in 0..n {
-            for (velocity, whole) in [(false, &by_place), (true, &by_speed)] {
-                let h = match (velocity, dof) {
-                    (true, _) => 1e-6,
-                    (false, 3..6) => 2e-9,
-                    _ => 2e-10,
-                };
-                let mut at = |by: f64| {
-                    let (mut place, mut speed) = (zero.clone(), speed.clone());
-                    if velocity {
-                        speed[dof] += by;
-                    } else {
-                        place[dof] += by;
-                    }
-                    force(&place, &speed, false).0
-                };
-                let difference = (at(h) - at(-h)) / (2.0 * h);
-                // Rows of forces, moments and modes have their own scale.
-                for rows in [0..3, 3..6, 6..n] {
-                    let (first, count) = (rows.start, rows.len());
-                    let column = whole.column(dof);
-                    let off = (difference.rows(first, count) - column.rows(first, count)).norm();
-                    let beside = if dof < 6 {
-                        3 * (dof / 3)..3 * (dof / 3) + 3
-                    } else {
-                        6..n
+                let by_place = tangent(
+                    &load.by_position,
+                    &modal.force_by_pose,
+                    &modal.load_by_coordinates,
+                    &modal.by_coordinates,
+                );
+                let by_speed = tangent(
+                    &load.by_velocity,
+                    &modal.force_by_rates,
+                    &modal.load_by_rates,
+                    &modal.by_rates,
+                );
+                (value, by_place, by_speed)
+            };
+            let zero = DVector::zeros(n);
+            let speed = DVector::from_fn(n, |i, _| 0.01 * (1.0 + 3.0 * i as f64).sin());
+            let (_, by_place, by_speed) = force(&zero, &speed, true);
+            for dof in 0..n {
+                for (velocity, whole) in [(false, &by_place), (true, &by_speed)] {
+                    let h = match (velocity, dof) {
+                        (true, _) => 1e-6,
+                        (false, 3..6) => 2e-9,
+                        _ => 2e-10,
                     };
-                    let scale = whole
-                        .view((first, beside.start), (count, beside.len()))
-                        .norm();
-                    assert!(
-                        off < 3e-3 * scale,
-                        "{side:?} dof {dof} rows {first} {velocity}: {off:e} of {scale:e}"
-                    );
+                    let mut at = |by: f64| {
+                        let (mut place, mut speed) = (zero.clone(), speed.clone());
+                        if velocity {
+                            speed[dof] += by;
+                        } else {
+                            place[dof] += by;
+                        }
+                        force(&place, &speed, false).0
+                    };
+                    let difference = (at(h) - at(-h)) / (2.0 * h);
+                    // Rows of forces, moments and modes have their own scale.
+                    for rows in [0..3, 3..6, 6..n] {
+                        let (first, count) = (rows.start, rows.len());
+                        let column = whole.column(dof);
+                        let off =
+                            (difference.rows(first, count) - column.rows(first, count)).norm();
+                        let beside = if dof < 6 {
+                            3 * (dof / 3)..3 * (dof / 3) + 3
+                        } else {
+                            6..n
+                        };
+                        let scale = whole
+                            .view((first, beside.start), (count, beside.len()))
+                            .norm();
+                        assert!(
+                            off < 3e-3 * scale,
+                            "{side:?} dof {dof} rows {first} {velocity}: {off:e} of {scale:e}"
+                        );
+                    }
                 }
             }
         }
@@ -431,23 +439,24 @@ fn vibrating_pairs_keep_their_energy() {
 /// A run with modes that is resumed repeats bit by bit.
 #[test]
 fn resumed_runs_with_modes_repeat() {
-    let pair = spur_pair();
-    let models = models(&pair);
-    let modes = [2, COUNT];
-    let new = || {
-        let mesh = hybrid(&pair, &models, modes, kinematics(&pair));
-        let (mut builder, markers) = scene(&pair, &models, modes, (mesh, 60.0, -4e-6, 0.01));
-        torque(&mut builder, "load", markers[1], -60.0);
-        builder.build().unwrap()
-    };
-    let params = Params::fixed(4e-6);
-    let mut whole = Simulation::new(new(), params).unwrap();
-    whole.run(4e-4, |_| ControlFlow::Continue(())).unwrap();
-    let checkpoint = whole.checkpoint();
-    whole.run(1e-3, |_| ControlFlow::Continue(())).unwrap();
-    let mut resumed = Simulation::resume(new(), params, &checkpoint).unwrap();
-    resumed.run(1e-3, |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!(whole.state(), resumed.state());
+    for pair in pairs() {
+        let models = models(&pair);
+        let modes = [2, COUNT];
+        let new = || {
+            let mesh = hybrid(&pair, &models, modes, kinematics(&pair));
+            let (mut builder, markers) = scene(&pair, &models, modes, (mesh, 60.0, -4e-6, 0.01));
+            torque(&mut builder, "load", markers[1], -60.0);
+            builder.build().unwrap()
+        };
+        let params = Params::fixed(4e-6);
+        let mut whole = Simulation::new(new(), params).unwrap();
+        whole.run(4e-4, |_| ControlFlow::Continue(())).unwrap();
+        let checkpoint = whole.checkpoint();
+        whole.run(1e-3, |_| ControlFlow::Continue(())).unwrap();
+        let mut resumed = Simulation::resume(new(), params, &checkpoint).unwrap();
+        resumed.run(1e-3, |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(whole.state(), resumed.state());
+    }
 }
 
 /// Transmission error over a mesh period at a prescribed slow speed, gears with so many modes.

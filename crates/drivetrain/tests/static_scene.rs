@@ -11,7 +11,7 @@ use gearmesh_drivetrain::errors::broken_tooth::BrokenTooth;
 use gearmesh_drivetrain::errors::pitch::PitchErrors;
 use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
-use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
+use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, involute};
 use mesh_common::*;

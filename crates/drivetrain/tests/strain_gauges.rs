@@ -16,72 +16,79 @@ use nalgebra::Vector3;
 /// direction is taken from where the flanks are.
 #[test]
 fn gauges_read_the_forces_on_the_flanks() {
-    let pair = pair_a();
-    let models = [&pair.gear_1, &pair.gear_2].map(calibrated_gear);
-    let mu = 0.08;
-    // Sliding in either direction is fast against the transition.
-    let friction = Friction::new([mu, mu], [1e-9, 2e-9]).unwrap();
-    let mut mesh = running_mesh("hybrid", &pair).with_friction(friction);
-    for (side, theta) in [
-        (FlankSide::Right, 0.01),
-        (FlankSide::Right, 0.06),
-        (FlankSide::Left, 0.03),
-        (FlankSide::Left, 0.09),
-    ] {
-        let phi = angles(&pair, side, theta, -12e-6);
-        let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
-        let turning = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-        mesh.evaluate(&moving(&at, &turning), false).unwrap();
-        for gear in [1, 2] {
-            let model = &models[gear - 1];
-            let mut gauges =
-                StrainGauges::new(&mesh, gear, model, &GAUGES, ModalPart::Included).unwrap();
-            let found = gauges.read(&mesh, &[]).to_vec();
-            let (flanks, forces) = mesh.side(side).unwrap();
-            let coefficients = mesh.friction_coefficients(side);
-            assert!(coefficients.iter().any(|c| c.abs() > 0.99 * mu));
-            let slices = flanks.contacts.iter().enumerate().map(|(i, contact)| {
-                let (line, plane) = (&flanks.lines[contact.line], &flanks.planes[contact.slice]);
-                let (w, across) = (plane.normal, plane.across);
-                let r1 = pair.gear_1.base_radius_m;
-                let point = r1 * (side.mirror() * across + line.touching_roll_rad[0] * w);
-                let (from_axis, rubbing) = match gear {
-                    1 => (point, coefficients[i] * across),
-                    _ => (point - at.displacement_m, -coefficients[i] * across),
-                };
-                let outwards = from_axis.dot(&across).signum();
-                LoadedSlice {
-                    tooth: line.teeth[gear - 1],
-                    slice: contact.slice,
-                    roll_rad: line.touching_roll_rad[gear - 1],
-                    components: [1.0, rubbing.dot(&(outwards * across))],
-                    force_n: forces[i],
-                }
-            });
-            let loads = grid_forces(&model.grid, slices);
-            let flank = usize::from(side == FlankSide::Left);
-            for (gauge, found) in model.gauges.iter().zip(&found) {
-                let (mut first, mut second) = (0.0, 0.0);
-                for load in &loads {
-                    let at = 3 * ((load.tooth * 2 + flank) * model.grid.len() + load.load);
-                    let own = if load.tooth == gauge.tooth {
-                        gauge.own_tooth[flank * model.grid.len() + load.load]
-                    } else {
-                        0.0
+    for pair in [pair_a(), helical_pair_a()] {
+        let models = [&pair.gear_1, &pair.gear_2].map(calibrated_gear);
+        let mu = 0.08;
+        // Sliding in either direction is fast against the transition.
+        let friction = Friction::new([mu, mu], [1e-9, 2e-9]).unwrap();
+        let mut mesh = running_mesh("hybrid", &pair).with_friction(friction);
+        for (side, theta) in [
+            (FlankSide::Right, 0.01),
+            (FlankSide::Right, 0.06),
+            (FlankSide::Left, 0.03),
+            (FlankSide::Left, 0.09),
+        ] {
+            let phi = angles(&pair, side, theta, -12e-6);
+            let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+            let turning = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+            mesh.evaluate(&moving(&at, &turning), false).unwrap();
+            for gear in [1, 2] {
+                let model = &models[gear - 1];
+                let mut gauges =
+                    StrainGauges::new(&mesh, gear, model, &GAUGES, ModalPart::Included).unwrap();
+                let found = gauges.read(&mesh, &[]).to_vec();
+                let (flanks, forces) = mesh.side(side).unwrap();
+                let coefficients = mesh.friction_coefficients(side);
+                assert!(coefficients.iter().any(|c| c.abs() > 0.99 * mu));
+                let slices = flanks.contacts.iter().enumerate().map(|(i, contact)| {
+                    let (line, plane) =
+                        (&flanks.lines[contact.line], &flanks.planes[contact.slice]);
+                    let roll_rad = flanks.section(contact).touching_roll_rad;
+                    let (w, across) = (plane.normal, plane.across);
+                    let r1 = pair.gear_1.base_radius_m;
+                    let point = r1 * (side.mirror() * across + roll_rad[0] * w);
+                    let (from_axis, rubbing) = match gear {
+                        1 => (point, coefficients[i] * across),
+                        _ => (point - at.displacement_m, -coefficients[i] * across),
                     };
-                    first += load.normal_n * (gauge.adjoint[at] - own);
-                    second += load.normal_n * gauge.adjoint[at]
-                        + load.tangential_n * gauge.adjoint[at + 1];
+                    let outwards = from_axis.dot(&across).signum();
+                    LoadedSlice {
+                        tooth: line.teeth[gear - 1],
+                        slice: contact.slice,
+                        roll_rad: roll_rad[gear - 1],
+                        components: [1.0, rubbing.dot(&(outwards * across))],
+                        force_n: forces[i],
+                    }
+                });
+                let loads = grid_forces(&model.grid, slices);
+                let flank = usize::from(side == FlankSide::Left);
+                let mut rubbed = 0;
+                for (gauge, found) in model.gauges.iter().zip(&found) {
+                    let (mut first, mut second) = (0.0, 0.0);
+                    for load in &loads {
+                        let at = 3 * ((load.tooth * 2 + flank) * model.grid.len() + load.load);
+                        let own = if load.tooth == gauge.tooth {
+                            gauge.own_tooth[flank * model.grid.len() + load.load]
+                        } else {
+                            0.0
+                        };
+                        first += load.normal_n * (gauge.adjoint[at] - own);
+                        second += load.normal_n * gauge.adjoint[at]
+                            + load.tangential_n * gauge.adjoint[at + 1];
+                    }
+                    assert!(
+                        (found.method_1 - first).abs() < 1e-12 * first.abs(),
+                        "{first:e}"
+                    );
+                    assert!(
+                        (found.method_2 - second).abs() < 1e-12 * second.abs(),
+                        "{second:e}"
+                    );
+                    rubbed += usize::from((second - first).abs() > 1e-3 * first.abs());
                 }
-                assert!(
-                    (found.method_1 - first).abs() < 1e-12 * first.abs(),
-                    "{first:e}"
-                );
-                assert!(
-                    (found.method_2 - second).abs() < 1e-12 * second.abs(),
-                    "{second:e}"
-                );
-                assert!((second - first).abs() > 1e-3 * first.abs());
+                // Slices of helical teeth slide both ways at once, so that at some gauges little is left.
+                let least = if pair.is_helical() { 4 } else { GAUGES.len() };
+                assert!(rubbed >= least, "{rubbed}");
             }
         }
     }

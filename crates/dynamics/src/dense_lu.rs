@@ -1,9 +1,12 @@
 //! LU factorisation of a dense matrix in place, with faer, without allocation after its making.
+//!
+//! Systems have some ten to some hundred unknowns and few factorisations, but a solution for every correction. Substitution is
+//! nalgebra's, column by column: faer's, made for many right-hand sides, takes five times as long for a dozen unknowns.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::perm::PermRef;
-use faer::{MatMut, MatRef, Par, Spec};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::factor;
+use faer::{MatMut, Par, Spec};
+use nalgebra::{DMatrixView, DVectorViewMut};
 
 /// A square matrix of fixed size, then its factors.
 pub(crate) struct DenseLu {
@@ -12,19 +15,20 @@ pub(crate) struct DenseLu {
     forward: Vec<usize>,
     backward: Vec<usize>,
     memory: MemBuffer,
+    work: Vec<f64>,
 }
 
 impl DenseLu {
     pub(crate) fn new(size: usize) -> Self {
-        let for_factor =
+        let memory =
             factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, Spec::default());
-        let for_solve = solve::solve_in_place_scratch::<usize, f64>(size, 1, Par::Seq);
         Self {
             size,
             values: vec![0.0; size * size],
             forward: (0..size).collect(),
             backward: (0..size).collect(),
-            memory: MemBuffer::new(StackReq::any_of(&[for_factor, for_solve])),
+            memory: MemBuffer::new(memory),
+            work: vec![0.0; size],
         }
     }
 
@@ -64,15 +68,15 @@ impl DenseLu {
         if self.size == 0 {
             return;
         }
-        let factors = MatRef::from_column_major_slice(&self.values, self.size, self.size);
-        solve::solve_in_place(
-            factors,
-            factors,
-            PermRef::new_checked(&self.forward, &self.backward, self.size),
-            MatMut::from_column_major_slice_mut(right_side, self.size, 1),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-        );
+        for (place, &from) in self.work.iter_mut().zip(&self.forward) {
+            *place = right_side[from];
+        }
+        right_side.copy_from_slice(&self.work);
+        let factors = DMatrixView::from_slice(&self.values, self.size, self.size);
+        let mut x = DVectorViewMut::from_slice(right_side, self.size);
+        // Pivots do not vanish: `factor` has seen them.
+        factors.solve_lower_triangular_with_diag_mut(&mut x, 1.0);
+        factors.solve_upper_triangular_mut(&mut x);
     }
 
     /// Factors and permutation, for a checkpoint.
@@ -84,9 +88,6 @@ impl DenseLu {
     pub(crate) fn restore(&mut self, values: &[f64], forward: &[usize]) {
         self.values.copy_from_slice(values);
         self.forward.copy_from_slice(forward);
-        for (place, &to) in forward.iter().enumerate() {
-            self.backward[to] = place;
-        }
     }
 }
 

@@ -154,6 +154,19 @@ pub enum DynamicsError {
         /// What to do.
         advice: &'static str,
     },
+    /// The step's matrix is singular at its first guess, the joints where it begins are not.
+    #[error(
+        "no convergence at t = {time_s} s with a step of {step_s:.3e} s: its iteration matrix is singular at the first guess, though the \
+         joints are regular where the step begins; {advice}"
+    )]
+    StepSingular {
+        /// Start of the step \[s\].
+        time_s: f64,
+        /// The step \[s\].
+        step_s: f64,
+        /// What to do.
+        advice: &'static str,
+    },
     /// A solver parameter is out of range.
     #[error("solver: {what} is {found}; allowed is {allowed}")]
     Parameter {

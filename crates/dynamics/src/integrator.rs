@@ -361,6 +361,19 @@ impl Integrator {
         }
     }
 
+    /// Evaluates masses and joints at a point and factorises [M Bᵀ; B 0] there into the projector; `false` if it is singular.
+    pub(crate) fn joints_are_regular(&mut self, system: &mut System, point: &Point) -> bool {
+        let at = At {
+            state: &point.state,
+            acceleration: &point.acceleration,
+            lambda: &point.lambda,
+            load_factor: 1.0,
+        };
+        system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
+        let Equations { mass, gradient, .. } = &self.equations;
+        self.projector.factor(mass, gradient, gradient)
+    }
+
     /// Fits a and v to another step length, `old_step_s` = 0 at the start of a run: a stands for v̇ at t + Δh, and v carries C h² v̈ in the
     /// directions that joints prescribe (docs/theory/multibody.md). Without this λ would lose an order for some steps. Later in a run the
     /// part that v carries is read off the joints' rates and scaled, which does not amplify what noise v̈ has.
@@ -382,23 +395,13 @@ impl Integrator {
         if system.kept.is_empty() {
             return Ok(());
         }
-        let at = At {
-            state: &point.state,
-            acceleration: &point.acceleration,
-            lambda: &point.lambda,
-            load_factor: 1.0,
-        };
-        system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
-        let equations = &self.equations;
-        if !self
-            .projector
-            .factor(&equations.mass, &equations.gradient, &equations.gradient)
-        {
+        if !self.joints_are_regular(system, point) {
             return Err(DynamicsError::Singular {
                 what: "the matrix of the joints",
                 time_s: point.state.time_s,
             });
         }
+        let equations = &self.equations;
         if old_step_s > 0.0 {
             let share = (step_s / old_step_s).powi(2) - 1.0;
             for (right, rate) in self.right_joints.iter_mut().zip(&equations.violation_rate) {

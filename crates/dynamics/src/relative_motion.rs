@@ -11,7 +11,7 @@
 //! generalised force Jᵀ(f, μ). Its derivative for constant (f, μ) is the geometric tangent. Everything that acts between two
 //! markers, joint or force element, is built from these. Derivation: docs/theory/multibody.md.
 
-use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 use crate::body::{BodyId, GROUND};
 use crate::rotation::skew;
@@ -86,8 +86,6 @@ pub struct RelativeMotion {
     pub displacement_m: Vector3<f64>,
     /// Q: A axes from B axes.
     pub rotation: Matrix3<f64>,
-    /// Q as a quaternion.
-    pub quaternion: UnitQuaternion<f64>,
     /// u̇ \[m/s\].
     pub velocity_m_per_s: Vector3<f64>,
     /// ω, A axes \[rad/s\].
@@ -127,12 +125,9 @@ impl MarkerPair {
         let slip = a_from_world * (b.velocity_m_per_s - a.velocity_m_per_s) + a_from_b * spin_b
             - a_from_body * spin_a;
         let omega_a = a_from_body * a.angular_velocity_rad_per_s;
-        let quaternion =
-            (a.orientation * self.a.orientation).inverse() * (b.orientation * self.b.orientation);
         RelativeMotion {
             displacement_m: displacement,
             rotation: a_from_b * body_from_b,
-            quaternion,
             velocity_m_per_s: slip - omega_a.cross(&displacement),
             angular_velocity_rad_per_s: a_from_b * b.angular_velocity_rad_per_s - omega_a,
             a_from_body,
@@ -149,6 +144,12 @@ impl MarkerPair {
 }
 
 impl RelativeMotion {
+    /// Q as a quaternion.
+    #[must_use]
+    pub fn quaternion(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation))
+    }
+
     /// J: derivative of (u, rotation of B against A in A axes) by the increments of both bodies, and of (u̇, ω) by their velocities.
     #[must_use]
     pub fn jacobian(&self) -> Jacobian {

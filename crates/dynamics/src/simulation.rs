@@ -255,7 +255,7 @@ impl Simulation {
     /// Makes one step that is accepted, after as many shorter trials as the step control allows.
     ///
     /// # Errors
-    /// [`DynamicsError::StepTooLarge`] with advice, [`DynamicsError::Contradiction`] if a redundant joint equation no longer holds,
+    /// [`DynamicsError::StepTooLarge`] or [`DynamicsError::StepSingular`] with advice, [`DynamicsError::Contradiction`] if a redundant joint equation no longer holds,
     /// [`DynamicsError::Singular`], or the error of an element.
     pub fn step(&mut self) -> Result<(), DynamicsError> {
         loop {
@@ -366,10 +366,21 @@ impl Simulation {
         ratios.fold(1e-9, f64::max)
     }
 
-    fn refusal(&self, failure: StepFailure, advice: &'static str) -> DynamicsError {
+    fn refusal(&mut self, failure: StepFailure, advice: &'static str) -> DynamicsError {
         let time_s = self.now.state.time_s;
         match failure {
             StepFailure::Element(error) => error,
+            StepFailure::Singular
+                if self
+                    .integrator
+                    .joints_are_regular(&mut self.system, &self.now) =>
+            {
+                DynamicsError::StepSingular {
+                    time_s,
+                    step_s: self.step_s,
+                    advice,
+                }
+            }
             StepFailure::Singular => DynamicsError::Singular {
                 what: "the iteration matrix",
                 time_s,

@@ -35,6 +35,10 @@ const LONGEST: f64 = 0.2;
 const FIRST_PUSH: f64 = 1e-6;
 const PUSH_GROWTH: f64 = 2.0;
 
+/// Where the unbalanced force becomes this many times larger along a correction, something stiff is in the way (teeth, stops): the
+/// correction ends before it. Looked for from the first push on at ever doubled distances.
+const RUN_INTO: f64 = 4.0;
+
 /// What to do about motions that nothing resists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FreeMotions {
@@ -161,15 +165,29 @@ pub fn next_equilibrium(
                 push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
             }
             let (ratio, largest) = measure(system, &correction.values[..n], size);
-            let shortening = (LONGEST / ratio).min(1.0);
-            let increment: Vec<f64> = correction.values[..n]
-                .iter()
-                .map(|d| shortening * d)
-                .collect();
-            let from = state.clone();
-            state.set_moved(&from, &increment, &system.layout);
-            for (place, &equation) in system.kept.iter().enumerate() {
-                lambda[equation] += shortening * correction.values[n + place];
+            let walk = Walk {
+                from: state.clone(),
+                lambda_from: lambda.clone(),
+                correction: &correction.values,
+                force_before: unbalanced_force(system, &equations),
+            };
+            let whole = (LONGEST / ratio).min(1.0);
+            let mut share = whole.min(FIRST_PUSH / ratio);
+            walk.to(share, system, &mut state, &mut lambda);
+            while share < whole {
+                let last = share;
+                share = whole.min(2.0 * share);
+                walk.to(share, system, &mut state, &mut lambda);
+                let at = At {
+                    state: &state,
+                    acceleration: &rest,
+                    lambda: &lambda,
+                    load_factor,
+                };
+                if !walk.is_clear(at, system, &mut equations) {
+                    walk.to(last, system, &mut state, &mut lambda);
+                    break;
+                }
             }
             if unbalanced.is_none() && ratio <= params.tolerance {
                 held = correction
@@ -305,6 +323,40 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
         return Err(singular());
     }
     Ok(correction)
+}
+
+/// A correction that is made step by step.
+struct Walk<'a> {
+    from: State,
+    lambda_from: Vec<f64>,
+    /// δ and δλ.
+    correction: &'a [f64],
+    force_before: f64,
+}
+
+impl Walk<'_> {
+    /// The motion after a share of the correction.
+    fn to(&self, share: f64, system: &System, state: &mut State, lambda: &mut [f64]) {
+        let (moves, pushes) = self.correction.split_at(system.degrees_of_freedom());
+        let increment: Vec<f64> = moves.iter().map(|d| share * d).collect();
+        state.set_moved(&self.from, &increment, &system.layout);
+        for (&equation, push) in system.kept.iter().zip(pushes) {
+            lambda[equation] = self.lambda_from[equation] + share * push;
+        }
+    }
+
+    /// Whether nothing stiff has been run into; a motion that an element refuses is too far away, too.
+    fn is_clear(&self, at: At<'_>, system: &mut System, equations: &mut Equations) -> bool {
+        let found = system.evaluate(at, Detail::Forces, equations);
+        found.is_ok() && unbalanced_force(system, equations) <= RUN_INTO * self.force_before
+    }
+}
+
+/// Size of the unbalanced force, in the measure of the masses: √(Σ rᵢ²/mᵢ).
+fn unbalanced_force(system: &System, equations: &Equations) -> f64 {
+    let mass = system.mass_diagonal();
+    let terms = equations.residual.iter().zip(mass);
+    terms.map(|(r, m)| r * r / m).sum::<f64>().sqrt()
 }
 
 /// Largest correction (radians, shares of the size) and where.

@@ -1,63 +1,19 @@
 //! A step must not allocate: counted by the global allocator of this test program.
 #![allow(clippy::unwrap_used)] // test code
-#![allow(unsafe_code)] // a global allocator is an unsafe trait; this one only counts and hands on
 
+#[path = "../../../tests/support/counting_allocator.rs"]
+mod counting_allocator;
 #[allow(dead_code)] // the reference solution is for another test
 mod problems {
     pub mod andrews;
     pub mod two_wheels;
 }
 
-use std::alloc::{GlobalAlloc, Layout, System as Allocator};
-use std::cell::Cell;
-
+use counting_allocator::allocations;
 use gearmesh_dynamics::{OutputGrid, Params, Simulation, System};
 use nalgebra::{UnitQuaternion, Vector3};
 use problems::{andrews, two_wheels};
 use two_wheels::Coupling;
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    // The test harness allocates on other threads; only this one counts.
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
-}
-
-// SAFETY: every call goes unchanged to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        unsafe { Allocator.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { Allocator.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        unsafe { Allocator.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-fn allocations() -> usize {
-    ALLOCATIONS.with(Cell::get)
-}
-
-#[test]
-fn the_counter_counts() {
-    let before = allocations();
-    let boxed = std::hint::black_box(Box::new(1));
-    assert_eq!(allocations() - before, 1);
-    drop(boxed);
-}
 
 #[test]
 fn steps_and_output_do_not_allocate() {

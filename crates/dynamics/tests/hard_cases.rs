@@ -264,6 +264,25 @@ fn a_minute_of_slow_rotation_does_not_drift() {
     );
 }
 
+/// A step of one whole turn: the exponential has no derivative across the axis there. The joints are not to blame.
+#[test]
+fn a_step_of_a_whole_turn_is_refused_with_advice() {
+    let mut wheel = Body::rigid("wheel", 1.0, [0.01; 3]);
+    wheel.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, TAU);
+    let mut builder = System::builder();
+    let id = builder.body(wheel).unwrap();
+    let (place, own) = (Marker::ground([0.0; 3]), Marker::at(id, [0.0; 3]));
+    builder.joint(revolute("axle", place, own));
+    let mut simulation = Simulation::new(builder.build().unwrap(), Params::fixed(1.0)).unwrap();
+    let error = simulation.step().unwrap_err();
+    assert!(
+        matches!(error, DynamicsError::StepSingular { .. }),
+        "{error}"
+    );
+    let text = error.to_string();
+    assert!(text.contains("step of 1.000e0 s") && text.contains("adaptive"));
+}
+
 #[test]
 fn an_adaptive_step_finds_the_length_that_a_stiff_spring_needs() {
     let mut builder = System::builder();

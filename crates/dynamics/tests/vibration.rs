@@ -1,4 +1,4 @@
-//! Static equilibrium, natural frequencies, beams, modal bodies and parametric excitation against closed forms.
+//! Natural frequencies, beams, modal bodies and parametric excitation against closed forms.
 #![allow(clippy::unwrap_used)] // test code
 
 use std::f64::consts::{PI, TAU};
@@ -8,9 +8,9 @@ use gearmesh_dynamics::elements::{
     AppliedLoad, Axes, BeamSection, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
 };
 use gearmesh_dynamics::{
-    Body, BodyId, DynamicsError, ElementFailure, ForceElement, FreeMotions, GROUND, Joint,
-    JointKind, Loads, Marker, MarkerPair, Modes, Params, Simulation, State, StaticParams, System,
-    SystemBuilder, TimeFunction, View, equilibrium, natural_modes,
+    Body, BodyId, ElementFailure, ForceElement, GROUND, Joint, JointKind, Loads, Marker,
+    MarkerPair, Modes, Params, Simulation, State, StaticParams, System, SystemBuilder,
+    TimeFunction, View, equilibrium, natural_modes,
 };
 use nalgebra::{DMatrix, UnitQuaternion, Vector3};
 
@@ -307,109 +307,6 @@ fn a_shaft_spins_with_its_beams_without_straining_them() {
         3.0 * 0.5 * 1e-3 * 300.0 * 300.0,
         1e-10,
     );
-}
-
-#[test]
-fn equilibrium_hangs_reports_and_refuses() {
-    let mut builder = System::builder();
-    let mut bob = Body::rigid("bob", 2.0, [0.01; 3]);
-    bob.position_m = Vector3::new(0.0, 0.4, 0.0);
-    let id = builder.body(bob).unwrap();
-    builder.joint(
-        Joint::new(
-            "pivot",
-            JointKind::Spherical,
-            Marker::ground([0.0; 3]),
-            Marker::at(id, [0.0, -0.4, 0.0]),
-        )
-        .unwrap(),
-    );
-    builder.gravity([9.81, 0.0, 0.0]);
-    let mut system = builder.build().unwrap();
-    let start = system.start().clone();
-    // Released level: nothing resists at first, then it hangs; its rotation about the line stays free.
-    let found = equilibrium(&mut system, &start, &StaticParams::default()).unwrap();
-    assert!((found.state.positions_m[0] - Vector3::new(0.4, 0.0, 0.0)).norm() < 1e-10);
-    assert_eq!(found.held.len(), 1, "{:?}", found.held);
-    assert!(
-        found.held[0].contains("`bob`, rotation"),
-        "{:?}",
-        found.held
-    );
-    close(
-        found.lambda.iter().map(|l| l * l).sum::<f64>().sqrt(),
-        2.0 * 9.81,
-        1e-10,
-    );
-    let strict = StaticParams {
-        free_motions: FreeMotions::Refuse,
-        ..StaticParams::default()
-    };
-    let error = equilibrium(&mut system, &found.state, &strict).unwrap_err();
-    assert!(
-        matches!(&error, DynamicsError::Unbalanced { motion, .. } if motion.contains("bob")),
-        "{error}"
-    );
-
-    let mut builder = System::builder();
-    let wheel = on_axle(&mut builder, "wheel", 0.1).b.body;
-    let torque = AppliedLoad::new(
-        "motor",
-        wheel,
-        LoadKind::Torque,
-        (Axes::World, [0.0, 0.0, 1.0]),
-        TimeFunction::Constant(5.0),
-    );
-    builder.element(torque.unwrap());
-    let mut system = builder.build().unwrap();
-    let start = system.start().clone();
-    let error = equilibrium(&mut system, &start, &StaticParams::default())
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("wheel")
-            && error.contains("rotation about its own z")
-            && error.contains("5.000e0"),
-        "{error}"
-    );
-}
-
-#[test]
-fn a_loaded_spring_stretches_in_load_steps_too() {
-    let mut builder = System::builder();
-    let mut body = Body::rigid("mass", 3.0, [0.01; 3]);
-    body.position_m = Vector3::new(0.0, 0.0, -0.5);
-    let id = builder.body(body).unwrap();
-    let pair = MarkerPair {
-        a: Marker::ground([0.0; 3]),
-        b: origin(id),
-    };
-    builder.joint(Joint::new("slide", JointKind::Prismatic, pair.a, pair.b).unwrap());
-    let spring = SpringDamper {
-        stiffness_n_per_m: 500.0,
-        damping_n_s_per_m: 2.0,
-        free_length_m: 0.5,
-    };
-    builder.element(spring.between("spring", pair).unwrap());
-    builder.gravity([0.0, 0.0, -10.0]);
-    let mut system = builder.build().unwrap();
-    let start = system.start().clone();
-    for load_steps in [1, 5] {
-        let params = StaticParams {
-            load_steps,
-            ..StaticParams::default()
-        };
-        let found = equilibrium(&mut system, &start, &params).unwrap();
-        assert!((found.state.positions_m[0].z + 0.5 + 30.0 / 500.0).abs() < 1e-12);
-    }
-    // From there a transient stays at rest.
-    let still = equilibrium(&mut system, &start, &StaticParams::default())
-        .unwrap()
-        .state;
-    let mut simulation =
-        Simulation::from_state(system, still.clone(), Params::fixed(1e-3)).unwrap();
-    simulation.run(1.0, |_| ControlFlow::Continue(())).unwrap();
-    assert!((simulation.state().positions_m[0] - still.positions_m[0]).norm() < 1e-12);
 }
 
 /// A spring along x whose stiffness jumps between two values, half a period each: an element as another crate would write it.

@@ -6,7 +6,7 @@
 //! | a pair | the highest point of single contact | [`highest_single_contact_rolls_rad`] |
 //! | a pair and a line load | Hertz pressure along the path | [`flank_pressure`] |
 //! | strain of a root gauge | stress | [`root_stress_pa`] |
-//! | a stress history | cycles | [`rainflow()`] |
+//! | a stress history | cycles | [`rainflow()`], of a long one that comes in pieces over its [`TurningPoints`] |
 //! | a table or slopes | cycles to failure of an amplitude | [`SnCurve`] |
 //! | cycles and an S-N curve | damage, life | [`miner_damage`], [`history_damage`] |
 //!
@@ -25,7 +25,7 @@ mod sn_table;
 pub use damage::{Damage, DamageError, history_damage, miner_damage};
 pub use flank_pressure::{FlankPressure, FlankPressureError, flank_pressure};
 pub use mean_stress::MeanStress;
-pub use rainflow::{Cycle, Passage, RainflowError, rainflow, turning_points};
+pub use rainflow::{Cycle, Passage, RainflowError, TurningPoints, rainflow, turning_points};
 pub use root_section::{
     RootConstruction, RootSection, RootSectionError, highest_single_contact_rolls_rad,
     lewis_stress_pa,

@@ -71,28 +71,60 @@ impl Cycle {
 /// # Errors
 /// [`RainflowError`].
 pub fn turning_points(history: &[f64]) -> Result<Vec<f64>, RainflowError> {
-    let first = check(history)?;
-    let mut points = vec![first];
-    for &value in &history[1..] {
-        let last = points[points.len() - 1];
-        if value == last {
-            continue;
-        }
-        // The last point is no turning point if the history goes on in the same direction.
-        if points.len() > 1 && (value > last) == (last > points[points.len() - 2]) {
-            points.pop();
-        }
-        points.push(value);
-    }
-    Ok(points)
+    let mut points = TurningPoints::default();
+    history.iter().try_for_each(|&value| points.push(value))?;
+    points.finish()
 }
 
-/// The first value of a history of finite numbers.
-fn check(history: &[f64]) -> Result<f64, RainflowError> {
-    if let Some((index, &value)) = history.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-        return Err(RainflowError::NotFinite { index, value });
+/// [`turning_points`] of a history that comes value by value: what lies between two turns is not kept. Their [`rainflow()`] is that of the
+/// history.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TurningPoints {
+    points: Vec<f64>,
+    values: usize,
+}
+
+impl TurningPoints {
+    /// Takes the next value.
+    ///
+    /// # Errors
+    /// [`RainflowError::NotFinite`].
+    pub fn push(&mut self, value: f64) -> Result<(), RainflowError> {
+        let index = self.values;
+        self.values += 1;
+        if !value.is_finite() {
+            return Err(RainflowError::NotFinite { index, value });
+        }
+        if let [.., last] = self.points[..] {
+            if value == last {
+                return Ok(());
+            }
+            // The last point is no turning point if the history goes on in the same direction.
+            if let [.., before, last] = self.points[..]
+                && (value > last) == (last > before)
+            {
+                self.points.pop();
+            }
+        }
+        self.points.push(value);
+        Ok(())
     }
-    history.first().copied().ok_or(RainflowError::Empty)
+
+    /// Values taken so far.
+    pub fn values(&self) -> usize {
+        self.values
+    }
+
+    /// The points.
+    ///
+    /// # Errors
+    /// [`RainflowError::Empty`] if nothing was taken.
+    pub fn finish(self) -> Result<Vec<f64>, RainflowError> {
+        if self.points.is_empty() {
+            return Err(RainflowError::Empty);
+        }
+        Ok(self.points)
+    }
 }
 
 /// Counts the cycles of a history, in the order in which they close.
@@ -100,13 +132,10 @@ fn check(history: &[f64]) -> Result<f64, RainflowError> {
 /// # Errors
 /// [`RainflowError`].
 pub fn rainflow(history: &[f64], passage: Passage) -> Result<Vec<Cycle>, RainflowError> {
-    let points = match passage {
-        Passage::Once => turning_points(history)?,
-        Passage::Repeated => {
-            check(history)?;
-            turning_points(&from_maximum(history))?
-        }
-    };
+    let mut points = turning_points(history)?;
+    if passage == Passage::Repeated {
+        points = turning_points(&from_maximum(&points))?;
+    }
     let mut cycles = Vec::new();
     let mut open: Vec<f64> = Vec::new();
     for point in points {

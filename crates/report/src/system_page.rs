@@ -6,10 +6,12 @@
 //! | time histories, spectra, energy | `transient.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
+//! | what was judged after the run | `ratings.rs` |
 
 mod columns;
 mod eigen;
 mod equilibria;
+mod ratings;
 mod sweep;
 mod transient;
 
@@ -36,6 +38,7 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
         "static" => sections.push(equilibria::equilibria(r)?),
         _ => sections.push(eigen::eigen(r)),
     }
+    sections.extend(ratings::ratings(r));
     sections.push(provenance(r));
     Ok(sections)
 }
@@ -54,7 +57,7 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
             )
             .figure(
                 "energy error",
-                format!("{:.1e}", record.relative_energy_error()),
+                format!("{:.1e}", r.relative_energy_error().unwrap_or(f64::NAN)),
                 "relative",
             );
     }

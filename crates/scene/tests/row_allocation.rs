@@ -1,46 +1,16 @@
 //! A row must not allocate: counted by the global allocator of this test program.
 #![allow(clippy::unwrap_used)] // test code
-#![allow(unsafe_code)] // a global allocator is an unsafe trait; this one only counts and hands on
 
+#[path = "../../../tests/support/counting_allocator.rs"]
+mod counting_allocator;
 mod system_runs;
 
-use std::alloc::{GlobalAlloc, Layout, System as Allocator};
-use std::cell::Cell;
+use counting_allocator::allocations;
 use std::ops::ControlFlow;
 
 use gearmesh_dynamics::{OutputGrid, Params, Simulation};
 use gearmesh_model::{Column, RowLog};
 use gearmesh_scene::system_run::{ColumnStatistics, Course, Moment, Recorder, Selection};
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
-}
-
-// SAFETY: every call goes unchanged to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        unsafe { Allocator.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { Allocator.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        unsafe { Allocator.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn rows_allocate_nothing() {
@@ -91,11 +61,11 @@ fn rows_allocate_nothing() {
             recorder.commit(step.system, to);
             before = info.energy;
             if info.steps == 100 {
-                after_warm_up = ALLOCATIONS.with(Cell::get);
+                after_warm_up = allocations();
             }
             ControlFlow::Continue(())
         })
         .unwrap();
-    assert_eq!(ALLOCATIONS.with(Cell::get), after_warm_up);
+    assert_eq!(allocations(), after_warm_up);
     assert!(log.rows() >= 3000);
 }

@@ -181,7 +181,7 @@ fn constant_torque_gives_linear_speed() {
         assert!((turn - 3.0 * t - 20.0 * t * t).abs() < 1e-9);
     }
     let record = result.record.unwrap();
-    assert!(record.relative_energy_error() < 1e-9);
+    assert!(result.relative_energy_error().unwrap() < 1e-9);
     assert!((record.supplied_j - 20.0 * turns[20]).abs() < 1e-6);
     let figures = &result
         .summaries(|name| name.ends_with("velocity_z_rad_per_s"))

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::interrupt;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, ColumnSummary, EigenResult, Outcome, RunJob, RunOptions, RunRecord, SystemResult,
-    is_prominent, run as run_job,
+    Advance, ColumnSummary, EigenResult, Outcome, RatingResult, RunJob, RunOptions, RunRecord,
+    SystemResult, is_prominent, run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -59,6 +59,11 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     }
     drop(stop);
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
+    for rated in &result.ratings {
+        if let Some(problem) = &rated.problem {
+            console::warning(format!("{} is not rated: {problem}", rated.name));
+        }
+    }
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -71,7 +76,10 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
 pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
     if let Some(record) = &result.record {
-        lines.extend(effort(record));
+        lines.extend(effort(
+            record,
+            result.relative_energy_error().unwrap_or(f64::NAN),
+        ));
     }
     lines.extend(match &result.kind[..] {
         "transient" => columns(result)?,
@@ -79,10 +87,28 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
         "static" => equilibria(result)?,
         _ => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
+    lines.extend(result.ratings.iter().flat_map(rating));
     Ok(lines)
 }
 
-fn effort(r: &RunRecord) -> Vec<String> {
+fn rating(rated: &RatingResult) -> Vec<String> {
+    let mut lines = vec![format!("rating of {}: {}", rated.name, rated.method)];
+    lines.extend(
+        rated
+            .problem
+            .iter()
+            .map(|problem| format!("  not rated: {problem}")),
+    );
+    for figure in &rated.figures {
+        lines.push(format!(
+            "  {:<28} {:>13.6e}  {}",
+            figure.name, figure.value, figure.description
+        ));
+    }
+    lines
+}
+
+fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
     let per_step = |count: f64| count / r.steps.max(1.0);
     vec![
         format!(
@@ -107,7 +133,7 @@ fn effort(r: &RunRecord) -> Vec<String> {
             r.largest_violation,
             r.largest_violation_rate,
             r.largest_energy_error_j,
-            r.relative_energy_error()
+            relative_energy_error
         ),
     ]
 }
@@ -256,9 +282,17 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
             .map(|(name, _, value)| (name.to_owned(), json!(value)));
         let mut run = Value::Object(entries.collect());
         run["real_time_factor"] = json!(record.real_time_factor());
-        run["relative_energy_error"] = json!(record.relative_energy_error());
+        run["relative_energy_error"] = json!(result.relative_energy_error());
         value["run"] = run;
     }
+    let ratings = result.ratings.iter().map(|rated| {
+        let figures = rated.figures.iter();
+        json!({
+            "name": rated.name, "method": rated.method, "problem": rated.problem,
+            "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    value["ratings"] = ratings.collect();
     match &result.kind[..] {
         "transient" => {
             let columns = result.summaries(|_| true).map_err(Failure::work)?;

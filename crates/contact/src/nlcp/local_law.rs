@@ -292,26 +292,31 @@ impl LocalLaw {
                 cap_n: cap_force_n,
             });
         }
-        let (deflection_at_cap, slope_at_cap) = if cap_force_n.is_finite() {
-            let logarithm = cap_force_n.ln();
+        Ok(Self::continued(alpha, beta, floor_force_n, cap_force_n))
+    }
+
+    /// The logarithm with its ends continued.
+    fn continued(alpha: f64, beta: f64, floor_n: f64, cap_n: f64) -> Self {
+        let (deflection_at_cap, slope_at_cap) = if cap_n.is_finite() {
+            let logarithm = cap_n.ln();
             (
-                cap_force_n * (alpha - beta * logarithm),
+                cap_n * (alpha - beta * logarithm),
                 alpha - beta - beta * logarithm,
             )
         } else {
             (0.0, 0.0)
         };
-        Ok(LocalLaw {
+        LocalLaw {
             alpha,
             beta,
-            floor_n: floor_force_n,
-            cap_n: cap_force_n,
-            slope_at_zero: alpha + beta - beta * floor_force_n.ln(),
-            floor_curvature: beta / floor_force_n,
+            floor_n,
+            cap_n,
+            slope_at_zero: alpha + beta - beta * floor_n.ln(),
+            floor_curvature: beta / floor_n,
             slope_at_cap,
             deflection_at_cap,
             edge: None,
-        })
+        }
     }
 
     /// The same law where an edge of one body presses on the other: `β F ln[(1 + u)/(e + u)]` is added, see
@@ -403,6 +408,12 @@ impl LocalLaw {
         }
         let beyond = force_n - self.cap_n;
         below - 0.5 * self.beta / self.cap_n * beyond * beyond * cap_rate
+    }
+
+    /// Derivative of the complementary energy by `β` at constant force, α and cap: the energy of the law with α = 0 and β = 1, because it
+    /// is linear in both. An edge is left out.
+    pub fn complementary_energy_by_beta(&self, force_n: f64) -> f64 {
+        Self::continued(0.0, 1.0, self.floor_n, self.cap_n).complementary_energy(force_n)
     }
 
     /// `α` \[m/N\].

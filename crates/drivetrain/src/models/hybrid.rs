@@ -7,6 +7,8 @@
 //! The same solver as the static contact's, with the gaps of the pose instead of those of a driver angle. The compliance moves with the
 //! roll angles: its part of the generalised force, ½ Fᵀ(∂C/∂ξ)F and that of the local laws, is included, so that undamped teeth keep
 //! their energy. The tangent leaves out how C itself moves the forces, about 1e-3 of it.
+//! Helical slices stand each at their own roll angle; on the rigid path those at its ends touch over a share of their width, and the change of
+//! the energy with the share is included, too.
 //! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes give way at rest.
 //! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
@@ -20,14 +22,14 @@ use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
-use crate::mesh_kinematics::{FlankContacts, TeethLine, ToothContact};
+use crate::flank_contacts::{FlankContacts, Section, ToothContact};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// A pair whose nearest slice is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
 /// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
 const OUT_OF_REACH: f64 = 3.0;
 
-/// A line that is left out.
+/// A section or contact that is left out.
 const NOWHERE: usize = usize::MAX;
 
 /// Separation \[m\] of a slice whose flank is gone.
@@ -38,8 +40,11 @@ const GONE_M: f64 = 1.0;
 pub struct ReducedTeeth {
     slices: SliceContact,
     floor_n: f64,
-    /// Number of each line among those that are solved for.
+    helical: bool,
+    /// Number of each section among the places that are solved for: lines of spur teeth, slices of helical ones.
     place: Vec<usize>,
+    /// Row of each contact in the problem.
+    row: Vec<usize>,
     active: Vec<ContactLine>,
     touching: Vec<ContactSlice>,
     separation: Vec<f64>,
@@ -68,16 +73,10 @@ impl KnownForces {
         }
     }
 
-    /// Appends to `start` what is known of a tooth pair; whether anything is.
-    fn append(&self, teeth: [usize; 2], slices: usize, start: &mut Vec<f64>) -> bool {
-        let known = self.teeth.iter().position(|other| *other == teeth);
-        match known {
-            Some(line) => {
-                start.extend_from_slice(&self.forces_n[line * slices..][..slices]);
-            }
-            None => start.resize(start.len() + slices, 0.0),
-        }
-        known.is_some()
+    /// Slice forces known of a tooth pair.
+    fn of_teeth(&self, teeth: [usize; 2], slices: usize) -> Option<&[f64]> {
+        let line = self.teeth.iter().position(|other| *other == teeth)?;
+        Some(&self.forces_n[line * slices..][..slices])
     }
 }
 
@@ -107,7 +106,9 @@ impl ReducedTeeth {
         let empty = || Vec::with_capacity(capacity);
         Ok(Self {
             floor_n: FLOOR_FRACTION * nominal_force_n / slices.slices() as f64,
+            helical: pair.is_helical(),
             place: Vec::with_capacity(capacity),
+            row: Vec::with_capacity(capacity),
             active: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(capacity),
             separation: empty(),
@@ -132,6 +133,9 @@ impl ReducedTeeth {
         self.touching.clear();
         self.separation.clear();
         self.place.clear();
+        self.place.resize(flanks.sections.len(), NOWHERE);
+        self.row.clear();
+        self.row.resize(flanks.contacts.len(), NOWHERE);
         let least = |contacts: &[ToothContact]| {
             let gaps = contacts.iter().map(|contact| contact.gap_m);
             gaps.fold(f64::INFINITY, f64::min)
@@ -139,30 +143,60 @@ impl ReducedTeeth {
         let reach = -OUT_OF_REACH * least(&flanks.contacts);
         for line in &flanks.lines {
             let (first, count) = line.contacts;
-            if least(&flanks.contacts[first..first + count]) > reach {
-                self.place.push(NOWHERE);
+            let contacts = &flanks.contacts[first..first + count];
+            if least(contacts) > reach {
                 continue;
             }
             let number = self.active.len();
-            self.place.push(number);
-            let section = contact_line(line);
-            self.active.push(section);
-            let centres = self.slices.slice_centres_m().iter().enumerate();
-            self.touching
-                .extend(centres.map(|(slice, &z_m)| ContactSlice {
-                    line: number,
-                    slice,
-                    share: 1.0,
-                    z_m,
-                    section,
-                }));
-        }
-        self.separation.resize(self.touching.len(), GONE_M);
-        for contact in &flanks.contacts {
-            if let Some(row) = row_of(&self.place, contact, self.slices.slices()) {
-                self.separation[row] = contact.gap_m;
+            self.active.push(contact_line(line.teeth, &line.middle));
+            if self.helical {
+                for (i, contact) in (first..).zip(contacts) {
+                    if contact.gap_m <= reach {
+                        self.take_slice(flanks, i, number, line.teeth);
+                    }
+                }
+            } else {
+                self.take_line(contacts, (first, number));
             }
         }
+    }
+
+    /// All slices of a spur line; those whose flank is gone far away.
+    fn take_line(&mut self, contacts: &[ToothContact], (first, number): (usize, usize)) {
+        let section = self.active[number];
+        let begin = self.touching.len();
+        let centres = self.slices.slice_centres_m().iter().enumerate();
+        (self.touching).extend(centres.map(|(slice, &z_m)| ContactSlice {
+            line: number,
+            slice,
+            share: 1.0,
+            z_m,
+            section,
+        }));
+        self.separation.resize(self.touching.len(), GONE_M);
+        for (i, contact) in (first..).zip(contacts) {
+            let row = begin + contact.slice;
+            self.place[contact.section] = number;
+            self.row[i] = row;
+            self.separation[row] = contact.gap_m;
+        }
+    }
+
+    /// One slice of a helical line.
+    fn take_slice(&mut self, flanks: &FlankContacts, i: usize, line: usize, teeth: [usize; 2]) {
+        let contact = &flanks.contacts[i];
+        let section = flanks.section(contact);
+        let row = self.touching.len();
+        self.place[contact.section] = row;
+        self.row[i] = row;
+        self.separation.push(contact.gap_m);
+        self.touching.push(ContactSlice {
+            line,
+            slice: contact.slice,
+            share: section.share,
+            z_m: self.slices.slice_centres_m()[contact.slice],
+            section: contact_line(teeth, section),
+        });
     }
 
     /// Takes from the compliance what the modes give way at rest.
@@ -174,8 +208,8 @@ impl ReducedTeeth {
                 continue;
             }
             rows.resize(self.touching.len() * count, 0.0);
-            for (number, contact) in flanks.contacts.iter().enumerate() {
-                if let Some(row) = row_of(&self.place, contact, self.slices.slices()) {
+            for (number, &row) in self.row.iter().enumerate() {
+                if row != NOWHERE {
                     let scaled = rows[row * count..].iter_mut().zip(modal.shape(number));
                     for ((place, phi), omega_squared) in scaled.zip(&modal.omega_squared) {
                         *place = phi / omega_squared.sqrt();
@@ -190,27 +224,30 @@ impl ReducedTeeth {
     fn begin_solution(&mut self) {
         let slices = self.slices.slices();
         self.change.clear();
-        let mut known = false;
-        for line in &self.active {
+        for (number, line) in self.active.iter().enumerate() {
             let teeth = [line.tooth_1, line.tooth_2];
-            known |= self.known.append(teeth, slices, &mut self.change);
+            let known = self.known.of_teeth(teeth, slices);
+            let first = self.change.len();
+            let own = (self.touching[first..].iter()).take_while(|slice| slice.line == number);
+            let force = |slice: &ContactSlice| known.map_or(0.0, |forces| forces[slice.slice]);
+            self.change.extend(own.map(force));
         }
-        if known && self.change.iter().any(|force| *force > 0.0) {
+        if self.change.iter().any(|force| *force > 0.0) {
             self.slices.start_from(&self.change);
         } else {
             self.slices.reset();
         }
     }
 
-    /// F_lineᵀ ∂φ/∂ξ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy.
+    /// F_placeᵀ ∂φ/∂ξ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy, for a section.
     fn modal_energy_by_roll(
         &self,
         flanks: &FlankContacts,
         loads: &TeethLoads,
-        (line, gear): (usize, usize),
+        (section, gear): (usize, usize),
     ) -> f64 {
         let modal = &flanks.modal[gear];
-        let (first, count) = flanks.lines[line].contacts;
+        let (first, count) = flanks.sections[section].contacts;
         let mut rate = 0.0;
         for (mode, omega_squared) in modal.omega_squared.iter().enumerate() {
             let sum = |values: &[f64], contacts: std::ops::Range<usize>| -> f64 {
@@ -224,65 +261,54 @@ impl ReducedTeeth {
         rate
     }
 
-    fn fill_tangent(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
-        let (n, slices) = (flanks.contacts.len(), self.slices.slices());
+    fn fill_tangent(&mut self, loads: &mut TeethLoads) {
+        let n = self.row.len();
         let size = self.touching.len();
         self.change.resize(size, 0.0);
         self.unit.clear();
         self.unit.resize(size, 0.0);
-        for (j, contact) in flanks.contacts.iter().enumerate() {
-            let Some(row) = row_of(&self.place, contact, slices) else {
-                continue;
-            };
-            if loads.normal_n[j] <= 0.0 {
+        for (j, &row) in self.row.iter().enumerate() {
+            if row == NOWHERE || loads.normal_n[j] <= 0.0 {
                 continue;
             }
             self.unit[row] = -1.0;
             self.slices.apply_tangent(&self.unit, &mut self.change);
             self.unit[row] = 0.0;
-            for (i, other) in flanks.contacts.iter().enumerate() {
-                if let Some(row) = row_of(&self.place, other, slices) {
-                    loads.stiffness_n_per_m[i * n + j] = self.change[row];
+            for (i, &other) in self.row.iter().enumerate() {
+                if other != NOWHERE {
+                    loads.stiffness_n_per_m[i * n + j] = self.change[other];
                 }
             }
         }
     }
 
     fn fill_energy(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
-        let slices = self.slices.slices();
-        for (number, line) in flanks.lines.iter().enumerate() {
+        for (number, section) in flanks.sections.iter().enumerate() {
             let place = self.place[number];
-            if place == NOWHERE {
-                continue;
-            }
-            let own = &self.slices.forces_n()[place * slices..(place + 1) * slices];
-            if own.iter().all(|force| *force == 0.0) {
+            if place == NOWHERE || !self.slices.carries(place) {
                 continue;
             }
             for gear in 0..2 {
                 // At the end of a flank the contact no longer walks.
-                if line.roll_rad[gear] == line.touching_roll_rad[gear] {
+                if section.walks(gear) {
                     loads.energy_by_roll[number][gear] = (self.slices).energy_by_roll(place, gear)
                         - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
+            }
+            if section.share < 1.0 {
+                loads.energy_by_share[number] = self.slices.energy_by_share(place);
             }
         }
     }
 }
 
-/// Row of a contact in the problem; none if its line is left out.
-fn row_of(place: &[usize], contact: &ToothContact, slices: usize) -> Option<usize> {
-    let number = place[contact.line];
-    (number != NOWHERE).then(|| number * slices + contact.slice)
-}
-
-fn contact_line(line: &TeethLine) -> ContactLine {
+fn contact_line(teeth: [usize; 2], section: &Section) -> ContactLine {
     ContactLine {
         pair: 0,
-        tooth_1: line.teeth[0],
-        tooth_2: line.teeth[1],
-        roll_1_rad: line.touching_roll_rad[0],
-        roll_2_rad: line.touching_roll_rad[1],
+        tooth_1: teeth[0],
+        tooth_2: teeth[1],
+        roll_1_rad: section.touching_roll_rad[0],
+        roll_2_rad: section.touching_roll_rad[1],
         path_m: 0.0,
         tip: None,
     }
@@ -317,12 +343,11 @@ impl TeethModel for ReducedTeeth {
             }
             .into());
         }
-        let slices = self.slices.slices();
         (self
             .slices
             .prepare_with_rates(&self.active, &self.touching, self.floor_n))
         .map_err(|(cause, slice)| {
-            let line = &self.active[slice / slices];
+            let line = &self.touching[slice].section;
             local_law_error([line.tooth_1, line.tooth_2], cause)
         })?;
         self.take_modes_out(flanks);
@@ -334,14 +359,14 @@ impl TeethModel for ReducedTeeth {
         };
         self.slices.solve(separations, Given::Approach(0.0))?;
         let forces = self.slices.forces_n();
-        for (force, contact) in loads.normal_n.iter_mut().zip(&flanks.contacts) {
-            if let Some(row) = row_of(&self.place, contact, slices) {
+        for (force, &row) in loads.normal_n.iter_mut().zip(&self.row) {
+            if row != NOWHERE {
                 *force = forces[row];
             }
         }
         loads.stored_j = self.slices.stored_energy_j();
         if tangents {
-            self.fill_tangent(flanks, loads);
+            self.fill_tangent(loads);
         }
         self.fill_energy(flanks, loads);
         Ok(())
@@ -349,32 +374,28 @@ impl TeethModel for ReducedTeeth {
 
     fn apply_stiffness(
         &mut self,
-        flanks: &FlankContacts,
+        _flanks: &FlankContacts,
         _loads: &TeethLoads,
         opening_m: &[f64],
         forces_n: &mut [f64],
     ) {
         forces_n.fill(0.0);
-        let (size, slices) = (self.touching.len(), self.slices.slices());
+        let size = self.touching.len();
         if size == 0 {
             return;
         }
         self.unit.clear();
         self.unit.resize(size, 0.0);
         self.change.resize(size, 0.0);
-        let rows = || {
-            let of = |contact| row_of(&self.place, contact, slices);
-            flanks.contacts.iter().map(of).enumerate()
-        };
-        for (number, row) in rows() {
-            if let Some(row) = row {
-                self.unit[row] = -opening_m[number];
+        for (&row, opening) in self.row.iter().zip(opening_m) {
+            if row != NOWHERE {
+                self.unit[row] = -opening;
             }
         }
         self.slices.apply_tangent(&self.unit, &mut self.change);
-        for (number, row) in rows() {
-            if let Some(row) = row {
-                forces_n[number] = self.change[row];
+        for (&row, force) in self.row.iter().zip(forces_n) {
+            if row != NOWHERE {
+                *force = self.change[row];
             }
         }
     }
@@ -391,7 +412,11 @@ impl TeethModel for ReducedTeeth {
         }
         let teeth = self.active.iter().map(|line| [line.tooth_1, line.tooth_2]);
         self.known.teeth.extend(teeth);
-        self.known.forces_n.extend(self.slices.forces_n());
+        let slices = self.slices.slices();
+        self.known.forces_n.resize(self.active.len() * slices, 0.0);
+        for (slice, force) in self.touching.iter().zip(self.slices.forces_n()) {
+            self.known.forces_n[slice.line * slices + slice.slice] = *force;
+        }
     }
 
     /// Number of lines, then the teeth and forces of as many lines as there can be.

@@ -1,11 +1,12 @@
 //! `impact`: F = K δ^e + STEP(δ, 0, 0, d_max, C_max) δ̇ on each pair of teeth, never pulling; δ is the penetration of rigid flanks along
-//! the real line of action.
+//! the real line of action, on helical teeth along the flanks' normal. K is that of a pair over its whole width: where slices of a helical
+//! pair are off the path, the others carry their share alone.
 //!
 //! Source: the IMPACT function of MSC Adams, as used in seeds 002 and 003. The stiffness has the unit N/m^e: its exponent is part of the
 //! value. Damping is part of this law; friction is added by the mesh.
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::mesh_kinematics::FlankContacts;
+use crate::flank_contacts::FlankContacts;
 use crate::step::step;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -94,15 +95,20 @@ impl TeethModel for Impact {
             let (elastic, slope) = self.stiffness.force(depth);
             let full = [self.full_depth_m, self.damping_n_s_per_m];
             let (damping, damping_slope) = step(depth, [0.0, 0.0], full);
-            let force = (elastic - damping * rate) / self.slices;
-            loads.stored_j += elastic * depth / (self.stiffness.exponent + 1.0) / self.slices;
+            // One but for a helical slice that is partly on the path.
+            let share = flanks.section(contact).share;
+            let slices = self.slices / share;
+            let force = (elastic - damping * rate) / slices;
+            let stored = elastic * depth / (self.stiffness.exponent + 1.0) / slices;
+            loads.stored_j += stored;
             if force > 0.0 {
                 loads.normal_n[i] = force;
-                loads.stiffness_n_per_m[i * n + i] = (slope - damping_slope * rate) / self.slices;
-                loads.damping_n_s_per_m[i * n + i] = damping / self.slices;
-                loads.dissipated_w += damping * rate * rate / self.slices;
+                loads.stiffness_n_per_m[i * n + i] = (slope - damping_slope * rate) / slices;
+                loads.damping_n_s_per_m[i * n + i] = damping / slices;
+                loads.dissipated_w += damping * rate * rate / slices;
+                loads.energy_by_share[contact.section] -= stored / share;
             } else {
-                loads.dissipated_w += elastic * rate / self.slices;
+                loads.dissipated_w += elastic * rate / slices;
             }
         }
         Ok(())

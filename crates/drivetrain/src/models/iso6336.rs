@@ -7,12 +7,13 @@
 //! ```
 //!
 //! in N/(mm·µm). The spring acts on the gap of the ideal flanks, which all pairs have in common, and knows no single tooth: flank errors
-//! are refused with it.
+//! are refused with it. In each slice it stands on the pair that is on the path there; on helical teeth each slice has its own phase of the
+//! sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
 
 use std::f64::consts::TAU;
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::mesh_kinematics::{FlankContacts, TeethLine};
+use crate::flank_contacts::{FlankContacts, Section};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What the single stiffness of ISO 6336-1 depends on. Gear 1 is the pinion.
@@ -108,6 +109,13 @@ impl MeshSpring {
         })
     }
 
+    /// Turns a stiffness in the transverse plane, as ISO 6336-1 states it, into that along the normal of helical flanks: over cos²β_b.
+    #[must_use]
+    pub fn on_base_helix(mut self, base_helix_angle_rad: f64) -> Self {
+        self.mean_n_per_m /= base_helix_angle_rad.cos().powi(2);
+        self
+    }
+
     /// Lets the stiffness vary as 1 + A cos(z₁(ξ₁ − ξ_max)) over the mesh cycle, 0 ≤ A < 1.
     ///
     /// # Errors
@@ -155,30 +163,32 @@ impl TeethModel for MeshSpring {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         // Beyond a flank's end the gap is that of a tip edge, no longer the one that all ideal pairs share.
-        let beyond_ends = |line: &TeethLine| -> f64 {
-            let beyond = [0, 1].map(|i| line.roll_rad[i] - line.touching_roll_rad[i]);
-            beyond.iter().map(|rad| rad.max(0.0)).sum()
+        let off_path = |section: &Section| -> f64 {
+            let beyond = [0, 1].map(|i| section.roll_rad[i] - section.touching_roll_rad[i]);
+            let beyond: f64 = beyond.iter().map(|rad| rad.max(0.0)).sum();
+            beyond + (1.0 - section.share)
         };
-        let from_middle = |line: &TeethLine| (line.roll_rad[0] - self.middle_roll_rad).abs();
-        let order = |a: &TeethLine, b: &TeethLine| {
-            let ends = beyond_ends(a).total_cmp(&beyond_ends(b));
+        let from_middle = |section: &Section| (section.roll_rad[0] - self.middle_roll_rad).abs();
+        let order = |a: &Section, b: &Section| {
+            let ends = off_path(a).total_cmp(&off_path(b));
             ends.then(from_middle(a).total_cmp(&from_middle(b)))
         };
-        let nearest = (flanks.lines.iter().enumerate()).min_by(|(_, a), (_, b)| order(a, b));
-        let Some((number, line)) = nearest else {
-            return Ok(());
-        };
-        let (stiffness, slope) = self.stiffness(line.roll_rad[0]);
-        let (each, each_slope) = (stiffness / self.slices, slope / self.slices);
         let n = flanks.contacts.len();
-        let (first, count) = line.contacts;
-        for i in first..first + count {
-            let depth = -flanks.contacts[i].gap_m;
+        for slice in 0..self.slices as usize {
+            let in_slice = flanks.contacts.iter().enumerate();
+            let nearest = (in_slice.filter(|(_, contact)| contact.slice == slice))
+                .min_by(|(_, a), (_, b)| order(flanks.section(a), flanks.section(b)));
+            let Some((i, contact)) = nearest else {
+                continue;
+            };
+            let depth = -contact.gap_m;
             if depth > 0.0 {
+                let (stiffness, slope) = self.stiffness(flanks.section(contact).roll_rad[0]);
+                let (each, each_slope) = (stiffness / self.slices, slope / self.slices);
                 loads.normal_n[i] = each * depth;
                 loads.stiffness_n_per_m[i * n + i] = each;
                 loads.stored_j += 0.5 * each * depth * depth;
-                loads.energy_by_roll[number][0] -= 0.5 * each_slope * depth * depth;
+                loads.energy_by_roll[contact.section][0] -= 0.5 * each_slope * depth * depth;
             }
         }
         Ok(())

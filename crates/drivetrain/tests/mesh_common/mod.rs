@@ -9,7 +9,7 @@ pub mod modal_gear;
 pub mod running_pair;
 
 use gearmesh_contact::LocalContact;
-use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
+use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Marker;
 use gearmesh_geometry::{FlankSide, GearPair, Material, ToothGeometry, involute};
@@ -30,6 +30,30 @@ pub fn spur_pair() -> GearPair {
         &pair_common::tooth(30, 0.2, 0.0),
         &pair_common::tooth(41, -0.1, 0.0),
     )
+}
+
+/// The same numbers of teeth with a helix, gear 1's hand right where the angle is positive.
+pub fn helical_pair(helix_deg: f64) -> GearPair {
+    let gear = |teeth, profile_shift, helix_deg: f64| {
+        let tooth = gearmesh_geometry::ToothDefinition {
+            helix_angle_rad: helix_deg.to_radians(),
+            ..pair_common::tooth(teeth, profile_shift, 0.0)
+        };
+        ToothGeometry::new(&tooth).unwrap()
+    };
+    let (gear_1, gear_2) = (gear(30, 0.2, helix_deg), gear(41, -0.1, -helix_deg));
+    let centre = gear_1.reference_radius_m + gear_2.reference_radius_m + 0.3e-3;
+    GearPair::new(gear_1, gear_2, centre, Default::default()).unwrap()
+}
+
+/// A spur and a helical pair.
+pub fn pairs() -> [GearPair; 2] {
+    [spur_pair(), helical_pair(16.0)]
+}
+
+/// Turn of gear 2 \[rad\] with which helical flanks keep their distance when it moves by `shift_m` along its axis.
+pub fn screw_rad(pair: &GearPair, shift_m: f64) -> f64 {
+    -shift_m * pair.base_helix_angle_rad().tan() / pair.gear_2.base_radius_m
 }
 
 /// The made-up body of the contact tests with both flanks loaded; the two do not feel each other.

@@ -13,12 +13,13 @@ use std::sync::Arc;
 
 use super::{SLICES, WIDTH, angles, disc, made_up_gear, slice_planes};
 
-/// Speed of both gears \[rad/s\].
+/// Speed of gear 1 \[rad/s\].
 pub const SPEED: f64 = TAU * 10.0;
 /// Steps of one mesh period.
 pub const STEPS_A_PERIOD: usize = 50;
-/// Step of 50 to a mesh period \[s\].
+/// Step of 50 to a mesh period of 57 teeth \[s\].
 pub const STEP_S: f64 = TAU / SPEED / 57.0 / STEPS_A_PERIOD as f64;
+/// Torque on gear 2 \[N·m\].
 const TORQUE: f64 = 200.0;
 
 /// Newton to 1e-8 of the step's own motion, here 3e-12 m: four orders below the error of the step.
@@ -41,6 +42,34 @@ pub fn pair_a() -> GearPair {
         .unwrap()
     };
     GearPair::new(gear(), gear(), 0.150, Misalignment::default()).unwrap()
+}
+
+/// 25/30 teeth, module 2 mm, centre distance 55 mm: the pair of seed 002.
+pub fn pair_of_seed_002() -> GearPair {
+    let gear = |teeth| {
+        ToothGeometry::new(&ToothDefinition {
+            module_m: 2e-3,
+            ..super::pair_common::tooth(teeth, 0.0, 0.0)
+        })
+        .unwrap()
+    };
+    GearPair::new(gear(25), gear(30), 0.055, Misalignment::default()).unwrap()
+}
+
+/// 55/55 teeth with a helix of 15 degrees, about as large.
+pub fn helical_pair_a() -> GearPair {
+    let gear = |helix_deg: f64| {
+        ToothGeometry::new(&ToothDefinition {
+            module_m: 2.6e-3,
+            rack_tip_radius: 0.38,
+            helix_angle_rad: helix_deg.to_radians(),
+            ..super::pair_common::tooth(55, 0.33, 0.0)
+        })
+        .unwrap()
+    };
+    let (gear_1, gear_2) = (gear(15.0), gear(-15.0));
+    let centre = 2.0 * gear_1.reference_radius_m + 0.66 * 2.6e-3;
+    GearPair::new(gear_1, gear_2, centre, Misalignment::default()).unwrap()
 }
 
 fn crowned(gear: &ToothGeometry) -> Arc<dyn FlankError> {
@@ -140,8 +169,9 @@ pub fn running_mesh(name: &str, pair: &GearPair) -> GearMesh {
     .unwrap()
 }
 
-/// The system; gear 1 drives with as much torque as gear 2 is braked with. So many gauges are read on gear 2.
+/// The system; gear 1 drives with the torque that gear 2 is braked with, over the ratio. So many gauges are read on gear 2.
 pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBuilder {
+    let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
     let phi = angles(pair, FlankSide::Right, 0.0, -12e-6);
     let mut builder = gearmesh_dynamics::System::builder();
     let bearing = LinearBearing {
@@ -152,7 +182,11 @@ pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBui
         axial_damping_n_s_per_m: 1e3,
         tilt_damping_nm_s_per_rad: 1.0,
     };
-    let markers = [(0, &pair.gear_1, -SPEED), (1, &pair.gear_2, SPEED)].map(|(i, gear, speed)| {
+    let sides = [
+        (0, &pair.gear_1, -SPEED, ratio * TORQUE),
+        (1, &pair.gear_2, ratio * SPEED, TORQUE),
+    ];
+    let markers = sides.map(|(i, gear, speed, torque)| {
         let name = format!("gear {}", i + 1);
         let x = pair.centre_distance_m * i as f64;
         let id = builder
@@ -166,7 +200,7 @@ pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBui
         let name = format!("bearing {}", i + 1);
         builder.element(bearing.between(&name, place).unwrap());
         let axis = (Axes::World, [0.0, 0.0, 1.0]);
-        let load = TimeFunction::Constant(-TORQUE);
+        let load = TimeFunction::Constant(-torque);
         let name = format!("torque {}", i + 1);
         builder.element(AppliedLoad::new(&name, id, LoadKind::Torque, axis, load).unwrap());
         marker

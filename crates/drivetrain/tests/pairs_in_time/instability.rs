@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use gearmesh_drivetrain::mesh_kinematics::FlankContacts;
+use gearmesh_drivetrain::FlankContacts;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation};
 use gearmesh_geometry::{FlankSide, GearPair};
@@ -41,7 +41,7 @@ impl TeethModel for SquareWave {
         let Some(line) = flanks.lines.first() else {
             return Ok(());
         };
-        let place = ((line.roll_rad[0] - self.begin_rad) / self.pitch_rad).rem_euclid(1.0);
+        let place = ((line.middle.roll_rad[0] - self.begin_rad) / self.pitch_rad).rem_euclid(1.0);
         let stiffness = if place < self.part {
             self.stiff
         } else {

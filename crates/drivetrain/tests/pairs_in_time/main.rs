@@ -9,6 +9,7 @@ mod mesh_common;
 
 mod conservation;
 mod hard_cases;
+mod helical;
 mod instability;
 mod resonance;
 mod root_crack;

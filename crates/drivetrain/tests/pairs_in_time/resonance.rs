@@ -1,16 +1,16 @@
 //! A lightly damped pair with backlash through its resonances, against the oscillator that it must be:
 //!
 //! ```text
-//! m ẍ = F − N,   N = k (1 + A cos Ωt) x + c ẋ  where x > 0 and N > 0, else 0          m = I₂/r_b2²,  Ω = z₁ ω₁
+//! m ẍ = F (1 + B cos Ωt) − N,   N = k (1 + A cos Ωt) x + c ẋ  where x > 0 and N > 0, else 0          m = I₂/r_b2²,  Ω = z₁ ω₁
 //! ```
 //!
-//! solved here by the classical Runge-Kutta rule. The oscillator, its softening jump, its super- and subharmonics: A. Kahraman, R. Singh,
+//! solved here by the classical Runge-Kutta rule, but for A = 0, where its loss of contact has a closed form. The oscillator, its softening jump, its super- and subharmonics: A. Kahraman, R. Singh,
 //! J. Sound Vib. 142 (1990) 49-75 and 146 (1991) 135-156; G. W. Blankenship, A. Kahraman, J. Sound Vib. 185 (1995) 743-765.
 
 use std::f64::consts::TAU;
 
 use gearmesh_drivetrain::*;
-use gearmesh_dynamics::{Params, Simulation};
+use gearmesh_dynamics::{Params, Simulation, TimeFunction};
 use gearmesh_geometry::{FlankSide, GearPair};
 
 use crate::mesh_common::spur_pair;
@@ -27,6 +27,8 @@ struct Oscillator {
     force: f64,
     damping: f64,
     amplitude: f64,
+    /// B
+    load_amplitude: f64,
 }
 
 /// Over the last mesh periods: peak to peak of x \[m\], least force \[N\], and the amplitudes \[m\] of ½, 1 and 2 times the mesh frequency.
@@ -70,6 +72,7 @@ impl Oscillator {
             force: TORQUE / scene.pair.gear_2.base_radius_m,
             damping: 2.0 * damping_ratio * (STIFFNESS * mass).sqrt(),
             amplitude,
+            load_amplitude: 0.0,
         }
     }
 
@@ -94,7 +97,8 @@ impl Oscillator {
         let steps = 800;
         let omega = ratio * self.natural_rad_per_s();
         let h = TAU / omega / f64::from(steps);
-        let rate = |t: f64, y: End| [y[1], (self.force - self.normal_n(omega * t, y)) / self.mass];
+        let force = |t: f64| self.force * (1.0 + self.load_amplitude * (omega * t).cos());
+        let rate = |t: f64, y: End| [y[1], (force(t) - self.normal_n(omega * t, y)) / self.mass];
         let moved = |y: End, k: End, h: f64| [y[0] + h * k[0], y[1] + h * k[1]];
         let mut y = start;
         let mut samples = Vec::new();
@@ -151,6 +155,15 @@ impl Oscillator {
             ..Scene::new(pair)
                 .driven_at(omega / teeth as f64)
                 .loaded_by(TORQUE)
+        };
+        let scene = Scene {
+            torque_2: Some(TimeFunction::Sine {
+                offset: TORQUE,
+                amplitude: self.load_amplitude * TORQUE,
+                frequency_hz: omega / TAU,
+                phase_rad: 0.25 * TAU,
+            }),
+            ..scene
         };
         let params = Params {
             rho_infinity: 0.95,
@@ -233,6 +246,64 @@ fn jumps_and_loss_of_contact() {
             (apart > 0.3) == two_branches && (two_branches || apart.abs() < 1e-3),
             "{ratio} {apart}"
         );
+    }
+}
+
+/// With a constant stiffness and a torque that varies the pair is linear until it lifts off, which it does where the varying part of the
+/// force has grown to the mean one:
+///
+/// ```text
+/// B² (1 + 4ζ²Λ²) = (1 − Λ²)² + 4ζ²Λ²
+/// ```
+///
+/// One per cent above it jumps up, because the resonance of lifting teeth leans to lower speeds (Comparin and Singh, J. Sound Vib. 134 (1989) 259-290).
+#[test]
+fn linear_teeth_lift_off_where_they_must_and_then_jump() {
+    let pair = spur_pair();
+    let (zeta, load_amplitude) = (0.03, 0.3);
+    let oscillator = Oscillator {
+        load_amplitude,
+        ..Oscillator::new(&Scene::new(&pair), zeta, 0.0)
+    };
+    // A quadratic equation for y = Λ², its lower root: y² − 2 p y + q = 0.
+    let (b, z) = (load_amplitude * load_amplitude, 4.0 * zeta * zeta);
+    let (p, q) = (1.0 - 0.5 * z * (1.0 - b), 1.0 - b);
+    let lift_off = (p - (p * p - q).sqrt()).sqrt();
+    assert!((0.83..0.85).contains(&lift_off), "{lift_off}");
+    // x and ẋ at phase 0 of x = F/k (1 + B Re(H exp iΩt)), H = 1/(1 − Λ² + 2iζΛ), and its swing.
+    let linear = |ratio: f64| {
+        let still = oscillator.at_rest()[0];
+        let (re, im) = (1.0 - ratio * ratio, 2.0 * zeta * ratio);
+        let square = re * re + im * im;
+        let omega = ratio * oscillator.natural_rad_per_s();
+        let rate = omega * still * load_amplitude * im / square;
+        let start = [still * (1.0 + load_amplitude * re / square), rate];
+        (start, 2.0 * still * load_amplitude / square.sqrt())
+    };
+    // From the linear motion, not from rest: its transient would lift off at once.
+    let (mut end, _) = linear(0.96 * lift_off);
+    for share in [0.96, 0.98, 0.99, 0.995, 1.0025, 1.015] {
+        let ratio = share * lift_off;
+        let (_, linear_swing) = linear(ratio);
+        let (found, last) = oscillator.as_gears(&pair, ratio, (120, 4), end);
+        end = last;
+        let swing = found.swing_m / linear_swing;
+        let dynamic = 0.5 * linear_swing * STIFFNESS * 1.0_f64.hypot(2.0 * zeta * ratio);
+        let least = (oscillator.force - dynamic) / oscillator.force;
+        println!(
+            "{share} {swing:.4} {:.4} {least:.4}",
+            found.least_n / oscillator.force
+        );
+        if share < 1.0 {
+            assert!((swing - 1.0).abs() < 3e-3, "{share} {swing}");
+            assert!(
+                (found.least_n / oscillator.force - least).abs() < 3e-3,
+                "{share} {found:?}"
+            );
+        } else {
+            assert_eq!(found.least_n, 0.0);
+            assert_eq!(swing > 2.0, share > 1.01, "{share} {swing}");
+        }
     }
 }
 

@@ -92,7 +92,7 @@ impl Bushing {
 
     /// e of the module page, and the vector θ.
     fn stretch(&self, motion: &RelativeMotion) -> (Vector6<f64>, Vector3<f64>) {
-        let theta = rotation::log(&motion.quaternion);
+        let theta = rotation::log(&motion.quaternion());
         let u = motion.displacement_m - self.free_displacement_m;
         (
             Vector6::new(u[0], u[1], u[2], theta[0], theta[1], theta[2]),

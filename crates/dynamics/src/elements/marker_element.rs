@@ -34,6 +34,11 @@ pub trait Law: Send {
     /// Derivatives of the load.
     fn tangent(&self, motion: &RelativeMotion) -> LawTangent;
 
+    /// Whether there is any internal state to move on; where there is none, accepted steps cost nothing.
+    fn has_state(&self) -> bool {
+        false
+    }
+
     /// Internal state begins at this motion.
     fn begin(&mut self, _motion: &RelativeMotion) {}
 
@@ -124,8 +129,10 @@ impl<L: Law> ForceElement for MarkerElement<L> {
     }
 
     fn commit(&mut self, view: &View<'_>) {
-        let motion = self.motion(view);
-        self.law.commit(&motion);
+        if self.law.has_state() {
+            let motion = self.motion(view);
+            self.law.commit(&motion);
+        }
     }
 
     fn save(&self, out: &mut Vec<f64>) {

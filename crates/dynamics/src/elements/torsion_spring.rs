@@ -94,6 +94,10 @@ impl Law for TorsionSpring {
         tangent
     }
 
+    fn has_state(&self) -> bool {
+        true
+    }
+
     fn begin(&mut self, motion: &RelativeMotion) {
         self.angle.begin(motion);
     }

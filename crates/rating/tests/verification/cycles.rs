@@ -119,6 +119,14 @@ proptest! {
     }
 
     #[test]
+    fn the_turning_points_hold_all_cycles(x in history()) {
+        let points = turning_points(&x).unwrap();
+        for passage in [Passage::Once, Passage::Repeated] {
+            prop_assert_eq!(rainflow(&x, passage), rainflow(&points, passage));
+        }
+    }
+
+    #[test]
     fn the_largest_range_is_the_histories(x in history()) {
         let span = x.iter().fold(f64::MIN, |m, v| m.max(*v)) - x.iter().fold(f64::MAX, |m, v| m.min(*v));
         for passage in [Passage::Once, Passage::Repeated] {

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{SystemResult, split_unit};
 
-use crate::page::{Section, Text};
+use crate::page::{Axis, Section, Text};
 
 /// Charts of one section; what is left out is named.
 pub(super) const MOST_CHARTS: usize = 24;
@@ -168,6 +168,16 @@ pub(super) fn scaled<'a>(
     };
     curves.into_iter().flatten().for_each(|x| *x *= factor);
     unit
+}
+
+/// The axis of a motion's speed, and the factor that brings rad/s to its rpm: a motion that only turns in the negative sense is drawn by its
+/// amount, so that faster is to the right.
+pub(super) fn speed_axis(speeds_rad_per_s: impl Iterator<Item = f64>) -> (Axis, f64) {
+    let rpm = 60.0 / TAU;
+    if speeds_rad_per_s.fold(f64::NEG_INFINITY, f64::max) < 0.0 {
+        return (Axis::new("speed in the negative sense", "rpm"), -rpm);
+    }
+    (Axis::new("speed of the varied motion", "rpm"), rpm)
 }
 
 /// Whether a column of a transient result varies by more than rounding.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_scene::system_run::{EigenResult, SystemResult};
 
+use super::columns::speed_axis;
 use crate::page::{Align, Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Table};
 
 /// Bodies named with a mode.
@@ -51,11 +52,16 @@ fn modes_table(r: &SystemResult, found: &EigenResult) -> Table {
 /// Frequencies over speed at the first load factor, with the orders of the meshes' teeth.
 fn campbell(r: &SystemResult) -> Option<LineChart> {
     let first = r.eigen.first()?.point.load_factor;
+    let all = r
+        .eigen
+        .iter()
+        .filter_map(|found| found.point.speed_rad_per_s);
+    let (axis, per_unit) = speed_axis(all);
     let mut points: Vec<(f64, &EigenResult)> = r
         .eigen
         .iter()
         .filter(|found| found.point.load_factor.to_bits() == first.to_bits())
-        .filter_map(|found| Some((found.point.speed_rad_per_s? * 60.0 / TAU, found)))
+        .filter_map(|found| Some((found.point.speed_rad_per_s? * per_unit, found)))
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points.dedup_by(|a, b| a.0.to_bits() == b.0.to_bits());
@@ -66,7 +72,7 @@ fn campbell(r: &SystemResult) -> Option<LineChart> {
     let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
     let mut chart = LineChart::new(
         "Natural frequencies over speed (by rising frequency), with orders of the meshes",
-        Axis::new("speed of the varied motion", "rpm"),
+        axis,
         Axis::new("frequency", "Hz"),
     )
     .x_values(speeds.clone());

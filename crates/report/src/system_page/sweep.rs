@@ -1,21 +1,29 @@
 //! Curves of a speed sweep, up and down.
 
-use std::f64::consts::TAU;
-
 use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult, is_prominent, split_unit};
 
-use super::columns::{MOST_CHARTS, quantity, readable};
+use super::columns::{MOST_CHARTS, quantity, readable, scaled, speed_axis};
 use super::transient::run_table;
 use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
 
 /// What is drawn over the speed: name and value.
 type Figure = (&'static str, fn(&Figures) -> f64);
 
+/// One figure on one way.
+struct Curve {
+    name: String,
+    /// Place of the figure, which gives the colour.
+    place: usize,
+    style: LineStyle,
+    values: Vec<f64>,
+}
+
 pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
     ));
-    let rpm = |speed: f64| speed * 60.0 / TAU;
+    let (axis, per_unit) = speed_axis(sweep.windows.iter().map(|w| w.speed_rad_per_s));
+    let rpm = |speed: f64| speed * per_unit;
     let mut speeds: Vec<f64> = sweep
         .windows
         .iter()
@@ -45,18 +53,13 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     chosen.sort_by_key(|c| !sweep.columns[*c].starts_with("elements/"));
     for &column in chosen.iter().take(MOST_CHARTS) {
         let (name, unit) = split_unit(&sweep.columns[column]);
-        let mut chart = LineChart::new(
-            readable(name),
-            Axis::new("speed", "rpm"),
-            Axis::new(quantity(unit), unit),
-        )
-        .x_values(speeds.clone());
         let figures: [Figure; 4] = [
             ("peak to peak", Figures::peak_to_peak),
             ("RMS about the mean", |f| f.deviation),
             ("mean", |f| f.mean),
             ("least", |f| f.least),
         ];
+        let mut curves = Vec::new();
         for (k, (figure, value)) in figures.into_iter().enumerate() {
             for (up, way, style) in [
                 (true, "up", LineStyle::Solid),
@@ -65,12 +68,27 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
                 if !sweep.windows.iter().any(|w| w.up == up) {
                     continue;
                 }
-                let values = curve(column, up, value);
-                let series = LineSeries::new(format!("{figure}, {way}"), values)
-                    .style(style)
-                    .colour(SeriesColour::Palette(k));
-                chart = chart.series(if k == 0 { series } else { series.hidden() });
+                curves.push(Curve {
+                    name: format!("{figure}, {way}"),
+                    place: k,
+                    style,
+                    values: curve(column, up, value),
+                });
             }
+        }
+        let label = quantity(unit);
+        let unit = scaled(unit, curves.iter_mut().map(|curve| &mut curve.values));
+        let mut chart = LineChart::new(readable(name), axis.clone(), Axis::new(label, unit))
+            .x_values(speeds.clone());
+        for curve in curves {
+            let series = LineSeries::new(curve.name, curve.values)
+                .style(curve.style)
+                .colour(SeriesColour::Palette(curve.place));
+            chart = chart.series(if curve.place == 0 {
+                series
+            } else {
+                series.hidden()
+            });
         }
         section = section.push(chart);
     }

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use gearmesh_dynamics::{BodyId, System};
+use gearmesh_geometry::{GearPair, Material};
 use gearmesh_model::ReducedGear;
+use gearmesh_rating::{MeanStress, Passage, SnCurve};
 
 /// A system that is ready to run.
 pub struct BuiltSystem {
@@ -19,6 +21,8 @@ pub struct BuiltSystem {
     pub meshes: Vec<BuiltMesh>,
     /// Gauges to read.
     pub gauges: Vec<BuiltGauge>,
+    /// What is judged after the run.
+    pub ratings: Vec<RatingJob>,
     /// What was assumed or found: phases, redundant joint equations, speeds that follow from a mesh.
     pub notes: Vec<String>,
     /// Effects that are computed, and those that could be and are not.
@@ -79,6 +83,60 @@ pub struct BuiltGauge {
     pub model: Arc<ReducedGear>,
     /// The `hybrid` meshes that load the gear: name of the force element, and whether the body is its gear 1 or 2.
     pub meshes: Vec<(String, usize)>,
+}
+
+/// A rating, made of columns of the result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RatingJob {
+    /// What is rated, in words.
+    pub name: String,
+    /// How, in words.
+    pub method: String,
+    /// Time from which rows count \[s\].
+    pub from_s: f64,
+    /// Columns that it reads.
+    pub columns: Vec<String>,
+    /// What is made of them.
+    pub rule: RatingRule,
+}
+
+/// What is made of the columns of a rating.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RatingRule {
+    /// Cycles and damage of the sum of the columns, strain in µε.
+    Fatigue(FatigueJob),
+    /// Nominal stresses under the largest value of the columns, forces in N.
+    Nominal(Box<NominalJob>),
+}
+
+/// From the strain of a gauge to damage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FatigueJob {
+    /// Stress over strain \[Pa\].
+    pub modulus_pa: f64,
+    /// S-N curve of local stress.
+    pub curve: SnCurve,
+    /// What the mean of a cycle does.
+    pub mean_stress: MeanStress,
+    /// How often the history is passed.
+    pub passage: Passage,
+}
+
+/// From the largest normal force to stresses; one tooth takes all of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NominalJob {
+    /// The pair as it stands at the start.
+    pub pair: GearPair,
+    /// Materials of gear 1 and gear 2.
+    pub materials: [Material; 2],
+    /// Common face width \[m\].
+    pub face_width_m: f64,
+    /// Module \[m\].
+    pub module_m: f64,
+    /// Lewis's factors Y of gear 1 and gear 2.
+    pub lewis_factors: [f64; 2],
+    /// Roll angle of gear 1 where the flank pressure is largest \[rad\].
+    pub pressure_roll_1_rad: f64,
 }
 
 /// An effect that a scene may name.

@@ -16,7 +16,10 @@ pub mod scene;
 pub mod tables;
 
 pub use build::{LoadedSystem, Variation};
-pub use built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect};
+pub use built::{
+    BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, FatigueJob, NominalJob,
+    RatingJob, RatingRule,
+};
 pub use plan::SystemPlan;
 pub use scene::{SystemScene, SystemTables};
 pub use tables::output::Output;

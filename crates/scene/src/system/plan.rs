@@ -98,6 +98,9 @@ impl SystemPlan {
         for gauge in &built.gauges {
             lines.push(format!("gauge      {} of {}", gauge.name, gauge.body));
         }
+        for rating in &built.ratings {
+            lines.push(format!("rating     {}: {}", rating.name, rating.method));
+        }
         for effect in &built.effects {
             let how = effect.computed.as_deref().unwrap_or("not computed");
             lines.push(format!("effect     {}: {how}", effect.name));
@@ -153,7 +156,8 @@ impl SystemPlan {
         let cost_s = clock.elapsed().as_secs_f64() / TIMED_STEPS as f64;
         let steps = simulated / step_s;
         self.lines.push(format!(
-            "cost       {simulated} s in steps of {step_s} s ({word}): {steps:.0} steps of {:.1} us as the first ones take, about {} s",
+            "cost       {} s in steps of {step_s} s ({word}): {steps:.0} steps of {:.1} us as the first ones take, about {} s",
+            (1e6 * simulated).round() / 1e6,
             1e6 * cost_s,
             rounded(steps * cost_s)
         ));

@@ -13,6 +13,7 @@ use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
 use super::tables::output::{Output, OutputTable};
+use super::tables::rating::RatingTable;
 use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
 use super::tables::solver::{Solver, SolverTable};
@@ -65,6 +66,9 @@ pub struct SystemTables {
     /// Strain gauges of reduced gears.
     #[serde(default)]
     pub gauge: Vec<GaugeTable>,
+    /// What is judged after the run.
+    #[serde(default)]
+    pub rating: Vec<RatingTable>,
 }
 
 /// `[[gauge]]`: gauges of a reduced gear that are read.

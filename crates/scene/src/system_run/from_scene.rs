@@ -80,6 +80,7 @@ impl RunJob {
         Ok(Self {
             head: head(&loaded, &built),
             selection: selection(&loaded, &built.system),
+            ratings: built.ratings,
             system: built.system,
             kind,
         })

@@ -17,11 +17,12 @@ use super::column_statistics::ColumnStatistics;
 use super::error::{MOST_ROWS, SystemRunError};
 use super::job::{Advance, InTime, Outcome, RunHead, RunOptions};
 use super::part_folder::PartFolder;
+use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
 use super::result;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
-use crate::system::Start;
+use crate::system::{RatingJob, Start};
 
 /// Wall time between two calls of the progress.
 const TOLD_EVERY: Duration = Duration::from_millis(200);
@@ -216,7 +217,7 @@ fn close(window: &mut ColumnStatistics, figures: &mut Vec<f64>) {
 pub(super) fn run_in_time(
     mut head: RunHead,
     system: System,
-    selection: &Selection,
+    (selection, ratings): (&Selection, &[RatingJob]),
     (kind, run): (&str, &InTime),
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
@@ -290,10 +291,13 @@ pub(super) fn run_in_time(
     let mut tree = result::base(&head, kind, Some(&record));
     if run.windows.is_empty() {
         result::put_statistics(&mut tree, &tape.statistics.figures());
+        rating::put(&mut tree, &rating::of_rows(ratings, &columns, part.log())?);
         let rows = ("time", &columns[..], part.log());
         result::write_rows(options.output, &tree, rows)?;
     } else {
         result::put_sweep(&mut tree, &columns, &run.windows, &tape.figures);
+        let rated = rating::of_windows(ratings, &columns, &tape.figures);
+        rating::put(&mut tree, &rated);
         result::write(options.output, &tree)?;
     }
     part.finish()?;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use gearmesh_dynamics::{Params, System};
 use gearmesh_model::bytes_digest;
 
-use crate::system::Start;
+use crate::system::{RatingJob, Start};
 
 use super::error::SystemRunError;
 use super::recorder::Selection;
@@ -155,6 +155,8 @@ pub struct RunJob {
     pub system: System,
     /// What is recorded.
     pub selection: Selection,
+    /// What is judged after a run in time.
+    pub ratings: Vec<RatingJob>,
     /// What is computed.
     pub kind: RunKind,
 }

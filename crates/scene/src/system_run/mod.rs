@@ -8,6 +8,7 @@
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
+//! | what is judged after the run | [`RatingResult`] | `rating.rs` |
 //! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
 
 mod column_names;
@@ -19,6 +20,7 @@ mod from_scene;
 mod in_time;
 mod job;
 mod part_folder;
+mod rating;
 mod recorder;
 mod result;
 mod run_record;
@@ -36,6 +38,8 @@ pub use job::{
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use part_folder::PartFolder;
+pub use rating::{RatingFigure, RatingResult};
+pub(crate) use recorder::element_column;
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use run_record::RunRecord;
@@ -51,12 +55,14 @@ pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunEr
         head,
         system,
         selection,
+        ratings,
         kind,
     } = job;
     let name = kind.name();
     match &kind {
         RunKind::Transient(run) | RunKind::SpeedSweep(run) => {
-            in_time::run_in_time(head, system, &selection, (name, run), options)
+            let recorded = (&selection, &ratings[..]);
+            in_time::run_in_time(head, system, recorded, (name, run), options)
         }
         RunKind::Static(job) => static_series::run_static(head, &system, &selection, job, options),
         RunKind::Eigen(job) => eigen_run::run_eigen(head, job, options),

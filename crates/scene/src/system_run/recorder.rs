@@ -105,6 +105,11 @@ fn plain(name: &str) -> String {
     name.replace('/', "_")
 }
 
+/// Name of the column of a force element's channel.
+pub(crate) fn element_column(element: &str, channel: &str) -> String {
+    format!("elements/{}/{channel}", plain(element))
+}
+
 impl Recorder {
     /// A recorder that begins at a state. `abscissas` describes the first columns.
     pub fn new(
@@ -138,7 +143,7 @@ impl Recorder {
         for (name, channel) in &all {
             let element = names.iter().position(|of| of == name);
             if element.is_some_and(|i| recorder.chosen[i]) {
-                let column = format!("elements/{}/{}", plain(name), channel.name);
+                let column = element_column(name, &channel.name);
                 recorder.column(
                     column,
                     "as named",

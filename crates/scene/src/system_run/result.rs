@@ -11,6 +11,7 @@ use gearmesh_model::{
 use super::column_names::varying;
 use super::column_statistics::Figures;
 use super::job::{EigenPoint, MeshRecord, RunHead};
+use super::rating::{self, RatingResult};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
 
@@ -61,6 +62,8 @@ pub struct SystemResult {
     pub statistics: Vec<Figures>,
     /// Sweep.
     pub sweep: Option<SweepResult>,
+    /// What was judged after the run.
+    pub ratings: Vec<RatingResult>,
     /// Natural frequencies.
     pub eigen: Vec<EigenResult>,
     /// Names of the bodies, in the order of the participations.
@@ -302,6 +305,7 @@ impl SystemResult {
         let sweep = (kind == "speed-sweep")
             .then(|| take_sweep(tree, path))
             .transpose()?;
+        let ratings = rating::take(tree, path)?;
         let (bodies, eigen) = if kind == "eigen" {
             take_eigen(tree, path)?
         } else {
@@ -322,6 +326,7 @@ impl SystemResult {
             rows,
             statistics,
             sweep,
+            ratings,
             eigen,
             bodies,
         })

@@ -156,9 +156,10 @@ impl RunRecord {
         self.simulated_s / self.wall_s
     }
 
-    /// Largest error of the energy balance over the largest of the energies at the ends, heat and work.
-    pub fn relative_energy_error(&self) -> f64 {
+    /// Largest error of the energy balance over the largest energy: `seen_j`, or those at the ends, heat and work.
+    pub(super) fn relative_energy_error(&self, seen_j: f64) -> f64 {
         let energies = [
+            seen_j,
             self.first_energy_j,
             self.last_energy_j,
             self.dissipated_j,

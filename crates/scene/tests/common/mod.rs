@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::system::{BuiltSystem, SystemScene};
+use gearmesh_scene::system::{BuiltSystem, LoadedSystem, SystemPlan, SystemScene};
 
 /// The folder of the shipped scenes.
 pub fn fe_models() -> PathBuf {
@@ -16,12 +16,21 @@ pub fn text(name: &str) -> String {
     std::fs::read_to_string(fe_models().join(name)).unwrap()
 }
 
+/// Reads a scene in a folder, and the gears that it names.
+pub fn load(text: &str, folder: &Path) -> Result<LoadedSystem, InputError> {
+    let document = InputDocument::new("scene.toml", text);
+    SystemScene::from_document(document, folder)?.load()
+}
+
 /// Reads and builds a scene in a folder, by default that of the shipped ones.
 pub fn build_in(text: &str, folder: &Path) -> Result<BuiltSystem, InputError> {
-    let document = InputDocument::new("scene.toml", text);
-    SystemScene::from_document(document, folder)?
-        .load()?
-        .build()
+    load(text, folder)?.build()
+}
+
+/// Reads, builds and plans a scene in the folder of the shipped ones.
+pub fn plan(text: &str) -> Result<SystemPlan, InputError> {
+    let loaded = load(text, &fe_models())?;
+    SystemPlan::new(&loaded.scene, loaded.build()?)
 }
 
 pub fn build(text: &str) -> Result<BuiltSystem, InputError> {

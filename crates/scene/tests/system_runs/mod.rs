@@ -52,6 +52,7 @@ pub fn job(system: System, kind: RunKind) -> RunJob {
             ..RunHead::default()
         },
         selection: Selection::all(&system),
+        ratings: Vec::new(),
         system,
         kind,
     }

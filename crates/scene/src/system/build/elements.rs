@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use gearmesh_dynamics::elements::{
-    AppliedLoad, Axes, Bushing, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
+    AppliedLoad, Axes, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
 };
-use gearmesh_dynamics::{MarkerPair, SystemBuilder, TimeFunction};
+use gearmesh_dynamics::{DynamicsError, MarkerPair, SystemBuilder, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix6, Vector3};
@@ -14,7 +14,7 @@ use super::bodies::{Bodies, Frame, direction, vector};
 use super::parts::Parts;
 use crate::system::scene::SystemTables;
 use crate::system::tables::MM;
-use crate::system::tables::connection::{BearingKind, BushingTable};
+use crate::system::tables::connection::{BearingKind, BearingTable, BushingTable, SpringTable};
 use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// N/mm in N/m, N·s/mm in N·s/m.
@@ -36,49 +36,82 @@ pub(super) fn add(
         builder.element(load(table, &keys, folder, load_factor, bodies, body)?);
         parts.element_on(&table.name(), "load", bodies, body);
     }
-    springs(tables, document, bodies, builder, parts)?;
+    let mut connections = Connections {
+        document,
+        bodies,
+        builder,
+        parts,
+    };
+    for (i, table) in tables.spring.iter().enumerate() {
+        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
+        connections.add(("spring", i), "spring", named, |keys, ends| {
+            let (spring, pair) = spring(table, keys, bodies, ends)?;
+            Ok(spring.between(&table.name, pair))
+        })?;
+    }
+    for (i, table) in tables.torsion_spring.iter().enumerate() {
+        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
+        connections.add(
+            ("torsion_spring", i),
+            "torsion spring",
+            named,
+            |keys, ends| {
+                let frame = bodies.stated_frame(keys, ends[1], None, table.axis)?;
+                let free_deg = table.free_angle_deg;
+                keys.require("free_angle_deg", free_deg, true, "a finite number")?;
+                let mut spring =
+                    TorsionSpring::new(table.stiffness_Nm_per_rad, table.damping_Nm_s_per_rad);
+                spring.free_angle_rad = free_deg.to_radians();
+                Ok(spring.between(&table.name, pair(bodies, ends, &frame)))
+            },
+        )?;
+    }
     for (i, table) in tables.bushing.iter().enumerate() {
-        let key = format!("bushing.{i}");
-        let keys = TableKeys::new(document, &key);
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let pair = pair(
-            bodies,
-            ends,
-            &bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?,
-        );
-        builder.element(
-            bushing(table, &keys)?
-                .between(&table.name, pair)
-                .map_err(|e| keys.error("", e))?,
-        );
-        parts.element(&table.name, "bushing", bodies, ends);
+        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
+        connections.add(("bushing", i), "bushing", named, |keys, ends| {
+            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+            Ok(bushing(table, keys)?.between(&table.name, pair(bodies, ends, &frame)))
+        })?;
     }
     for (i, table) in tables.bearing.iter().enumerate() {
-        let key = format!("bearing.{i}");
-        let keys = TableKeys::new(document, &key);
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let pair = pair(
-            bodies,
-            ends,
-            &bodies.stated_frame(&keys, ends[1], table.at_mm, table.axis)?,
-        );
-        let BearingKind::Linear = table.kind;
-        let bearing = LinearBearing {
-            radial_stiffness_n_per_m: PER_MM * table.radial_stiffness_N_per_mm,
-            axial_stiffness_n_per_m: PER_MM * table.axial_stiffness_N_per_mm,
-            tilt_stiffness_nm_per_rad: table.tilt_stiffness_Nm_per_rad,
-            radial_damping_n_s_per_m: PER_MM * table.radial_damping_N_s_per_mm,
-            axial_damping_n_s_per_m: PER_MM * table.axial_damping_N_s_per_mm,
-            tilt_damping_nm_s_per_rad: table.tilt_damping_Nm_s_per_rad,
-        };
-        builder.element(
-            bearing
-                .between(&table.name, pair)
-                .map_err(|e| keys.error("", e))?,
-        );
-        parts.element(&table.name, "linear bearing", bodies, ends);
+        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
+        connections.add(("bearing", i), "linear bearing", named, |keys, ends| {
+            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+            Ok(bearing(table).between(&table.name, pair(bodies, ends, &frame)))
+        })?;
     }
     Ok(())
+}
+
+/// Where elements between two bodies are added.
+struct Connections<'a> {
+    document: &'a InputDocument,
+    bodies: &'a Bodies,
+    builder: &'a mut SystemBuilder,
+    parts: &'a mut Parts,
+}
+
+impl Connections<'_> {
+    /// Adds the element that `make` gives for a table: finds its bodies, points at the table in complaints, notes the part. `named` holds the
+    /// names of the element and of its bodies.
+    fn add<E: ForceElement + 'static>(
+        &mut self,
+        (list, number): (&str, usize),
+        kind: &'static str,
+        (name, body_1, body_2): (&str, Option<&str>, &str),
+        make: impl FnOnce(
+            &TableKeys<'_>,
+            [Option<usize>; 2],
+        ) -> Result<Result<E, DynamicsError>, InputError>,
+    ) -> Result<(), InputError> {
+        let key = format!("{list}.{number}");
+        let keys = TableKeys::new(self.document, &key);
+        let ends = self.bodies.find_pair(&keys, body_1, body_2)?;
+        let element = make(&keys, ends)?.map_err(|e| keys.error("", e))?;
+        self.builder.element(element);
+        self.parts.element(name, kind, self.bodies, ends);
+        Ok(())
+    }
 }
 
 fn pair(bodies: &Bodies, ends: [Option<usize>; 2], frame: &Frame) -> MarkerPair {
@@ -144,69 +177,45 @@ fn load(
         .map_err(|e| keys.error("", e))
 }
 
-fn springs(
-    tables: &SystemTables,
-    document: &InputDocument,
+fn spring(
+    table: &SpringTable,
+    keys: &TableKeys<'_>,
     bodies: &Bodies,
-    builder: &mut SystemBuilder,
-    parts: &mut Parts,
-) -> Result<(), InputError> {
-    for (i, table) in tables.spring.iter().enumerate() {
-        let key = format!("spring.{i}");
-        let keys = TableKeys::new(document, &key);
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let first = vector(&keys, "at_1_mm", table.at_1_mm, MM)?;
-        let second = match table.at_2_mm {
-            Some(at) => vector(&keys, "at_2_mm", at, MM)?,
-            None => bodies.frame(ends[1]).origin_m,
-        };
-        let marker = |end: usize, origin_m: Vector3<f64>| {
-            let axes = bodies.frame(ends[end]).axes;
-            bodies.marker(ends[end], &Frame { origin_m, axes })
-        };
-        let spring = SpringDamper {
-            stiffness_n_per_m: PER_MM * table.stiffness_N_per_mm,
-            damping_n_s_per_m: PER_MM * table.damping_N_s_per_mm,
-            free_length_m: table
-                .free_length_mm
-                .map_or((second - first).norm(), |length| MM * length),
-        };
-        let pair = MarkerPair {
-            a: marker(0, first),
-            b: marker(1, second),
-        };
-        builder.element(
-            spring
-                .between(&table.name, pair)
-                .map_err(|e| keys.error("", e))?,
-        );
-        parts.element(&table.name, "spring", bodies, ends);
+    ends: [Option<usize>; 2],
+) -> Result<(SpringDamper, MarkerPair), InputError> {
+    let first = vector(keys, "at_1_mm", table.at_1_mm, MM)?;
+    let second = match table.at_2_mm {
+        Some(at) => vector(keys, "at_2_mm", at, MM)?,
+        None => bodies.frame(ends[1]).origin_m,
+    };
+    let marker = |end: Option<usize>, origin_m: Vector3<f64>| {
+        let axes = bodies.frame(end).axes;
+        bodies.marker(end, &Frame { origin_m, axes })
+    };
+    let spring = SpringDamper {
+        stiffness_n_per_m: PER_MM * table.stiffness_N_per_mm,
+        damping_n_s_per_m: PER_MM * table.damping_N_s_per_mm,
+        free_length_m: table
+            .free_length_mm
+            .map_or((second - first).norm(), |length| MM * length),
+    };
+    let pair = MarkerPair {
+        a: marker(ends[0], first),
+        b: marker(ends[1], second),
+    };
+    Ok((spring, pair))
+}
+
+fn bearing(table: &BearingTable) -> LinearBearing {
+    let BearingKind::Linear = table.kind;
+    LinearBearing {
+        radial_stiffness_n_per_m: PER_MM * table.radial_stiffness_N_per_mm,
+        axial_stiffness_n_per_m: PER_MM * table.axial_stiffness_N_per_mm,
+        tilt_stiffness_nm_per_rad: table.tilt_stiffness_Nm_per_rad,
+        radial_damping_n_s_per_m: PER_MM * table.radial_damping_N_s_per_mm,
+        axial_damping_n_s_per_m: PER_MM * table.axial_damping_N_s_per_mm,
+        tilt_damping_nm_s_per_rad: table.tilt_damping_Nm_s_per_rad,
     }
-    for (i, table) in tables.torsion_spring.iter().enumerate() {
-        let key = format!("torsion_spring.{i}");
-        let keys = TableKeys::new(document, &key);
-        let ends = bodies.find_pair(&keys, table.body_1.as_deref(), &table.body_2)?;
-        let pair = pair(
-            bodies,
-            ends,
-            &bodies.stated_frame(&keys, ends[1], None, table.axis)?,
-        );
-        keys.require(
-            "free_angle_deg",
-            table.free_angle_deg,
-            true,
-            "a finite number",
-        )?;
-        let mut spring = TorsionSpring::new(table.stiffness_Nm_per_rad, table.damping_Nm_s_per_rad);
-        spring.free_angle_rad = table.free_angle_deg.to_radians();
-        builder.element(
-            spring
-                .between(&table.name, pair)
-                .map_err(|e| keys.error("", e))?,
-        );
-        parts.element(&table.name, "torsion spring", bodies, ends);
-    }
-    Ok(())
 }
 
 fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {

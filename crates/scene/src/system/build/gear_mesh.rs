@@ -210,7 +210,7 @@ fn seat(
 }
 
 /// The pair at the centre distance of the start.
-fn fitting_pair(
+pub(super) fn fitting_pair(
     gears: [&Arc<Gear>; 2],
     pose: &Pose,
     keys: &TableKeys<'_>,

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use gearmesh_contact::LocalContact;
-use gearmesh_drivetrain::mesh_kinematics::FlankErrors;
+use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh, Impact,
@@ -358,7 +358,8 @@ impl SceneMesh<'_> {
         };
         let middle = self.pair.working_pressure_angle_rad.tan();
         let spring = MeshSpring::new(per_width * self.face_width_m(), slices, middle)
-            .map_err(self.fault())?;
+            .map_err(self.fault())?
+            .on_base_helix(self.pair.base_helix_angle_rad());
         match table.stiffness_amplitude {
             None => Ok(spring),
             Some(amplitude) => {

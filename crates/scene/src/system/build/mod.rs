@@ -8,6 +8,7 @@
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs` |
 //! | speeds and angles that nobody states | `start.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
+//! | what is judged after the run | `ratings.rs` |
 
 mod bodies;
 mod elements;
@@ -17,6 +18,7 @@ mod joints;
 mod lump;
 mod mesh_model;
 mod parts;
+mod ratings;
 mod shafts;
 mod start;
 
@@ -176,6 +178,7 @@ impl LoadedSystem {
             &mut parts,
         )?;
         let gauges = self.gauges(&bodies, &meshes)?;
+        let ratings = ratings::build(&self.scene, &bodies, &meshes, &gauges)?;
         let built_meshes = meshes.iter().map(|mesh| describe(mesh, &bodies)).collect();
         for mesh in meshes {
             let key = mesh.key.clone();
@@ -209,6 +212,7 @@ impl LoadedSystem {
             elements: parts.elements,
             meshes: built_meshes,
             gauges,
+            ratings,
             notes: parts.notes,
             effects: parts.effects,
         })

@@ -1,0 +1,261 @@
+//! Gear files.
+
+use crate::common::{Desk, SOLID, THIN, argument, changed, gearmesh, line_of, refused, succeeds};
+
+/// `gearmesh check` refuses a gear file in which `from` became `to`, at the line of `at`.
+pub fn gear_refused(text: &str, (from, to): (&str, &str), at: &str, parts: &[&str]) {
+    let desk = Desk::new();
+    let text = changed(text, from, to);
+    let file = desk.file("gear.toml", &text);
+    let answer = gearmesh(&["check", argument(&file)]);
+    refused(&answer, 2, parts);
+    let place = format!("{}:{}: ", file.display(), line_of(&text, at));
+    assert!(
+        answer.stderr.contains(&place),
+        "`{place}` is not in {answer:#?}"
+    );
+    // The commands that work with a gear refuse it before anything is written.
+    for command in ["mesh", "reduce"] {
+        let output = desk.path("output.vtu");
+        let same = gearmesh(&[command, argument(&file), "-o", argument(&output)]);
+        refused(&same, 2, &[&place]);
+        assert_eq!(desk.names(), ["gear.toml"]);
+    }
+}
+
+#[test]
+fn an_unknown_key_is_answered_with_the_known_ones() {
+    gear_refused(
+        SOLID,
+        ("poisson = 0.3", "poisson = 0.3\ndensity = 7850"),
+        "density",
+        &["unknown field `density`", "young_GPa", "poisson"],
+    );
+}
+
+#[test]
+fn a_wrong_unit_is_answered_with_the_right_key() {
+    gear_refused(
+        THIN,
+        ("web_thickness_mm = 4.0", "web_thickness_m = 0.004"),
+        "web_thickness_m ",
+        &[
+            "`web_thickness_m`",
+            "did you mean `web_thickness_mm`? The unit is part of the key",
+        ],
+    );
+}
+
+#[test]
+fn a_web_of_negative_thickness_is_refused() {
+    gear_refused(
+        THIN,
+        ("web_thickness_mm = 4.0", "web_thickness_mm = -4.0"),
+        "web_thickness_mm",
+        &[
+            "blank.web_thickness_mm",
+            "found -4",
+            "more than 0 and at most the face width, 12",
+        ],
+    );
+}
+
+/// Root diameter 3 (18 + 0.2 − 2.5) = 47.1 mm; one module less is allowed.
+#[test]
+fn a_rim_without_material_below_the_root_is_refused() {
+    gear_refused(
+        THIN,
+        (
+            "rim_inner_diameter_mm = 38.0",
+            "rim_inner_diameter_mm = 46.0",
+        ),
+        "rim_inner_diameter_mm",
+        &[
+            "blank.rim_inner_diameter_mm",
+            "found 46",
+            "less than 44.1",
+            "root diameter 47.1",
+        ],
+    );
+}
+
+#[test]
+fn a_bore_larger_than_the_root_is_refused() {
+    gear_refused(
+        SOLID,
+        ("bore_diameter_mm = 14.0", "bore_diameter_mm = 50.0"),
+        "bore_diameter_mm",
+        &[
+            "blank.bore_diameter_mm",
+            "found 50",
+            "less than 44.1",
+            "root diameter 47.1",
+        ],
+    );
+}
+
+fn slotted(count: usize, width_deg: f64) -> String {
+    format!(
+        "web_thickness_mm = 4.0\n[blank.slots]\ncount = {count}\ninner_radius_mm = 12.0\nouter_radius_mm = 17.0\n\
+         width_deg = {width_deg}\nphase_deg = 10.0\ncorner_radius_mm = 0.8"
+    )
+}
+
+#[test]
+fn slots_that_meet_are_refused() {
+    gear_refused(
+        THIN,
+        ("web_thickness_mm = 4.0", &slotted(3, 119.0)),
+        "[blank.slots]",
+        &[
+            "blank.slots",
+            "3 openings of 119.000 deg meet",
+            "1.000 deg are left",
+            "at least 14.324 deg",
+        ],
+    );
+}
+
+#[test]
+fn slots_that_do_not_divide_the_teeth_work_with_a_warning() {
+    let desk = Desk::new();
+    let file = desk.file(
+        "gear.toml",
+        changed(THIN, "web_thickness_mm = 4.0", &slotted(5, 30.0)),
+    );
+    let answer = succeeds(&["check", argument(&file)]);
+    assert!(answer.stdout.contains("sound"), "{answer:#?}");
+    assert!(
+        answer.stderr.contains("warning: ") && answer.stderr.contains("do not divide the teeth"),
+        "{answer:#?}"
+    );
+    // Three slots repeat with the teeth: no warning.
+    let file = desk.file(
+        "gear.toml",
+        changed(THIN, "web_thickness_mm = 4.0", &slotted(3, 30.0)),
+    );
+    assert_eq!(succeeds(&["check", argument(&file)]).stderr, "");
+}
+
+/// What a contour may not be.
+#[test]
+fn a_contour_that_cannot_be_is_explained() {
+    const CONTOUR: &str = "kind = \"contour\"
+hub_z_mm = [-8.0, 6.0]
+web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = [-1.0, 3.0] }]";
+    let (without_mesh, _) = SOLID.split_once("[mesh]").unwrap();
+    let sound = changed(without_mesh, "kind = \"solid\"", CONTOUR);
+    for (change, at, parts) in [
+        (
+            ("[-1.0, 3.0]", "[-1.0, 7.0]"),
+            "web =",
+            &["blank.web.1.z_mm", "found 7", "-6 to 6 at the rim"][..],
+        ),
+        (
+            ("diameter_mm = 38.0", "diameter_mm = 18.0"),
+            "web =",
+            &[
+                "blank.web.0.diameter_mm",
+                "more than 14.000 and less than 18.000",
+            ],
+        ),
+        (
+            ("[-2.0, 2.0]", "[2.0, -2.0]"),
+            "web =",
+            &["blank.web.0.z_mm", "back < front"],
+        ),
+        (
+            ("[-8.0, 6.0]", "[-1.0, 6.0]"),
+            "hub_z_mm",
+            &["at or beyond the back of the web at the hub, -2"],
+        ),
+        (
+            (
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0]",
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0], fillet_radius_mm = -1.0",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found -1",
+                "0 (sharp corners) or more",
+            ],
+        ),
+        (
+            // The front: 3 mm of the rim's inner surface, a corner of 90 + atan(1/9) degrees.
+            (
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0]",
+                "diameter_mm = 38.0, z_mm = [-1.0, 3.0], fillet_radius_mm = 4.5",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found 4.5000",
+                "does not fit the corner at diameter 38.000 mm, z 3.000 mm",
+                "at most 3.3518",
+            ],
+        ),
+        (
+            // Back and front without a kink at the middle point.
+            (
+                "{ diameter_mm = 38.0",
+                "{ diameter_mm = 29.0, z_mm = [-1.5, 2.5], fillet_radius_mm = 2.0 }, { diameter_mm = 38.0",
+            ),
+            "web =",
+            &[
+                "blank.web.1.fillet_radius_mm",
+                "found 2.0000",
+                "no corner there",
+            ],
+        ),
+        (
+            (
+                "{ diameter_mm = 38.0",
+                "{ diameter_mm = 20.0, z_mm = [2.5, 4.0] }, { diameter_mm = 38.0",
+            ),
+            "web =",
+            &["blank.web.1.z_mm", "leaves the web in one piece"],
+        ),
+        (
+            (
+                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0",
+                "[-1.0, 3.0], fillet_radius_mm = 1.0 }]\nbore_diameter_mm = 14.0\n[mesh]\nelement = \"hex20\"",
+            ),
+            "element =",
+            &[
+                "mesh.element",
+                "the contour has fillets",
+                "remove the key or set it to \"tet10\"",
+            ],
+        ),
+        (
+            (
+                "[-1.0, 3.0] }]\nbore_diameter_mm = 14.0",
+                "[-1.0, 6.0] }]\nbore_diameter_mm = 14.0\n[mesh]\nelement = \"hex8\"",
+            ),
+            "element =",
+            &[
+                "mesh.element",
+                "the web is flush with only one of rim and hub",
+            ],
+        ),
+        (
+            ("hub_z_mm = [-8.0, 6.0]\n", ""),
+            "[blank]",
+            &["blank.hub_z_mm: missing", "[back, front]"],
+        ),
+        (
+            ("kind = \"contour\"", "kind = \"solid\""),
+            "hub_z_mm",
+            &["only a blank of kind = \"contour\" uses it"],
+        ),
+    ] {
+        gear_refused(&sound, change, at, parts);
+    }
+    gear_refused(
+        SOLID,
+        ("axial_mm = 3.0", "element = \"tet10\"\nplane_strain = true"),
+        "plane_strain",
+        &["mesh.plane_strain", "meshed in quadrilaterals"],
+    );
+}

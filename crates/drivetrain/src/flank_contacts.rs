@@ -1,0 +1,110 @@
+//! Tooth flanks that face each other at a pose: pairs of teeth, the sections they are seen in, and their slices.
+
+use std::sync::Arc;
+
+use crate::flank_error::FlankError;
+use crate::flank_modes::ModalRows;
+use crate::pose::Vector6;
+use crate::slice_plane::SlicePlane;
+
+/// Deviations of one gear's flanks.
+pub type FlankErrors = Vec<Arc<dyn FlankError>>;
+
+/// Where two flanks cross the line of action. The slices of a spur pair share the one at mid-face; of helical teeth each slice has its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Roll angles on gear 1 and gear 2 \[rad\]; continued beyond the ends of the path. Of a slice that is partly on the path that of the
+    /// part's middle.
+    pub roll_rad: [f64; 2],
+    /// The same, at most at the end of the flank.
+    pub touching_roll_rad: [f64; 2],
+    /// Derivatives of the roll angles by the increments of the pose.
+    pub roll_gradient: [Vector6; 2],
+    /// Share of the slice's width that is on the path, above zero; one but for helical teeth that touch on the rigid path only.
+    pub share: f64,
+    /// Its derivative by the increments of the pose.
+    pub share_gradient: Vector6,
+    /// First of its contacts, and how many there are.
+    pub contacts: (usize, usize),
+}
+
+impl Section {
+    /// Whether the contact walks over the flank of gear 0 or 1; beyond the end of the flank it no longer does.
+    #[must_use]
+    pub fn walks(&self, gear: usize) -> bool {
+        self.roll_rad[gear] == self.touching_roll_rad[gear]
+    }
+}
+
+/// Two tooth flanks that face each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TeethLine {
+    /// Teeth of gear 1 and gear 2.
+    pub teeth: [usize; 2],
+    /// The section at mid-face; of helical teeth continued where it is off the flanks.
+    pub middle: Section,
+    /// Gap that ideal flanks would have at mid-face \[m\], in the transverse plane.
+    pub ideal_gap_m: f64,
+    /// First of its contacts, and how many there are.
+    pub contacts: (usize, usize),
+}
+
+/// One slice of such a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothContact {
+    /// Number of its line.
+    pub line: usize,
+    /// Number of the slice plane.
+    pub slice: usize,
+    /// Number of its section.
+    pub section: usize,
+    /// Gap \[m\] along the flanks' normal, open positive.
+    pub gap_m: f64,
+    /// Rate of the gap \[m/s\].
+    pub gap_rate_m_per_s: f64,
+    /// Derivative of the gap by the increments of the pose: the load of a unit force on gear 2.
+    pub gradient: Vector6,
+}
+
+/// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct FlankContacts {
+    /// Slice planes.
+    pub planes: Vec<SlicePlane>,
+    /// Pairs of teeth.
+    pub lines: Vec<TeethLine>,
+    /// Sections: one a line of spur teeth, one a contact of helical ones.
+    pub sections: Vec<Section>,
+    /// Their slices, line by line.
+    pub contacts: Vec<ToothContact>,
+    /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
+    pub modal: [ModalRows; 2],
+}
+
+impl FlankContacts {
+    /// Memory for so many slice planes and contacts.
+    #[must_use]
+    pub fn with_capacity(planes: usize, contacts: usize) -> Self {
+        Self {
+            planes: Vec::with_capacity(planes),
+            lines: Vec::with_capacity(contacts),
+            sections: Vec::with_capacity(contacts),
+            contacts: Vec::with_capacity(contacts),
+            modal: [ModalRows::default(), ModalRows::default()],
+        }
+    }
+
+    /// Forgets what was found; the modes' shapes are left alone.
+    pub(crate) fn clear(&mut self) {
+        self.planes.clear();
+        self.lines.clear();
+        self.sections.clear();
+        self.contacts.clear();
+    }
+
+    /// The section of a contact.
+    #[must_use]
+    pub fn section(&self, contact: &ToothContact) -> &Section {
+        &self.sections[contact.section]
+    }
+}

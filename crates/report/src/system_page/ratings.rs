@@ -1,0 +1,46 @@
+//! Ratings: a table for each.
+
+use gearmesh_scene::system_run::{RatingFigure, RatingResult, SystemResult};
+
+use super::columns::short;
+use crate::page::{Align, Section, Table, Text};
+
+/// The section, where there are ratings.
+pub(super) fn ratings(r: &SystemResult) -> Option<Section> {
+    if r.ratings.is_empty() {
+        return None;
+    }
+    let mut section = Section::new(format!("{}: rating", r.head.title));
+    for rated in &r.ratings {
+        section = section.push(Text::paragraph(format!(
+            "{}: {}.",
+            rated.name, rated.method
+        )));
+        section = match &rated.problem {
+            Some(problem) => section.push(Text::note(format!("Not rated: {problem}"))),
+            None => section.push(table(rated)),
+        };
+    }
+    Some(section)
+}
+
+fn table(rated: &RatingResult) -> Table {
+    let mut table = Table::new(rated.name.clone())
+        .column("figure", Align::Left)
+        .column("value", Align::Right)
+        .column("unit", Align::Left);
+    for figure in &rated.figures {
+        let (value, unit) = in_usual_units(figure);
+        table = table.row([figure.description.to_owned(), value, unit.to_owned()]);
+    }
+    table
+}
+
+fn in_usual_units(figure: &RatingFigure) -> (String, &'static str) {
+    match (figure.unit, figure.value) {
+        (_, value) if value == f64::INFINITY => ("no damage".to_owned(), ""),
+        ("Pa", value) => (short(1e-6 * value), "MPa"),
+        ("1", value) => (short(value), ""),
+        (unit, value) => (short(value), unit),
+    }
+}

@@ -1,0 +1,151 @@
+//! Unknown names, keys of another kind, values out of range.
+
+use crate::refused;
+
+#[test]
+fn unknown_names_are_answered_with_the_nearest() {
+    refused(
+        ("body = \"wheel\"", "body = \"weel\""),
+        "body = \"weel\"",
+        &[
+            "load.0.body: there is no body `weel`; did you mean `wheel`? the scene has `ground`, `pinion`, `wheel`",
+        ],
+    );
+    refused(
+        ("gear_1 = \"pinion\"", "gear_1 = \"sun\""),
+        "gear_1 = \"sun\"",
+        &["gear_mesh.0.gear_1: there is no body `sun`; the scene has"],
+    );
+    refused(
+        ("joint = \"axle 1\"", "joint = \"axel 1\""),
+        "joint = \"axel 1\"",
+        &["motion.0.joint: there is no joint `axel 1`; did you mean `axle 1`?"],
+    );
+    refused(
+        (
+            "interval_s = 2e-5",
+            "interval_s = 2e-5\nelements = [\"mash\"]",
+        ),
+        "elements",
+        &["output.elements.0: there is no force element `mash`; did you mean `mesh`?"],
+    );
+    refused(
+        ("name = \"axle 2\"", "name = \"axle 1\""),
+        "name = \"axle 1\"\nkind = \"revolute\"\nbody_2 = \"wheel\"",
+        &["joint.1.name: `axle 1` is the name of another joint or motion"],
+    );
+}
+
+#[test]
+fn keys_of_another_kind_are_refused() {
+    refused(
+        ("exponent = 1.5", "exponent = 1.5\nlocal = \"calibrated\""),
+        "local",
+        &["gear_mesh.0.local: is not used by model = \"impact\", only by \"hybrid\"; remove it"],
+    );
+    refused(
+        (
+            "model = \"impact\"",
+            "model = \"iso6336\"\nmicrogeometry = false",
+        ),
+        "stiffness_N_per_mm_e",
+        &[
+            "gear_mesh.0.stiffness_N_per_mm_e: is not used by model = \"iso6336\", only by \"impact\"",
+        ],
+    );
+    refused(
+        ("end_s = 0.05", "end_s = 0.05\nspeeds = 7"),
+        "speeds",
+        &["run.speeds: is not used by kind = \"transient\", only by \"speed-sweep\""],
+    );
+    refused(
+        ("kind = \"transient\"\nend_s = 0.05", "kind = \"static\""),
+        "step_s",
+        &["solver.step_s: is not used by run.kind = \"static\""],
+    );
+    refused(
+        (
+            "kind = \"revolute\"\nbody_2 = \"wheel\"",
+            "kind = \"fixed\"\naxis = [0, 0, 1]\nbody_2 = \"wheel\"",
+        ),
+        "axis",
+        &["joint.1.axis: is not used by kind = \"fixed\""],
+    );
+    refused(
+        ("exponent = 1.5", "exponent = 1.5\ncolour = 3"),
+        "colour",
+        &["unknown field `colour`", "`stiffness_N_per_mm_e`"],
+    );
+    refused(
+        (
+            "position_mm = [150.0, 0.0, 0.0]",
+            "position_m = [0.15, 0.0, 0.0]",
+        ),
+        "position_m ",
+        &["did you mean `position_mm`? The unit is part of the key"],
+    );
+}
+
+#[test]
+fn values_out_of_range_are_refused() {
+    refused(
+        ("exponent = 1.5", "exponent = 0.5"),
+        "exponent",
+        &["gear_mesh.0.exponent: found 0.5, allowed is 1 to 5"],
+    );
+    refused(
+        ("exponent = 1.5\n", ""),
+        "[[gear_mesh]]",
+        &["gear_mesh.0.exponent: missing; the unit of stiffness_N_per_mm_e, N/mm^e, needs it"],
+    );
+    refused(
+        ("full_damping_depth_um = 10.0", ""),
+        "[[gear_mesh]]",
+        &["gear_mesh.0.full_damping_depth_um: missing; damping_N_s_per_mm needs it"],
+    );
+    refused(
+        ("step_s = 2e-6", "step_s = -2e-6"),
+        "step_s",
+        &["solver.step_s: found -0.000002, allowed is more than 0"],
+    );
+    refused(
+        ("step_s = 2e-6", "step_s = 2.0"),
+        "step_s",
+        &["solver.step_s: found 2, longer than the run of 0.05 s"],
+    );
+    refused(
+        ("step_s = 2e-6", ""),
+        "[solver]",
+        &["solver.step_s: missing; give a fixed step, or a table [solver.adaptive]"],
+    );
+    refused(
+        ("interval_s = 2e-5", ""),
+        "[output]",
+        &["output.interval_s: missing"],
+    );
+    refused(
+        ("to = -100.0", "to = nan"),
+        "torque_Nm",
+        &["STEP runs from 0 s to 0.01 s", "all numbers finite"],
+    );
+    refused(
+        ("end_s = 0.01", "end_s = 0.0"),
+        "torque_Nm",
+        &["the end must come after the start"],
+    );
+    refused(
+        ("speed_rpm = -600.0", "speed_rpm = inf"),
+        "speed_rpm",
+        &["motion.0.speed_rpm: found inf"],
+    );
+    refused(
+        ("speed_rpm = -600.0", "speed_rpm = \"fast\""),
+        "speed_rpm",
+        &["a number, or a table with one of linear, step, sine, table, sum, product"],
+    );
+    refused(
+        ("speed_rpm = -600.0", ""),
+        "[[motion]]",
+        &["a motion states exactly one of angle_deg, speed_rpm, position_mm, speed_mm_per_s"],
+    );
+}

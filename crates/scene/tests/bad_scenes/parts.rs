@@ -1,0 +1,284 @@
+//! Bodies, gears and meshes that cannot be.
+
+use crate::common::*;
+use crate::refused;
+
+#[test]
+fn bodies_that_cannot_be_are_refused() {
+    let pendulum = text("scene_pendulum.toml");
+    for (from, to, at, part) in [
+        (
+            "[0.25, 1e-3, 0.25]",
+            "[0.25, -1e-3, 0.25]",
+            "inertia_kg_m2",
+            "body.0.inertia_kg_m2: body `rod`: a moment of inertia is zero or negative",
+        ),
+        (
+            "[0.25, 1e-3, 0.25]",
+            "[0.25, 1e-3, 0.5]",
+            "inertia_kg_m2",
+            "breaks the triangle inequality",
+        ),
+        (
+            "[0.25, 1e-3, 0.25]",
+            "[0.25, 1e-3]",
+            "inertia_kg_m2",
+            "body.0.inertia_kg_m2: found 2 numbers, allowed are 3 or 6",
+        ),
+        (
+            "mass_kg = 3.0",
+            "mass_kg = 0.0",
+            "mass_kg",
+            "body.0.mass_kg: body `rod`: mass in kg is 0; it must be positive and finite",
+        ),
+        (
+            "mass_kg = 3.0",
+            "",
+            "[[body]]",
+            "body.0.mass_kg: missing; a body without gear needs it",
+        ),
+        (
+            "cardan_deg = [0.0, 0.0, 60.0]",
+            "cardan_deg = [60.0]",
+            "cardan_deg",
+            "body.0.cardan_deg: found 1 angles, allowed are 3",
+        ),
+        (
+            "name = \"rod\"",
+            "name = \"ground\"",
+            "name = \"ground\"",
+            "which is the world",
+        ),
+        (
+            "body_2 = \"rod\"",
+            "body_1 = \"rod\"\nbody_2 = \"rod\"",
+            "body_2",
+            "joint.0.body_2: found `rod`, the same as body_1",
+        ),
+        (
+            "cardan_deg",
+            "gear = \"nowhere.toml\"\ncardan_deg",
+            "gear",
+            "body.0.gear: the gear file",
+        ),
+        (
+            "cardan_deg",
+            "gear = \"nowhere.h5\"\ncardan_deg",
+            "gear",
+            "make it with `gearmesh reduce GEAR.toml -o",
+        ),
+        (
+            "cardan_deg",
+            "flexibility = \"reduced\"\ncardan_deg",
+            "flexibility",
+            "is stated for a body that is no gear",
+        ),
+    ] {
+        let scene = changed(&pendulum, from, to);
+        let complaint = build(&scene)
+            .err()
+            .unwrap_or_else(|| panic!("accepted:\n{scene}"))
+            .to_string();
+        let place = format!("scene.toml:{}: ", line_of(&scene, at));
+        assert!(
+            complaint.contains(&place) && complaint.contains(part),
+            "`{place}{part}` is not in\n{complaint}"
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let gear = changed(
+        &text("gear1.toml"),
+        "density_kg_per_m3 = 7850.0  # for the dynamics\n",
+        "",
+    );
+    std::fs::write(folder.path().join("gear1.toml"), gear).unwrap();
+    let complaint = build_in(&text("scene_two_wheels.toml"), folder.path())
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(
+        complaint.contains("body.0.gear: ")
+            && complaint.contains("gear1.toml has no density, hence no mass: give"),
+        "{complaint}"
+    );
+    let modal = "gear = \"gear1.toml\"\nposition_mm";
+    refused(
+        (
+            modal,
+            "gear = \"gear1.toml\"\nflexibility = \"modal\"\nposition_mm",
+        ),
+        "flexibility",
+        &["body.1.flexibility: is \"modal\", which needs a reduced gear (.h5) with modes"],
+    );
+    refused(
+        (
+            modal,
+            "gear = \"gear1.toml\"\nmodal_damping_ratio = 0.01\nposition_mm",
+        ),
+        "modal_damping_ratio",
+        &[
+            "body.1.modal_damping_ratio: is not used where flexibility is not given, only by \"modal\"",
+        ],
+    );
+    refused(
+        (
+            modal,
+            "gear = \"gear1.toml\"\nflexibility = \"reduced\"\nposition_mm",
+        ),
+        "flexibility",
+        &["body.1.flexibility: is \"reduced\", which hybrid meshes can feel only"],
+    );
+}
+
+#[test]
+fn gears_that_do_not_fit_are_refused() {
+    refused(
+        (
+            "position_mm = [150.0, 0.0, 0.0]",
+            "position_mm = [157.0, 0.0, 0.0]",
+        ),
+        "gear_2 = ",
+        &[
+            "gear_mesh.0.gear_2: at the centre distance of 157.0000 mm at the start: the transverse contact ratio",
+        ],
+    );
+    refused(
+        (
+            "position_mm = [150.0, 0.0, 0.0]",
+            "position_mm = [120.0, 0.0, 0.0]",
+        ),
+        "gear_2 = ",
+        &["below the sum of the base radii"],
+    );
+    refused(
+        (
+            "position_mm = [150.0, 0.0, 0.0]",
+            "position_mm = [150.0, 0.0, 30.0]",
+        ),
+        "gear_2 = ",
+        &["the gears stand side by side: 30.000 mm apart along the axis"],
+    );
+    refused(
+        (
+            "position_mm = [150.0, 0.0, 0.0]",
+            "position_mm = [150.0, 0.0, 0.0]\ncardan_deg = [2.0, 0.0]",
+        ),
+        "gear_2 = ",
+        &["the gear axes stand 34.91 mrad from parallel"],
+    );
+    refused(
+        ("gear_2 = \"wheel\"", "gear_2 = \"pinion\""),
+        "gear_2 = ",
+        &["found `pinion`, the same as gear_1"],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let gear = text("gear1.toml");
+    std::fs::write(folder.path().join("gear1.toml"), &gear).unwrap();
+    for (from, to, part) in [
+        (
+            "module_mm = 2.6",
+            "module_mm = 2.7",
+            "the gears do not fit: module 2.6 and 2.7 mm",
+        ),
+        (
+            "pressure_angle_deg = 20.0",
+            "pressure_angle_deg = 22.0",
+            "the gears do not fit: pressure angle 20 and 22 deg",
+        ),
+    ] {
+        // The crowning's diameter must stay on the flank.
+        let other = changed(
+            &changed(&gear, from, to),
+            "[microgeometry]\nprofile_crowning_um = 10.0\nprofile_crowning_diameter_mm = 150.0\n",
+            "",
+        );
+        std::fs::write(folder.path().join("other.toml"), other).unwrap();
+        let scene = changed(
+            &text("scene_two_wheels.toml"),
+            "name = \"wheel\"\ngear = \"gear1.toml\"",
+            "name = \"wheel\"\ngear = \"other.toml\"",
+        );
+        let complaint = build_in(&scene, folder.path()).err().unwrap().to_string();
+        assert!(complaint.contains(part), "{complaint}");
+    }
+}
+
+#[test]
+fn meshes_that_cannot_be_are_refused() {
+    let twice = "full_damping_depth_um = 10.0\n[[gear_mesh]]\nname = \"again\"\ngear_1 = \"wheel\"\ngear_2 = \"pinion\"\nmodel = \"kinematic\"\nmicrogeometry = false\n";
+    refused(
+        ("full_damping_depth_um = 10.0", twice),
+        "gear_2 = \"pinion\"",
+        &["gear_mesh.1.gear_2: `wheel` and `pinion` are in mesh already in `mesh`"],
+    );
+    let plain = "model = \"impact\"\nstiffness_N_per_mm_e = 1e6\nexponent = 1.5\ndamping_N_s_per_mm = 1e2\nfull_damping_depth_um = 10.0";
+    refused(
+        (plain, "model = \"hybrid\""),
+        "gear_1 = ",
+        &["gear_mesh.0.gear_1: model = \"hybrid\" needs reduced gears (.h5), found"],
+    );
+    refused(
+        (plain, "model = \"iso6336\""),
+        "[[gear_mesh]]",
+        &[
+            "gear_mesh.0.microgeometry: the gear of",
+            "set microgeometry = false to leave it out",
+        ],
+    );
+    refused(
+        (
+            plain,
+            "model = \"kinematic\"\nmicrogeometry = false\nflanks = \"right\"",
+        ),
+        "flanks",
+        &["is not used by model = \"kinematic\", only by"],
+    );
+    refused(
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nerrors_2 = [{ kind = \"broken-tooth\", tooth = 57, above_radius_mm = 75.0 }]",
+        ),
+        "errors_2",
+        &["gear_mesh.0.errors_2.0: broken tooth: there is no tooth 57; the gear has teeth 0 to 56"],
+    );
+    refused(
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nerrors_1 = [{ kind = \"pitch\", side = \"right\", removed_um = [1.0, 2.0] }]",
+        ),
+        "errors_1",
+        &["pitch errors: the list has 2 entries, 57 are needed"],
+    );
+    refused(
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nerrors_1 = [{ kind = \"spall\", tooth = 3 }]",
+        ),
+        "errors_1",
+        &["gear_mesh.0.errors_1.0.side: missing"],
+    );
+    refused(
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nerrors_1 = [{ kind = \"spal\", tooth = 3 }]",
+        ),
+        "errors_1",
+        &["unknown variant `spal`", "`spall`"],
+    );
+    refused(
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nfriction = { model = \"coulomb\", static_coefficient = 0.1, dynamic_coefficient = 0.2 }",
+        ),
+        "friction",
+        &["the static coefficient is 0.1; it must be at least the dynamic coefficient"],
+    );
+    refused(
+        (
+            "[[gear_mesh]]",
+            "[[gauge]]\nbody = \"wheel\"\nnames = [\"t0\"]\n[[gear_mesh]]",
+        ),
+        "body = \"wheel\"\nnames",
+        &["gauge.0.body: `wheel` is no reduced gear (.h5)"],
+    );
+}

@@ -1,0 +1,81 @@
+//! Scenes of two made-up reduced gears with modes and gauges, 30/41 teeth of module 3 mm, as model files in a folder of their own: what needs
+//! a model, but no finite elements.
+#![allow(clippy::unwrap_used, dead_code, missing_docs)]
+
+#[path = "../../../drivetrain/tests/mesh_common/mod.rs"]
+pub mod mesh_common;
+
+use std::path::Path;
+
+use gearmesh_geometry::GearPair;
+use gearmesh_model::{ReducedGear, write_reduced_gear};
+use mesh_common::modal_gear::modal_gear;
+
+/// Young's modulus of the models [Pa].
+pub const YOUNG_PA: f64 = 210e9;
+
+/// The gear file whose teeth the made-up model has.
+fn gear_file(teeth: usize, profile_shift: f64) -> String {
+    format!(
+        "name = \"made up {teeth}\"\n[tooth]\nteeth = {teeth}\nmodule_mm = 3.0\nprofile_shift = {profile_shift:?}\nrack_tip_radius = 0.25\n\
+         thickness_allowance_mm = 0.1\nface_width_mm = 20.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 30.0\n[material]\n\
+         young_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n"
+    )
+}
+
+/// The pair of the scenes.
+pub fn pair() -> GearPair {
+    mesh_common::spur_pair()
+}
+
+/// Writes `gear_30.h5` and `gear_41.h5`.
+pub fn write_models(folder: &Path) {
+    let pair = pair();
+    for (teeth, shift, profile) in [(30, 0.2, &pair.gear_1), (41, -0.1, &pair.gear_2)] {
+        let model = ReducedGear {
+            input_toml: gear_file(teeth, shift),
+            near_field: None,
+            ..modal_gear(&format!("made up {teeth}"), profile)
+        };
+        write_reduced_gear(&folder.join(format!("gear_{teeth}.h5")), &model).unwrap();
+    }
+}
+
+/// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the end.
+pub fn scene(run: &str, speed_rpm: f64, of_gear_2: &str, further: &str) -> String {
+    format!(
+        r#"title = "made up"
+{run}
+[[body]]
+name = "pinion"
+gear = "gear_30.h5"
+[[body]]
+name = "wheel"
+gear = "gear_41.h5"
+position_mm = [106.8, 0.0, 0.0]
+{of_gear_2}
+[[joint]]
+name = "axle 1"
+kind = "revolute"
+body_2 = "pinion"
+[[joint]]
+name = "axle 2"
+kind = "revolute"
+body_2 = "wheel"
+[[motion]]
+name = "drive"
+joint = "axle 1"
+speed_rpm = {speed_rpm:?}
+[[load]]
+body = "wheel"
+torque_Nm = -100.0
+[[gear_mesh]]
+name = "mesh"
+gear_1 = "pinion"
+gear_2 = "wheel"
+model = "hybrid"
+local = "weber-banaschek"
+damping = {{ kind = "stiffness-proportional", time_s = 1e-6, full_depth_um = 1.0 }}
+{further}"#
+    )
+}

@@ -1,0 +1,65 @@
+//! Multibody scene files become the systems that they describe.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod shafts;
+mod shipped;
+mod start;
+mod tables;
+
+use gearmesh_scene::system::BuiltSystem;
+
+pub fn body<'a>(built: &'a BuiltSystem, name: &str) -> &'a gearmesh_dynamics::Body {
+    built
+        .system
+        .bodies()
+        .iter()
+        .find(|body| body.name == name)
+        .unwrap()
+}
+
+pub fn spin(built: &BuiltSystem, name: &str) -> f64 {
+    body(built, name).angular_velocity_rad_per_s.z
+}
+
+/// Names and kinds stand in the order of the system, so that a result can be labelled.
+pub fn assert_labelled(built: &BuiltSystem) {
+    let names: Vec<&str> = built.system.elements().collect();
+    assert_eq!(
+        names,
+        built
+            .elements
+            .iter()
+            .map(|part| &*part.name)
+            .collect::<Vec<_>>()
+    );
+    let names: Vec<&str> = built
+        .system
+        .joints()
+        .iter()
+        .map(|joint| joint.name())
+        .collect();
+    assert_eq!(
+        names,
+        built
+            .joints
+            .iter()
+            .map(|part| &*part.name)
+            .collect::<Vec<_>>()
+    );
+    let names: Vec<&str> = built
+        .system
+        .bodies()
+        .iter()
+        .map(|body| &*body.name)
+        .collect();
+    assert_eq!(
+        names,
+        built
+            .bodies
+            .iter()
+            .map(|body| &*body.name)
+            .collect::<Vec<_>>()
+    );
+}

@@ -1,0 +1,112 @@
+//! The scenes that are shipped: their plans and systems.
+
+use std::f64::consts::TAU;
+
+use gearmesh_scene::SceneFile;
+use gearmesh_scene::system::{Run, SystemPlan};
+
+use crate::common::*;
+use crate::{assert_labelled, spin};
+
+#[test]
+fn plans_say_what_is_computed_and_what_is_not() {
+    for (name, expected) in [
+        (
+            "scene_pendulum.toml",
+            vec![
+                "run        transient to 2 s",
+                "joint      hinge: revolute, on ground and rod",
+                "1 degrees of freedom left",
+                "2000 steps",
+            ],
+        ),
+        (
+            "scene_two_wheels.toml",
+            vec![
+                "body       pinion: 2.",
+                "kg, gear file",
+                "force      mesh: impact mesh, on pinion and wheel",
+                "mesh frequency at the start 570.000 Hz",
+                "effect     mesh `mesh`: friction: not computed",
+                "effect     mesh `mesh`: damping: STEP of the depth",
+                "effect     weight: not computed",
+                "note       body `wheel` is turned so that the right flanks of mesh `mesh` touch",
+                "25000 steps",
+            ],
+        ),
+    ] {
+        let SceneFile::System(scene) = SceneFile::read(&fe_models().join(name)).unwrap() else {
+            panic!("{name} is a multibody scene");
+        };
+        let loaded = scene.load().unwrap();
+        assert!(matches!(loaded.scene.run, Run::Transient { .. }));
+        let plan = SystemPlan::new(&loaded.scene, loaded.build().unwrap()).unwrap();
+        let text = plan.lines.join("\n");
+        for part in expected {
+            assert!(text.contains(part), "`{part}` is not in\n{text}");
+        }
+        assert!(
+            plan.step_cost_s.unwrap() > 0.0
+                && plan.degrees_of_freedom == 6 * loaded.build().unwrap().bodies.len()
+        );
+    }
+}
+
+/// The scenes that are shipped: those whose gears are gear files become systems, and the train turns at the speeds that it states.
+#[test]
+fn shipped_scenes_are_built() {
+    let mut built_ones = Vec::new();
+    for entry in std::fs::read_dir(fe_models()).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if !name.starts_with("dynamics_") {
+            continue;
+        }
+        let SceneFile::System(scene) = SceneFile::read(&path).unwrap_or_else(|e| panic!("{e}"))
+        else {
+            panic!("{name} is a multibody scene");
+        };
+        // Models are made by the demo; without it there are none.
+        let of_files = |gear: &std::path::PathBuf| gear.extension().is_some_and(|e| e == "toml");
+        if scene
+            .tables
+            .body
+            .iter()
+            .all(|body| body.gear.as_ref().is_none_or(of_files))
+        {
+            let built = scene
+                .load()
+                .unwrap()
+                .build()
+                .unwrap_or_else(|e| panic!("{e}"));
+            assert_labelled(&built);
+            if name == "dynamics_two_stage.toml" {
+                assert!(
+                    (spin(&built, "output wheel") * 60.0 / TAU
+                        - 1500.0 * 27.0 / 61.0 * 31.0 / 71.0)
+                        .abs()
+                        < 1e-9
+                );
+                let frequencies = built
+                    .meshes
+                    .iter()
+                    .map(|mesh| mesh.frequency_hz)
+                    .collect::<Vec<_>>();
+                assert!(
+                    (frequencies[0] - 675.0).abs() < 1e-9
+                        && (frequencies[1] - 31.0 * 25.0 * 27.0 / 61.0).abs() < 1e-9
+                );
+            }
+            built_ones.push(name);
+        }
+    }
+    built_ones.sort();
+    assert_eq!(
+        built_ones,
+        [
+            "dynamics_17_25.toml",
+            "dynamics_25_30.toml",
+            "dynamics_two_stage.toml"
+        ]
+    );
+}
