@@ -30,6 +30,13 @@ pub fn note_element(gear: &GearDefinition) {
     }
 }
 
+/// Says that a gear's crack is not in what is made of it.
+pub fn note_sound(gear: &GearDefinition, what: &str) {
+    if gear.crack.is_some() {
+        console::note(format!("{what} those of the gear without its [crack]"));
+    }
+}
+
 /// Meshes and reduces a gear, with a progress bar.
 pub fn reduced(
     gear: &GearDefinition,

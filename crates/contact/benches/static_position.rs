@@ -63,6 +63,7 @@ fn model(gear: &GearDefinition) -> ReducedGear {
         rigid_body: None,
         reference_point: None,
         modes: None,
+        crack: None,
         grid,
         flanks: vec![Flank::Right],
         c_hub,

@@ -3,6 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
+//! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | which unit loads make a force at a roll angle | [`RollHats`] | `roll_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
@@ -21,6 +22,7 @@
 
 pub mod contact_lines;
 pub mod contact_slices;
+pub mod crack_rows;
 pub mod flank_deflection;
 pub mod hertz;
 pub mod local_contact;

@@ -5,6 +5,7 @@
 //! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
+use crate::crack_rows::CrackRows;
 use crate::local_contact::{LocalContact, effective_depth_m};
 use crate::roll_shares::{RollHats, RollPlace, SHARES};
 use crate::slice_spread::NeighbourTerm;
@@ -27,6 +28,8 @@ pub struct SliceCompliance {
     /// What neighbouring slices of one contact line share of the calibrated correction \[m/N\], at the roll stations and
     /// half-way between; empty where there is none.
     spread: Vec<f64>,
+    /// What a crack adds; none where the gear has none that loads on this flank open.
+    crack: Option<CrackRows>,
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
@@ -171,6 +174,7 @@ impl SliceCompliance {
             blocks,
             near_field,
             spread,
+            crack: (gear.crack_for(flank)).map(|crack| CrackRows::new(crack, gear.teeth, grid)),
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
@@ -274,10 +278,13 @@ impl SliceCompliance {
         if tooth_a == tooth_b && !self.spread.is_empty() {
             add_spread(out, self.slices, self.spread_at(place_a).0);
         }
+        if let Some(crack) = &self.crack {
+            crack.add((tooth_a, place_a), (tooth_b, place_b), out);
+        }
     }
 
     /// [`Self::line_block`] with its derivatives by the roll angles of both lines; on one and the same line `by_a` is half of what the
-    /// block changes by, and `by_b` is not made.
+    /// block changes by, and `by_b` has no meaning.
     pub fn line_block_with_rates(
         &self,
         (tooth_a, place_a): (usize, &RollPlace),
@@ -286,6 +293,9 @@ impl SliceCompliance {
     ) {
         for values in [&mut out.value, &mut out.by_a, &mut out.by_b] {
             values.fill(0.0);
+        }
+        if let Some(crack) = &self.crack {
+            crack.add_with_rates((tooth_a, place_a), (tooth_b, place_b), out);
         }
         let pair = self.pair(tooth_a, tooth_b);
         if tooth_a != tooth_b {
@@ -351,6 +361,7 @@ impl SliceCompliance {
             .map(|(station, share)| share * along(station))
             .sum::<f64>()
             + self.spread_between(a, b)
+            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(&a, &b))
     }
 
     /// Derivative of [`Self::between_slices`] by the roll angle of slice `a` \[m/(N·rad)\]; of a slice with itself half of what its
@@ -373,7 +384,8 @@ impl SliceCompliance {
             1 => 0.5 * self.spread_at(&a.place).1,
             _ => 0.0,
         };
-        rate + spread
+        let crack = self.crack.as_ref();
+        rate + spread + crack.map_or(0.0, |crack| crack.between_rate(a, b))
     }
 
     /// How many slices stand beside a slice.

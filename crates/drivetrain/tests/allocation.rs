@@ -19,7 +19,7 @@ fn evaluations_do_not_allocate() {
     };
     let friction = Friction::new([0.1, 0.05], [1e-3, 1e-2]).unwrap();
     for pair in pairs() {
-        for name in MODELS {
+        for name in CONFORMING {
             let of = |side| Damped::new(model(name, &pair, side), damping, SLICES).unwrap();
             let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
                 .unwrap()

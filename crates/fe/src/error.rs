@@ -217,6 +217,15 @@ pub enum FeError {
         /// Free degree of freedom whose pivot failed.
         free_dof: usize,
     },
+    /// The jumps across a crack have no positive stiffness.
+    #[error(
+        "the stiffness of the {jumps} jumps across a crack is not positive definite: it cuts a part off, or a doubled node has elements on \
+         one side only; shorten the crack"
+    )]
+    CrackNotPositiveDefinite {
+        /// Number of jumps.
+        jumps: usize,
+    },
     /// The matrix does not have the pattern that was analysed.
     #[error(
         "the matrix has {found} nonzeros, the analysed pattern {expected}; analyse again for this mesh and constraints"

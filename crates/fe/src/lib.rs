@@ -19,8 +19,9 @@
 //! products and solves of one's own   -> search_modes       the same
 //! K + kept nodes                     -> StaticCondensation a part replaced by its stiffness at some nodes
 //! stiffness of a sector at its cuts  -> CyclicInterface    a ring of equal sectors, by harmonics
+//! nodes on a crack + solves of the sound body -> DoubledNodes   the cracked body, without a new factor
 //! ```
-//! The last two work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
+//! Condensation and ring work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
 //!
 //! ```
 //! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, HexElement, Material, StructuredMesh};
@@ -81,6 +82,7 @@ mod assembly;
 mod constraints;
 mod cyclic;
 mod cylindrical;
+mod doubled_nodes;
 mod element;
 mod element_matrix;
 mod error;
@@ -116,6 +118,7 @@ pub use assembly::{
 pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;
+pub use doubled_nodes::{DoubledNodes, JumpFactor};
 pub use element::{HexElement, StrainOperator};
 pub use element_matrix::ElementMatrix;
 pub use error::{ElementError, FeError};

@@ -366,6 +366,21 @@ pub struct GaugeDefinition {
     pub width_m: f64,
 }
 
+/// A crack from the root fillet into one tooth, over the whole face width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrackDefinition {
+    /// Tooth.
+    pub tooth: usize,
+    /// Side of the tooth on which it opens.
+    pub side: FlankSide,
+    /// Its mouth on the profile.
+    pub start: RootPosition,
+    /// Depth \[m\].
+    pub depth_m: f64,
+    /// Angle to the tooth's centre line \[rad\]: 0 runs towards the centre of the gear, π/2 straight across.
+    pub angle_rad: f64,
+}
+
 /// A gear that has been read, checked and found possible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearDefinition {
@@ -389,6 +404,8 @@ pub struct GearDefinition {
     pub hub: HubSupport,
     /// Gauges.
     pub gauges: Vec<GaugeDefinition>,
+    /// Crack in a tooth's root, where there is one.
+    pub crack: Option<CrackDefinition>,
     /// The profile that follows from `tooth`.
     pub profile: ToothGeometry,
     /// The file's text, verbatim.

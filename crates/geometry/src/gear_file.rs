@@ -5,6 +5,7 @@
 
 mod blank_table;
 mod contour_table;
+mod crack_table;
 mod gauge_table;
 mod hub_table;
 mod material_table;
@@ -52,6 +53,7 @@ struct GearFile {
     hub: hub_table::HubTable,
     #[serde(default)]
     gauge: Vec<gauge_table::GaugeTable>,
+    crack: Option<crack_table::CrackTable>,
 }
 
 impl GearDefinition {
@@ -102,7 +104,11 @@ impl GearDefinition {
             .transpose()?;
         let hub = file.hub.check(document, &material, mesh.plane_strain)?;
         let gauges = gauge_table::check_all(file.gauge, document, &tooth, &profile)?;
-        Ok(Self {
+        let crack = file.crack;
+        let crack = crack
+            .map(|table| table.check(document, &tooth, &profile, &reduction))
+            .transpose()?;
+        let gear = Self {
             name: file.name,
             tooth,
             blank,
@@ -113,8 +119,11 @@ impl GearDefinition {
             modes,
             hub,
             gauges,
+            crack,
             profile,
             source: document.text.clone(),
-        })
+        };
+        crack_table::check_mesh(&gear, document)?;
+        Ok(gear)
     }
 }

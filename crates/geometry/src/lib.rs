@@ -27,9 +27,9 @@ pub mod profile_curve;
 pub mod tooth;
 
 pub use definition::{
-    Blank, Contour, ContourPoint, ElementKind, FlankSide, GaugeDefinition, GearDefinition, Holes,
-    HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
-    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
+    Blank, Contour, ContourPoint, CrackDefinition, ElementKind, FlankSide, GaugeDefinition,
+    GearDefinition, Holes, HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange,
+    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

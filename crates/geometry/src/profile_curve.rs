@@ -136,6 +136,17 @@ impl ProfileCurve {
         self.point(b.piece, a.parameter + w * (b.parameter - a.parameter))
     }
 
+    /// Angle of the outline's tangent to the tooth's centre line \[rad\] at an arc length: π/2 on the root circle, small on the flank.
+    pub fn tangent_angle_at_rad(&self, arc_length_m: f64) -> f64 {
+        // Central differences on the exact curve, to 1e-8 of a radian.
+        let step = 1e-5 * self.tooth.root_radius_m;
+        let (a, b) = (
+            self.point_at(arc_length_m - step),
+            self.point_at(arc_length_m + step),
+        );
+        (b[1] - a[1]).atan2(b[0] - a[0])
+    }
+
     /// Arc length \[m\] at which the involute flank begins.
     pub fn flank_start_m(&self) -> f64 {
         self.first_of(Piece::Flank)

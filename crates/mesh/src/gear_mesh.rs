@@ -257,6 +257,17 @@ impl GearMesh {
         self.elements_of(self.section.body_quads[sector].clone())
     }
 
+    /// Nodes that a crack doubles on a tooth, and the elements on the side of the tooth's tip that get the doubles; none without a crack.
+    pub fn crack(&self, tooth: usize) -> Option<(Vec<u32>, Vec<u32>)> {
+        let crack = self.section.crack.as_ref()?;
+        let map = &self.section.cell_nodes[tooth];
+        let first = self.section.cell_first_quad[tooth];
+        Some((
+            self.columns(crack.doubled.iter().map(|&c| map[c])),
+            self.elements_of(crack.beyond.iter().map(|&q| first + q)),
+        ))
+    }
+
     /// Nodes of the cut before the first tooth of a sector, the i-th of each sector the image of the i-th of sector 0.
     pub fn cut_nodes(&self, sector: usize) -> Vec<u32> {
         let (teeth, sectors) = (self.teeth(), self.sectors());

@@ -8,6 +8,7 @@
 //! | quads in outlines whose nodes are given | [`plane_mesher`] | `plane_mesher.rs`, `plane_mesher.py` |
 //! | one tooth: blocks that follow its outline | [`tooth_cell::ToothCell`] | `tooth_cell.rs` |
 //! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
+//! | a crack along sides of its quads | [`crack_line::CrackLine`] | `crack_line.rs` |
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
 //! | middles of sides, on the true curve | [`mid_sides`] | `mid_sides.rs` |
 //! | layers along the axis | [`layers`] | `layers.rs` |
@@ -25,6 +26,7 @@
 
 pub mod body;
 pub mod contact_section;
+pub mod crack_line;
 pub mod elements;
 pub mod face;
 pub mod gear_mesh;
@@ -78,6 +80,19 @@ pub enum MeshError {
         needed_deg: f64,
         /// Best clearance found.
         best_deg: f64,
+    },
+    /// The crack leaves the tooth.
+    #[error(
+        "crack: its tip at x {x_mm:.3} mm, y {y_mm:.3} mm of the tooth's section leaves the tooth and the ring below it, or comes too close to \
+         their edge ({off_mm:.3} mm from the nearest node inside); make crack.depth_mm smaller or turn the crack"
+    )]
+    CrackTip {
+        /// Tip.
+        x_mm: f64,
+        /// Tip.
+        y_mm: f64,
+        /// Distance to the nearest node.
+        off_mm: f64,
     },
     /// Quality below what the definition demands.
     #[error(

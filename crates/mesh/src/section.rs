@@ -2,6 +2,7 @@
 
 use crate::MeshError;
 use crate::body::{body_problem, first_tooth};
+use crate::crack_line::CrackLine;
 use crate::elements::ElementShape;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
@@ -27,6 +28,8 @@ pub struct Section {
     pub bore: Vec<usize>,
     /// The cell of tooth 0, in its own numbering.
     pub cell: ToothCell,
+    /// Crack in the cell, where the gear has one; it is opened on one tooth only.
+    pub crack: Option<CrackLine>,
     /// Section node of each cell node, by tooth.
     pub cell_nodes: Vec<Vec<usize>>,
     /// Section quad of the first cell quad, by tooth; the others follow.
@@ -83,7 +86,11 @@ impl Section {
         let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
             return Err(mismatch().into());
         };
-        let cell = cell_problem.finish(cell_mesh, shape);
+        let mut cell = cell_problem.finish(cell_mesh, shape);
+        let crack = gear.crack.as_ref();
+        let crack = crack
+            .map(|crack| CrackLine::new(&mut cell, gear, crack))
+            .transpose()?;
         if shape == ElementShape::Hex20 {
             body.make_quadratic(&mut body_mesh);
         }
@@ -141,6 +148,7 @@ impl Section {
         bore.sort_unstable();
         bore.dedup();
         section.bore = bore;
+        section.crack = crack;
         section.body_right_side = body.right_side;
         Ok(section)
     }
@@ -183,6 +191,7 @@ impl Section {
             centres,
             bore: Vec::new(),
             cell,
+            crack: None,
             cell_nodes,
             cell_first_quad,
             first_tooth,

@@ -18,6 +18,7 @@
 mod atomic_file;
 mod cell_kind;
 mod column_file;
+mod crack_file;
 mod data_tree;
 mod data_tree_file;
 mod data_tree_read;
@@ -34,6 +35,7 @@ mod reduced_gear_check;
 mod reduced_gear_error;
 mod reduced_gear_file;
 mod rigid_body;
+mod root_crack;
 mod row_log;
 mod seal;
 #[doc(hidden)]
@@ -53,6 +55,7 @@ pub use reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, Red
 pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
 pub use rigid_body::{ReferencePoint, RigidBody};
+pub use root_crack::RootCrack;
 pub use row_log::RowLog;
 pub use seal::{bytes_digest, file_digest};
 pub use timestamp::utc_now;

@@ -7,6 +7,7 @@ use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
 use crate::rigid_body::{ReferencePoint, RigidBody};
+use crate::root_crack::RootCrack;
 
 /// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -154,7 +155,7 @@ pub struct ReducedGear {
     pub flanks: Vec<Flank>,
     /// C_hub in m/N, `[load tooth in sector z/N][load flank f][response tooth z][response flank f][load L][response L]`:
     /// deflection along the inward normal at the response point for a unit force along the inward normal at the load
-    /// point, hub held. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
+    /// point, hub held, no crack. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
     pub c_hub: Vec<f64>,
     /// C_tooth in m/N, `[flank f][load L][response L]`: the same on the tooth-only submodel, equal for all teeth.
     pub c_tooth: Vec<f64>,
@@ -171,6 +172,8 @@ pub struct ReducedGear {
     pub reference_point: Option<ReferencePoint>,
     /// Natural modes; none where none were asked for.
     pub modes: Option<ModalBasis>,
+    /// Crack in a tooth's root, whose compliance is not in `c_hub`; the gauges' rows have it. None where there is none.
+    pub crack: Option<RootCrack>,
     /// Where it comes from.
     pub provenance: Provenance,
     /// How well the reduction fulfilled its identities.

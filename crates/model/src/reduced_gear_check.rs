@@ -79,6 +79,7 @@ impl ReducedGear {
             check_array(&item, &gauge.own_tooth, flanks * loads, "flanks * loads")?;
         }
         self.check_dynamics()?;
+        self.check_crack()?;
         let times = self
             .provenance
             .stage_seconds
@@ -99,6 +100,39 @@ impl ReducedGear {
             self.checks.pattern_identity,
             f64::is_finite,
             "finite",
+        )
+    }
+
+    fn check_crack(&self) -> Result<(), ReducedGearError> {
+        let Some(crack) = &self.crack else {
+            return Ok(());
+        };
+        if crack.tooth >= self.teeth {
+            return Err(out_of_range("crack.tooth", crack.tooth, "less than teeth"));
+        }
+        self.flank_index(crack.side)?;
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        in_range("crack.depth_m", crack.depth_m, positive, "above 0 m")?;
+        in_range(
+            "crack.mouth_radius_m",
+            crack.mouth_radius_m,
+            positive,
+            "above 0 m",
+        )?;
+        in_range("crack.angle_rad", crack.angle_rad, f64::is_finite, "finite")?;
+        in_range(
+            "crack.left_out",
+            crack.left_out,
+            |e| e >= 0.0 && e.is_finite(),
+            "finite and not negative",
+        )?;
+        let (teeth, loads) = (self.teeth, self.grid.len());
+        let rows = crack.count(teeth, loads).max(1);
+        check_array(
+            "crack.rows",
+            &crack.rows,
+            rows * teeth * loads,
+            "rows * teeth * loads, at least one row",
         )
     }
 
@@ -321,7 +355,8 @@ mod tests {
     use super::*;
     use crate::modal_basis::ModalBasis;
     use crate::reduced_gear::Flank;
-    use crate::synthetic::small_reduced_gear;
+    use crate::root_crack::RootCrack;
+    use crate::synthetic::{small_crack, small_reduced_gear};
 
     fn near_field(gear: &mut ReducedGear) -> &mut NearField {
         gear.near_field.as_mut().unwrap()
@@ -329,6 +364,31 @@ mod tests {
 
     fn modes(gear: &mut ReducedGear) -> &mut ModalBasis {
         gear.modes.as_mut().unwrap()
+    }
+
+    #[test]
+    fn every_wrong_figure_of_a_crack_is_found() {
+        let mut gear = small_reduced_gear();
+        gear.crack = Some(small_crack());
+        gear.validate().unwrap();
+        type Change = fn(&mut RootCrack);
+        let spoil: [(&str, Change); 7] = [
+            ("crack.tooth", |c| c.tooth = 6),
+            ("crack.depth_m", |c| c.depth_m = 0.0),
+            ("crack.mouth_radius_m", |c| c.mouth_radius_m = f64::NAN),
+            ("crack.angle_rad", |c| c.angle_rad = f64::INFINITY),
+            ("crack.left_out", |c| c.left_out = -1.0),
+            ("crack.rows", |c| c.rows.truncate(17)),
+            ("crack.rows", |c| c.rows.clear()),
+        ];
+        for (item, change) in spoil {
+            let mut wrong = gear.clone();
+            change(wrong.crack.as_mut().unwrap());
+            let message = wrong.validate().unwrap_err().to_string();
+            assert!(message.contains(item), "{item}: {message}");
+        }
+        gear.flanks = vec![Flank::Left];
+        assert!(gear.check_crack().is_err());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::crack_file::{put_crack, take_crack};
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::dynamics_file::{
     Sizes, put_dynamics, take_modes, take_reference_point, take_rigid_body,
@@ -13,12 +14,13 @@ use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes
-    version: 3,
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack
+    version: 4,
 };
 
 pub(crate) const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
-const NORMAL: &str = "inward normal of the flank at each point, positive into the material";
+pub(crate) const NORMAL: &str =
+    "inward normal of the flank at each point, positive into the material";
 pub(crate) const FLANK_COMPONENTS: &str =
     "flank: inward normal, profile tangential towards the tip, axial +z";
 
@@ -41,6 +43,9 @@ pub fn write_reduced_gear(path: &Path, gear: &ReducedGear) -> Result<(), FileErr
         put_gauge(&mut tree, gear, index, gauge);
     }
     put_dynamics(&mut tree, gear);
+    if let Some(crack) = &gear.crack {
+        put_crack(&mut tree, crack, gear.teeth, gear.grid.len());
+    }
     put_provenance(&mut tree, &gear.provenance);
     put_named_numbers(
         &mut tree,
@@ -114,6 +119,7 @@ pub fn read_reduced_gear(path: &Path) -> Result<ReducedGear, FileError> {
         rigid_body: take_rigid_body(&mut tree, path)?,
         reference_point: take_reference_point(&mut tree, path, sizes)?,
         modes: take_modes(&mut tree, path, sizes)?,
+        crack: take_crack(&mut tree, path, teeth, loads)?,
         provenance: take_provenance(&mut tree, path)?,
         checks: take_checks(&mut tree, path)?,
     };
@@ -465,14 +471,14 @@ fn count(value: usize, description: &str) -> DataArray {
     DataArray::count(u32::try_from(value).unwrap_or(u32::MAX), description)
 }
 
-fn code_of(flank: Flank) -> u32 {
+pub(crate) fn code_of(flank: Flank) -> u32 {
     match flank {
         Flank::Right => 0,
         Flank::Left => 1,
     }
 }
 
-fn flank_of(path: &Path, item: &str, code: u32) -> Result<Flank, FileError> {
+pub(crate) fn flank_of(path: &Path, item: &str, code: u32) -> Result<Flank, FileError> {
     match code {
         0 => Ok(Flank::Right),
         1 => Ok(Flank::Left),

@@ -8,6 +8,7 @@ use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 use crate::rigid_body::{ReferencePoint, RigidBody};
+use crate::root_crack::RootCrack;
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
 pub fn small_reduced_gear() -> ReducedGear {
@@ -115,6 +116,7 @@ pub fn small_reduced_gear() -> ReducedGear {
             gauges: vec![0.1, -0.2, 0.3, 0.05],
             coupling: (0..12).map(|i| 0.01 * f64::from(i)).collect(),
         }),
+        crack: None,
         provenance: Provenance {
             program: "gearmesh".to_owned(),
             version: "0.0.0".to_owned(),
@@ -132,6 +134,21 @@ pub fn small_reduced_gear() -> ReducedGear {
             pattern_identity: 2e-12,
             further: vec![("residual".to_owned(), 3e-13)],
         },
+    }
+}
+
+/// A crack in tooth 4 of [`small_reduced_gear`], two rows.
+pub fn small_crack() -> RootCrack {
+    RootCrack {
+        tooth: 4,
+        side: Flank::Right,
+        mouth_radius_m: 0.066,
+        depth_m: 1.5e-3,
+        angle_rad: 1.0,
+        rows: (0..2 * 6 * 9)
+            .map(|i| 1e-5 * (0.7 * f64::from(i)).sin())
+            .collect(),
+        left_out: 3e-11,
     }
 }
 

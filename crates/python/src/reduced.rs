@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearmesh_model::{GaugeRows, NearField, ReducedGear};
+use gearmesh_model::{GaugeRows, NearField, ReducedGear, RootCrack};
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -14,7 +14,8 @@ use crate::errors::file_error;
 /// c_hub has the axes load tooth in sector, load flank, response tooth, response flank, load, response (m/N); c_tooth
 /// flank, load, response. A load is roll station * len(z_m) + axial station. gauges is a list of dicts with adjoint
 /// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N. near_field, the calibration of the local term, is
-/// a dict with contact_m2_per_n (place) and mesh_m2_per_n (flank, load station, response station), or None in old files.
+/// a dict with contact_m2_per_n (place) and mesh_m2_per_n (flank, load station, response station), or None in old files. crack, which is not
+/// in c_hub, is a dict with rows (row, tooth, load) whose products over the row are what it adds for loads on its side, or None.
 #[pyfunction]
 pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let gear = py
@@ -68,6 +69,12 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
             .map(|field| near_field_dict(py, field, hands, stations))
             .transpose()?,
     )?;
+    result.set_item(
+        "crack",
+        gear.crack
+            .map(|crack| crack_dict(py, crack, teeth, loads))
+            .transpose()?,
+    )?;
     let provenance = PyDict::new(py);
     provenance.set_item("program", gear.provenance.program)?;
     provenance.set_item("version", gear.provenance.version)?;
@@ -86,6 +93,24 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         checks.set_item(name, value)?;
     }
     result.set_item("checks", checks)?;
+    Ok(result)
+}
+
+fn crack_dict(
+    py: Python<'_>,
+    crack: RootCrack,
+    teeth: usize,
+    loads: usize,
+) -> PyResult<Bound<'_, PyDict>> {
+    let result = PyDict::new(py);
+    result.set_item("tooth", crack.tooth)?;
+    result.set_item("side", crack.side.to_string())?;
+    result.set_item("mouth_radius_m", crack.mouth_radius_m)?;
+    result.set_item("depth_m", crack.depth_m)?;
+    result.set_item("angle_rad", crack.angle_rad)?;
+    result.set_item("left_out", crack.left_out)?;
+    let rows = crack.count(teeth, loads);
+    result.set_item("rows", shaped(py, crack.rows, vec![rows, teeth, loads])?)?;
     Ok(result)
 }
 

@@ -38,6 +38,8 @@ pub struct ErrorEstimate {
 /// The same gear with coarser elements.
 fn coarsened(gear: &GearDefinition) -> GearDefinition {
     let mut coarse = gear.clone();
+    // The estimate is that of the sound gear.
+    coarse.crack = None;
     let mesh = &mut coarse.mesh;
     mesh.flank_m *= COARSENING;
     mesh.fillet_m *= COARSENING;

@@ -33,12 +33,15 @@ pub struct Field {
 /// Solves K d = f for each set of grid forces.
 ///
 /// # Errors
-/// [`ReductionError::Fe`] when an element's strain cannot be taken.
+/// [`ReductionError::Fe`] when an element's strain cannot be taken, [`ReductionError::FieldWithCrack`].
 pub fn fields(
     gear: &GearDefinition,
     body: &GearBody,
     cases: &[Vec<GridForce>],
 ) -> Result<Vec<Field>, ReductionError> {
+    if gear.crack.is_some() {
+        return Err(ReductionError::FieldWithCrack);
+    }
     let grid = flank_grid(gear);
     let mut rows: Vec<SparseVector> = Vec::with_capacity(cases.len());
     for case in cases {

@@ -18,6 +18,7 @@
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
+//! | a crack in one tooth, as rows added to the compliance | `root_crack.rs` |
 //! | the whole displacement and stress field | `field.rs` |
 //!
 //! With N the unit loads, U = K⁻¹N, W the same loads on the tooth-only submodel and Ψ = U − W the deformation
@@ -44,6 +45,7 @@ pub mod near_field;
 mod part;
 pub mod reduce;
 pub mod rigid_mass;
+pub mod root_crack;
 pub mod sector_substructure;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
@@ -80,6 +82,23 @@ pub enum ReductionError {
         /// Name of the gauge.
         name: String,
     },
+    /// Something touches the doubled nodes of a crack.
+    #[error(
+        "the crack begins or runs within one element of {what}; move one of them (crack.tangent_deg or crack.radius_mm places the crack's \
+         mouth), or refine mesh.fillet_mm"
+    )]
+    AtCrack {
+        /// What touches it.
+        what: String,
+    },
+    /// A field of a gear with a crack.
+    #[error(
+        "no field is made of a gear with a crack: the solution at hand is that of the sound gear; remove [crack] from the gear file and reduce it again"
+    )]
+    FieldWithCrack,
+    /// The mesh was made without the crack.
+    #[error("the mesh has no line for the crack: mesh the gear from its own definition")]
+    NoCrackLine,
     /// Modes were asked for where the file has no density.
     #[error(
         "natural modes need a density; add material.density_kg_per_m3 to the gear file, 7850 for steel"

@@ -6,6 +6,7 @@ use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
+use crate::root_crack::{CRACK_SYMMETRY, root_crack};
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::{Progress, ReductionError, Silent, flank_of};
 use faer::Mat;
@@ -138,9 +139,25 @@ pub fn reduce(
         }
         lap("error estimate");
     }
+    let crack = gear.crack.as_ref();
+    let crack = crack
+        .map(|definition| {
+            let of_side = flanks.iter().position(|&side| side == definition.side);
+            // Checked when the definition was read.
+            let loads = &loads[of_side.unwrap_or_default()];
+            root_crack(gear, definition, &body, loads, progress)
+        })
+        .transpose()?;
+    if let Some(crack) = &crack {
+        crack.add_to_gauges(gear, &mut gauges);
+        further.push((CRACK_SYMMETRY.to_string(), crack.asymmetry));
+        lap("crack");
+    }
     let mut effort = body.effort();
     let mode_solves = dynamics.solves.map(|solves| solves as f64);
     effort.extend(mode_solves.map(|solves| ("solves for natural modes".to_string(), solves)));
+    let jumps = crack.as_ref().map(|crack| crack.jumps as f64);
+    effort.extend(jumps.map(|jumps| ("jumps of the crack".to_string(), jumps)));
     let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
     let provenance = &mut reduced.provenance;
     provenance.element = element_names(&body.model);
@@ -157,6 +174,7 @@ pub fn reduce(
     reduced.rigid_body = dynamics.rigid_body;
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
+    reduced.crack = crack.map(|rows| rows.crack);
     Ok((reduced, body))
 }
 
@@ -208,6 +226,7 @@ pub(crate) fn assembled(
         rigid_body: None,
         reference_point: None,
         modes: None,
+        crack: None,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),

@@ -11,6 +11,7 @@ use serde_json::json;
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&arguments.gear)?;
     offline::note_element(&gear);
+    offline::note_sound(&gear, "nodes and elements are");
     let mesh = GearMesh::new(&gear, &offline::python()?)
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
     // Refused here too, where the finite element model would refuse an element.

@@ -14,6 +14,7 @@ use serde_json::json;
 pub fn run(a: &ModesArguments) -> Result<(), Failure> {
     let gear = GearDefinition::read(&a.gear)?;
     offline::note_element(&gear);
+    offline::note_sound(&gear, "natural modes are");
     let range = range(a, &gear)?;
     let density = gear.material.density_kg_per_m3;
     let density = density.ok_or(ReductionError::NoDensity)?;

@@ -50,6 +50,15 @@ pub fn figures(model: &ReducedGear) -> serde_json::Value {
         "pattern_identity": model.checks.pattern_identity,
         "further": model.checks.further.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         "gauges": gauges,
+        "crack": model.crack.as_ref().map(|crack| json!({
+            "tooth": crack.tooth,
+            "side": crack.side.to_string(),
+            "mouth_radius_mm": crack.mouth_radius_m * 1e3,
+            "depth_mm": crack.depth_m * 1e3,
+            "angle_deg": crack.angle_rad.to_degrees(),
+            "rows": crack.count(model.teeth, model.grid.len()),
+            "left_out": crack.left_out,
+        })),
         "mass_kg": model.rigid_body.as_ref().map(|body| body.mass_kg),
         "natural_frequencies_Hz": model.modes.as_ref().map(|modes| modes.frequencies_hz()),
         "stage_seconds": model.provenance.stage_seconds.iter().map(|(n, s)| json!({"stage": n, "seconds": s})).collect::<Vec<_>>(),
@@ -91,6 +100,14 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
         lines.push(format!(
             "gauge {}: {}; mesh error {error}",
             g.name, g.description
+        ));
+    }
+    if let Some(crack) = &model.crack {
+        let rows = crack.count(model.teeth, model.grid.len());
+        lines.push(format!(
+            "{}; {rows} rows, more would add at most {:.0e} of its compliance",
+            crack.description(),
+            crack.left_out
         ));
     }
     if let Some(body) = &model.rigid_body {

@@ -10,6 +10,7 @@
 //! Helical slices stand each at their own roll angle; on the rigid path those at its ends touch over a share of their width, and the change of
 //! the energy with the share is included, too.
 //! Of gears with vibration modes the compliance is C less Σ φφᵀ/ω², what their modes give way at rest.
+//! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
 use gearmesh_contact::LocalContact;

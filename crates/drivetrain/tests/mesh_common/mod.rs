@@ -4,6 +4,7 @@
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 pub mod pair_common;
 
+pub mod cracked_gear;
 pub mod modal_gear;
 pub mod running_pair;
 
@@ -131,14 +132,29 @@ pub fn reduced_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
     ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
 }
 
+/// Gear 1 with a crack in the tooth that is in mesh at angle 0.
+pub fn cracked_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+    // Gears exchanged, the crack stays with its gear.
+    let models = [&pair.gear_1, &pair.gear_2].map(|gear| match gear.teeth {
+        30 => cracked_gear::cracked_gear(gear, 0, 0.4),
+        _ => made_up_gear(gear),
+    });
+    let local = LocalContact::WeberBanaschek;
+    ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
+}
+
 /// What a model is called in messages.
 pub const MODELS: [&str; 4] = ["impact", "iso6336", "analytic", "hybrid"];
+
+/// And with a crack.
+pub const CONFORMING: [&str; 5] = ["impact", "iso6336", "analytic", "hybrid", "cracked hybrid"];
 
 pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
     match name {
         "impact" => Box::new(impact()),
         "iso6336" => Box::new(mesh_spring(pair)),
         "analytic" => Box::new(beam_teeth(pair)),
+        "cracked hybrid" => Box::new(cracked_teeth(pair, side)),
         _ => Box::new(reduced_teeth(pair, side)),
     }
 }

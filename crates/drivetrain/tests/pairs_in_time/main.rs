@@ -1,4 +1,5 @@
-//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, seed 003.
+//! Gear pairs in time: hard cases, what must be conserved, resonance with backlash, parametric instability, a cracked
+//! tooth, seed 003.
 //!
 //! One program, so that its libraries are linked once.
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // the figures are printed
@@ -11,5 +12,6 @@ mod hard_cases;
 mod helical;
 mod instability;
 mod resonance;
+mod root_crack;
 mod scene;
 mod seed_003;

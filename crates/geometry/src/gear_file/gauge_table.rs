@@ -58,7 +58,7 @@ impl GaugeTable {
             "more than 0 and at most one module",
         )?;
         Ok(GaugeDefinition {
-            position: self.check_position(keys, curve)?,
+            position: root_position(keys, curve, (self.tangent_deg, self.radius_mm), "the gauge")?,
             name: self.name,
             tooth: self.tooth,
             side: self.side,
@@ -67,33 +67,36 @@ impl GaugeTable {
             width_m: self.width_mm * MM,
         })
     }
+}
 
-    fn check_position(
-        &self,
-        keys: &TableKeys,
-        curve: &ProfileCurve,
-    ) -> Result<RootPosition, InputError> {
-        let (key, position) = match (self.tangent_deg, self.radius_mm) {
-            (None, None) => (
-                "tangent_deg",
-                RootPosition::TangentAngle(30f64.to_radians()),
-            ),
-            (Some(angle), None) => (
-                "tangent_deg",
-                RootPosition::TangentAngle(angle.to_radians()),
-            ),
-            (None, Some(radius)) => ("radius_mm", RootPosition::Radius(radius * MM)),
-            (Some(_), Some(_)) => {
-                return Err(keys.error(
-                    "radius_mm",
-                    "tangent_deg and radius_mm both place the gauge; give one of them",
-                ));
-            }
-        };
-        match curve.arc_length_at(position) {
-            Ok(_) => Ok(position),
-            Err(problem) => Err(keys.error(key, problem)),
+/// Where on the root fillet something sits, by `tangent_deg` or `radius_mm`; the 30 degree tangent where neither is given. `what`: what
+/// is placed, in words.
+pub(super) fn root_position(
+    keys: &TableKeys,
+    curve: &ProfileCurve,
+    (tangent_deg, radius_mm): (Option<f64>, Option<f64>),
+    what: &str,
+) -> Result<RootPosition, InputError> {
+    let (key, position) = match (tangent_deg, radius_mm) {
+        (None, None) => (
+            "tangent_deg",
+            RootPosition::TangentAngle(30f64.to_radians()),
+        ),
+        (Some(angle), None) => (
+            "tangent_deg",
+            RootPosition::TangentAngle(angle.to_radians()),
+        ),
+        (None, Some(radius)) => ("radius_mm", RootPosition::Radius(radius * MM)),
+        (Some(_), Some(_)) => {
+            return Err(keys.error(
+                "radius_mm",
+                format!("tangent_deg and radius_mm both place {what}; give one of them"),
+            ));
         }
+    };
+    match curve.arc_length_at(position) {
+        Ok(_) => Ok(position),
+        Err(problem) => Err(keys.error(key, problem)),
     }
 }
 

@@ -81,6 +81,12 @@ impl Plan {
                 f.reversal_m * 1e6
             ),
         });
+        for (number, gear) in [(1, gear_1), (2, gear_2)] {
+            text.extend(
+                (gear.crack.as_ref())
+                    .map(|crack| format!("fault      gear {number}: {}", crack.description())),
+            );
+        }
         let gauges = scene.gauges_1.len() + scene.gauges_2.len();
         text.push(if gauges == 0 {
             "gauges     not computed".to_string()

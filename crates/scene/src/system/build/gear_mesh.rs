@@ -99,6 +99,7 @@ impl PreparedMesh {
             gears,
             pair: &pair,
         };
+        scene.refuse_unfelt_cracks()?;
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
         } else {

@@ -156,6 +156,24 @@ impl SceneMesh<'_> {
         Ok(errors)
     }
 
+    /// A crack of a gear's file that the model would pass over in silence.
+    pub(super) fn refuse_unfelt_cracks(&self) -> Result<(), InputError> {
+        if self.table.model == MeshModel::Hybrid {
+            return Ok(());
+        }
+        for (key, gear) in ["gear_1", "gear_2"].into_iter().zip(self.gears) {
+            if gear.definition.crack.is_some() {
+                let problem = format!(
+                    "the gear of {} has a [crack], which only model = \"hybrid\" feels; take that model, or a gear without the crack \
+                     (\"analytic\" has cracks_1 and cracks_2)",
+                    gear.file.display()
+                );
+                return Err(self.keys.error(key, problem));
+            }
+        }
+        Ok(())
+    }
+
     fn errors(&self) -> Result<[FlankErrors; 2], InputError> {
         let mut errors = self.microgeometry()?;
         for (number, tables) in [&self.table.errors_1, &self.table.errors_2]
@@ -512,9 +530,13 @@ impl SceneMesh<'_> {
             .map(|error| error.kind())
             .collect();
         let cracks = table.cracks_1.len() + table.cracks_2.len();
-        let kinds: Vec<&str> = kinds
-            .into_iter()
-            .chain(std::iter::repeat_n("root-crack", cracks))
+        let of_models = (self.gears.iter().zip([1, 2])).filter_map(|(gear, number)| {
+            let crack = gear.model.as_ref()?.crack.as_ref()?;
+            Some(format!("gear {number}: {}", crack.description()))
+        });
+        let kinds: Vec<String> = (kinds.into_iter().map(str::to_owned))
+            .chain(std::iter::repeat_n("root-crack".to_owned(), cracks))
+            .chain(of_models)
             .collect();
         parts.effect(
             name("errors and faults"),

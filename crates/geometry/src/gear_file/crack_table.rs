@@ -1,0 +1,111 @@
+//! `[crack]`: a crack in one tooth's root.
+
+use super::gauge_table::root_position;
+use super::{MM, TableKeys};
+use crate::definition::{
+    CrackDefinition, ElementKind, FlankSide, GearDefinition, ReductionSettings, ToothDefinition,
+};
+use crate::input::{InputDocument, InputError};
+use crate::profile_curve::ProfileCurve;
+use crate::tooth::ToothGeometry;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::f64::consts::FRAC_PI_2;
+
+/// The keys of `[crack]`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CrackTable {
+    tooth: usize,
+    side: FlankSide,
+    depth_mm: f64,
+    angle_deg: Option<f64>,
+    tangent_deg: Option<f64>,
+    radius_mm: Option<f64>,
+}
+
+impl CrackTable {
+    /// The crack, in SI units.
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        tooth: &ToothDefinition,
+        profile: &ToothGeometry,
+        reduction: &ReductionSettings,
+    ) -> Result<CrackDefinition, InputError> {
+        let keys = TableKeys::new(document, "crack");
+        keys.require(
+            "tooth",
+            self.tooth as f64,
+            self.tooth < tooth.teeth,
+            &format!("0 to {}", tooth.teeth - 1),
+        )?;
+        if !reduction.flanks.contains(&self.side) {
+            return Err(keys.error(
+                "side",
+                format!(
+                    "loads on the {} flanks open this crack, and reduction.flanks has none there; add them",
+                    self.side.name()
+                ),
+            ));
+        }
+        let curve = ProfileCurve::new(profile);
+        let start = root_position(
+            &keys,
+            &curve,
+            (self.tangent_deg, self.radius_mm),
+            "the crack's mouth",
+        )?;
+        let mouth_arc_m = (curve.arc_length_at(start)).map_err(|e| keys.error("radius_mm", e))?;
+        if mouth_arc_m > curve.flank_start_m() {
+            return Err(keys.error(
+                "radius_mm",
+                "the crack's mouth lies on the flank, allowed is the root fillet",
+            ));
+        }
+        let thickness_mm = -2.0 * curve.point_at(mouth_arc_m)[1] / MM;
+        keys.require(
+            "depth_mm",
+            self.depth_mm,
+            self.depth_mm > 0.0 && self.depth_mm < thickness_mm,
+            &format!("more than 0 and less than the tooth's thickness there, {thickness_mm:.3}"),
+        )?;
+        let angle_rad = match self.angle_deg {
+            None => FRAC_PI_2 - curve.tangent_angle_at_rad(mouth_arc_m),
+            Some(angle) => {
+                keys.require(
+                    "angle_deg",
+                    angle,
+                    (0.0..=90.0).contains(&angle),
+                    "0 (towards the gear's centre) to 90 (straight across)",
+                )?;
+                angle.to_radians()
+            }
+        };
+        Ok(CrackDefinition {
+            tooth: self.tooth,
+            side: self.side,
+            start,
+            depth_m: self.depth_mm * MM,
+            angle_rad,
+        })
+    }
+}
+
+/// Refuses a crack where there are no layers of hexahedra whose nodes could be doubled.
+pub(super) fn check_mesh(
+    gear: &GearDefinition,
+    document: &InputDocument,
+) -> Result<(), InputError> {
+    if gear.crack.is_none() {
+        return Ok(());
+    }
+    let problem = if gear.blank.meshed.is_some() {
+        "a crack is cut into gearmesh's own mesh, blank.kind = \"mesh\" has none; remove [crack]"
+    } else if gear.mesh.element == ElementKind::Tet10 {
+        "a crack follows the sides of hexahedra, and this gear is meshed in tetrahedra; set mesh.element to one of hexahedra or remove [crack]"
+    } else {
+        return Ok(());
+    };
+    Err(document.error("crack", problem))
+}

@@ -1,0 +1,196 @@
+//! A crack in one tooth of an otherwise sound gear, as rows that add to the compliance.
+//!
+//! The cracked gear is the sound one with the nodes along the crack doubled ([`DoubledNodes`]): everything is solved with the sound gear's
+//! factor, by its repetition. With K_p the coupling of the jumps and S their stiffness, loads i, j and gauges g have
+//!
+//! ```text
+//! S = K_pp − K_pᵀK⁻¹K_p = LLᵀ,   R = −L⁻¹ K_pᵀK⁻¹ [N, g],   C_c = C + RᵀR,   R ≈ V Vᵀ R: rows φ = Vᵀ R
+//! ```
+//!
+//! V: the eigenvectors of RRᵀ over all normal loads with the largest eigenvalues. docs/theory/crack.md derives it.
+
+use crate::flank_loads::{GridLoad, SparseVector};
+use crate::gauge_row::gauge_row;
+use crate::gear_body::GearBody;
+use crate::reduce::{IDENTITY_ALLOWED, checked};
+use crate::tooth_vectors::on_tooth;
+use crate::{Progress, ReductionError, flank_of};
+use faer::{Mat, Side};
+use gearmesh_fe::DoubledNodes;
+use gearmesh_geometry::{CrackDefinition, GearDefinition};
+use gearmesh_model::{GaugeRows, RootCrack};
+
+/// Eigenvalues of RRᵀ below this share of the largest compliance that the crack adds are left out: no compliance errs by more.
+const LEFT_OUT: f64 = 1e-8;
+/// Jumps that are solved for together: a batch takes the displacements of all sectors for each.
+const BATCH: usize = 32;
+/// Name of the check that the jumps' stiffness is symmetric.
+pub const CRACK_SYMMETRY: &str = "symmetry of the crack's stiffness";
+
+/// Rows of the crack and what it adds to the gauges.
+pub struct CrackedRows {
+    /// For the model.
+    pub crack: RootCrack,
+    /// Added to each gauge's [`GaugeRows::adjoint`] on the flanks of the crack's side: `[gauge][tooth][load][component]`.
+    pub gauges: Vec<Vec<f64>>,
+    /// Asymmetry of the jumps' condensed stiffness, relative.
+    pub asymmetry: f64,
+    /// Jumps that were solved for.
+    pub jumps: usize,
+}
+
+/// Computes the rows of a gear's crack. `loads` are those of the crack's side of tooth 0.
+///
+/// # Errors
+/// [`ReductionError::AtCrack`] where loads or gauges touch the crack, [`ReductionError::Fe`] where the crack cuts a part off.
+pub fn root_crack(
+    gear: &GearDefinition,
+    definition: &CrackDefinition,
+    body: &GearBody,
+    loads: &[GridLoad],
+    progress: &dyn Progress,
+) -> Result<CrackedRows, ReductionError> {
+    progress.stage("solving the crack");
+    let Some((nodes, beyond)) = body.mesh.crack(0) else {
+        return Err(ReductionError::NoCrackLine);
+    };
+    let doubled = DoubledNodes::new(&body.model, &body.dofs, &nodes, &beyond)?;
+    let gauges: Vec<SparseVector> = gear
+        .gauges
+        .iter()
+        .map(|g| gauge_row(gear, &body.mesh, &body.model, g, 0))
+        .collect::<Result<_, _>>()?;
+    let touches = |row: &SparseVector| row.iter().any(|e| nodes.contains(&((e.0 / 3) as u32)));
+    for (gauge, row) in gear.gauges.iter().zip(&gauges) {
+        if gauge.tooth == definition.tooth && touches(row) {
+            return Err(ReductionError::AtCrack {
+                what: format!("gauge {}", gauge.name),
+            });
+        }
+    }
+    if loads.iter().any(|load| touches(&load.normal)) {
+        return Err(ReductionError::AtCrack {
+            what: "the loaded flank".to_owned(),
+        });
+    }
+
+    let on_flank: Vec<&SparseVector> = loads
+        .iter()
+        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
+        .collect();
+    let coupling = doubled.coupling().iter();
+    let vectors: Vec<&SparseVector> = (coupling.chain(on_flank.iter().copied()))
+        .chain(&gauges)
+        .collect();
+    let columns: Vec<SparseVector> = (doubled.coupling().iter())
+        .map(|column| on_tooth(&body.mesh, column, definition.tooth))
+        .collect();
+    let (jumps, of_flank, teeth) = (doubled.count(), on_flank.len(), gear.tooth.teeth);
+    // K_pᵀ K⁻¹ of the jumps themselves, of the loads on all teeth, and of the gauges.
+    let mut of_jumps = Mat::zeros(jumps, jumps);
+    let mut of_loads = Mat::zeros(jumps, teeth * of_flank);
+    let mut of_gauges = Mat::zeros(jumps, gauges.len());
+    for (batch, chunk) in columns.chunks(BATCH).enumerate() {
+        let rows: Vec<&SparseVector> = chunk.iter().collect();
+        let readings = body.readings(&rows, &vectors, &crate::Silent);
+        for (number, reading) in readings.iter().enumerate() {
+            let row = batch * BATCH + number;
+            let at = |tooth: usize| &reading[tooth * vectors.len()..][..vectors.len()];
+            for (column, value) in at(definition.tooth)[..jumps].iter().enumerate() {
+                of_jumps[(row, column)] = *value;
+            }
+            for tooth in 0..teeth {
+                for (column, value) in at(tooth)[jumps..][..of_flank].iter().enumerate() {
+                    of_loads[(row, tooth * of_flank + column)] = *value;
+                }
+            }
+            for (column, gauge) in gear.gauges.iter().enumerate() {
+                of_gauges[(row, column)] = at(gauge.tooth)[jumps + of_flank + column];
+            }
+        }
+        progress.advance(batch * BATCH + chunk.len(), jumps);
+    }
+    let factor = doubled.factor(of_jumps.as_ref())?;
+    checked(CRACK_SYMMETRY, factor.asymmetry(), IDENTITY_ALLOWED)?;
+    let r = factor.rows(of_loads.as_ref());
+    let r_gauges = factor.rows(of_gauges.as_ref());
+    let added = r_gauges.transpose() * &r;
+    let gauges = (0..gear.gauges.len())
+        .map(|gauge| (0..r.ncols()).map(|load| added[(gauge, load)]).collect())
+        .collect();
+
+    let normals = Mat::from_fn(jumps, r.ncols() / 3, |i, load| r[(i, 3 * load)]);
+    let (rows, left_out) = compressed(&normals)?;
+    let section = body.mesh.section.crack.as_ref();
+    Ok(CrackedRows {
+        crack: RootCrack {
+            tooth: definition.tooth,
+            side: flank_of(definition.side),
+            mouth_radius_m: section.map_or(0.0, |line| line.mouth_radius_m),
+            depth_m: definition.depth_m,
+            angle_rad: definition.angle_rad,
+            rows,
+            left_out,
+        },
+        gauges,
+        asymmetry: factor.asymmetry(),
+        jumps,
+    })
+}
+
+impl CrackedRows {
+    /// Adds to the gauges' rows what the crack makes of them.
+    pub fn add_to_gauges(&self, gear: &GearDefinition, rows: &mut [GaugeRows]) {
+        let flanks = &gear.reduction.flanks;
+        let index = flanks
+            .iter()
+            .position(|&side| flank_of(side) == self.crack.side);
+        let per_flank = self
+            .gauges
+            .first()
+            .map_or(0, |g| g.len() / gear.tooth.teeth);
+        for (row, added) in rows.iter_mut().zip(&self.gauges) {
+            for (tooth, added) in added.chunks_exact(per_flank).enumerate() {
+                let start = (tooth * flanks.len() + index.unwrap_or_default()) * per_flank;
+                for (value, added) in row.adjoint[start..][..per_flank].iter_mut().zip(added) {
+                    *value += added;
+                }
+            }
+        }
+    }
+}
+
+/// φ = VᵀR, `[row][load]`, and the bound of what is left out relative to the largest added compliance of one load.
+fn compressed(r: &Mat<f64>) -> Result<(Vec<f64>, f64), ReductionError> {
+    let gram = r * r.transpose();
+    let eigen = gram
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| ReductionError::Check {
+            check: "the crack's rows",
+            found: f64::NAN,
+            allowed: 0.0,
+        })?;
+    // Ascending.
+    let values = eigen.S().column_vector();
+    let n = values.nrows();
+    let most = (0..r.ncols()).fold(0.0, |most: f64, load| {
+        most.max(r.col(load).squared_norm_l2())
+    });
+    let kept = (0..n)
+        .rev()
+        .take_while(|&k| values[k] > LEFT_OUT * most)
+        .count()
+        .max(1);
+    let rows = eigen.U().subcols(n - kept, kept).transpose() * r;
+    let next = if kept < n {
+        values[n - kept - 1].max(0.0)
+    } else {
+        0.0
+    };
+    let flat = (0..kept)
+        .rev()
+        .flat_map(|k| (0..r.ncols()).map(move |load| (k, load)))
+        .map(|at| rows[at])
+        .collect();
+    Ok((flat, next / most))
+}
