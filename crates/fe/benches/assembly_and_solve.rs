@@ -4,7 +4,7 @@
 use divan::{Bencher, black_box};
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, StiffnessMatrix, StructuredMesh,
+    DofMap, Element, Factor, FeModel, Material, StiffnessMatrix, StructuredMesh,
     assemble_stiffness, chord_middle,
 };
 
@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-fn block(elements: usize, element: HexElement) -> (FeModel, DofMap) {
+fn block(elements: usize, element: Element) -> (FeModel, DofMap) {
     let mesh = StructuredMesh::block([elements; 3], [1.0; 3]);
     let steel = Material::new(210e9, 0.3).unwrap();
     let model = mesh
@@ -26,26 +26,26 @@ fn block(elements: usize, element: HexElement) -> (FeModel, DofMap) {
 }
 
 fn system(elements: usize) -> (FeModel, DofMap, StiffnessMatrix) {
-    let (model, dofs) = block(elements, HexElement::Hex8Incompatible);
+    let (model, dofs) = block(elements, Element::Hex8Incompatible);
     let k = assemble_stiffness(&model, &dofs).unwrap();
     (model, dofs, k)
 }
 
 #[divan::bench(args = [8, 16], sample_count = 10)]
 fn assemble_hex8(bencher: Bencher, elements: usize) {
-    let (model, dofs) = block(elements, HexElement::Hex8);
+    let (model, dofs) = block(elements, Element::Hex8);
     bencher.bench(|| assemble_stiffness(black_box(&model), &dofs).unwrap());
 }
 
 #[divan::bench(args = [8, 16], sample_count = 10)]
 fn assemble_hex8_incompatible(bencher: Bencher, elements: usize) {
-    let (model, dofs) = block(elements, HexElement::Hex8Incompatible);
+    let (model, dofs) = block(elements, Element::Hex8Incompatible);
     bencher.bench(|| assemble_stiffness(black_box(&model), &dofs).unwrap());
 }
 
 #[divan::bench(args = [4, 8], sample_count = 10)]
 fn assemble_hex20(bencher: Bencher, elements: usize) {
-    let (model, dofs) = block(elements, HexElement::Hex20);
+    let (model, dofs) = block(elements, Element::Hex20);
     bencher.bench(|| assemble_stiffness(black_box(&model), &dofs).unwrap());
 }
 

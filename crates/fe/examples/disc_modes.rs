@@ -11,7 +11,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use gearmesh_fe::{
-    DofMap, Factor, HexElement, Material, ModeSettings, StructuredMesh, arc_middle, assemble_mass,
+    DofMap, Element, Factor, Material, ModeSettings, StructuredMesh, arc_middle, assemble_mass,
     assemble_stiffness, natural_modes,
 };
 
@@ -20,8 +20,8 @@ const BORE_M: f64 = 0.025;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let element = match arguments.first() {
-        Some(name) => HexElement::from_name(name).ok_or("the element is unknown")?,
-        None => HexElement::Hex20,
+        Some(name) => Element::from_name(name).ok_or("the element is unknown")?,
+        None => Element::Hex20,
     };
     let mut numbers = [72, 6, 2, 20];
     for (number, text) in numbers.iter_mut().zip(arguments.iter().skip(1)) {

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Factor, FeModel, HexElement, Material, NodeGraph, StructuredMesh,
+    DofMap, DofOrdering, Element, Factor, FeModel, Material, NodeGraph, StructuredMesh,
     assemble_stiffness_with_graph,
 };
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         mesh.nodes,
         mesh.hexes,
         Material::new(210e9, 0.3)?,
-        HexElement::Hex8Incompatible,
+        Element::Hex8Incompatible,
     )?;
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held)?;
     writeln!(

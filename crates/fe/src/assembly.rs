@@ -191,9 +191,9 @@ fn fill_node_columns(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{HexElement, Material, StructuredMesh};
+    use crate::{Element, Material, StructuredMesh};
 
-    fn twisted_model(element: HexElement) -> FeModel {
+    fn twisted_model(element: Element) -> FeModel {
         let mesh = StructuredMesh::mapped([3, 2, 4], |[x, y, z]| {
             [x + 0.1 * y * z, y + 0.05 * (3.0 * x).sin(), z + 0.1 * x * y]
         });
@@ -209,7 +209,7 @@ mod tests {
     /// Against the plain sum of scattered element matrices, with single degrees of freedom fixed.
     #[test]
     fn equals_dense_scatter() {
-        let model = twisted_model(HexElement::Hex8Incompatible);
+        let model = twisted_model(Element::Hex8Incompatible);
         let dofs =
             DofMap::with_fixed_dofs(model.node_count(), &[0, 1, 2, 7, 30, 31, 32, 50]).unwrap();
         let k = assemble_stiffness(&model, &dofs).unwrap();
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn symmetric_and_independent_of_thread_count() {
-        let model = twisted_model(HexElement::Hex8);
+        let model = twisted_model(Element::Hex8);
         let dofs = DofMap::all_free(model.node_count()).unwrap();
         let in_pool = |threads: usize| {
             rayon::ThreadPoolBuilder::new()
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn constraints_of_another_model_are_refused() {
-        let model = twisted_model(HexElement::Hex8);
+        let model = twisted_model(Element::Hex8);
         let dofs = DofMap::all_free(7).unwrap();
         assert!(matches!(
             assemble_stiffness(&model, &dofs),

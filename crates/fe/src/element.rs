@@ -15,10 +15,10 @@ pub type StrainOperator = [Vec<f64>; 6];
 
 /// Kind and formulation of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum HexElement {
+pub enum Element {
     /// Hexahedron of eight nodes, trilinear displacement, 2×2×2 Gauss points. Locks in bending.
     Hex8,
-    /// [`HexElement::Hex8`] with three condensed bending modes (QM6). No locking in bending; the default.
+    /// [`Element::Hex8`] with three condensed bending modes (QM6). No locking in bending; the default.
     #[default]
     Hex8Incompatible,
     /// Hexahedron of twenty nodes, quadratic displacement and edges (serendipity), 3×3×3 Gauss points.
@@ -35,23 +35,23 @@ pub enum HexElement {
 macro_rules! with_shape {
     ($element:expr, $shape:ident => $value:expr) => {
         match $element {
-            HexElement::Hex8 | HexElement::Hex8Incompatible => {
+            Element::Hex8 | Element::Hex8Incompatible => {
                 use crate::hex8 as $shape;
                 $value
             }
-            HexElement::Hex20 => {
+            Element::Hex20 => {
                 use crate::hex20 as $shape;
                 $value
             }
-            HexElement::Tet10 => {
+            Element::Tet10 => {
                 use crate::tet10 as $shape;
                 $value
             }
-            HexElement::Wedge6 => {
+            Element::Wedge6 => {
                 use crate::wedge6 as $shape;
                 $value
             }
-            HexElement::Wedge15 => {
+            Element::Wedge15 => {
                 use crate::wedge15 as $shape;
                 $value
             }
@@ -59,7 +59,7 @@ macro_rules! with_shape {
     };
 }
 
-impl HexElement {
+impl Element {
     /// Every formulation.
     pub const ALL: [Self; 6] = [
         Self::Hex8,
@@ -168,7 +168,7 @@ impl HexElement {
     /// Volume (m³). The rule of the stiffness is exact where edges are straight, and for curved tetrahedra.
     ///
     /// # Errors
-    /// As [`HexElement::jacobian_determinant`], at a Gauss point.
+    /// As [`Element::jacobian_determinant`], at a Gauss point.
     pub fn volume(self, coordinates: &[[f64; 3]]) -> Result<f64, ElementError> {
         self.integration_points()
             .iter()
@@ -198,7 +198,7 @@ impl HexElement {
 
     /// Strain operator (6 × 3 nodes, 1/m) at a natural point: strain = operator · nodal displacements.
     ///
-    /// For [`HexElement::Hex8Incompatible`] the condensed modes are included, so that
+    /// For [`Element::Hex8Incompatible`] the condensed modes are included, so that
     /// K = Σ w |J| operatorᵀ D operator over the Gauss points holds for every element.
     ///
     /// # Errors
@@ -261,7 +261,7 @@ mod tests {
     use crate::hex8::CORNERS;
 
     /// A distorted element; its edges are bent where it has nodes on them.
-    fn distorted(element: HexElement) -> Vec<[f64; 3]> {
+    fn distorted(element: Element) -> Vec<[f64; 3]> {
         let moved = |k: usize| 0.06 * (1.7 * k as f64 + 0.4).sin();
         let nodes = element.natural_nodes().iter().enumerate();
         nodes
@@ -273,7 +273,7 @@ mod tests {
     /// centre.
     #[test]
     fn shape_functions_are_nodal_and_sum_to_one() {
-        for element in HexElement::ALL {
+        for element in Element::ALL {
             for (i, node) in element.natural_nodes().iter().enumerate() {
                 for (j, value) in element.shape_functions(*node).iter().enumerate() {
                     assert!(
@@ -293,10 +293,10 @@ mod tests {
         }
     }
 
-    fn corner_count(element: HexElement) -> usize {
+    fn corner_count(element: Element) -> usize {
         match element {
-            HexElement::Tet10 => 4,
-            HexElement::Wedge6 | HexElement::Wedge15 => 6,
+            Element::Tet10 => 4,
+            Element::Wedge6 | Element::Wedge15 => 6,
             _ => 8,
         }
     }
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn gradients_equal_central_differences() {
         let step = 1e-5;
-        for element in HexElement::ALL {
+        for element in Element::ALL {
             let x = distorted(element);
             let at = [0.2, 0.3, 0.25];
             let column = |k: usize| -> [f64; 3] {
@@ -340,7 +340,7 @@ mod tests {
     /// The faces close the element and face outwards: the volume is ∮ x·n dA/3, here by the corners' polygons.
     #[test]
     fn faces_are_closed_and_face_outwards() {
-        for element in HexElement::ALL {
+        for element in Element::ALL {
             let x = element.natural_nodes();
             let mut flux = 0.0;
             let mut edges = std::collections::BTreeMap::<[usize; 2], i32>::new();
@@ -374,7 +374,7 @@ mod tests {
     #[test]
     fn stiffness_is_the_energy_of_the_strain_operator() {
         let material = Material::new(210e9, 0.3).unwrap();
-        for element in HexElement::ALL {
+        for element in Element::ALL {
             let x = distorted(element);
             let k = element.stiffness(&x, &material).unwrap();
             let n = k.size();
@@ -407,11 +407,9 @@ mod tests {
     #[test]
     fn incompatible_modes_soften() {
         let material = Material::new(210e9, 0.3).unwrap();
-        let x = distorted(HexElement::Hex8);
-        let plain = HexElement::Hex8.stiffness(&x, &material).unwrap();
-        let soft = HexElement::Hex8Incompatible
-            .stiffness(&x, &material)
-            .unwrap();
+        let x = distorted(Element::Hex8);
+        let plain = Element::Hex8.stiffness(&x, &material).unwrap();
+        let soft = Element::Hex8Incompatible.stiffness(&x, &material).unwrap();
         for i in 0..24 {
             assert!(soft[(i, i)] < plain[(i, i)]);
         }
@@ -421,11 +419,11 @@ mod tests {
     /// −1 < t < 1 is 7/6 of a section for prisms. Straight edges: exact.
     #[test]
     fn volume_of_the_reference_shape_and_of_a_frustum() {
-        for element in HexElement::ALL {
+        for element in Element::ALL {
             let nodes = element.natural_nodes();
             let whole: f64 = element.mass_points().iter().map(|p| p.1).sum();
             assert!((element.volume(nodes).unwrap() / whole - 1.0).abs() < 1e-14);
-            if element == HexElement::Tet10 {
+            if element == Element::Tet10 {
                 continue;
             }
             let frustum: Vec<_> = nodes
@@ -443,7 +441,7 @@ mod tests {
     #[test]
     fn another_number_of_nodes_is_refused() {
         assert_eq!(
-            HexElement::Hex20.volume(&CORNERS),
+            Element::Hex20.volume(&CORNERS),
             Err(ElementError::NodeCount {
                 found: 8,
                 expected: 20
@@ -453,9 +451,9 @@ mod tests {
 
     #[test]
     fn names_lead_back() {
-        for element in HexElement::ALL {
-            assert_eq!(HexElement::from_name(element.name()), Some(element));
+        for element in Element::ALL {
+            assert_eq!(Element::from_name(element.name()), Some(element));
         }
-        assert_eq!(HexElement::from_name("hex9"), None);
+        assert_eq!(Element::from_name("hex9"), None);
     }
 }

@@ -24,12 +24,12 @@
 //! Condensation and ring work in cylindrical components ([`CylindricalFrames`]), in which turned parts are equal.
 //!
 //! ```
-//! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, HexElement, Material, StructuredMesh};
+//! use gearmesh_fe::{assemble_stiffness, DofMap, Factor, FeModel, Element, Material, StructuredMesh};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mesh = StructuredMesh::block([4, 2, 2], [0.04, 0.02, 0.02]);
 //! let steel = Material::new(210e9, 0.3)?;
 //! let held = mesh.nodes_where(|x| x[0] == 0.0);
-//! let model = FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex8Incompatible)?;
+//! let model = FeModel::new(mesh.nodes, mesh.hexes, steel, Element::Hex8Incompatible)?;
 //! let dofs = DofMap::with_fixed_nodes(model.node_count(), &held)?;
 //! let k = assemble_stiffness(&model, &dofs)?;
 //! let factor = Factor::of_model(&model, &dofs, &k)?;
@@ -46,11 +46,11 @@
 //!
 //! | element | use it for | cost | weakness |
 //! | --- | --- | --- | --- |
-//! | [`HexElement::Hex8Incompatible`] | the default; anything that bends | element stiffness about twice as dear, K and solves the same | strains jump a little more between elements; distorted elements lose part of the gain in bending |
-//! | [`HexElement::Hex8`] | comparison with codes that use the plain trilinear brick | cheapest | shear locking: a slab one element thick is far too stiff in bending |
-//! | [`HexElement::Hex20`] | curved bodies, stress, a few elements across a thickness | four times the nodes of the same elements as hex8; a fuller K at equal nodes | needs mid-edge nodes on the true surface to keep its order |
-//! | [`HexElement::Tet10`] | bodies that no hexahedra fill: fillets, drafts, anything meshed freely | about 1.4 nodes an element; more of them than hex20 at equal error | as hex20 |
-//! | [`HexElement::Wedge6`], [`HexElement::Wedge15`] | gaps in meshes of hex8 or hex20 | as those | Wedge6 locks as hex8 does |
+//! | [`Element::Hex8Incompatible`] | the default; anything that bends | element stiffness about twice as dear, K and solves the same | strains jump a little more between elements; distorted elements lose part of the gain in bending |
+//! | [`Element::Hex8`] | comparison with codes that use the plain trilinear brick | cheapest | shear locking: a slab one element thick is far too stiff in bending |
+//! | [`Element::Hex20`] | curved bodies, stress, a few elements across a thickness | four times the nodes of the same elements as hex8; a fuller K at equal nodes | needs mid-edge nodes on the true surface to keep its order |
+//! | [`Element::Tet10`] | bodies that no hexahedra fill: fillets, drafts, anything meshed freely | about 1.4 nodes an element; more of them than hex20 at equal error | as hex20 |
+//! | [`Element::Wedge6`], [`Element::Wedge15`] | gaps in meshes of hex8 or hex20 | as those | Wedge6 locks as hex8 does |
 //!
 //! All pass the patch test on distorted meshes, curved ones too, and have exactly six zero-energy modes. The linear
 //! elements converge with order 1 in the energy norm and order 2 in displacement, the quadratic ones with 2 and 3.
@@ -76,7 +76,7 @@
 //! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the integration points, the
 //! nodes or the centre are refused, so collapsed hexahedra are not accepted: use wedges. Linear tetrahedra are not on offer:
 //! they are far too stiff in bending. Nearly incompressible material locks in
-//! [`HexElement::Hex8`] and has not been studied with the incompatible modes.
+//! [`Element::Hex8`] and has not been studied with the incompatible modes.
 
 mod assembly;
 mod constraints;
@@ -119,7 +119,7 @@ pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;
 pub use doubled_nodes::{DoubledNodes, JumpFactor};
-pub use element::{HexElement, StrainOperator};
+pub use element::{Element, StrainOperator};
 pub use element_matrix::ElementMatrix;
 pub use error::{ElementError, FeError};
 pub use factor::{Factor, FactorInfo, SymbolicFactor};

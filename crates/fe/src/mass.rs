@@ -1,6 +1,6 @@
 //! Consistent mass matrix: M_ij = ∫ ρ N_i N_j dV in each of the three directions.
 //!
-//! Integrated by [`HexElement::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
+//! Integrated by [`Element::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
 //! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are inner unknowns of its stiffness only.
 
 use faer::{Mat, MatRef};
@@ -8,13 +8,13 @@ use rayon::prelude::*;
 
 use crate::assembly::{SparseMatrix, assemble};
 use crate::constraints::DofMap;
-use crate::element::HexElement;
+use crate::element::Element;
 use crate::element_matrix::ElementMatrix;
 use crate::error::{ElementError, FeError};
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
 
-impl HexElement {
+impl Element {
     /// Mass (kg) from the coordinates (m) of the nodes and the density ρ (kg/m³).
     ///
     /// # Errors
@@ -176,7 +176,7 @@ mod tests {
     /// edge (Hughes 1987, section 7.3).
     #[test]
     fn mass_of_a_brick_in_closed_form() {
-        let element = HexElement::Hex8;
+        let element = Element::Hex8;
         let coordinates: Vec<_> = element
             .natural_nodes()
             .iter()

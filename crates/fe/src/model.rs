@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::element::{HexElement, StrainOperator};
+use crate::element::{Element, StrainOperator};
 use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::material::Material;
@@ -11,7 +11,7 @@ use crate::material::Material;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ElementBlock {
     /// Kind and formulation.
-    pub element: HexElement,
+    pub element: Element,
     /// Node indices, element by element in VTK order; as many an element as it has nodes.
     pub nodes: Vec<u32>,
 }
@@ -50,7 +50,7 @@ impl FeModel {
         nodes: Vec<[f64; 3]>,
         elements: Vec<[u32; N]>,
         material: Material,
-        element: HexElement,
+        element: Element,
     ) -> Result<Self, FeError> {
         if N != element.node_count() {
             return Err(FeError::NodesPerElement {
@@ -70,7 +70,7 @@ impl FeModel {
         nodes: Vec<[f64; 3]>,
         connectivity: Vec<u32>,
         material: Material,
-        element: HexElement,
+        element: Element,
     ) -> Result<Self, FeError> {
         let block = ElementBlock {
             element,
@@ -162,7 +162,7 @@ impl FeModel {
     ///
     /// # Errors
     /// [`FeError::NodesPerElement`].
-    pub fn with_element(mut self, element: HexElement) -> Result<Self, FeError> {
+    pub fn with_element(mut self, element: Element) -> Result<Self, FeError> {
         for block in &mut self.blocks {
             if element.node_count() != block.element.node_count() {
                 return Err(FeError::NodesPerElement {
@@ -260,7 +260,7 @@ impl FeModel {
     ///
     /// # Panics
     /// If `element` is not below [`FeModel::element_count`].
-    pub fn element_of(&self, element: usize) -> HexElement {
+    pub fn element_of(&self, element: usize) -> Element {
         self.block_of(element).0.element
     }
 
@@ -307,7 +307,7 @@ impl FeModel {
     }
 
     /// Strain operator (1/m) of one element at a natural point, modes included; see
-    /// [`HexElement::strain_operator`]. Columns follow [`FeModel::element_dofs`].
+    /// [`Element::strain_operator`]. Columns follow [`FeModel::element_dofs`].
     ///
     /// # Errors
     /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].
@@ -411,7 +411,7 @@ mod tests {
             mesh.nodes,
             mesh.hexes,
             Material::new(210e9, 0.3).unwrap(),
-            HexElement::Hex8,
+            Element::Hex8,
         )
     }
 
@@ -463,10 +463,10 @@ mod tests {
             found: 8,
             expected: 20,
         };
-        assert_eq!(eight.with_element(HexElement::Hex20), Err(refused.clone()));
+        assert_eq!(eight.with_element(Element::Hex20), Err(refused.clone()));
         let steel = Material::new(210e9, 0.3).unwrap();
         assert_eq!(
-            FeModel::new(mesh.nodes, mesh.hexes, steel, HexElement::Hex20),
+            FeModel::new(mesh.nodes, mesh.hexes, steel, Element::Hex20),
             Err(refused)
         );
     }

@@ -228,7 +228,7 @@ fn dissect(graph: Adjacency) -> Result<Vec<i32>, FeError> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{FeModel, HexElement, Material, StructuredMesh};
+    use crate::{Element, FeModel, Material, StructuredMesh};
 
     #[test]
     fn dissection_is_a_repeatable_permutation_that_keeps_nodes_together() {
@@ -237,7 +237,7 @@ mod tests {
             mesh.nodes,
             mesh.hexes,
             Material::new(1.0, 0.3).unwrap(),
-            HexElement::Hex8,
+            Element::Hex8,
         )
         .unwrap();
         let dofs = DofMap::with_fixed_dofs(model.node_count(), &[0, 1, 2, 10]).unwrap();

@@ -120,7 +120,7 @@ pub fn arc_middle([a, b]: [[f64; 3]; 2]) -> [f64; 3] {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{FeModel, HexElement, Material, StructuredMesh};
+    use crate::{Element, FeModel, Material, StructuredMesh};
 
     /// Euler's count for a block: edges of an n³ grid are 3 n (n + 1)².
     #[test]
@@ -131,7 +131,7 @@ mod tests {
         let mesh = QuadraticMesh::new(block.nodes, &block.hexes, |_, ends| chord_middle(ends));
         assert_eq!(mesh.nodes.len() - corners, 3 * n * (n + 1) * (n + 1));
         let steel = Material::new(210e9, 0.3).unwrap();
-        let model = FeModel::new(mesh.nodes, mesh.elements, steel, HexElement::Hex20).unwrap();
+        let model = FeModel::new(mesh.nodes, mesh.elements, steel, Element::Hex20).unwrap();
         assert!((model.volume().unwrap() - 1.0).abs() < 1e-14);
     }
 
@@ -142,7 +142,7 @@ mod tests {
             let ring = StructuredMesh::ring([around, 1, 1], [1.0, 2.0], 1.0);
             let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
             let steel = Material::new(210e9, 0.3).unwrap();
-            let model = FeModel::new(mesh.nodes, mesh.elements, steel, HexElement::Hex20).unwrap();
+            let model = FeModel::new(mesh.nodes, mesh.elements, steel, Element::Hex20).unwrap();
             (model.volume().unwrap() / (3.0 * std::f64::consts::PI) - 1.0).abs()
         };
         let order = (error(8) / error(16)).log2();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::element::HexElement;
+use crate::element::Element;
 use crate::error::FeError;
 use crate::material::Material;
 use crate::model::FeModel;
@@ -65,26 +65,24 @@ impl StructuredMesh {
     pub fn into_model(
         self,
         material: Material,
-        element: HexElement,
+        element: Element,
         place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
     ) -> Result<FeModel, FeError> {
         match element {
-            HexElement::Hex8 | HexElement::Hex8Incompatible => {
+            Element::Hex8 | Element::Hex8Incompatible => {
                 FeModel::new(self.nodes, self.hexes, material, element)
             }
-            HexElement::Wedge6 => {
-                FeModel::new(self.nodes.clone(), self.wedges(), material, element)
-            }
-            HexElement::Hex20 => {
+            Element::Wedge6 => FeModel::new(self.nodes.clone(), self.wedges(), material, element),
+            Element::Hex20 => {
                 let mesh = QuadraticMesh::new(self.nodes, &self.hexes, place);
                 FeModel::new(mesh.nodes, mesh.elements, material, element)
             }
-            HexElement::Tet10 => {
+            Element::Tet10 => {
                 let mesh =
                     QuadraticMesh::of_tetrahedra(self.nodes.clone(), &self.tetrahedra(), place);
                 FeModel::new(mesh.nodes, mesh.elements, material, element)
             }
-            HexElement::Wedge15 => {
+            Element::Wedge15 => {
                 let mesh = QuadraticMesh::of_wedges(self.nodes.clone(), &self.wedges(), place);
                 FeModel::new(mesh.nodes, mesh.elements, material, element)
             }

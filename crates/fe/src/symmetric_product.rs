@@ -81,13 +81,13 @@ impl SymmetricRows {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{DofMap, FeModel, HexElement, Material, StructuredMesh, assemble_stiffness};
+    use crate::{DofMap, Element, FeModel, Material, StructuredMesh, assemble_stiffness};
 
     #[test]
     fn equals_the_product_of_faer() {
         let mesh = StructuredMesh::block([3, 2, 2], [1.0, 2.0, 3.0]);
         let material = Material::new(1.0, 0.3).unwrap();
-        let model = FeModel::new(mesh.nodes, mesh.hexes, material, HexElement::Hex8).unwrap();
+        let model = FeModel::new(mesh.nodes, mesh.hexes, material, Element::Hex8).unwrap();
         let dofs = DofMap::with_fixed_dofs(model.node_count(), &[0, 4, 9]).unwrap();
         let k = assemble_stiffness(&model, &dofs).unwrap();
         let x = Mat::from_fn(dofs.free_count(), 13, |i, j| {

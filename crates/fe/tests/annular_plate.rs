@@ -5,7 +5,7 @@ mod common;
 
 use common::{nodes_where, steel};
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, ModeSettings, QuadraticMesh, StructuredMesh, arc_middle,
+    DofMap, Element, Factor, FeModel, ModeSettings, QuadraticMesh, StructuredMesh, arc_middle,
     assemble_mass, assemble_stiffness, natural_modes,
 };
 
@@ -25,7 +25,7 @@ const EXACT_HZ: [f64; 5] = [332.5941, 326.8794, 396.2136, 660.9022, 1098.3280];
 fn frequencies_hz(counts: [usize; 3], modes: usize) -> Vec<f64> {
     let ring = StructuredMesh::ring(counts, RADII_M, THICKNESS_M);
     let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
-    let model = FeModel::new(mesh.nodes, mesh.elements, steel(), HexElement::Hex20).unwrap();
+    let model = FeModel::new(mesh.nodes, mesh.elements, steel(), Element::Hex20).unwrap();
     let on_bore = |x: [f64; 3]| x[0].hypot(x[1]) < RADII_M[0] * 1.000_001;
     let bore = nodes_where(&model, on_bore);
     let middle = nodes_where(&model, |x| on_bore(x) && x[2].abs() < 1e-9);

@@ -5,9 +5,7 @@
 //! (G. R. Cowper, J. Appl. Mech. 33 (1966) 335-340). ν = 0 takes the plate effect of the clamp away.
 #![allow(clippy::unwrap_used)]
 
-use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, StructuredMesh, assemble_stiffness,
-};
+use gearmesh_fe::{DofMap, Element, Factor, FeModel, Material, StructuredMesh, assemble_stiffness};
 
 const LENGTH: f64 = 0.1;
 const WIDTH: f64 = 0.002;
@@ -16,7 +14,7 @@ const YOUNG: f64 = 210e9;
 const FORCE: f64 = 1.0;
 
 /// Mean end deflection, and strain xx at the top near the clamp at mid-element.
-fn cantilever(element: HexElement, along: usize, skew: f64) -> (f64, f64) {
+fn cantilever(element: Element, along: usize, skew: f64) -> (f64, f64) {
     let mesh = StructuredMesh::mapped([along, 1, 1], |[x, y, z]| {
         // Skewed cross-sections inside, plane ends.
         let shift = skew * THICKNESS * (z - 0.5) * (std::f64::consts::PI * x).sin();
@@ -60,8 +58,8 @@ fn timoshenko() -> f64 {
 fn incompatible_modes_find_the_beam_where_the_plain_brick_locks() {
     let along = 20; // elements 5 mm long, 2 mm thick
     let beam = timoshenko();
-    let (plain, _) = cantilever(HexElement::Hex8, along, 0.0);
-    let (modes, _) = cantilever(HexElement::Hex8Incompatible, along, 0.0);
+    let (plain, _) = cantilever(Element::Hex8, along, 0.0);
+    let (modes, _) = cantilever(Element::Hex8Incompatible, along, 0.0);
     // A plain brick of length l and thickness t in bending is too stiff by 1 + (G/E)(l/t)², here with
     // G/E = 1/2: 4.125, thus 0.242 of the beam.
     let locked = 1.0 / (1.0 + 0.5 * (LENGTH / along as f64 / THICKNESS).powi(2));
@@ -83,7 +81,7 @@ fn incompatible_modes_find_the_beam_where_the_plain_brick_locks() {
 #[test]
 fn bending_strain_at_the_surface_is_that_of_the_beam() {
     let along = 20;
-    let (_, strain) = cantilever(HexElement::Hex8Incompatible, along, 0.0);
+    let (_, strain) = cantilever(Element::Hex8Incompatible, along, 0.0);
     // Load up: the top is compressed. Moment at the middle of the first element.
     let moment = FORCE * LENGTH * (1.0 - 0.5 / along as f64);
     let expected = -moment * (THICKNESS / 2.0) / (YOUNG * WIDTH * THICKNESS.powi(3) / 12.0);
@@ -96,7 +94,7 @@ fn bending_strain_at_the_surface_is_that_of_the_beam() {
 /// Skewed elements lose part of the gain but stay far from locking.
 #[test]
 fn skewed_elements_still_bend() {
-    let (modes, _) = cantilever(HexElement::Hex8Incompatible, 20, 0.5);
+    let (modes, _) = cantilever(Element::Hex8Incompatible, 20, 0.5);
     let ratio = modes / timoshenko();
     assert!(ratio > 0.99 && ratio < 1.01, "{ratio} of the beam");
 }

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use common::{ELEMENTS, nodes_where, steel};
 use gearmesh_fe::{
-    DofMap, Factor, FeModel, HexElement, Material, StructuredMesh, assemble_stiffness, chord_middle,
+    DofMap, Element, Factor, FeModel, Material, StructuredMesh, assemble_stiffness, chord_middle,
 };
 
 const AMPLITUDE: [f64; 3] = [1.0, -0.5, 0.7];
@@ -83,7 +83,7 @@ fn bend(x: [f64; 3]) -> [f64; 3] {
 }
 
 /// The bent cube; mid-edge nodes lie on the bent edges.
-fn model(n: usize, element: HexElement) -> FeModel {
+fn model(n: usize, element: Element) -> FeModel {
     let mut mesh = StructuredMesh::mapped([n; 3], |x| x);
     let straight = mesh.nodes.clone();
     mesh.nodes = mesh.nodes.into_iter().map(bend).collect();
@@ -93,7 +93,7 @@ fn model(n: usize, element: HexElement) -> FeModel {
 }
 
 /// (energy norm error, L2 error), relative to the norms of the exact solution.
-fn errors(n: usize, element: HexElement) -> (f64, f64) {
+fn errors(n: usize, element: Element) -> (f64, f64) {
     let model = model(n, element);
     let on_boundary = |v: &f64| v.abs() < 1e-12 || (v - 1.0).abs() < 1e-12;
     let boundary = nodes_where(&model, |x| x.iter().any(on_boundary));
@@ -162,24 +162,24 @@ struct Expected {
     elements_per_side: &'static [[usize; 2]],
 }
 
-fn expected(element: HexElement) -> Expected {
+fn expected(element: Element) -> Expected {
     match element {
-        HexElement::Hex8 | HexElement::Hex8Incompatible => Expected {
+        Element::Hex8 | Element::Hex8Incompatible => Expected {
             energy_order: 1,
             l2_order: 2,
             elements_per_side: &[[4, 8], [8, 16]],
         },
-        HexElement::Wedge6 => Expected {
+        Element::Wedge6 => Expected {
             energy_order: 1,
             l2_order: 2,
             elements_per_side: &[[8, 16]],
         },
-        HexElement::Hex20 => Expected {
+        Element::Hex20 => Expected {
             energy_order: 2,
             l2_order: 3,
             elements_per_side: &[[6, 12], [7, 14]],
         },
-        HexElement::Tet10 | HexElement::Wedge15 => Expected {
+        Element::Tet10 | Element::Wedge15 => Expected {
             energy_order: 2,
             l2_order: 3,
             elements_per_side: &[[6, 12]],

@@ -4,8 +4,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use gearmesh_fe::{
-    CondensedLoads, CyclicInterface, CylindricalFrames, DofMap, Factor, FeError, FeModel,
-    HexElement, Material, StaticCondensation, StructuredMesh, assemble_stiffness,
+    CondensedLoads, CyclicInterface, CylindricalFrames, DofMap, Element, Factor, FeError, FeModel,
+    Material, StaticCondensation, StructuredMesh, assemble_stiffness,
 };
 
 fn close(a: &Mat<f64>, b: &Mat<f64>, tolerance: f64) -> bool {
@@ -32,13 +32,7 @@ fn noise(rows: usize, columns: usize) -> Mat<f64> {
 
 fn steel(mesh: StructuredMesh) -> FeModel {
     let material = Material::new(210e9, 0.3).unwrap();
-    FeModel::new(
-        mesh.nodes,
-        mesh.hexes,
-        material,
-        HexElement::Hex8Incompatible,
-    )
-    .unwrap()
+    FeModel::new(mesh.nodes, mesh.hexes, material, Element::Hex8Incompatible).unwrap()
 }
 
 /// A floating block: S, the carried loads, work inside and the interior, against dense elimination.

@@ -25,7 +25,7 @@ const THICKNESS: f64 = 0.001;
 
 impl Plate {
     /// `across` elements across the width, `deep` of them cracked from y = 0; nothing moves along z in plane strain.
-    fn new(element: HexElement, across: usize, deep: f64, plane_strain: bool) -> Self {
+    fn new(element: Element, across: usize, deep: f64, plane_strain: bool) -> Self {
         let size = [LENGTH, WIDTH, THICKNESS];
         let mesh = StructuredMesh::block([4 * across, across, 1], size);
         let middle = |_, ends| chord_middle(ends);
@@ -118,11 +118,7 @@ fn products(model: &FeModel, dofs: &DofMap, vectors: &[&Load]) -> Mat<f64> {
 
 #[test]
 fn the_update_is_the_mesh_with_doubled_nodes() {
-    for element in [
-        HexElement::Hex8,
-        HexElement::Hex8Incompatible,
-        HexElement::Hex20,
-    ] {
+    for element in [Element::Hex8, Element::Hex8Incompatible, Element::Hex20] {
         let plate = Plate::new(element, 4, 0.5, false);
         let loads: Vec<Load> = (plate.end().iter().take(4))
             .flat_map(|n| (0..3).map(move |axis| vec![(3 * n + axis, 1.0)]))
@@ -179,7 +175,7 @@ fn bending_of_a_cracked_plate_is_the_handbooks() {
     for alpha in [0.25, 0.5] {
         let exact = bending_compliance(alpha);
         let error = |across: usize| {
-            let plate = Plate::new(HexElement::Hex8Incompatible, across, alpha, true);
+            let plate = Plate::new(Element::Hex8Incompatible, across, alpha, true);
             plate.update(&[moment(&plate)]).1[(0, 0)] / exact - 1.0
         };
         let errors = [12, 24, 48].map(error);

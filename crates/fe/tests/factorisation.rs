@@ -6,14 +6,14 @@ mod common;
 use common::{distorted_cube, model};
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Factor, FeError, FeModel, HexElement, StructuredMesh, assemble_stiffness,
+    DofMap, DofOrdering, Element, Factor, FeError, FeModel, StructuredMesh, assemble_stiffness,
 };
 use proptest::prelude::*;
 
 fn held_cube(n: usize) -> (FeModel, DofMap) {
     let mesh = distorted_cube(n);
     let held = mesh.nodes_where(|x| x[2] == 0.0);
-    let model = model(mesh, HexElement::Hex8Incompatible);
+    let model = model(mesh, Element::Hex8Incompatible);
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
     (model, dofs)
 }
@@ -107,7 +107,7 @@ fn symbolic_part_serves_another_material_and_element_only_of_the_same_pattern() 
         .unwrap()
         .symbolic()
         .clone();
-    let plain = model.with_element(HexElement::Hex8).unwrap();
+    let plain = model.with_element(Element::Hex8).unwrap();
     let k_plain = assemble_stiffness(&plain, &dofs).unwrap();
     let b = right_hand_sides(dofs.free_count(), 1);
     let mut x = b.clone();
@@ -136,7 +136,7 @@ fn work_equals_twice_the_strain_energy() {
     }
 }
 
-fn check_work(element: HexElement) {
+fn check_work(element: Element) {
     let model = model(distorted_cube(4), element);
     let held = common::nodes_where(&model, |x| x[2] == 0.0);
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
@@ -179,7 +179,7 @@ fn solve_renumbered(mesh: &StructuredMesh, number: &[usize]) -> Vec<f64> {
         .into_iter()
         .map(|n| number[n])
         .collect();
-    let model = FeModel::new(nodes, hexes, common::steel(), HexElement::Hex8Incompatible).unwrap();
+    let model = FeModel::new(nodes, hexes, common::steel(), Element::Hex8Incompatible).unwrap();
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
     let k = assemble_stiffness(&model, &dofs).unwrap();
     let mut load = vec![0.0; model.dof_count()];
@@ -221,7 +221,7 @@ proptest! {
     fn energy_is_positive_for_any_load(seed in 0u64..1000, stretch in 0.2f64..5.0, shear in -0.8f64..0.8) {
         let mesh = StructuredMesh::mapped([3, 2, 2], |[x, y, z]| [stretch * x + shear * z, y, z]);
         let held = mesh.nodes_where(|x| x[2] == 0.0);
-        let model = model(mesh, HexElement::Hex8Incompatible);
+        let model = model(mesh, Element::Hex8Incompatible);
         let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
         let k = assemble_stiffness(&model, &dofs).unwrap();
         let factor = Factor::of_model(&model, &dofs, &k).unwrap();

@@ -6,14 +6,13 @@ mod common;
 use common::{ELEMENTS, distorted_cube, nodes_where, steel};
 use faer::Col;
 use gearmesh_fe::{
-    DofMap, FeError, FeModel, HexElement, RigidGroup, assemble_mass, assemble_stiffness,
-    chord_middle,
+    DofMap, Element, FeError, FeModel, RigidGroup, assemble_mass, assemble_stiffness, chord_middle,
 };
 
 const DENSITY: f64 = 7800.0;
 
 /// The unit cube, elements distorted, edges straight.
-fn cube(element: HexElement) -> FeModel {
+fn cube(element: Element) -> FeModel {
     distorted_cube(3)
         .into_model(steel(), element, |_, ends| chord_middle(ends))
         .unwrap()
@@ -99,7 +98,7 @@ fn mass_is_positive_definite() {
 /// The rigid motions of q have the same mass when a part of the nodes follows a reference point.
 #[test]
 fn a_rigid_group_keeps_the_mass() {
-    let model = cube(HexElement::Hex20);
+    let model = cube(Element::Hex20);
     let reference = [0.2, -0.4, 0.7];
     let group = RigidGroup {
         nodes: nodes_where(&model, |x| x[2] == 0.0),
@@ -138,7 +137,7 @@ fn a_rigid_group_keeps_the_mass() {
 
 #[test]
 fn a_density_that_is_not_positive_is_refused() {
-    let model = cube(HexElement::Hex8);
+    let model = cube(Element::Hex8);
     let dofs = DofMap::all_free(model.node_count()).unwrap();
     for density in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(

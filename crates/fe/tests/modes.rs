@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use common::{ELEMENTS, distorted_cube, model, nodes_where, steel};
 use faer::{Mat, Side};
 use gearmesh_fe::{
-    DofMap, Factor, FeError, FeModel, HexElement, Material, ModeSettings, NaturalModes, RigidGroup,
+    DofMap, Element, Factor, FeError, FeModel, Material, ModeSettings, NaturalModes, RigidGroup,
     SparseMatrix, StructuredMesh, arc_middle, assemble_mass, assemble_stiffness, chord_middle,
     natural_modes, shifted_stiffness,
 };
@@ -54,7 +54,7 @@ fn straight_block(
     counts: [usize; 3],
     size: [f64; 3],
     material: Material,
-    element: HexElement,
+    element: Element,
 ) -> FeModel {
     StructuredMesh::block(counts, size)
         .into_model(material, element, |_, ends| chord_middle(ends))
@@ -101,7 +101,7 @@ fn modes_equal_those_of_a_dense_solver_and_are_normalised() {
 /// Nothing held: six rigid motions at zero, then the elastic modes, by a factor of K + s M.
 #[test]
 fn a_free_body_has_six_rigid_motions() {
-    let model = model(distorted_cube(3), HexElement::Hex20);
+    let model = model(distorted_cube(3), Element::Hex20);
     for dofs in [
         DofMap::all_free(model.node_count()).unwrap(),
         // A reference point that is free as well.
@@ -188,9 +188,9 @@ fn a_block_on_rollers_converges_with_twice_the_order_of_the_energy_norm() {
                 .collect()
         };
         let (sizes, order) = match element {
-            HexElement::Hex8 | HexElement::Hex8Incompatible => ([6, 12], 2.0),
-            HexElement::Wedge6 => ([8, 16], 2.0),
-            HexElement::Tet10 | HexElement::Wedge15 => ([5, 10], 4.0),
+            Element::Hex8 | Element::Hex8Incompatible => ([6, 12], 2.0),
+            Element::Wedge6 => ([8, 16], 2.0),
+            Element::Tet10 | Element::Wedge15 => ([5, 10], 4.0),
             _ => ([3, 6], 4.0),
         };
         let [coarse, fine] = sizes.map(errors);
@@ -201,7 +201,7 @@ fn a_block_on_rollers_converges_with_twice_the_order_of_the_energy_norm() {
                 "{element:?} mode {mode}: order {rate}"
             );
             // Conforming elements are too stiff, with consistent mass every frequency is too high (Rayleigh).
-            assert!(fine[mode] > 0.0 || element == HexElement::Hex8Incompatible);
+            assert!(fine[mode] > 0.0 || element == Element::Hex8Incompatible);
             assert!(fine[mode].abs() < 0.03);
         }
     }
@@ -248,9 +248,9 @@ fn torsion_of_a_disc_held_at_its_bore() {
     let (inner, outer) = (0.02, 0.05);
     let exact = steel().lame().mu_pa / DENSITY * torsion_wave_number(inner, outer).powi(2);
     for (element, coarse, order) in [
-        (HexElement::Hex8, [36, 6, 1], 2.0),
-        (HexElement::Hex8Incompatible, [36, 6, 1], 2.0),
-        (HexElement::Hex20, [24, 4, 1], 4.0),
+        (Element::Hex8, [36, 6, 1], 2.0),
+        (Element::Hex8Incompatible, [36, 6, 1], 2.0),
+        (Element::Hex20, [24, 4, 1], 4.0),
     ] {
         let error = |counts: [usize; 3]| {
             let ring = StructuredMesh::ring(counts, [inner, outer], 0.01);
@@ -296,12 +296,7 @@ fn torsion_of_a_disc_held_at_its_bore() {
 fn bending_of_a_slender_cantilever() {
     let (length, side) = (1.0, 0.02);
     let material = Material::new(210e9, 0.0).unwrap();
-    let model = straight_block(
-        [20, 1, 1],
-        [length, side, side],
-        material,
-        HexElement::Hex20,
-    );
+    let model = straight_block([20, 1, 1], [length, side, side], material, Element::Hex20);
     let held = nodes_where(&model, |x| x[0] == 0.0);
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
     let (_, modes) = solve(&model, &dofs, &ModeSettings::new(2));
@@ -319,7 +314,7 @@ fn bending_of_a_slender_cantilever() {
 
 #[test]
 fn wrong_input_is_named() {
-    let model = model(distorted_cube(2), HexElement::Hex8);
+    let model = model(distorted_cube(2), Element::Hex8);
     let held = nodes_where(&model, |x| x[2] == 0.0);
     let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
     let System { k, m } = system(&model, &dofs);

@@ -6,7 +6,7 @@ mod common;
 
 use common::{ELEMENTS, distorted_cube, model, nodes_where};
 use gearmesh_fe::{
-    DofMap, DofOrdering, ElementBlock, Factor, FeError, FeModel, HexElement, assemble_stiffness,
+    DofMap, DofOrdering, Element, ElementBlock, Factor, FeError, FeModel, assemble_stiffness,
 };
 
 const GRADIENT: [[f64; 3]; 3] = [[1.0, 0.3, -0.2], [0.5, -0.7, 0.4], [-0.1, 0.6, 0.8]];
@@ -27,10 +27,10 @@ fn linear_field_is_exact_on_a_distorted_mesh() {
         // A mesh of 3³ cubes has 2³ inner corners and 3·3·2² inner edges. Wedges add 9·2 diagonals of inner squares across
         // z, tetrahedra those across all three axes and one in each cube.
         let expected = match element {
-            HexElement::Hex8 | HexElement::Hex8Incompatible | HexElement::Wedge6 => 8,
-            HexElement::Hex20 => 8 + 36,
-            HexElement::Wedge15 => 8 + 36 + 18,
-            HexElement::Tet10 => 8 + 36 + 54 + 27,
+            Element::Hex8 | Element::Hex8Incompatible | Element::Wedge6 => 8,
+            Element::Hex20 => 8 + 36,
+            Element::Wedge15 => 8 + 36 + 18,
+            Element::Tet10 => 8 + 36 + 54 + 27,
         };
         assert_eq!(inner, expected, "{element:?}");
         check(&model, element.name());
@@ -101,7 +101,7 @@ fn check(model: &FeModel, name: &str) {
 }
 
 /// Half of the cube in hexahedra, half cut in wedges, as two blocks: nodes at one place are one node.
-fn hexahedra_and_wedges(hex: HexElement, wedge: HexElement) -> FeModel {
+fn hexahedra_and_wedges(hex: Element, wedge: Element) -> FeModel {
     let (mut nodes, mut blocks) = (Vec::new(), Vec::new());
     let mut number = std::collections::HashMap::new();
     for (element, keep) in [(hex, 0), (wedge, 1)] {
@@ -139,8 +139,8 @@ fn hexahedra_and_wedges(hex: HexElement, wedge: HexElement) -> FeModel {
 #[test]
 fn hexahedra_and_wedges_in_one_model() {
     for (hex, wedge) in [
-        (HexElement::Hex8, HexElement::Wedge6),
-        (HexElement::Hex20, HexElement::Wedge15),
+        (Element::Hex8, Element::Wedge6),
+        (Element::Hex20, Element::Wedge15),
     ] {
         let model = hexahedra_and_wedges(hex, wedge);
         assert_eq!(model.element_count(), 32 + 64);
@@ -164,7 +164,7 @@ fn hexahedra_and_wedges_in_one_model() {
 #[test]
 fn a_block_that_is_not_whole_is_refused() {
     let block = ElementBlock {
-        element: HexElement::Tet10,
+        element: Element::Tet10,
         nodes: vec![0; 15],
     };
     assert_eq!(

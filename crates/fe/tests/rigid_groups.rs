@@ -6,7 +6,7 @@ mod common;
 use common::{ELEMENTS, distorted_cube, model, nodes_where};
 use faer::{Col, Mat};
 use gearmesh_fe::{
-    DofMap, Factor, FeError, FeModel, HexElement, Material, RigidGroup, StructuredMesh,
+    DofMap, Element, Factor, FeError, FeModel, Material, RigidGroup, StructuredMesh,
     assemble_stiffness,
 };
 
@@ -66,7 +66,7 @@ fn a_held_reference_point_equals_fixed_nodes() {
 /// Tᵀ is the transpose of T: the same work on either side.
 #[test]
 fn forces_and_displacements_do_the_same_work() {
-    let model = model(distorted_cube(2), HexElement::Hex20);
+    let model = model(distorted_cube(2), Element::Hex20);
     let some = [false, true, false, false, true, false];
     let dofs = DofMap::with_rigid_groups(model.nodes(), &top_dofs(&model), &[group(&model, some)])
         .unwrap();
@@ -179,7 +179,7 @@ fn pulling_the_reference_point_is_the_rigid_body_stiffness() {
 /// The fixed top takes up what is put on the reference point, force and moment.
 #[test]
 fn forces_balance() {
-    let model = model(distorted_cube(3), HexElement::Hex20);
+    let model = model(distorted_cube(3), Element::Hex20);
     let (_, displacements, _) = six_loads(&model);
     let all = DofMap::all_free(model.node_count()).unwrap();
     let full = assemble_stiffness(&model, &all).unwrap();
@@ -218,7 +218,7 @@ fn a_rod_pulled_at_its_rigid_end() {
         .flat_map(|n| 3 * n..3 * n + 3)
         .collect();
     let material = Material::new(young, 0.0).unwrap();
-    let model = FeModel::new(mesh.nodes, mesh.hexes, material, HexElement::Hex8).unwrap();
+    let model = FeModel::new(mesh.nodes, mesh.hexes, material, Element::Hex8).unwrap();
     let group = RigidGroup {
         nodes: end,
         reference_m: [0.5 * side, 0.5 * side, 0.0],
@@ -238,7 +238,7 @@ fn a_rod_pulled_at_its_rigid_end() {
 
 #[test]
 fn a_free_reference_point_holds_nothing() {
-    let model = model(distorted_cube(3), HexElement::Hex8);
+    let model = model(distorted_cube(3), Element::Hex8);
     let dofs = DofMap::with_rigid_groups(model.nodes(), &[], &[group(&model, [false; 6])]).unwrap();
     let k = assemble_stiffness(&model, &dofs).unwrap();
     assert!(matches!(
@@ -249,7 +249,7 @@ fn a_free_reference_point_holds_nothing() {
 
 #[test]
 fn a_node_that_is_tied_twice_is_named() {
-    let model = model(distorted_cube(2), HexElement::Hex8);
+    let model = model(distorted_cube(2), Element::Hex8);
     let node = bottom(&model)[1];
     let once = group(&model, [false; 6]);
     for (fixed, groups) in [

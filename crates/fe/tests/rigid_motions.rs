@@ -7,9 +7,9 @@ use common::{
     ELEMENTS, distorted_cube, distorted_element, model, nodes_where, rotate, rotation, steel,
 };
 use faer::{Mat, Side};
-use gearmesh_fe::{DofMap, Factor, FeError, HexElement, assemble_stiffness};
+use gearmesh_fe::{DofMap, Element, Factor, FeError, assemble_stiffness};
 
-fn stiffness(element: HexElement, x: &[[f64; 3]]) -> Mat<f64> {
+fn stiffness(element: Element, x: &[[f64; 3]]) -> Mat<f64> {
     let k = element.stiffness(x, &steel()).unwrap();
     Mat::from_fn(k.size(), k.size(), |i, j| k[(i, j)])
 }
@@ -120,9 +120,8 @@ fn half_the_modulus_gives_twice_the_displacement() {
         let mesh = distorted_cube(2);
         let held = mesh.nodes_where(|x| x[2] == 0.0);
         let material = gearmesh_fe::Material::new(young, 0.3).unwrap();
-        let model =
-            gearmesh_fe::FeModel::new(mesh.nodes, mesh.hexes, material, HexElement::default())
-                .unwrap();
+        let model = gearmesh_fe::FeModel::new(mesh.nodes, mesh.hexes, material, Element::default())
+            .unwrap();
         let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();
         let k = assemble_stiffness(&model, &dofs).unwrap();
         let mut u = vec![0.0; dofs.free_count()];

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use gearmesh_fe::{
-    DofMap, ElementBlock, Factor, FeModel, HexElement, Material, ModeSettings, SparseMatrix,
+    DofMap, Element, ElementBlock, Factor, FeModel, Material, ModeSettings, SparseMatrix,
     assemble_mass, assemble_stiffness, natural_modes as search_modes,
 };
 use gearmesh_model::CellKind;
@@ -193,8 +193,8 @@ pub(crate) fn strain<'py>(
 /// The model of the body in a mesh file. The wedges beside hexahedra have the order of these, their formulation has no
 /// choice.
 fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult<FeModel> {
-    let names = HexElement::ALL.map(|e| format!("{:?}", e.name()));
-    let named = HexElement::from_name(element).ok_or_else(|| {
+    let names = Element::ALL.map(|e| format!("{:?}", e.name()));
+    let named = Element::from_name(element).ok_or_else(|| {
         let message = format!(
             "the element is {element:?}; it must be one of {}",
             names.join(", ")
@@ -206,15 +206,15 @@ fn model(mesh_h5: &Path, young_pa: f64, poisson: f64, element: &str) -> PyResult
     let mut unused = true;
     let blocks = mesh.cells.into_iter().map(|(kind, nodes)| {
         let own = match kind {
-            CellKind::Hex8 => HexElement::Hex8,
-            CellKind::Hex20 => HexElement::Hex20,
-            CellKind::Tet10 => HexElement::Tet10,
-            CellKind::Wedge6 => HexElement::Wedge6,
-            CellKind::Wedge15 => HexElement::Wedge15,
+            CellKind::Hex8 => Element::Hex8,
+            CellKind::Hex20 => Element::Hex20,
+            CellKind::Tet10 => Element::Tet10,
+            CellKind::Wedge6 => Element::Wedge6,
+            CellKind::Wedge15 => Element::Wedge15,
         };
         // Eight nodes leave a choice.
         let element = match (own, named) {
-            (HexElement::Hex8, HexElement::Hex8Incompatible) => named,
+            (Element::Hex8, Element::Hex8Incompatible) => named,
             _ => own,
         };
         unused &= element != named;

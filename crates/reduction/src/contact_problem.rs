@@ -3,7 +3,7 @@
 use crate::ReductionError;
 use faer::Mat;
 use faer::sparse::Triplet;
-use gearmesh_fe::{DofOrdering, Factor, FeError, FeModel, HexElement, Material, StiffnessMatrix};
+use gearmesh_fe::{DofOrdering, Element, Factor, FeError, FeModel, Material, StiffnessMatrix};
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::CutLine;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection};
@@ -93,7 +93,7 @@ impl<'a> ContactProblem<'a> {
             .iter()
             .map(|q| std::array::from_fn(|i| (q[i % 4] + count * (i / 4)) as u32))
             .collect();
-        let model = FeModel::new(nodes, hexes, self.material, HexElement::Hex8Incompatible)?;
+        let model = FeModel::new(nodes, hexes, self.material, Element::Hex8Incompatible)?;
         let mut entries = Vec::with_capacity(64 * section.quads.len());
         for (element, quad) in section.quads.iter().enumerate() {
             let k = model.element_stiffness(element)?;

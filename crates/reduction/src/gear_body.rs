@@ -7,7 +7,7 @@ use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
 use faer::Mat;
-use gearmesh_fe::{DofMap, FeModel, HexElement, Material};
+use gearmesh_fe::{DofMap, Element, FeModel, Material};
 use gearmesh_geometry::{ElementKind, GearDefinition, Symmetry};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
@@ -35,12 +35,12 @@ pub(crate) enum Solver {
 }
 
 /// The element of the finite element crate that a definition names.
-pub fn element_of(kind: ElementKind) -> HexElement {
+pub fn element_of(kind: ElementKind) -> Element {
     match kind {
-        ElementKind::Hex8 => HexElement::Hex8,
-        ElementKind::Hex8Incompatible => HexElement::Hex8Incompatible,
-        ElementKind::Hex20 => HexElement::Hex20,
-        ElementKind::Tet10 => HexElement::Tet10,
+        ElementKind::Hex8 => Element::Hex8,
+        ElementKind::Hex8Incompatible => Element::Hex8Incompatible,
+        ElementKind::Hex20 => Element::Hex20,
+        ElementKind::Tet10 => Element::Tet10,
     }
 }
 

@@ -11,7 +11,7 @@
 use crate::ReductionError;
 use crate::imported_error::ImportedMeshError;
 use crate::toothed_mesh::ToothedMesh;
-use gearmesh_fe::{ElementBlock, FeModel, HexElement, Material};
+use gearmesh_fe::{Element, ElementBlock, FeModel, Material};
 use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition, MeshedBody, ProfileCurve};
 use gearmesh_mesh::{CutLine, FaceShape, OutlineFace};
 use gearmesh_model::{CellKind, MeshData};
@@ -448,12 +448,12 @@ impl Check<'_> {
         }
         let blocks = self.mesh.cells.iter().map(|(kind, nodes)| ElementBlock {
             element: match (kind, named) {
-                (CellKind::Hex8, ElementKind::Hex8) => HexElement::Hex8,
-                (CellKind::Hex8, _) => HexElement::Hex8Incompatible,
-                (CellKind::Hex20, _) => HexElement::Hex20,
-                (CellKind::Tet10, _) => HexElement::Tet10,
-                (CellKind::Wedge6, _) => HexElement::Wedge6,
-                (CellKind::Wedge15, _) => HexElement::Wedge15,
+                (CellKind::Hex8, ElementKind::Hex8) => Element::Hex8,
+                (CellKind::Hex8, _) => Element::Hex8Incompatible,
+                (CellKind::Hex20, _) => Element::Hex20,
+                (CellKind::Tet10, _) => Element::Tet10,
+                (CellKind::Wedge6, _) => Element::Wedge6,
+                (CellKind::Wedge15, _) => Element::Wedge15,
             },
             nodes: nodes.clone(),
         });

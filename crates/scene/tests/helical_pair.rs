@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{build, changed, fe_models, text};
+use common::{Outputs, build, changed, fe_models, text};
 use gearmesh_dynamics::{Params, Simulation, StaticParams, equilibrium};
 use gearmesh_geometry::GearDefinition;
 
@@ -42,18 +42,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
         let mut system = build(&scene).unwrap().system;
         let start = system.start().clone();
         let found = equilibrium(&mut system, &start, &StaticParams::default()).unwrap();
-        let channels = system.channels();
-        let counts: Vec<usize> = (system.elements())
-            .map(|name| channels.iter().filter(|(of, _)| of == name).count())
-            .collect();
-        let mut values = vec![0.0; channels.len()];
-        system.sample(&found.state, &counts, &mut values);
-        let value = |element: &str, channel: &str| {
-            let named = channels
-                .iter()
-                .position(|(of, one)| of == element && one.name == channel);
-            values[named.unwrap()]
-        };
+        let outputs = Outputs::at(&mut system, &found.state);
+        let value = |element: &str, channel: &str| outputs.value(element, channel);
         let axial = value("bearing 2", "force_z_N").abs() / (tangential_n * helix.tan());
         let normal = value("mesh", "normal_force_right_N") * helix.cos() / tangential_n;
         assert!((axial - 1.0).abs() < 5e-3, "{model} {axial}");

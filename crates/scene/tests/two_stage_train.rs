@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{build, text};
+use common::{Outputs, build, text};
 use gearmesh_dynamics::{StaticParams, equilibrium};
 
 #[test]
@@ -14,18 +14,8 @@ fn both_stages_of_the_train_come_to_rest_on_their_flanks() {
     assert!(found.held.is_empty(), "{:?}", found.held);
     assert!(found.iterations < 60, "{}", found.iterations);
 
-    let channels = system.channels();
-    let counts: Vec<usize> = (system.elements())
-        .map(|name| channels.iter().filter(|(of, _)| of == name).count())
-        .collect();
-    let mut values = vec![0.0; channels.len()];
-    system.sample(&found.state, &counts, &mut values);
-    let value = |element: &str, channel: &str| {
-        let named = channels
-            .iter()
-            .position(|(of, one)| of == element && one.name == channel);
-        values[named.unwrap()]
-    };
+    let outputs = Outputs::at(&mut system, &found.state);
+    let value = |element: &str, channel: &str| outputs.value(element, channel);
     // The ratio holds in the mean over a mesh period only: at rest the teeth's own elastic energy has a slope.
     let torque = value("coupling", "moment_z_Nm").abs();
     let expected = 100.0 * 27.0 / 61.0 * 31.0 / 71.0;

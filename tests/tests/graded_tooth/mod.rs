@@ -2,7 +2,7 @@
 //! hexahedra, graded to the contact in all directions. What is not tooth-only, C_g, is smooth and added.
 
 use gearmesh_fe::{
-    DofMap, EDGE_CORNERS, Factor, FeModel, HexElement, Material, QuadraticMesh, assemble_stiffness,
+    DofMap, EDGE_CORNERS, Element, Factor, FeModel, Material, QuadraticMesh, assemble_stiffness,
     chord_middle,
 };
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve, involute};
@@ -113,7 +113,7 @@ impl GradedTooth {
             quadratic.nodes,
             quadratic.elements,
             material,
-            HexElement::Hex20,
+            Element::Hex20,
         )
         .unwrap();
         let dofs = DofMap::with_fixed_nodes(model.node_count(), &held).unwrap();

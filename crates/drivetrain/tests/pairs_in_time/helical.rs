@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
-use gearmesh_dynamics::{Params, Simulation, TimeFunction};
+use gearmesh_dynamics::Simulation;
 
+use crate::conservation::energy_error_j;
 use crate::mesh_common::running_pair::{
     STEP_S, helical_pair_a, params, running_mesh, running_pair,
 };
 use crate::mesh_common::*;
-use crate::scene::*;
 
 /// A frictionless undamped `hybrid` pair at a full load keeps its energy on the rigid path as on the extended one: slices that leave give back
 /// what they store (spur teeth lose 19 mJ on the rigid path in 7 ms). Extended, the error of the balance falls with h² in the mean over runs; on
@@ -17,33 +17,11 @@ use crate::scene::*;
 #[test]
 fn helical_pairs_keep_their_energy() {
     let pair = helical_pair(18.0);
-    let torque = 200.0;
-    let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
     for (ends, orders, most_j) in [
         (PathEnds::Extended, 1.4..2.5, 2e-6),
         (PathEnds::LineOfAction, 0.7..1.5, 2e-5),
     ] {
-        let error = |step_s: f64| {
-            let squares = [0.0, 1.0].map(|k| {
-                let scene = Scene {
-                    te_m: -4e-6 - 0.3e-6 * k,
-                    speed_rad_per_s: 60.0 + 0.37 * k,
-                    torque_1: Some(TimeFunction::Constant(torque * r1 / r2)),
-                    ..Scene::new(&pair).loaded_by(torque)
-                };
-                let kinematics = kinematics_with(&pair, [Vec::new(), Vec::new()], ends);
-                let mesh = mesh("hybrid", &pair, kinematics);
-                let params = Params {
-                    rho_infinity: 1.0,
-                    newton_tolerance: 1e-12,
-                    ..Params::fixed(step_s)
-                };
-                let mut run = Simulation::new(scene.system(mesh), params).unwrap();
-                run.run(5e-3, |_| ControlFlow::Continue(())).unwrap();
-                run.info().energy.largest_error_j.powi(2)
-            });
-            (squares.iter().sum::<f64>() / 2.0).sqrt()
-        };
+        let error = |step_s: f64| energy_error_j(&pair, ends, (step_s, 5e-3), 2);
         let errors = [8e-6, 4e-6, 2e-6].map(error);
         let order = (errors[0] / errors[2]).log2() / 2.0;
         println!("{ends:?} {errors:?} {order}");

@@ -1,9 +1,9 @@
 //! What the integration tests share: a steel, the element list, a distorted block.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use gearmesh_fe::{FeModel, HexElement, Material, StructuredMesh, chord_middle};
+use gearmesh_fe::{Element, FeModel, Material, StructuredMesh, chord_middle};
 
-pub const ELEMENTS: [HexElement; 6] = HexElement::ALL;
+pub const ELEMENTS: [Element; 6] = Element::ALL;
 
 pub fn steel() -> Material {
     Material::new(210e9, 0.3).unwrap()
@@ -27,7 +27,7 @@ pub fn distorted_cube(n: usize) -> StructuredMesh {
 
 /// A model of a mesh in the unit cube. Edges of quadratic elements inside are bent by up to 0.07 of their length, those
 /// on the boundary are straight.
-pub fn model(mesh: StructuredMesh, element: HexElement) -> FeModel {
+pub fn model(mesh: StructuredMesh, element: Element) -> FeModel {
     let bent = |_, [a, b]: [[f64; 3]; 2]| {
         let middle = chord_middle([a, b]);
         let inside = middle.iter().all(|v| *v > 1e-9 && *v < 1.0 - 1e-9);
@@ -40,7 +40,7 @@ pub fn model(mesh: StructuredMesh, element: HexElement) -> FeModel {
 }
 
 /// One distorted element of about the given half size, its edges bent where it has nodes on them.
-pub fn distorted_element(element: HexElement, half_size: f64) -> Vec<[f64; 3]> {
+pub fn distorted_element(element: Element, half_size: f64) -> Vec<[f64; 3]> {
     let nodes = element.natural_nodes();
     let moved = |k: usize, by: f64| by * (1.7 * k as f64 + 0.4).sin();
     nodes

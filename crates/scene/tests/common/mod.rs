@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use gearmesh_dynamics::elements::Channel;
+use gearmesh_dynamics::{State, System};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system::{BuiltSystem, LoadedSystem, SystemPlan, SystemScene};
@@ -49,4 +51,26 @@ pub fn line_of(text: &str, part: &str) -> usize {
         .find(part)
         .unwrap_or_else(|| panic!("`{part}` is not in {text}"));
     text[..place].matches('\n').count() + 1
+}
+
+/// What the elements of a system write at a motion.
+pub struct Outputs {
+    channels: Vec<(String, Channel)>,
+    values: Vec<f64>,
+}
+
+impl Outputs {
+    pub fn at(system: &mut System, state: &State) -> Self {
+        let channels = system.channels();
+        let of = |name: &str| channels.iter().filter(|(of, _)| of == name).count();
+        let counts: Vec<usize> = system.elements().map(of).collect();
+        let mut values = vec![0.0; channels.len()];
+        system.sample(state, &counts, &mut values);
+        Self { channels, values }
+    }
+
+    pub fn value(&self, element: &str, channel: &str) -> f64 {
+        let is_it = |(of, one): &(String, Channel)| of == element && one.name == channel;
+        self.values[self.channels.iter().position(is_it).unwrap()]
+    }
 }
