@@ -165,6 +165,7 @@ fn quadratic_elements_with_doubled_nodes_on_the_left() {
 
 /// By repetition and by one factorisation, with several teeth a sector: the cracked tooth is none of the first sector.
 #[test]
+#[ignore = "two reductions of a gear with slots, a minute; run with --ignored"]
 fn both_ways_to_solve_agree() {
     let blank = format!("{THIN_RIM}{SLOTS}");
     let gear = cracked(MESH, &blank, &crack("right", 1.4));
