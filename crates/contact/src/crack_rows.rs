@@ -2,8 +2,8 @@
 //!
 //! The rows of the model are combined to slices as the compliance is: along the axis once, along the profile at each place.
 
+use crate::placed_slice::{PlacedSlice, axial_shares};
 use crate::roll_shares::{RollPlace, SHARES};
-use crate::slice_compliance::{PlacedSlice, axial_shares};
 use crate::station_blocks::LineBlock;
 use gearmesh_model::{FlankGrid, RootCrack};
 

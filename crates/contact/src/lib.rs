@@ -4,8 +4,10 @@
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
+//! | which axial stations carry a slice's force | [`placed_slice`] | `placed_slice.rs` |
 //! | which unit loads make a force at a roll angle | [`RollHats`] | `roll_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
+//! | the same of a calibrated model | | `calibrated_field.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
@@ -20,6 +22,7 @@
 //! Cost of a static position with five slices and one or two pairs: some microseconds, without allocation.
 //! The theory is in docs/theory/contact.md.
 
+mod calibrated_field;
 pub mod contact_lines;
 pub mod contact_slices;
 pub mod crack_rows;
@@ -28,6 +31,7 @@ pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
+pub mod placed_slice;
 pub mod roll_shares;
 pub mod slice_compliance;
 pub mod slice_contact;

@@ -17,7 +17,6 @@
 //! It is about half the width of the hats, because below that the model's own near field takes over.
 
 use crate::nlcp::{LineContact, LocalLaw, LocalLawError};
-use crate::slice_compliance::CompliancePart;
 use std::f64::consts::PI;
 
 /// Local contact compliance added to the model's.
@@ -30,6 +29,15 @@ pub enum LocalContact {
     /// C_hub, each slice's own term corrected by the model's plane-strain calibration. The default.
     #[default]
     Calibrated,
+}
+
+/// Which part of the compliance is taken from the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CompliancePart {
+    /// C_g = C_hub − C_tooth: free of the mesh's near field, to be completed by a local term.
+    Patterns,
+    /// C_hub with the near field of the hats.
+    Hub,
 }
 
 impl LocalContact {

@@ -5,12 +5,14 @@
 //! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
+use crate::calibrated_field::CalibratedField;
 use crate::crack_rows::CrackRows;
-use crate::local_contact::{LocalContact, effective_depth_m};
-use crate::roll_shares::{RollHats, RollPlace, SHARES};
+use crate::local_contact::{CompliancePart, LocalContact, effective_depth_m};
+use crate::placed_slice::{PlacedSlice, axial_shares};
+use crate::roll_shares::{RollHats, RollPlace};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::{LineBlock, StationBlocks};
-use gearmesh_model::{ContactCurve, Flank, ReducedGear, ReducedGearError};
+use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
 /// Slice compliance of one gear for loads on one hand of flank.
@@ -36,17 +38,6 @@ pub struct SliceCompliance {
     z_m: Vec<f64>,
 }
 
-/// A slice on a tooth and the place of its contact along the profile.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlacedSlice {
-    /// Tooth.
-    pub tooth: usize,
-    /// Slice.
-    pub slice: usize,
-    /// Place between the roll stations.
-    pub place: RollPlace,
-}
-
 /// Depth of the local logarithm on one flank, and how it grows as the contact moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDepth {
@@ -56,36 +47,6 @@ pub struct LocalDepth {
     pub growth_by_roll: f64,
     /// ∂(ln h)/∂(share of the width).
     pub growth_by_share: f64,
-}
-
-/// Which part of the compliance is taken from the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CompliancePart {
-    /// C_g = C_hub − C_tooth: free of the mesh's near field, to be completed by a local term.
-    Patterns,
-    /// C_hub with the near field of the hats.
-    Hub,
-}
-
-/// Share of a slice's force on the middle of each of its neighbours.
-///
-/// A slice has axial stations at its edges and its middle. Equal forces on all slices make a uniform load whenever the
-/// edges carry ¼ each and a station in the middle ½ in sum over the slices. One share is left free: −1/24 on the
-/// neighbours' middles gives a slice's force the second moment w²/12 of a load that is uniform on it, w its width, and an
-/// edge slice the first. Without (¼, ½, ¼) it would be a triangle two slices wide with twice that moment.
-const ON_NEIGHBOUR: f64 = -1.0 / 24.0;
-
-/// Shares of the force on `slice` of `slices`, as (axial station, share). They add up to one.
-pub fn axial_shares(slice: usize, slices: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-    let below = (slice > 0).then(|| (2 * slice - 1, ON_NEIGHBOUR));
-    let above = (slice + 1 < slices).then_some((2 * slice + 3, ON_NEIGHBOUR));
-    let neighbours = usize::from(below.is_some()) + usize::from(above.is_some());
-    let own = [
-        (2 * slice, 0.25),
-        (2 * slice + 1, 0.5 - ON_NEIGHBOUR * neighbours as f64),
-        (2 * slice + 2, 0.25),
-    ];
-    below.into_iter().chain(own).chain(above)
 }
 
 impl SliceCompliance {
@@ -429,126 +390,4 @@ fn largest_neighbour_term(blocks: &StationBlocks, slices: usize, place: &RollPla
         }
     }
     0.5 * least.max(0.0)
-}
-
-/// The calibration of one flank.
-#[derive(Debug, Clone)]
-struct CalibratedField {
-    half_width_m: f64,
-    contact: ContactCurve,
-    /// W, `[roll station][roll station]` \[m²/N\].
-    mesh_m2_per_n: Vec<f64>,
-    stations: usize,
-}
-
-impl CalibratedField {
-    fn new(gear: &ReducedGear, flank_index: usize) -> Result<Self, ReducedGearError> {
-        let field = gear.calibration()?;
-        let stations = gear.grid.roll_angles_rad.len();
-        let size = stations * stations;
-        Ok(Self {
-            half_width_m: field.half_width_m,
-            contact: field.contact_curve(gear.base_radius_m),
-            mesh_m2_per_n: field.mesh_m2_per_n[flank_index * size..][..size].to_vec(),
-            stations,
-        })
-    }
-
-    /// c₀ − share · w_h with w_h = Φᵀ W Φ.
-    fn missing(&self, roll_rad: f64, place: &RollPlace, share: f64) -> Missing {
-        let (contact, rate) = self.contact.at(roll_rad);
-        let (mut mesh, mut mesh_rate) = (0.0, 0.0);
-        let (shares, rates) = (place.all_shares(), place.all_rates());
-        for a in 0..SHARES.min(self.stations) {
-            let row = &self.mesh_m2_per_n[(place.first() + a) * self.stations + place.first()..];
-            for b in 0..SHARES.min(self.stations) {
-                mesh += shares[a] * shares[b] * row[b];
-                mesh_rate += (rates[a] * shares[b] + shares[a] * rates[b]) * row[b];
-            }
-        }
-        Missing {
-            value: contact - share * mesh,
-            by_roll: rate - share * mesh_rate,
-            by_share: -mesh,
-        }
-    }
-}
-
-/// What the mesh lacks of a slice's own deflection \[m²/N\], and its derivatives by the roll angle and the share of the width.
-struct Missing {
-    value: f64,
-    by_roll: f64,
-    by_share: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Density of a slice's unit force at the stations, slices one unit wide: a hat of one newton is 2 high, at the faces 4.
-    fn density(slice: usize, slices: usize) -> Vec<f64> {
-        let mut density = vec![0.0; 2 * slices + 1];
-        for (station, share) in axial_shares(slice, slices) {
-            let face = station == 0 || station == 2 * slices;
-            density[station] += share * if face { 4.0 } else { 2.0 };
-        }
-        density
-    }
-
-    #[test]
-    fn equal_slice_forces_make_a_uniform_load() {
-        for slices in [1, 2, 3, 7] {
-            let mut sum = vec![0.0; 2 * slices + 1];
-            for slice in 0..slices {
-                let total: f64 = axial_shares(slice, slices).map(|(_, share)| share).sum();
-                assert!((total - 1.0).abs() < 1e-15);
-                for (s, d) in sum.iter_mut().zip(density(slice, slices)) {
-                    *s += d;
-                }
-            }
-            assert!(sum.iter().all(|s| (s - 1.0).abs() < 1e-14), "{sum:?}");
-        }
-    }
-
-    /// Moment of a slice's unit force about its middle, slices one unit wide: an inner hat has the variance 1/24 about its
-    /// station, half a hat its centroid 1/6 inside and the variance 1/72 about it.
-    fn moment(slice: usize, slices: usize, power: i32) -> f64 {
-        axial_shares(slice, slices)
-            .map(|(station, share)| {
-                let z = 0.5 * station as f64 - slice as f64 - 0.5;
-                let inwards = match station {
-                    0 => 1.0,
-                    s if s == 2 * slices => -1.0,
-                    _ => 0.0,
-                };
-                let centroid: f64 = z + inwards / 6.0;
-                let variance = if inwards == 0.0 {
-                    1.0 / 24.0
-                } else {
-                    1.0 / 72.0
-                };
-                share
-                    * match power {
-                        1 => centroid,
-                        _ => centroid * centroid + variance,
-                    }
-            })
-            .sum()
-    }
-
-    #[test]
-    fn a_slice_force_has_the_moments_of_a_uniform_load() {
-        for slices in [2, 3, 7] {
-            for slice in 0..slices {
-                assert!(
-                    moment(slice, slices, 1).abs() < 1e-15,
-                    "{slice} of {slices}"
-                );
-                if slice > 0 && slice + 1 < slices {
-                    let second = moment(slice, slices, 2);
-                    assert!((second - 1.0 / 12.0).abs() < 1e-15, "{second}");
-                }
-            }
-        }
-    }
 }

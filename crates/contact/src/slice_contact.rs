@@ -10,8 +10,9 @@ use crate::nlcp::{
     ContactBody, EdgeContact, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
     Problem, Workspace, solve_load, solve_position,
 };
+use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::RollPlace;
-use crate::slice_compliance::{LocalDepth, PlacedSlice, SliceCompliance};
+use crate::slice_compliance::{LocalDepth, SliceCompliance};
 use crate::static_contact::ContactError;
 use crate::station_blocks::LineBlock;
 use gearmesh_geometry::FlankSide;

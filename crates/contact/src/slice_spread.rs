@@ -21,7 +21,7 @@
 //!
 //! is added to the compliance of neighbours and taken from the own one, so that a uniform load deflects as before.
 
-use crate::slice_compliance::axial_shares;
+use crate::placed_slice::axial_shares;
 use std::f64::consts::FRAC_PI_2;
 
 /// Slices of the stretch on which the integrals are done; the densities of the two in the middle end inside it.

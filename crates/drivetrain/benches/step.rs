@@ -2,7 +2,7 @@
 //! then the same with every step written out, without and with eight gauges.
 //!
 //! `cargo bench -p gearmesh-drivetrain --bench step --profile dev`; on a busy machine only the fastest period says something. With
-//! `-- NAME` only the cases of that name.
+//! `-- NAME` only the cases of that name. With `-- accuracy` what Newton's tolerance and the step cost in accuracy, in place of times.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
@@ -117,6 +117,11 @@ impl Case {
     }
 
     fn period(&mut self) {
+        self.watched_period(|_| {});
+    }
+
+    /// A mesh period; `watch` sees the outputs of each step where there are any.
+    fn watched_period(&mut self, mut watch: impl FnMut(&[f64])) {
         for _ in 0..self.steps {
             let mut left = 1;
             let end = self.run.state().time_s + self.step_s;
@@ -124,6 +129,7 @@ impl Case {
                 .run(end, |step| {
                     if self.output {
                         (step.system).sample(step.to, &self.counts, &mut self.out);
+                        watch(&self.out);
                     }
                     left -= 1;
                     std::ops::ControlFlow::Continue(())
@@ -132,9 +138,56 @@ impl Case {
             assert_eq!(left, 0);
         }
     }
+
+    /// Root mean square \[N\] of the varying part of the force on the right flanks in the last 20 of 60 mesh periods.
+    fn varying_force_n(&mut self) -> f64 {
+        let names = self.run.system().channels();
+        let is_force = |name: &str| name == "normal_force_right_N";
+        let place = (names.iter()).position(|(_, channel)| is_force(&channel.name));
+        let (place, mut forces) = (place.unwrap(), Vec::new());
+        (0..40).for_each(|_| self.period());
+        (0..20).for_each(|_| self.watched_period(|out| forces.push(out[place])));
+        let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+        let square: f64 = forces.iter().map(|f| (f - mean).powi(2)).sum();
+        (square / forces.len() as f64).sqrt()
+    }
+}
+
+/// What Newton's tolerance changes the varying force by, against steps of two and four times as many.
+fn print_accuracy() {
+    for kind in [IMPACT, HYBRID] {
+        let kind = Kind {
+            output: true,
+            ..kind
+        };
+        let of = |tolerance: f64, steps: usize| {
+            let mut case = Case::new(&Kind {
+                tolerance,
+                steps,
+                ..kind
+            });
+            let force = case.varying_force_n();
+            let info = case.run.info();
+            (force, info.iterations as f64 / info.steps as f64)
+        };
+        let (exact, _) = of(1e-13, STEPS_A_PERIOD);
+        println!("{}: {exact:.4} N varying, Newton to 1e-13", kind.name);
+        for tolerance in [1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
+            let (force, corrections) = of(tolerance, STEPS_A_PERIOD);
+            let off = force / exact - 1.0;
+            println!("  Newton to {tolerance:e}: {off:+.1e}, {corrections:.2} corrections a step");
+        }
+        for steps in [2 * STEPS_A_PERIOD, 4 * STEPS_A_PERIOD] {
+            let (force, _) = of(1e-12, steps);
+            println!("  {steps} steps a period: {:+.3}", force / exact - 1.0);
+        }
+    }
 }
 
 fn main() {
+    if std::env::args().any(|one| one == "accuracy") {
+        return print_accuracy();
+    }
     println!(
         "{:26} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "mesh", "fastest µs", "middle µs", "real time", "iterations", "factors"

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use crate::flank_error::FlankError;
-use crate::flank_modes::ModalRows;
 use crate::pose::Vector6;
 use crate::slice_plane::SlicePlane;
 
@@ -64,6 +63,37 @@ pub struct ToothContact {
     pub gap_rate_m_per_s: f64,
     /// Derivative of the gap by the increments of the pose: the load of a unit force on gear 2.
     pub gradient: Vector6,
+}
+
+/// Shapes of one gear's modes at the contacts of one side; empty for gears without modes.
+#[derive(Debug, Clone, Default)]
+pub struct ModalRows {
+    /// ω² of each mode \[rad²/s²\].
+    pub omega_squared: Vec<f64>,
+    /// φ, `[contact][mode]` \[kg^-½\].
+    pub shapes: Vec<f64>,
+    /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
+    pub slopes: Vec<f64>,
+}
+
+impl ModalRows {
+    /// Number of modes.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.omega_squared.len()
+    }
+
+    /// φ of a contact.
+    #[must_use]
+    pub fn shape(&self, contact: usize) -> &[f64] {
+        &self.shapes[contact * self.count()..][..self.count()]
+    }
+
+    /// ∂φ/∂ξ of a contact.
+    #[must_use]
+    pub fn slope(&self, contact: usize) -> &[f64] {
+        &self.slopes[contact * self.count()..][..self.count()]
+    }
 }
 
 /// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.

@@ -9,44 +9,13 @@
 //! Only normal forces excite modes; friction acts on the rigid motion. Theory: docs/theory/gear_meshes.md.
 
 use gearmesh_contact::RollHats;
-use gearmesh_contact::slice_compliance::axial_shares;
+use gearmesh_contact::placed_slice::axial_shares;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
 use crate::error::DrivetrainError;
-use crate::flank_contacts::FlankContacts;
+use crate::flank_contacts::{FlankContacts, ModalRows};
 use crate::pose::Vector6;
-
-/// Shapes of one gear's modes at the contacts of one side; empty for gears without modes.
-#[derive(Debug, Clone, Default)]
-pub struct ModalRows {
-    /// ω² of each mode \[rad²/s²\].
-    pub omega_squared: Vec<f64>,
-    /// φ, `[contact][mode]` \[kg^-½\].
-    pub shapes: Vec<f64>,
-    /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
-    pub slopes: Vec<f64>,
-}
-
-impl ModalRows {
-    /// Number of modes.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.omega_squared.len()
-    }
-
-    /// φ of a contact.
-    #[must_use]
-    pub fn shape(&self, contact: usize) -> &[f64] {
-        &self.shapes[contact * self.count()..][..self.count()]
-    }
-
-    /// ∂φ/∂ξ of a contact.
-    #[must_use]
-    pub fn slope(&self, contact: usize) -> &[f64] {
-        &self.slopes[contact * self.count()..][..self.count()]
-    }
-}
 
 /// Modal coordinates and rates of gear 1 and gear 2; empty ones stand for bodies that do not vibrate.
 #[derive(Debug, Clone, Copy, Default)]

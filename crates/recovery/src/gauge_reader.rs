@@ -1,6 +1,6 @@
 //! Gauges of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::slice_compliance::axial_shares;
+use gearmesh_contact::placed_slice::axial_shares;
 use gearmesh_contact::{RollHats, RollPlace};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 

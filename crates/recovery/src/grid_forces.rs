@@ -2,7 +2,7 @@
 
 use crate::gauge_reader::LoadedSlice;
 use gearmesh_contact::RollHats;
-use gearmesh_contact::slice_compliance::axial_shares;
+use gearmesh_contact::placed_slice::axial_shares;
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.

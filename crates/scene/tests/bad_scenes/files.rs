@@ -76,3 +76,26 @@ fn files_that_are_no_scene_are_told_apart() {
         SceneFile::Pair(_)
     ));
 }
+
+/// A model of the mesh that knows no cracks does not pass over one in silence.
+#[test]
+fn a_crack_that_no_model_feels_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = (text("scene_two_wheels.toml").replacen("gear1.toml", "pinion.toml", 1)).replacen(
+        "gear1.toml",
+        "wheel.toml",
+        1,
+    );
+    let crack = "\n[crack]\ntooth = 0\nside = \"right\"\ndepth_mm = 1.0\n";
+    for (cracked, key) in [("pinion.toml", "gear_1"), ("wheel.toml", "gear_2")] {
+        for name in ["pinion.toml", "wheel.toml"] {
+            let more = if name == cracked { crack } else { "" };
+            let file = folder.path().join(name);
+            std::fs::write(file, format!("{}{more}", text("gear1.toml"))).unwrap();
+        }
+        let complaint = build_in(&scene, folder.path()).err().unwrap().to_string();
+        for part in [key, cracked, "[crack]", "\"hybrid\"", "cracks_1"] {
+            assert!(complaint.contains(part), "`{part}` is not in\n{complaint}");
+        }
+    }
+}
