@@ -95,6 +95,10 @@ impl<M: TeethModel> Damped<M> {
         loads: &mut TeethLoads,
         [time_s, full_m]: [f64; 2],
     ) -> Result<(), DrivetrainError> {
+        // Open flanks feel what is there: nothing to copy.
+        if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
+            return self.teeth.evaluate(flanks, tangents, loads);
+        }
         self.felt.lines.clone_from(&flanks.lines);
         self.felt.sections.clone_from(&flanks.sections);
         self.felt.contacts.clone_from(&flanks.contacts);
