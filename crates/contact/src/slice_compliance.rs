@@ -309,6 +309,18 @@ impl SliceCompliance {
     /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
     /// calibrated correction's part between neighbours is included.
     pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+        self.combined(&a, a.place.shares(), &b)
+            + self.spread_between(a, b)
+            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(&a, &b))
+    }
+
+    /// Σ w_s C between the stations of slice `a` with weights w_s and slice `b` at its place.
+    fn combined(
+        &self,
+        a: &PlacedSlice,
+        weights: impl Iterator<Item = (usize, f64)>,
+        b: &PlacedSlice,
+    ) -> f64 {
         let pair = self.pair(a.tooth, b.tooth);
         let entry = a.slice * self.slices + b.slice;
         let along = |station: usize| -> f64 {
@@ -317,27 +329,15 @@ impl SliceCompliance {
                 .map(|(other, share)| share * self.blocks.block(pair, station, other)[entry])
                 .sum()
         };
-        let shares = a.place.shares();
-        shares
-            .map(|(station, share)| share * along(station))
-            .sum::<f64>()
-            + self.spread_between(a, b)
-            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(&a, &b))
+        weights
+            .map(|(station, weight)| weight * along(station))
+            .sum()
     }
 
     /// Derivative of [`Self::between_slices`] by the roll angle of slice `a` \[m/(N·rad)\]; of a slice with itself half of what its
     /// compliance changes by.
     pub fn between_slices_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        let pair = self.pair(a.tooth, b.tooth);
-        let entry = a.slice * self.slices + b.slice;
-        let along = |station: usize| -> f64 {
-            let shares = b.place.shares();
-            shares
-                .map(|(other, share)| share * self.blocks.block(pair, station, other)[entry])
-                .sum()
-        };
-        let rates = a.place.rates();
-        let rate: f64 = rates.map(|(station, rate)| rate * along(station)).sum();
+        let rate = self.combined(a, a.place.rates(), b);
         // As in `spread_between`: in sum over both slices of a term half of its change.
         let spread = match a.slice.abs_diff(b.slice) {
             _ if a.tooth != b.tooth => 0.0,

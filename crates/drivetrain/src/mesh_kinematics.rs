@@ -53,6 +53,8 @@ pub struct MeshKinematics {
     helix: Option<BaseHelix>,
     /// Width of a slice \[m\]; none where there is one slice, which then stands for the whole face.
     slice_width_m: Option<f64>,
+    /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\]; zero on spur teeth.
+    slant_1_rad: f64,
 }
 
 /// A pair of teeth in the slice planes of a pose: what its sections share.
@@ -110,6 +112,9 @@ impl MeshKinematics {
             None => None,
             Some(_) => even_width_m(&slices_m)?,
         };
+        let outermost = (slices_m.iter()).fold(0.0, |most: f64, z| most.max(z.abs()));
+        let half_width = outermost + 0.5 * slice_width_m.unwrap_or(0.0);
+        let slant_1_rad = helix.map_or(0.0, |h| h.twist_rad_per_m[0].abs() * half_width);
         let (length, _) = line_of_action(&gears, centre_distance_m)?;
         let edges = match ends {
             PathEnds::LineOfAction => TipEdges::default(),
@@ -125,6 +130,7 @@ impl MeshKinematics {
             edges,
             helix,
             slice_width_m,
+            slant_1_rad,
         })
     }
 
@@ -161,15 +167,8 @@ impl MeshKinematics {
     /// Largest number of slices that can face each other at once, for sizing.
     #[must_use]
     pub fn capacity(&self) -> usize {
-        let span = self.ends_rad[0] + 2.0 * self.slant_1_rad();
+        let span = self.ends_rad[0] + 2.0 * self.slant_1_rad;
         (span / self.pitch_rad(0)).ceil() as usize * self.slices_m.len() + self.slices_m.len()
-    }
-
-    /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\].
-    fn slant_1_rad(&self) -> f64 {
-        let outermost = (self.slices_m.iter()).fold(0.0, |most: f64, z| most.max(z.abs()));
-        let half_width = outermost + 0.5 * self.slice_width_m.unwrap_or(0.0);
-        (self.helix).map_or(0.0, |helix| helix.twist_rad_per_m[0].abs() * half_width)
     }
 
     /// Roll angle of tooth 0 on gear 0 or 1 in a plane, before its section turns with the helix.
@@ -256,15 +255,14 @@ impl MeshKinematics {
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
-        let slant = self.slant_1_rad();
         let mut zero_1 = self.roll_of_tooth_0(0, side, &middle, spin_rad);
         if let Some(helix) = &self.helix {
             zero_1 -= side.mirror() * helix.twist_rad_per_m[0] * pose.displacement_m[2];
         }
         let zero_2 = self.roll_of_tooth_0(1, side, &middle, spin_rad);
         let start_1 = (middle.length_m - r2 * ends[1]) / r1;
-        let first = ((zero_1 - ends[0] - slant) / pitch_1).ceil() as i64;
-        let last = ((zero_1 - start_1 + slant) / pitch_1).floor() as i64;
+        let first = ((zero_1 - ends[0] - self.slant_1_rad) / pitch_1).ceil() as i64;
+        let last = ((zero_1 - start_1 + self.slant_1_rad) / pitch_1).floor() as i64;
         for count_1 in first..=last {
             let roll_1 = zero_1 - count_1 as f64 * pitch_1;
             // The mate is the tooth whose flank is nearest.

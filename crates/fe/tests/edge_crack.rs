@@ -2,11 +2,14 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod common;
+#[path = "../../../tests/support/whole_compliance.rs"]
+mod whole_compliance;
 
 use common::{nodes_where, steel};
 use faer::Mat;
 use gearmesh_fe::*;
 use std::f64::consts::PI;
+use whole_compliance::products;
 
 /// A vector over all degrees of freedom, sparse.
 type Load = Vec<(usize, f64)>;
@@ -97,23 +100,6 @@ impl Plate {
         let sound = all.as_ref().submatrix(n, n, loads.len(), loads.len());
         (sound.to_owned(), rows.transpose() * &rows)
     }
-}
-
-/// aᵀ K⁻¹ b for all pairs.
-fn products(model: &FeModel, dofs: &DofMap, vectors: &[&Load]) -> Mat<f64> {
-    let k = assemble_stiffness(model, dofs).unwrap();
-    let factor = Factor::of_model(model, dofs, &k).unwrap();
-    let mut right = Mat::zeros(dofs.free_count(), vectors.len());
-    for (column, vector) in vectors.iter().enumerate() {
-        for &(dof, value) in *vector {
-            if let Some(free) = dofs.free_of(dof) {
-                right[(free, column)] = value;
-            }
-        }
-    }
-    let mut solved = right.clone();
-    factor.solve_in_place(solved.as_mut());
-    right.transpose() * &solved
 }
 
 #[test]

@@ -2,16 +2,18 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod common;
+#[path = "../../../tests/support/whole_compliance.rs"]
+mod whole_compliance;
 
 use common::{MESH, SLOTS, SOLID, THIN_RIM, difference, reduced, with_gauges, without_symmetry};
-use faer::Mat;
-use gearmesh_fe::{DofMap, Factor, FeModel, assemble_stiffness};
+use gearmesh_fe::{DofMap, FeModel};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
 use gearmesh_reduction::gauge_row::gauge_row;
 use gearmesh_reduction::{GearBody, ReductionError};
+use whole_compliance::products;
 
 const TOOTH: usize = 4;
 
@@ -69,23 +71,6 @@ fn really_doubled(body: &GearBody) -> (FeModel, DofMap) {
         FeModel::from_connectivity(nodes, connectivity, material, element).unwrap(),
         dofs,
     )
-}
-
-/// aᵀK⁻¹b of vectors over the nodes of the sound mesh.
-fn products(model: &FeModel, dofs: &DofMap, vectors: &[&SparseVector]) -> Mat<f64> {
-    let k = assemble_stiffness(model, dofs).unwrap();
-    let factor = Factor::of_model(model, dofs, &k).unwrap();
-    let mut right = Mat::zeros(dofs.free_count(), vectors.len());
-    for (column, vector) in vectors.iter().enumerate() {
-        for &(dof, value) in *vector {
-            if let Some(free) = dofs.free_of(dof) {
-                right[(free, column)] = value;
-            }
-        }
-    }
-    let mut solved = right.clone();
-    factor.solve_in_place(solved.as_mut());
-    right.transpose() * &solved
 }
 
 /// Compliance and gauges of the model with its crack, against a factorisation of the mesh with doubled nodes.

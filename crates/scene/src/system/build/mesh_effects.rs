@@ -1,0 +1,71 @@
+//! What of a gear mesh is computed, and what is not, in words for the plan.
+
+use super::mesh_model::SceneMesh;
+use super::parts::Parts;
+use crate::system::tables::UM;
+use crate::system::tables::gear_mesh::{DampingTable, FlanksWord, MeshModel};
+
+impl SceneMesh<'_> {
+    /// Lists the effects of this mesh.
+    pub(super) fn effects(&self, parts: &mut Parts) {
+        let table = self.table;
+        let name = |what: &str| format!("mesh `{}`: {what}", table.name);
+        if table.model == MeshModel::Kinematic {
+            return;
+        }
+        let flanks = match table.flanks.unwrap_or_default() {
+            FlanksWord::Both => Some(format!(
+                "both sides, {:.1} um of backlash",
+                self.pair.backlash_m() / UM
+            )),
+            FlanksWord::Right | FlanksWord::Left => None,
+        };
+        parts.effect(name("backlash"), flanks);
+        let damping = match (&table.damping, table.damping_N_s_per_mm) {
+            (Some(DampingTable::StiffnessProportional { .. }), _) => {
+                Some("proportional to stiffness".to_string())
+            }
+            (Some(DampingTable::Viscous { .. }), _) => Some("viscous".to_string()),
+            (None, Some(_)) => Some("STEP of the depth".to_string()),
+            (None, None) => None,
+        };
+        parts.effect(name("damping"), damping);
+        parts.effect(
+            name("friction"),
+            table
+                .friction
+                .as_ref()
+                .map(|_| "`coulomb`, regularised".to_string()),
+        );
+        let on = table.microgeometry.unwrap_or(true)
+            && self.gears.iter().any(|gear| gear.has_microgeometry());
+        parts.effect(
+            name("microgeometry"),
+            on.then(|| "of the gear files".to_string()),
+        );
+        let kinds: Vec<&str> = table
+            .errors_1
+            .iter()
+            .chain(&table.errors_2)
+            .map(|error| error.kind())
+            .collect();
+        let cracks = table.cracks_1.len() + table.cracks_2.len();
+        let of_models = (self.gears.iter().zip([1, 2])).filter_map(|(gear, number)| {
+            let crack = gear.model.as_ref()?.crack.as_ref()?;
+            Some(format!("gear {number}: {}", crack.description()))
+        });
+        let kinds: Vec<String> = (kinds.into_iter().map(str::to_owned))
+            .chain(std::iter::repeat_n("root-crack".to_owned(), cracks))
+            .chain(of_models)
+            .collect();
+        parts.effect(
+            name("errors and faults"),
+            (!kinds.is_empty()).then(|| kinds.join(", ")),
+        );
+        let eccentric = table.eccentricity_1.is_some() || table.eccentricity_2.is_some();
+        parts.effect(
+            name("eccentricity"),
+            eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
+        );
+    }
+}
