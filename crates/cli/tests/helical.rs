@@ -35,6 +35,8 @@ gear_2 = [\"tension\"]
 [mesh]
 model = \"hybrid\"
 {further}
+[[rating]]
+kind = \"nominal\"
 "
     )
 }
@@ -75,6 +77,17 @@ fn both_hands_run_through_the_whole_chain() {
     let axial = -TORQUE_NM / base_radius_m * (beta.sin() * alpha_n.cos()).asin().tan();
     let found = number(&row["axial_force_1_mean_N"]);
     assert!((found / axial - 1.0).abs() < 1e-9, "{found} {axial}");
+
+    // Rated on paper, and as the contact of elastic teeth gives it.
+    let rated = |name: &str| number(&figures["ratings"][0]["figures"][name]);
+    let pressures = SceneResult::read(&result).unwrap().pressure_pa;
+    let largest = pressures.iter().copied().fold(0.0, f64::max);
+    eprintln!(
+        "PRESSURE {largest:e} {:e} {:e} {:e}",
+        rated("hertz_pressure_Pa"),
+        rated("lewis_stress_gear1_Pa"),
+        rated("lewis_factor_gear1")
+    );
 
     // Turned over, both gears change hands: the same curves and strains, the axial force the other way.
     let (other_desk, other, _, _) = ran("left", "right");
