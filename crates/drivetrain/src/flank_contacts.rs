@@ -109,6 +109,8 @@ pub struct FlankContacts {
     pub contacts: Vec<ToothContact>,
     /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
     pub modal: [ModalRows; 2],
+    /// Gap of ideal flanks at mid-face \[m\] where no flanks of this side can touch and no lines were looked for.
+    pub open_gap_m: Option<f64>,
 }
 
 impl FlankContacts {
@@ -121,6 +123,7 @@ impl FlankContacts {
             sections: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
             modal: [ModalRows::default(), ModalRows::default()],
+            open_gap_m: None,
         }
     }
 
@@ -130,6 +133,7 @@ impl FlankContacts {
         self.lines.clear();
         self.sections.clear();
         self.contacts.clear();
+        self.open_gap_m = None;
     }
 
     /// The section of a contact.

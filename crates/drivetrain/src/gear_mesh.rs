@@ -74,6 +74,9 @@ pub struct GearMesh {
     sides: Vec<Side>,
     friction: Option<Friction>,
     modal: ModalLoads,
+    load: MeshLoad,
+    /// Whether the tangents of `load` are other than zero.
+    has_tangents: bool,
     effort: MeshEffort,
 }
 
@@ -93,6 +96,8 @@ impl GearMesh {
             sides: Vec::new(),
             friction: None,
             modal: ModalLoads::default(),
+            load: MeshLoad::default(),
+            has_tangents: false,
             effort: MeshEffort::default(),
         };
         mesh.with_side(flank, model)
@@ -192,8 +197,9 @@ impl GearMesh {
     /// r_b2 θ₂ − r_b1 θ₁ at the nominal centre distance and without axial displacement. None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
-        let line = self.sides.first()?.found.lines.first()?;
-        Some(line.ideal_gap_m)
+        let found = &self.sides.first()?.found;
+        let line = found.lines.first().map(|line| line.ideal_gap_m);
+        line.or(found.open_gap_m)
     }
 
     /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.
@@ -243,6 +249,12 @@ impl GearMesh {
         self.evaluate_modal(pose, &ModalMotion::default(), tangents)
     }
 
+    /// Load at the last pose.
+    #[must_use]
+    pub fn load(&self) -> &MeshLoad {
+        &self.load
+    }
+
     /// Load at a pose and a vibration of the gears.
     ///
     /// # Errors
@@ -253,13 +265,42 @@ impl GearMesh {
         modal: &ModalMotion<'_>,
         tangents: bool,
     ) -> Result<MeshLoad, DrivetrainError> {
-        let mut result = MeshLoad::default();
+        self.update(pose, modal, tangents)?;
+        Ok(self.load)
+    }
+
+    /// The same, into [`GearMesh::load`].
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the kinematics or the model.
+    pub fn update(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
+        if tangents || self.has_tangents {
+            self.load = MeshLoad::default();
+        }
+        self.has_tangents = tangents;
+        let result = &mut self.load;
+        result.load = Vector6::zeros();
+        result.power = Power::default();
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
         let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
         self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
+            let rigid = side.modes.iter().all(Option::is_none);
+            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(&self.at, side.flank));
+            if let Some(gap_m) = open_gap_m.flatten() {
+                side.found.clear();
+                side.found.open_gap_m = Some(gap_m);
+                side.loads.begin(0, 0);
+                side.friction.clear();
+                continue;
+            }
             (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
@@ -288,14 +329,14 @@ impl GearMesh {
                 friction: self.friction,
             };
             let parts = Parts {
-                result: &mut result,
+                result: &mut *result,
                 modal: &mut self.modal,
                 coefficients: &mut side.friction,
                 effort: &mut self.effort,
             };
             assembly.add(parts, tangents);
         }
-        Ok(result)
+        Ok(())
     }
 }
 

@@ -55,6 +55,8 @@ pub struct MeshKinematics {
     slice_width_m: Option<f64>,
     /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\]; zero on spur teeth.
     slant_1_rad: f64,
+    /// Bound of what deviations add to both flanks together \[m\].
+    most_added_m: f64,
 }
 
 /// A pair of teeth in the slice planes of a pose: what its sections share.
@@ -121,6 +123,9 @@ impl MeshKinematics {
             PathEnds::Extended => TipEdges::new(&gears, length, helix.map_or(1.0, |h| h.cos)),
         };
         let ends_rad = [0, 1].map(|i: usize| gears[i].flank_end_roll_rad + edges.reach_rad[i]);
+        let most_added =
+            |errors: &FlankErrors| errors.iter().map(|one| one.most_added_m()).sum::<f64>();
+        let most_added_m = errors.iter().map(most_added).sum();
         Ok(Self {
             gears,
             errors,
@@ -131,6 +136,7 @@ impl MeshKinematics {
             helix,
             slice_width_m,
             slant_1_rad,
+            most_added_m,
         })
     }
 
@@ -221,6 +227,32 @@ impl MeshKinematics {
         Ok(())
     }
 
+    /// Gap \[m\] of ideal flanks of one side at mid-face if no flanks of that side can touch at a pose that has been located; none if some
+    /// might. Spur teeth only: in each plane all their pairs have the same ideal gap.
+    pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: FlankSide) -> Option<f64> {
+        let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
+        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let rolls = |plane: &SlicePlane| {
+            [0, 1].map(|gear| self.roll_of_tooth_0(gear, side, plane, at.spin_rad))
+        };
+        let plane = middle.plane(side);
+        let [roll_1, roll_2] = rolls(&plane);
+        let touching = (plane.length_m - r1 * roll_1) / r2;
+        let pitch_2 = self.pitch_rad(1);
+        let ahead_2 = ((roll_2 - touching) / pitch_2).round() * pitch_2;
+        let gap_m = |plane: &SlicePlane, [roll_1, roll_2]: [f64; 2]| {
+            plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
+        };
+        let is_open = |line: &CentreLine| {
+            let plane = line.plane(side);
+            gap_m(&plane, rolls(&plane)) > self.most_added_m
+        };
+        at.slices
+            .iter()
+            .all(is_open)
+            .then(|| gap_m(&plane, [roll_1, roll_2]))
+    }
+
     /// Finds all pairs of teeth that face each other with their flanks of one side.
     ///
     /// # Errors
@@ -274,8 +306,8 @@ impl MeshKinematics {
                 continue;
             }
             let teeth = [0, 1].map(|i| {
-                let ahead = side.mirror() * counts[i];
-                ahead.rem_euclid(self.gears[i].teeth as f64) as usize
+                let ahead = (side.mirror() * counts[i]) as i64;
+                ahead.rem_euclid(self.gears[i].teeth as i64) as usize
             });
             let placed = PlacedTeeth {
                 pose,
