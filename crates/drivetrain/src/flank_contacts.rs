@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::flank_error::FlankError;
 use crate::pose::Vector6;
 use crate::slice_plane::SlicePlane;
+use crate::tooth_zero::ToothZero;
 
 /// Deviations of one gear's flanks.
 pub type FlankErrors = Vec<Arc<dyn FlankError>>;
@@ -101,6 +102,8 @@ impl ModalRows {
 pub struct FlankContacts {
     /// Slice planes.
     pub planes: Vec<SlicePlane>,
+    /// The flanks of tooth 0 in them.
+    pub(crate) zeros: Vec<ToothZero>,
     /// Pairs of teeth.
     pub lines: Vec<TeethLine>,
     /// Sections: one a line of spur teeth, one a contact of helical ones.
@@ -119,6 +122,7 @@ impl FlankContacts {
     pub fn with_capacity(planes: usize, contacts: usize) -> Self {
         Self {
             planes: Vec::with_capacity(planes),
+            zeros: Vec::with_capacity(planes),
             lines: Vec::with_capacity(contacts),
             sections: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
@@ -130,6 +134,7 @@ impl FlankContacts {
     /// Forgets what was found; the modes' shapes are left alone.
     pub(crate) fn clear(&mut self) {
         self.planes.clear();
+        self.zeros.clear();
         self.lines.clear();
         self.sections.clear();
         self.contacts.clear();
