@@ -1,9 +1,10 @@
 //! Hub, web and rim of one repeating sector below the teeth, with its openings.
 
 use crate::MeshError;
+use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
-use crate::tooth_cell::{Pieces, graded, ring_radius_m};
+use crate::tooth_cell::ring_radius_m;
 use gearmesh_geometry::{GearDefinition, Openings, Slots};
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -10,7 +10,8 @@
 //!
 //! with R the right and L the left outline, B the cut as the gear's own mesh has it, T the tip land.
 
-use crate::tooth_cell::{CutLine, Pieces, graded};
+use crate::cut_line::CutLine;
+use crate::grading::{Pieces, graded};
 use gearmesh_geometry::{ProfileCurve, ToothGeometry};
 
 /// How finely a [`ContactSection`] is meshed.

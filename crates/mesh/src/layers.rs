@@ -4,7 +4,7 @@
 //! converge with little more than the first power of their thickness (2λ = 1.09, M. L. Williams, J. Appl. Mech. 19 (1952) 526).
 //! Layers that grow with the distance from the edge win that back.
 
-use crate::tooth_cell::{Pieces, graded};
+use crate::grading::{Pieces, graded};
 use gearmesh_geometry::{ElementKind, GearDefinition};
 
 /// Thickness of the layers at the web's faces, as a share of `axial_m`.

@@ -6,7 +6,9 @@
 //! | --- | --- | --- |
 //! | the Python that has gmsh | [`python::PythonEnvironment`] | `python.rs` |
 //! | quads in outlines whose nodes are given | [`plane_mesher`] | `plane_mesher.rs`, `plane_mesher.py` |
-//! | one tooth: blocks that follow its outline | [`tooth_cell::ToothCell`] | `tooth_cell.rs` |
+//! | spacing along an edge | [`grading`] | `grading.rs` |
+//! | one tooth: blocks that follow its outline, their quads | [`tooth_blocks::ToothBlocks`], [`tooth_cell::ToothCell`] | `tooth_blocks.rs`, `tooth_cell.rs` |
+//! | the cut of the tooth-only submodel | [`CutLine`] | `cut_line.rs` |
 //! | hub, web and rim of one sector, with openings | [`body`] | `body.rs` |
 //! | a crack along sides of its quads | [`crack_line::CrackLine`] | `crack_line.rs` |
 //! | all teeth and sectors in the plane | [`section::Section`] | `section.rs` |
@@ -27,9 +29,11 @@
 pub mod body;
 pub mod contact_section;
 pub mod crack_line;
+pub mod cut_line;
 pub mod elements;
 pub mod face;
 pub mod gear_mesh;
+pub mod grading;
 pub mod heights;
 pub mod layers;
 pub mod mid_sides;
@@ -42,13 +46,14 @@ pub mod solid_mesher;
 pub mod solid_problem;
 mod tet_mesh;
 pub mod tet_split;
+pub mod tooth_blocks;
 pub mod tooth_cell;
 pub mod twist;
 
+pub use cut_line::CutLine;
 pub use elements::{ElementList, ElementShape};
 pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
-pub use tooth_cell::CutLine;
 
 /// Why no mesh could be made.
 #[derive(Debug, thiserror::Error)]

@@ -6,7 +6,8 @@ use crate::crack_line::CrackLine;
 use crate::elements::ElementShape;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
-use crate::tooth_cell::{ToothCell, ToothCellProblem};
+use crate::tooth_blocks::ToothBlocks;
+use crate::tooth_cell::ToothCell;
 use gearmesh_geometry::GearDefinition;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -69,7 +70,7 @@ impl Section {
         let teeth = gear.tooth.teeth;
         let sectors = gear.sectors();
         let teeth_per_sector = teeth / sectors;
-        let cell_problem = ToothCellProblem::new(gear);
+        let cell_problem = ToothBlocks::new(gear);
         let shape = ElementShape::of(gear.mesh.element);
         let mismatch = || crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes");
         if shape == ElementShape::Tet10 {

@@ -13,7 +13,9 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges: the reduction | `reduce.rs` |
-//! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs`, `imported_error.rs` |
+//! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
+//! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
+//! | points in the frame of a tooth | `tooth_frame.rs` |
 //! | what all of them ask of a mesh | `toothed_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
@@ -38,8 +40,10 @@ pub mod gear_body;
 pub mod gear_modes;
 mod harmonic_problem;
 pub mod import;
+mod imported_check;
 pub mod imported_error;
 pub mod imported_mesh;
+mod imported_outline;
 pub mod mode_figures;
 pub mod near_field;
 mod part;
@@ -47,6 +51,7 @@ pub mod reduce;
 pub mod rigid_mass;
 pub mod root_crack;
 pub mod sector_substructure;
+mod tooth_frame;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
 pub mod tooth_vectors;

@@ -1,0 +1,215 @@
+//! `gearmesh run`: balances, harmonics, local terms, paths of contact, ratings.
+
+use crate::common::{
+    Desk, SOLID, THIN, argument, changed, largest_difference, number, run_scene, succeeds, workshop,
+};
+use crate::{hybrid_scene, largest, recovered};
+use gearmesh_scene::SceneResult;
+
+#[test]
+fn run_balances_the_torque() {
+    let desk = Desk::new();
+    let (_, figures) = run_scene(&desk, "");
+    let rows = figures["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2);
+    for row in rows {
+        assert!(number(&row["torque_balance"]) < 1e-10, "{row}");
+        assert!(number(&row["residual"]) < 1e-10, "{row}");
+        assert!(
+            number(&row["te_mean_m"]) < 0.0,
+            "the driven gear lags under load: {row}"
+        );
+        assert!(
+            number(&row["tangent_stiffness_mean_N_per_m"])
+                > number(&row["secant_stiffness_mean_N_per_m"]),
+            "{row}"
+        );
+    }
+    assert!(number(&rows[1]["te_mean_m"]) < number(&rows[0]["te_mean_m"]));
+    assert_eq!(figures["warnings"], serde_json::json!([]));
+}
+
+/// The harmonics are those of the mesh cycle, however many pitches are run.
+#[test]
+fn run_prints_the_harmonics_of_the_mesh_cycle() {
+    let (_, figures) = run_scene(&Desk::new(), "");
+    for row in figures["rows"].as_array().unwrap() {
+        let first = number(&row["tangent_stiffness_fourier"][0]["amplitude_N_per_m"]);
+        assert!(
+            first > 0.01 * number(&row["tangent_stiffness_mean_N_per_m"]),
+            "{row}"
+        );
+    }
+}
+
+/// The two local terms describe the same teeth; they differ by what one of them gets wrong, some per cent. The calibrated one is
+/// what a scene gets that does not name any.
+#[test]
+fn the_calibrated_local_term_is_the_default() {
+    let desk = Desk::new();
+    let named = workshop().scene("");
+    let run = |name: &str, scene: String| {
+        let file = desk.file(&format!("{name}.toml"), scene);
+        let output = desk.path(&format!("{name}.h5"));
+        let plan = succeeds(&["plan", argument(&file)]).stdout;
+        let figures = succeeds(&["run", argument(&file), "-o", argument(&output), "--json"]).json();
+        (plan, figures["rows"].as_array().unwrap().clone())
+    };
+    let weber = "local = \"weber-banaschek\"";
+    let (_, old) = run("old", named.clone());
+    let (plan, new) = run("new", changed(&named, weber, ""));
+    assert!(plan.contains("local `calibrated`"), "{plan}");
+    for (old, new) in old.iter().zip(&new) {
+        let ratio = number(&new["te_mean_m"]) / number(&old["te_mean_m"]);
+        println!("mean transmission error, calibrated over Weber-Banaschek: {ratio:.4}");
+        assert!((ratio - 1.0).abs() < 0.08 && ratio != 1.0, "{ratio}");
+        assert!(number(&new["torque_balance"]) < 1e-10, "{new}");
+        assert!(number(&new["residual"]) < 1e-10, "{new}");
+    }
+}
+
+/// Elements three millimetres wide cannot tell slices of three quarters of a millimetre apart; the calibrated term must
+/// leave the contact problem solvable, and the transmission error that of wide slices.
+#[test]
+fn slices_narrower_than_elements_change_little() {
+    let mean_te = |slices: usize| {
+        let desk = Desk::new();
+        for (name, text) in [("gear1", SOLID), ("gear2", THIN)] {
+            let text = changed(text, "slices = 2", &format!("slices = {slices}"));
+            let file = desk.file(&format!("{name}.toml"), text);
+            let model = desk.path(&format!("{name}.h5"));
+            let words = ["reduce", argument(&file), "-o", argument(&model)];
+            succeeds(&[words.as_slice(), &["--no-error-estimate"]].concat());
+        }
+        let scene = changed(&workshop().scene(""), "local = \"weber-banaschek\"", "");
+        let scene = changed(&scene, argument(&workshop().solid), "gear1.h5");
+        let scene = changed(&scene, argument(&workshop().thin), "gear2.h5");
+        let (scene, result) = (desk.file("scene.toml", scene), desk.path("result.h5"));
+        let answer = succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
+        number(&answer.json()["rows"][1]["te_mean_m"])
+    };
+    let (wide, narrow) = (mean_te(4), mean_te(16));
+    assert!((narrow / wide - 1.0).abs() < 0.01, "{wide} {narrow}");
+}
+
+/// With tip edges in contact the pair never gives way more than without them, gives way less at the change of pairs, and
+/// everything that reads a result copes with the further lines.
+#[test]
+fn an_extended_path_runs_through_recovery_and_report() {
+    let desk = Desk::new();
+    let (on_path, _) = run_scene(&desk, "");
+    let on_path = SceneResult::read(&on_path).unwrap();
+    let desk = Desk::new();
+    let (file, figures) = run_scene(&desk, "path = \"extended\"\nedge_radius_um = 50");
+    for row in figures["rows"].as_array().unwrap() {
+        assert!(number(&row["torque_balance"]) < 1e-10, "{row}");
+    }
+    let extended = SceneResult::read(&file).unwrap();
+    let lines = |r: &SceneResult| r.pair_count.iter().sum::<u32>();
+    assert!(lines(&extended) > lines(&on_path));
+    assert!(
+        extended
+            .pair_count
+            .iter()
+            .all(|n| *n as usize <= extended.slots)
+    );
+    let largest_te = largest(&on_path.te_m);
+    let mut gains = Vec::new();
+    for (with, without) in extended.te_m.iter().zip(&on_path.te_m) {
+        assert!(with - without > -1e-9 * largest_te, "{with} {without}");
+        gains.push(with - without);
+    }
+    assert!(largest(&gains) > 0.02 * largest_te, "{gains:?}");
+
+    let [tension, _] = recovered(&desk, &file);
+    let strain = &extended.strain[0];
+    assert!(largest_difference(&tension.method_2, &strain.method_2) == 0.0);
+    let difference = largest_difference(&strain.method_2, &on_path.strain[0].method_2);
+    let size = largest(&strain.method_2);
+    assert!(
+        difference > 0.0 && difference < 0.5 * size,
+        "{difference} {size}"
+    );
+    let page = desk.path("report.html");
+    succeeds(&["report", argument(&file), "-o", argument(&page)]);
+    let scene = desk.path("scene.toml");
+    let plan = succeeds(&["plan", argument(&scene)]).stdout;
+    assert!(
+        plan.contains("path `extended` with a tip edge radius of 50 um"),
+        "{plan}"
+    );
+}
+
+/// Both bodies repeat with their teeth, so nothing changes from one pitch to the next.
+#[test]
+fn the_transmission_error_repeats_with_the_pitch() {
+    let desk = Desk::new();
+    let (result, _) = run_scene(&desk, "");
+    let result = SceneResult::read(&result).unwrap();
+    for torque in 0..2 {
+        let te = result.curve(&result.te_m, torque);
+        for pitch in 1..3 {
+            let later = &te[8 * pitch..8 * (pitch + 1)];
+            assert!(
+                largest_difference(&te[..8], later) < 1e-8 * largest(te),
+                "{te:?}"
+            );
+        }
+        assert!(
+            te.iter()
+                .any(|value| (value - te[0]).abs() > 0.01 * largest(te)),
+            "it does not vary: {te:?}"
+        );
+    }
+}
+
+/// Ratings are printed, kept and drawn; what cannot be judged is told and does not take the run with it.
+#[test]
+fn a_run_is_rated() {
+    let desk = Desk::new();
+    desk.file(
+        "sn.toml",
+        "cycles = [1e3, 1e6]\nstress_amplitude_MPa = [1e-6, 1e-7]\nbelow = \"last-slope\"\n",
+    );
+    let scene = hybrid_scene()
+        + "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\n\
+           [[rating]]\nkind = \"fatigue\"\ngauge = \"tension\"\nsn_table = \"sn.toml\"\n";
+    let (file, output) = (desk.file("scene.toml", &scene), desk.path("result.h5"));
+    let run = ["run", argument(&file), "-o", argument(&output)];
+    let answer = succeeds(&run);
+    for part in [
+        "rating of mesh mesh: Lewis's root stress",
+        "  hertz_pressure_Pa ",
+        "rating of gauge tension of thin: cycles and damage",
+        "  not rated: a stress amplitude of ",
+    ] {
+        assert!(
+            answer.stdout.contains(part),
+            "`{part}` is not in {answer:#?}"
+        );
+    }
+    let warning = "gauge tension of thin is not rated: a stress amplitude of";
+    assert!(answer.stderr.contains(warning), "{answer:#?}");
+    let table = desk.file(
+        "sn.toml",
+        "cycles = [1e3, 1e6]\nstress_amplitude_MPa = [900, 300]\nbelow = \"endurance-limit\"\n",
+    );
+    assert!(table.exists());
+    let json = succeeds(&[&run[..], &["--json"]].concat()).json();
+    let figures = |rating: usize| &json["ratings"][rating]["figures"];
+    let [force, pressure] =
+        ["largest_force_N", "hertz_pressure_Pa"].map(|name| number(&figures(0)[name]));
+    assert!(force > 100.0 && pressure > 1e8, "{json:#}");
+    assert_eq!(number(&figures(1)["damage"]), 0.0);
+    // An infinite life is no number of JSON.
+    assert!(figures(1)["life_h"].is_null());
+    let page = desk.path("report.html");
+    succeeds(&["report", argument(&output), "-o", argument(&page)]);
+    let page = std::fs::read_to_string(page).unwrap();
+    for part in ["Lewis&#39;s nominal root stress of gear 1", "no damage"] {
+        assert!(
+            page.contains(part) || page.contains(&part.replace("&#39;", "'")),
+            "`{part}` is not on the page"
+        );
+    }
+}
