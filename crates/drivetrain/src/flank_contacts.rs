@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::flank_error::FlankError;
+use crate::flank_modes::dot;
 use crate::pose::Vector6;
 use crate::slice_plane::SlicePlane;
 use crate::tooth_zero::ToothZero;
@@ -75,6 +76,8 @@ pub struct ModalRows {
     pub shapes: Vec<f64>,
     /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
     pub slopes: Vec<f64>,
+    /// φ_t along the profile towards the tip, `[contact][mode]` \[kg^-½\]; empty in a mesh without friction.
+    pub tangential: Vec<f64>,
 }
 
 impl ModalRows {
@@ -82,6 +85,13 @@ impl ModalRows {
     #[must_use]
     pub fn count(&self) -> usize {
         self.omega_squared.len()
+    }
+
+    /// Takes everything from other rows but the shapes along the profile, which teeth do not feel; into the memory that is there.
+    pub(crate) fn copy_normal_from(&mut self, other: &Self) {
+        self.omega_squared.clone_from(&other.omega_squared);
+        self.shapes.clone_from(&other.shapes);
+        self.slopes.clone_from(&other.slopes);
     }
 
     /// φ of a contact.
@@ -94,6 +104,15 @@ impl ModalRows {
     #[must_use]
     pub fn slope(&self, contact: usize) -> &[f64] {
         &self.slopes[contact * self.count()..][..self.count()]
+    }
+
+    /// φ_t of a contact; empty in a mesh without friction.
+    #[must_use]
+    pub fn along_profile(&self, contact: usize) -> &[f64] {
+        if self.tangential.is_empty() {
+            return &[];
+        }
+        &self.tangential[contact * self.count()..][..self.count()]
     }
 }
 
@@ -139,6 +158,15 @@ impl FlankContacts {
         self.sections.clear();
         self.contacts.clear();
         self.open_gap_m = None;
+    }
+
+    /// φ_t1·η̇₁ + φ_t2·η̇₂ \[m/s\] of a contact: how fast vibration moves both flanks towards their tips; zero without friction.
+    #[must_use]
+    pub fn tip_speed_m_per_s(&self, contact: usize, modal_rates: &[&[f64]; 2]) -> f64 {
+        let of_gears = self.modal.iter().zip(modal_rates);
+        of_gears
+            .map(|(modal, rates)| dot(modal.along_profile(contact), rates))
+            .sum()
     }
 
     /// The section of a contact.

@@ -17,7 +17,7 @@ use crate::flank_contacts::{FlankContacts, ToothContact};
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::{Friction, Sliding};
 use crate::mesh_kinematics::MeshKinematics;
-use crate::modal_loads::{ContactChange, ModalLoads};
+use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, PoseGeometry};
 use crate::teeth_model::{TeethLoads, TeethModel};
@@ -305,6 +305,9 @@ impl GearMesh {
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);
+                    if self.friction.is_some() {
+                        modes.lay_along_profile(gear, &mut side.found);
+                    }
                 }
             }
             let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
@@ -327,6 +330,7 @@ impl GearMesh {
                 kinematics: &self.kinematics,
                 base_radius_1_m,
                 friction: self.friction,
+                modal_rates: modal.rates,
             };
             let parts = Parts {
                 result: &mut *result,
@@ -358,6 +362,7 @@ struct Assembly<'a> {
     kinematics: &'a MeshKinematics,
     base_radius_1_m: f64,
     friction: Option<Friction>,
+    modal_rates: [&'a [f64]; 2],
 }
 
 impl Assembly<'_> {
@@ -383,15 +388,20 @@ impl Assembly<'_> {
             }
             let plane = &found.planes[contact.slice];
             let mut direction = contact.gradient;
+            let mut to_tip_n = 0.0;
+            let mut rubbing = None;
             if let Some(friction) = self.friction {
                 parts.effort.friction += 1;
                 let roll_1_rad = found.section(contact).touching_roll_rad[0];
                 let on_gear_1 = (self.base_radius_1_m, roll_1_rad);
                 let sliding = Sliding::new(plane, self.pose, sigma, on_gear_1);
-                let (mu, slope) = friction.coefficient(sliding.speed_m_per_s);
+                let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);
+                let speed_m_per_s = sliding.speed_m_per_s - sigma * vibration;
+                let (mu, slope) = friction.coefficient(speed_m_per_s);
                 parts.coefficients[i] = mu;
                 direction -= mu * sliding.direction;
-                result.power.dissipated_w += mu * force * sliding.speed_m_per_s;
+                to_tip_n = sigma * mu * force;
+                result.power.dissipated_w += mu * force * speed_m_per_s;
                 if tangents {
                     let turned = Sliding::direction_gradient(plane, self.pose, sigma, on_gear_1);
                     let speed_by_pose = turned.tr_mul(&self.rates);
@@ -399,11 +409,18 @@ impl Assembly<'_> {
                     result.by_position -= mu * force * turned;
                     result.by_position -= slope * force * k * speed_by_pose.transpose();
                     result.by_velocity -= slope * force * k * k.transpose();
+                    rubbing = Some(Rubbing {
+                        sigma,
+                        coefficient: mu,
+                        force_by_speed: slope * force,
+                        direction: k,
+                        speed_by_pose,
+                    });
                 }
             }
             result.load += force * direction;
             if parts.modal.count() > 0 {
-                parts.modal.add_force(i, force, found);
+                parts.modal.add_force(i, [force, to_tip_n], found);
             }
             if tangents {
                 let (by_pose, by_rates) = self.force_gradients(i);
@@ -414,6 +431,7 @@ impl Assembly<'_> {
                         direction,
                         by_pose,
                         by_rates,
+                        rubbing,
                     };
                     parts.modal.add_tangents(i, &change, loads, found);
                 }

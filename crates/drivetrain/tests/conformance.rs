@@ -56,10 +56,11 @@ fn damped(name: &str, pair: &GearPair, damping: Damping) -> GearMesh {
             _ => Box::new(Damped::new(model(name, pair, side), damping, SLICES).unwrap()),
         }
     };
-    GearMesh::new(kinematics(pair), FlankSide::Right, of(FlankSide::Right))
+    let mesh = GearMesh::new(kinematics(pair), FlankSide::Right, of(FlankSide::Right))
         .unwrap()
         .with_side(FlankSide::Left, of(FlankSide::Left))
-        .unwrap()
+        .unwrap();
+    with_own_modes(name, pair, mesh)
 }
 
 const DAMPINGS: [Damping; 2] = [
@@ -123,7 +124,13 @@ fn backlash_is_what_the_tooth_thickness_leaves() {
 #[test]
 fn undamped_loads_follow_from_the_energy() {
     for pair in pairs() {
-        for name in ["iso6336", "analytic", "hybrid", "cracked hybrid"] {
+        for name in [
+            "iso6336",
+            "analytic",
+            "hybrid",
+            "cracked hybrid",
+            "vibrating hybrid",
+        ] {
             let mut mesh = mesh(name, &pair, kinematics(&pair));
             for (number, at) in loaded_poses(&pair).iter().enumerate() {
                 let load = mesh.evaluate(at, false).unwrap();
