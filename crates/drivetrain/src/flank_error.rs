@@ -48,7 +48,8 @@ pub trait FlankError: Send + Sync {
     /// Material removed at a point.
     fn removed(&self, at: FlankPoint) -> Removed;
 
-    /// Bound of the material added anywhere \[m\], zero or positive: flanks that stay farther apart need not be looked at.
+    /// Bound of the material added anywhere \[m\], zero or positive, infinite where none is known: flanks that stay farther apart
+    /// are not looked at.
     fn most_added_m(&self) -> f64;
 }
 

@@ -71,6 +71,11 @@ impl FlankError for Bent {
             slope_m_per_rad: if walks { slope } else { 0.0 },
         }
     }
+
+    /// No bound is known: all flanks are looked at.
+    fn most_added_m(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 /// What friction alone makes of a gear's modes at rest, in closed form from the forces on its slices.
