@@ -102,7 +102,9 @@ impl<M: TeethModel> Damped<M> {
         self.felt.lines.clone_from(&flanks.lines);
         self.felt.sections.clone_from(&flanks.sections);
         self.felt.contacts.clone_from(&flanks.contacts);
-        self.felt.modal.clone_from(&flanks.modal);
+        for (felt, modal) in self.felt.modal.iter_mut().zip(&flanks.modal) {
+            felt.copy_normal_from(modal);
+        }
         self.felt_by.clear();
         self.advance_m.clear();
         for contact in &mut self.felt.contacts {

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use crate::flank_error::FlankError;
+use crate::flank_modes::dot;
 use crate::pose::Vector6;
 use crate::slice_plane::SlicePlane;
+use crate::tooth_zero::ToothZero;
 
 /// Deviations of one gear's flanks.
 pub type FlankErrors = Vec<Arc<dyn FlankError>>;
@@ -74,6 +76,8 @@ pub struct ModalRows {
     pub shapes: Vec<f64>,
     /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
     pub slopes: Vec<f64>,
+    /// φ_t along the profile towards the tip, `[contact][mode]` \[kg^-½\]; empty in a mesh without friction.
+    pub tangential: Vec<f64>,
 }
 
 impl ModalRows {
@@ -81,6 +85,13 @@ impl ModalRows {
     #[must_use]
     pub fn count(&self) -> usize {
         self.omega_squared.len()
+    }
+
+    /// Takes everything from other rows but the shapes along the profile, which teeth do not feel; into the memory that is there.
+    pub(crate) fn copy_normal_from(&mut self, other: &Self) {
+        self.omega_squared.clone_from(&other.omega_squared);
+        self.shapes.clone_from(&other.shapes);
+        self.slopes.clone_from(&other.slopes);
     }
 
     /// φ of a contact.
@@ -94,6 +105,15 @@ impl ModalRows {
     pub fn slope(&self, contact: usize) -> &[f64] {
         &self.slopes[contact * self.count()..][..self.count()]
     }
+
+    /// φ_t of a contact; empty in a mesh without friction.
+    #[must_use]
+    pub fn along_profile(&self, contact: usize) -> &[f64] {
+        if self.tangential.is_empty() {
+            return &[];
+        }
+        &self.tangential[contact * self.count()..][..self.count()]
+    }
 }
 
 /// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
@@ -101,6 +121,8 @@ impl ModalRows {
 pub struct FlankContacts {
     /// Slice planes.
     pub planes: Vec<SlicePlane>,
+    /// The flanks of tooth 0 in them.
+    pub(crate) zeros: Vec<ToothZero>,
     /// Pairs of teeth.
     pub lines: Vec<TeethLine>,
     /// Sections: one a line of spur teeth, one a contact of helical ones.
@@ -109,6 +131,8 @@ pub struct FlankContacts {
     pub contacts: Vec<ToothContact>,
     /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
     pub modal: [ModalRows; 2],
+    /// Gap of ideal flanks at mid-face \[m\] where no flanks of this side can touch and no lines were looked for.
+    pub open_gap_m: Option<f64>,
 }
 
 impl FlankContacts {
@@ -117,19 +141,32 @@ impl FlankContacts {
     pub fn with_capacity(planes: usize, contacts: usize) -> Self {
         Self {
             planes: Vec::with_capacity(planes),
+            zeros: Vec::with_capacity(planes),
             lines: Vec::with_capacity(contacts),
             sections: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
             modal: [ModalRows::default(), ModalRows::default()],
+            open_gap_m: None,
         }
     }
 
     /// Forgets what was found; the modes' shapes are left alone.
     pub(crate) fn clear(&mut self) {
         self.planes.clear();
+        self.zeros.clear();
         self.lines.clear();
         self.sections.clear();
         self.contacts.clear();
+        self.open_gap_m = None;
+    }
+
+    /// φ_t1·η̇₁ + φ_t2·η̇₂ \[m/s\] of a contact: how fast vibration moves both flanks towards their tips; zero without friction.
+    #[must_use]
+    pub fn tip_speed_m_per_s(&self, contact: usize, modal_rates: &[&[f64]; 2]) -> f64 {
+        let of_gears = self.modal.iter().zip(modal_rates);
+        of_gears
+            .map(|(modal, rates)| dot(modal.along_profile(contact), rates))
+            .sum()
     }
 
     /// The section of a contact.

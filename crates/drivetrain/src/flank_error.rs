@@ -47,6 +47,17 @@ impl Removed {
 pub trait FlankError: Send + Sync {
     /// Material removed at a point.
     fn removed(&self, at: FlankPoint) -> Removed;
+
+    /// Bound of the material added anywhere \[m\], zero or positive, infinite where none is known: flanks that stay farther apart
+    /// are not looked at.
+    fn most_added_m(&self) -> f64;
+}
+
+/// The most that a list of depths adds.
+pub(crate) fn most_added_m(removed_m: &[f64]) -> f64 {
+    removed_m
+        .iter()
+        .fold(0.0, |most, removed| most.max(-removed))
 }
 
 impl FlankError for Microgeometry {
@@ -55,5 +66,9 @@ impl FlankError for Microgeometry {
             depth_m: self.removed_m(at.roll_rad, at.z_m),
             slope_m_per_rad: self.removed_slope_m_per_rad(at.roll_rad),
         }
+    }
+
+    fn most_added_m(&self) -> f64 {
+        Self::most_added_m(self)
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! φ is NᵀΦ of the reduced gear along the flank's inward normal, combined to slices with the same shares as the compliance, so that
 //! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap.
-//! Only normal forces excite modes; friction acts on the rigid motion. Theory: docs/theory/gear_meshes.md.
+//! Friction pushes on the modes by φ_t, along the profile towards the tip. Theory: docs/theory/gear_meshes.md.
 
 use gearmesh_contact::RollHats;
 use gearmesh_contact::placed_slice::axial_shares;
@@ -41,8 +41,10 @@ pub struct FlankModes {
     hats: RollHats,
     stations: usize,
     slices: usize,
-    /// `[tooth][station][slice][mode]`.
+    /// Along the inward normal, `[tooth][station][slice][mode]`.
     rows: Vec<f64>,
+    /// Along the profile towards the tip.
+    tangential_rows: Vec<f64>,
 }
 
 impl FlankModes {
@@ -65,15 +67,22 @@ impl FlankModes {
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), grid.slices);
         let mut rows = vec![0.0; gear.teeth * stations * slices * modes];
+        let mut tangential_rows = rows.clone();
         for mode in 0..modes {
             for tooth in 0..gear.teeth {
                 let shape = gear.mode_at_flank(mode, tooth, flank)?;
                 for station in 0..stations {
                     for slice in 0..slices {
                         let row = ((tooth * stations + station) * slices + slice) * modes + mode;
-                        rows[row] = axial_shares(slice, slices)
-                            .map(|(axial, share)| share * shape[3 * grid.load(station, axial)])
-                            .sum();
+                        let along = |component: usize| -> f64 {
+                            axial_shares(slice, slices)
+                                .map(|(axial, share)| {
+                                    share * shape[3 * grid.load(station, axial) + component]
+                                })
+                                .sum()
+                        };
+                        rows[row] = along(0);
+                        tangential_rows[row] = along(1);
                     }
                 }
             }
@@ -84,7 +93,14 @@ impl FlankModes {
             stations,
             slices,
             rows,
+            tangential_rows,
         })
+    }
+
+    /// The part of `rows` for a slice at a roll station of a tooth.
+    fn row<'a>(&self, rows: &'a [f64], [tooth, station, slice]: [usize; 3]) -> &'a [f64] {
+        let row = (tooth * self.stations + station) * self.slices + slice;
+        &rows[row * self.count()..][..self.count()]
     }
 
     /// Number of modes.
@@ -99,6 +115,7 @@ impl FlankModes {
             omega_squared: self.omega_squared.clone(),
             shapes: Vec::with_capacity(contacts * self.count()),
             slopes: Vec::with_capacity(contacts * self.count()),
+            tangential: Vec::with_capacity(contacts * self.count()),
         }
     }
 
@@ -127,11 +144,8 @@ impl FlankModes {
             let (start, count) = section.contacts;
             for number in start..start + count {
                 let contact = &mut found.contacts[number];
-                let first = found.lines[contact.line].teeth[gear] * self.stations;
-                let row = |station: usize| {
-                    let row = ((first + station) * self.slices + contact.slice) * modes;
-                    &self.rows[row..row + modes]
-                };
+                let (tooth, slice) = (found.lines[contact.line].teeth[gear], contact.slice);
+                let row = |station: usize| self.row(&self.rows, [tooth, station, slice]);
                 let shape = &mut rows.shapes[number * modes..][..modes];
                 for (station, share) in place.shares() {
                     add_scaled(shape, share, row(station));
@@ -144,6 +158,27 @@ impl FlankModes {
                 let bent = dot(slope, coordinates);
                 contact.gradient += bent * along;
                 contact.gap_rate_m_per_s += dot(shape, rates) + bent * roll_rate;
+            }
+        }
+    }
+
+    /// Writes φ_t of all contacts on gear 0 or 1, for friction.
+    pub(crate) fn lay_along_profile(&self, gear: usize, found: &mut FlankContacts) {
+        let modes = self.count();
+        let tangential = &mut found.modal[gear].tangential;
+        tangential.clear();
+        tangential.resize(found.contacts.len() * modes, 0.0);
+        for section in &found.sections {
+            let place = self.hats.place(section.touching_roll_rad[gear]);
+            let (start, count) = section.contacts;
+            for number in start..start + count {
+                let contact = &found.contacts[number];
+                let (tooth, slice) = (found.lines[contact.line].teeth[gear], contact.slice);
+                let sum = &mut tangential[number * modes..][..modes];
+                for (station, share) in place.shares() {
+                    let row = self.row(&self.tangential_rows, [tooth, station, slice]);
+                    add_scaled(sum, share, row);
+                }
             }
         }
     }

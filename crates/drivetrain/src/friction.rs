@@ -93,7 +93,7 @@ impl Friction {
     }
 }
 
-/// Where two flanks touch and how they slide.
+/// Where two flanks of rigid gears touch and how they slide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sliding {
     /// k: direction of the load of a unit friction force on gear 2.

@@ -17,7 +17,7 @@ use crate::flank_contacts::{FlankContacts, ToothContact};
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::{Friction, Sliding};
 use crate::mesh_kinematics::MeshKinematics;
-use crate::modal_loads::{ContactChange, ModalLoads};
+use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, PoseGeometry};
 use crate::teeth_model::{TeethLoads, TeethModel};
@@ -74,6 +74,9 @@ pub struct GearMesh {
     sides: Vec<Side>,
     friction: Option<Friction>,
     modal: ModalLoads,
+    load: MeshLoad,
+    /// Whether the tangents of `load` are other than zero.
+    has_tangents: bool,
     effort: MeshEffort,
 }
 
@@ -93,6 +96,8 @@ impl GearMesh {
             sides: Vec::new(),
             friction: None,
             modal: ModalLoads::default(),
+            load: MeshLoad::default(),
+            has_tangents: false,
             effort: MeshEffort::default(),
         };
         mesh.with_side(flank, model)
@@ -192,8 +197,9 @@ impl GearMesh {
     /// r_b2 θ₂ − r_b1 θ₁ at the nominal centre distance and without axial displacement. None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
-        let line = self.sides.first()?.found.lines.first()?;
-        Some(line.ideal_gap_m)
+        let found = &self.sides.first()?.found;
+        let line = found.lines.first().map(|line| line.ideal_gap_m);
+        line.or(found.open_gap_m)
     }
 
     /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.
@@ -243,6 +249,12 @@ impl GearMesh {
         self.evaluate_modal(pose, &ModalMotion::default(), tangents)
     }
 
+    /// Load at the last pose.
+    #[must_use]
+    pub fn load(&self) -> &MeshLoad {
+        &self.load
+    }
+
     /// Load at a pose and a vibration of the gears.
     ///
     /// # Errors
@@ -253,17 +265,49 @@ impl GearMesh {
         modal: &ModalMotion<'_>,
         tangents: bool,
     ) -> Result<MeshLoad, DrivetrainError> {
-        let mut result = MeshLoad::default();
+        self.update(pose, modal, tangents)?;
+        Ok(self.load)
+    }
+
+    /// The same, into [`GearMesh::load`].
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of the kinematics or the model.
+    pub fn update(
+        &mut self,
+        pose: &Pose,
+        modal: &ModalMotion<'_>,
+        tangents: bool,
+    ) -> Result<(), DrivetrainError> {
+        if tangents || self.has_tangents {
+            self.load = MeshLoad::default();
+        }
+        self.has_tangents = tangents;
+        let result = &mut self.load;
+        result.load = Vector6::zeros();
+        result.power = Power::default();
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
         let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
         self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
+            let rigid = side.modes.iter().all(Option::is_none);
+            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(&self.at, side.flank));
+            if let Some(gap_m) = open_gap_m.flatten() {
+                side.found.clear();
+                side.found.open_gap_m = Some(gap_m);
+                side.loads.begin(0, 0);
+                side.friction.clear();
+                continue;
+            }
             (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);
+                    if self.friction.is_some() {
+                        modes.lay_along_profile(gear, &mut side.found);
+                    }
                 }
             }
             let (contacts, sections) = (side.found.contacts.len(), side.found.sections.len());
@@ -286,16 +330,17 @@ impl GearMesh {
                 kinematics: &self.kinematics,
                 base_radius_1_m,
                 friction: self.friction,
+                modal_rates: modal.rates,
             };
             let parts = Parts {
-                result: &mut result,
+                result: &mut *result,
                 modal: &mut self.modal,
                 coefficients: &mut side.friction,
                 effort: &mut self.effort,
             };
             assembly.add(parts, tangents);
         }
-        Ok(result)
+        Ok(())
     }
 }
 
@@ -317,6 +362,7 @@ struct Assembly<'a> {
     kinematics: &'a MeshKinematics,
     base_radius_1_m: f64,
     friction: Option<Friction>,
+    modal_rates: [&'a [f64]; 2],
 }
 
 impl Assembly<'_> {
@@ -342,15 +388,20 @@ impl Assembly<'_> {
             }
             let plane = &found.planes[contact.slice];
             let mut direction = contact.gradient;
+            let mut to_tip_n = 0.0;
+            let mut rubbing = None;
             if let Some(friction) = self.friction {
                 parts.effort.friction += 1;
                 let roll_1_rad = found.section(contact).touching_roll_rad[0];
                 let on_gear_1 = (self.base_radius_1_m, roll_1_rad);
                 let sliding = Sliding::new(plane, self.pose, sigma, on_gear_1);
-                let (mu, slope) = friction.coefficient(sliding.speed_m_per_s);
+                let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);
+                let speed_m_per_s = sliding.speed_m_per_s - sigma * vibration;
+                let (mu, slope) = friction.coefficient(speed_m_per_s);
                 parts.coefficients[i] = mu;
                 direction -= mu * sliding.direction;
-                result.power.dissipated_w += mu * force * sliding.speed_m_per_s;
+                to_tip_n = sigma * mu * force;
+                result.power.dissipated_w += mu * force * speed_m_per_s;
                 if tangents {
                     let turned = Sliding::direction_gradient(plane, self.pose, sigma, on_gear_1);
                     let speed_by_pose = turned.tr_mul(&self.rates);
@@ -358,11 +409,18 @@ impl Assembly<'_> {
                     result.by_position -= mu * force * turned;
                     result.by_position -= slope * force * k * speed_by_pose.transpose();
                     result.by_velocity -= slope * force * k * k.transpose();
+                    rubbing = Some(Rubbing {
+                        sigma,
+                        coefficient: mu,
+                        force_by_speed: slope * force,
+                        direction: k,
+                        speed_by_pose,
+                    });
                 }
             }
             result.load += force * direction;
             if parts.modal.count() > 0 {
-                parts.modal.add_force(i, force, found);
+                parts.modal.add_force(i, [force, to_tip_n], found);
             }
             if tangents {
                 let (by_pose, by_rates) = self.force_gradients(i);
@@ -373,6 +431,7 @@ impl Assembly<'_> {
                         direction,
                         by_pose,
                         by_rates,
+                        rubbing,
                     };
                     parts.modal.add_tangents(i, &change, loads, found);
                 }

@@ -38,6 +38,7 @@ pub mod step;
 pub mod strain_gauges;
 pub mod teeth_model;
 pub mod tooth_compliance;
+mod tooth_zero;
 
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;

@@ -100,16 +100,16 @@ impl MeshElement {
 
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
-        self.pair.motion(&gear_1, &gear_2)
+        self.pair.motion(gear_1, gear_2)
     }
 
-    /// The mesh at a motion of its bodies and their modes.
-    fn load(
+    /// Takes the mesh to a motion of its bodies and their modes.
+    fn update(
         &mut self,
         view: &View<'_>,
         motion: &RelativeMotion,
         tangents: bool,
-    ) -> Result<MeshLoad, DrivetrainError> {
+    ) -> Result<(), DrivetrainError> {
         let counts = self.mesh.modal_loads().counts();
         let mut modal = ModalMotion::default();
         for (gear, body) in self.bodies.into_iter().enumerate() {
@@ -127,8 +127,7 @@ impl MeshElement {
                 });
             }
         }
-        self.mesh
-            .evaluate_modal(&Pose::from(motion), &modal, tangents)
+        self.mesh.update(&Pose::from(motion), &modal, tangents)
     }
 
     /// Adds forces on modes and their tangents; `places`: where the bodies' degrees of freedom begin.
@@ -184,25 +183,17 @@ impl ForceElement for MeshElement {
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
         let tangents = loads.wants_tangents();
-        let mesh = self.load(view, &motion, tangents)?;
+        self.update(view, &motion, tangents)?;
         self.mesh.remember();
+        let mesh = self.mesh.load();
         loads.power = mesh.power;
         let force = motion.generalised_force(&mesh.load);
         // Modal coordinates of gear 1 stand between the two.
         let places = [0, 6 + view.modal(self.bodies[0]).len()];
-        for (half, place) in places.iter().enumerate() {
-            loads.add_force(*place, &force.as_slice()[6 * half..6 * half + 6]);
-        }
+        loads.add_pair_force(places, &force);
         if tangents {
-            let on_pair = PairTangents::new(&mesh, &motion);
-            for column in 0..12 {
-                let to = places[column / 6] + column % 6;
-                for row in 0..12 {
-                    let at = places[row / 6] + row % 6;
-                    loads.add_by_position(at, to, on_pair.by_position[(row, column)]);
-                    loads.add_by_velocity(at, to, on_pair.by_velocity[(row, column)]);
-                }
-            }
+            let on_pair = PairTangents::new(mesh, &motion);
+            loads.add_pair_tangents(places, &on_pair.by_position, &on_pair.by_velocity);
         }
         if self.mesh.modal_loads().count() > 0 {
             self.add_modal(&motion, places, loads);
@@ -242,7 +233,7 @@ impl ForceElement for MeshElement {
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
         // What fails here has failed in the step itself, or will in the next one.
         let motion = self.motion(view);
-        if self.load(view, &motion, false).is_err() {
+        if self.update(view, &motion, false).is_err() {
             out.fill(f64::NAN);
             return;
         }

@@ -20,10 +20,9 @@
 //! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again. Derivation, and
 //! the second derivative: docs/theory/gear_meshes.md.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use gearmesh_geometry::{FlankSide, ToothGeometry};
-use nalgebra::Vector3;
 
 use crate::base_helix::BaseHelix;
 use crate::error::DrivetrainError;
@@ -31,7 +30,8 @@ use crate::flank_contacts::{FlankContacts, FlankErrors, Section, TeethLine, Toot
 use crate::flank_error::FlankPoint;
 use crate::path_ends::{PathEnds, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{CentreLine, Matrix6, PoseGeometry, SlicePlane, line_of_action, stacked};
+use crate::slice_plane::{CentreLine, Matrix6, PoseGeometry, SlicePlane, line_of_action};
+use crate::tooth_zero::ToothZero;
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
 /// of its square, 1e-4 of the lengths. The static scene has the same limit.
@@ -55,17 +55,16 @@ pub struct MeshKinematics {
     slice_width_m: Option<f64>,
     /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\]; zero on spur teeth.
     slant_1_rad: f64,
+    /// Bound of what deviations add to both flanks together \[m\].
+    most_added_m: f64,
 }
 
 /// A pair of teeth in the slice planes of a pose: what its sections share.
 struct PlacedTeeth<'a> {
     pose: &'a Pose,
     side: FlankSide,
-    spin_rad: f64,
-    axis: Vector3<f64>,
-    turn: Vector3<f64>,
-    /// Pitches from tooth 0 against the sense of growing roll.
-    counts: [f64; 2],
+    /// Roll angles that it is behind tooth 0 \[rad\].
+    behind_rad: [f64; 2],
     teeth: [usize; 2],
 }
 
@@ -121,6 +120,9 @@ impl MeshKinematics {
             PathEnds::Extended => TipEdges::new(&gears, length, helix.map_or(1.0, |h| h.cos)),
         };
         let ends_rad = [0, 1].map(|i: usize| gears[i].flank_end_roll_rad + edges.reach_rad[i]);
+        let most_added =
+            |errors: &FlankErrors| errors.iter().map(|one| one.most_added_m()).sum::<f64>();
+        let most_added_m = errors.iter().map(most_added).sum();
         Ok(Self {
             gears,
             errors,
@@ -131,6 +133,7 @@ impl MeshKinematics {
             helix,
             slice_width_m,
             slant_1_rad,
+            most_added_m,
         })
     }
 
@@ -171,32 +174,15 @@ impl MeshKinematics {
         (span / self.pitch_rad(0)).ceil() as usize * self.slices_m.len() + self.slices_m.len()
     }
 
-    /// Roll angle of tooth 0 on gear 0 or 1 in a plane, before its section turns with the helix.
-    fn roll_of_tooth_0(
-        &self,
-        gear: usize,
-        side: FlankSide,
-        plane: &SlicePlane,
-        spin_rad: f64,
-    ) -> f64 {
-        let seen_from_mate = match gear {
-            0 => -plane.polar_rad,
-            _ => spin_rad - plane.polar_rad - PI,
-        };
-        plane.pressure_angle_rad + self.gears[gear].base_half_angle_rad
-            - side.mirror() * seen_from_mate
-    }
-
     /// Finds what both sides of the teeth share.
     ///
     /// # Errors
     /// [`DrivetrainError::Misalignment`], [`DrivetrainError::CentreDistance`].
     pub fn locate(&self, pose: &Pose, at: &mut PoseGeometry) -> Result<(), DrivetrainError> {
-        let tilt = pose.misalignment_rad();
-        // NaN is refused, too.
-        if tilt.is_nan() || tilt > LARGEST_MISALIGNMENT_RAD {
+        // What is no number is not aligned either.
+        if !pose.is_aligned(LARGEST_MISALIGNMENT_RAD) {
             return Err(DrivetrainError::Misalignment {
-                found_mrad: tilt * 1e3,
+                found_mrad: pose.misalignment_rad() * 1e3,
                 allowed_mrad: LARGEST_MISALIGNMENT_RAD * 1e3,
             });
         }
@@ -219,6 +205,31 @@ impl MeshKinematics {
         at.middle = Some(middle);
         at.spin_rad = pose.spin_rad();
         Ok(())
+    }
+
+    /// Gap \[m\] of ideal flanks of one side at mid-face if no flanks of that side can touch at a pose that has been located; none if some
+    /// might. Spur teeth only: in each plane all their pairs have the same ideal gap.
+    pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: FlankSide) -> Option<f64> {
+        let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
+        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let rolls =
+            |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, at.spin_rad, side, plane);
+        let plane = middle.plane(side);
+        let [roll_1, roll_2] = rolls(&plane);
+        let touching = (plane.length_m - r1 * roll_1) / r2;
+        let pitch_2 = self.pitch_rad(1);
+        let ahead_2 = ((roll_2 - touching) / pitch_2).round() * pitch_2;
+        let gap_m = |plane: &SlicePlane, [roll_1, roll_2]: [f64; 2]| {
+            plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
+        };
+        let is_open = |line: &CentreLine| {
+            let plane = line.plane(side);
+            gap_m(&plane, rolls(&plane)) > self.most_added_m
+        };
+        at.slices
+            .iter()
+            .all(is_open)
+            .then(|| gap_m(&plane, [roll_1, roll_2]))
     }
 
     /// Finds all pairs of teeth that face each other with their flanks of one side.
@@ -251,39 +262,39 @@ impl MeshKinematics {
         };
         let planes = at.slices.iter().map(|line| line.plane(side));
         found.planes.extend(planes);
-        let (middle, spin_rad) = (middle.plane(side), at.spin_rad);
+        let zero =
+            |plane: &SlicePlane| ToothZero::new(&self.gears, (pose, at.spin_rad), side, plane);
+        found.zeros.extend(found.planes.iter().map(zero));
+        let middle = middle.plane(side);
+        let middle = (middle, zero(&middle));
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
-        let mut zero_1 = self.roll_of_tooth_0(0, side, &middle, spin_rad);
+        let [mut zero_1, zero_2] = middle.1.roll_rad;
         if let Some(helix) = &self.helix {
             zero_1 -= side.mirror() * helix.twist_rad_per_m[0] * pose.displacement_m[2];
         }
-        let zero_2 = self.roll_of_tooth_0(1, side, &middle, spin_rad);
-        let start_1 = (middle.length_m - r2 * ends[1]) / r1;
+        let length_m = middle.0.length_m;
+        let start_1 = (length_m - r2 * ends[1]) / r1;
         let first = ((zero_1 - ends[0] - self.slant_1_rad) / pitch_1).ceil() as i64;
         let last = ((zero_1 - start_1 + self.slant_1_rad) / pitch_1).floor() as i64;
         for count_1 in first..=last {
-            let roll_1 = zero_1 - count_1 as f64 * pitch_1;
+            let behind_1 = count_1 as f64 * pitch_1;
             // The mate is the tooth whose flank is nearest.
-            let touching = (middle.length_m - r1 * roll_1) / r2;
+            let touching = (length_m - r1 * (zero_1 - behind_1)) / r2;
             let count_2 = ((zero_2 - touching) / pitch_2).round();
-            let counts = [count_1 as f64, count_2];
-            let roll_2 = zero_2 - count_2 * pitch_2;
-            if self.helix.is_none() && roll_2 > ends[1] {
+            let behind_2 = count_2 * pitch_2;
+            if self.helix.is_none() && zero_2 - behind_2 > ends[1] {
                 continue;
             }
-            let teeth = [0, 1].map(|i| {
-                let ahead = side.mirror() * counts[i];
-                ahead.rem_euclid(self.gears[i].teeth as f64) as usize
-            });
+            let counts = [count_1, count_2 as i64];
+            let sense = side.mirror() as i64;
+            let teeth =
+                [0, 1].map(|i| (sense * counts[i]).rem_euclid(self.gears[i].teeth as i64) as usize);
             let placed = PlacedTeeth {
                 pose,
                 side,
-                spin_rad,
-                axis: pose.axis_2(),
-                turn: pose.spin_gradient(),
-                counts,
+                behind_rad: [behind_1, behind_2],
                 teeth,
             };
             self.add_line(&placed, &middle, found);
@@ -291,15 +302,19 @@ impl MeshKinematics {
     }
 
     /// Adds a pair of teeth with its slices, unless all of them are off the path.
-    fn add_line(&self, placed: &PlacedTeeth<'_>, middle: &SlicePlane, found: &mut FlankContacts) {
+    fn add_line(
+        &self,
+        placed: &PlacedTeeth<'_>,
+        middle: &(SlicePlane, ToothZero),
+        found: &mut FlankContacts,
+    ) {
         let line = found.lines.len();
         let first = found.contacts.len();
         let rates = placed.pose.rates();
         let mut at_middle = None;
-        for slice in 0..found.planes.len() {
-            let plane = found.planes[slice];
-            let ideal = self.ideal_flanks(placed, &plane);
-            if plane.z_m == middle.z_m {
+        for (slice, (plane, zero)) in found.planes.iter().zip(&found.zeros).enumerate() {
+            let ideal = self.ideal_flanks(placed, plane, zero);
+            if plane.z_m == middle.0.z_m {
                 at_middle = Some(ideal);
             }
             let own = match &self.helix {
@@ -343,7 +358,7 @@ impl MeshKinematics {
         if self.helix.is_some() && contacts.1 == 0 {
             return;
         }
-        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, middle));
+        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, &middle.0, &middle.1));
         let middle = Section {
             contacts,
             ..self.section(&ideal)
@@ -360,32 +375,31 @@ impl MeshKinematics {
     }
 
     /// Ideal flanks in a plane.
-    fn ideal_flanks(&self, placed: &PlacedTeeth<'_>, plane: &SlicePlane) -> IdealFlanks {
-        let sigma = placed.side.mirror();
+    fn ideal_flanks(
+        &self,
+        placed: &PlacedTeeth<'_>,
+        plane: &SlicePlane,
+        zero: &ToothZero,
+    ) -> IdealFlanks {
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let mut roll_rad = [0, 1].map(|i| {
-            self.roll_of_tooth_0(i, placed.side, plane, placed.spin_rad)
-                - placed.counts[i] * self.pitch_rad(i)
-        });
-        let along = sigma / plane.length_m * plane.across;
-        let mut of_1 = stacked(along, plane.z_m * placed.axis.cross(&along));
-        let of_2 = of_1 - stacked(Vector3::zeros(), sigma * placed.turn);
-        let moment = plane.z_m * placed.axis.cross(&plane.normal) + sigma * r2 * placed.turn;
-        let mut gradient = stacked(plane.normal, moment);
+        let mut roll_rad = [0, 1].map(|i| zero.roll_rad[i] - placed.behind_rad[i]);
+        let mut roll_gradient = zero.roll_gradient;
+        let mut gradient = zero.gradient;
         let mut helix_cos = 1.0;
         if let Some(helix) = &self.helix {
+            let sigma = placed.side.mirror();
             helix_cos = helix.cos;
             let [twist_1, twist_2] = helix.twist_rad_per_m;
             roll_rad[1] -= sigma * twist_2 * plane.z_m;
             let height = helix.height(plane, placed.pose, sigma, roll_rad[1]);
             roll_rad[0] -= sigma * twist_1 * height.z_m;
-            of_1 -= sigma * twist_1 * height.gradient;
+            roll_gradient[0] -= sigma * twist_1 * height.gradient;
             gradient = helix.cos * (gradient + sigma * helix.tan * height.gradient);
         }
         IdealFlanks {
             gap_m: helix_cos * (plane.length_m - r1 * roll_rad[0] - r2 * roll_rad[1]),
             roll_rad,
-            roll_gradient: [of_1, of_2],
+            roll_gradient,
             gradient,
         }
     }

@@ -1,8 +1,12 @@
 //! Forces of a mesh on the vibration modes of its gears, and what they depend on.
 //!
 //! ```text
-//! Q_m = Σ_i F_i φ_im          ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j),   ∂gap_j/∂η_m = ∂(gap rate)_j/∂η̇_m = φ_jm
+//! Q_m = Σ_i F_i ψ_im,   ψ = φ + σ μ(v) φ_t        ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j),   ∂gap_j/∂η_m = ∂(gap rate)_j/∂η̇_m = φ_jm
+//!                                                  ∂μ_i = μ′ ∂v_i,   v = k·(u̇, ω) − σ φ_t·η̇
 //! ```
+//!
+//! φ_t is the shape along the profile towards the tip; friction points there on both gears where σ μ > 0, so that its power on the gears
+//! and their modes is −μ F v, v the sliding of the vibrating flanks. Without friction ψ = φ.
 //!
 //! Left out of the tangent: how φ changes with the roll angle, of the order of deflection over pitch as all that the mesh leaves out.
 
@@ -30,6 +34,7 @@ pub struct ModalLoads {
     /// ∂Q/∂η̇.
     pub by_rates: Vec<f64>,
     shape: Vec<f64>,
+    along_profile: Vec<f64>,
     along: [Vec<f64>; 2],
 }
 
@@ -38,6 +43,21 @@ pub(crate) struct ContactChange {
     pub direction: Vector6,
     pub by_pose: Vector6,
     pub by_rates: Vector6,
+    pub rubbing: Option<Rubbing>,
+}
+
+/// Friction of one contact.
+pub(crate) struct Rubbing {
+    /// σ = ±1 for right and left flanks.
+    pub sigma: f64,
+    /// μ(v).
+    pub coefficient: f64,
+    /// F dμ/dv \[N·s/m\].
+    pub force_by_speed: f64,
+    /// k: direction of the load of a unit friction force on gear 2.
+    pub direction: Vector6,
+    /// ∂v by pose; by rates it is k.
+    pub speed_by_pose: Vector6,
 }
 
 impl ModalLoads {
@@ -54,6 +74,7 @@ impl ModalLoads {
             by_coordinates: vec![0.0; m * m],
             by_rates: vec![0.0; m * m],
             shape: vec![0.0; m],
+            along_profile: vec![0.0; m],
             along: [vec![0.0; m], vec![0.0; m]],
         }
     }
@@ -86,12 +107,18 @@ impl ModalLoads {
         }
     }
 
-    /// Adds the force of a contact.
-    pub(crate) fn add_force(&mut self, contact: usize, force_n: f64, found: &FlankContacts) {
+    /// Adds the force of a contact: normal, and towards the tips of both gears.
+    pub(crate) fn add_force(
+        &mut self,
+        contact: usize,
+        [normal_n, to_tip_n]: [f64; 2],
+        found: &FlankContacts,
+    ) {
         let (first, second) = self.force.split_at_mut(self.counts[0]);
         for (half, rows) in [first, second].into_iter().zip(&found.modal) {
             if rows.count() > 0 {
-                add_scaled(half, force_n, rows.shape(contact));
+                add_scaled(half, normal_n, rows.shape(contact));
+                add_scaled(half, to_tip_n, rows.along_profile(contact));
             }
         }
     }
@@ -123,6 +150,9 @@ impl ModalLoads {
                 half.copy_from_slice(rows.shape(contact));
             }
         }
+        if let Some(rubbing) = &change.rubbing {
+            self.add_rubbing(contact, rubbing, found);
+        }
         let m = self.count();
         for (mode, &phi) in self.shape.iter().enumerate() {
             self.force_by_pose[mode] += phi * change.by_pose;
@@ -135,6 +165,33 @@ impl ModalLoads {
                 &self.along[0],
             );
             add_scaled(&mut self.by_rates[mode * m..][..m], phi, &self.along[1]);
+        }
+    }
+
+    /// Makes ψ of the contact's φ, and adds what the forces change as friction does with the sliding speed.
+    fn add_rubbing(&mut self, contact: usize, rubbing: &Rubbing, found: &FlankContacts) {
+        let (first, second) = self.along_profile.split_at_mut(self.counts[0]);
+        for (half, rows) in [first, second].into_iter().zip(&found.modal) {
+            if rows.count() > 0 {
+                half.copy_from_slice(rows.along_profile(contact));
+            }
+        }
+        add_scaled(
+            &mut self.shape,
+            rubbing.sigma * rubbing.coefficient,
+            &self.along_profile,
+        );
+        let m = self.count();
+        for (mode, &phi) in self.along_profile.iter().enumerate() {
+            let towards_tip = rubbing.sigma * rubbing.force_by_speed * phi;
+            self.force_by_pose[mode] += towards_tip * rubbing.speed_by_pose;
+            self.force_by_rates[mode] += towards_tip * rubbing.direction;
+            self.load_by_rates[mode] += towards_tip * rubbing.direction;
+            add_scaled(
+                &mut self.by_rates[mode * m..][..m],
+                -rubbing.force_by_speed * phi,
+                &self.along_profile,
+            );
         }
     }
 }

@@ -47,6 +47,13 @@ impl Pose {
         b[0].hypot(b[1]).atan2(b[2])
     }
 
+    /// Whether that angle is within a limit below a right angle \[rad\].
+    #[must_use]
+    pub fn is_aligned(&self, limit_rad: f64) -> bool {
+        let b = self.axis_2();
+        b[2] > 0.0 && b[0] * b[0] + b[1] * b[1] <= (limit_rad.tan() * b[2]).powi(2)
+    }
+
     /// Turn γ \[rad\] of gear 2 about its axis, without the tilt of that axis: Q = (shortest rotation that takes z to the axis)
     /// times a rotation by γ about z.
     #[must_use]

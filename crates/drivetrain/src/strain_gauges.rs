@@ -1,19 +1,19 @@
 //! Root strain while a run goes on: gauges of a gear read the slice forces of its mesh, and its modes.
 //!
 //! ```text
-//! ε = gᵀΦ η + Σ (row − gᵀΦ Ω⁻² φ) F          rows of method 1 or 2; without modes the rows alone
+//! ε = gᵀΦ (η − Ω⁻² Σ φ_t T) + Σ (row − gᵀΦ Ω⁻² φ) F + Σ row_t T          rows of method 1 or 2; without modes the rows alone
 //! ```
 //!
-//! One multiplication a gauge, slice and share: no field, no allocation. Forces that reach the gear through another mesh or a joint are not
-//! in it: strain is linear, so that the readings of all meshes of a gear add up, the modal part counted once ([`ModalPart`]). Friction
-//! excites no modes and is read with the whole tangential row.
+//! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no allocation. Forces that
+//! reach the gear through another mesh or a joint are not in it: strain is linear, so that the readings of all meshes of a gear add up, gᵀΦη
+//! counted once ([`ModalPart`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it already.
 
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{GaugeRows, ReducedGear};
 use gearmesh_recovery::{GaugeArray, LoadedSlice, Strain};
 
 use crate::error::DrivetrainError;
-use crate::flank_modes::flank_of;
+use crate::flank_modes::{dot, flank_of};
 use crate::gear_mesh::GearMesh;
 
 /// Whether a mesh's gauges read the vibration of their gear, too.
@@ -35,6 +35,11 @@ pub struct StrainGauges {
     sides: Vec<(FlankSide, GaugeArray)>,
     /// gᵀΦ, `[gauge][mode]`; empty without modes.
     modal: Vec<f64>,
+    modal_part: ModalPart,
+    /// ω² of each mode \[rad²/s²\].
+    omega_squared: Vec<f64>,
+    /// What is read by gᵀΦ: η less what friction makes of it at rest.
+    coordinates: Vec<f64>,
     strain: Vec<Strain>,
 }
 
@@ -56,6 +61,10 @@ impl StrainGauges {
         assert!(gear == 1 || gear == 2, "gear {gear} of 1 and 2");
         let modes = mesh.modal_loads().counts()[gear - 1];
         let (mut rows, mut modal) = (Vec::new(), Vec::new());
+        let mut omega_squared = Vec::new();
+        if modes > 0 {
+            omega_squared.extend(&model.modal_basis()?.omega_squared[..modes]);
+        }
         for name in names {
             let Some(number) = model.gauges.iter().position(|gauge| gauge.name == *name) else {
                 let known: Vec<&str> = model.gauges.iter().map(|g| g.name.as_str()).collect();
@@ -70,7 +79,7 @@ impl StrainGauges {
                 });
             };
             rows.push(residual_rows(model, number, modes)?);
-            if modes > 0 && modal_part == ModalPart::Included {
+            if modes > 0 {
                 let basis = model.modal_basis()?;
                 let gauges = model.gauges.len();
                 modal.extend((0..modes).map(|mode| basis.gauges[mode * gauges + number]));
@@ -85,6 +94,9 @@ impl StrainGauges {
             names: names.iter().map(|name| (*name).to_owned()).collect(),
             sides,
             modal,
+            modal_part,
+            omega_squared,
+            coordinates: vec![0.0; modes],
             strain: vec![Strain::default(); names.len()],
         })
     }
@@ -132,15 +144,39 @@ impl StrainGauges {
                 }
             }
         }
-        let modes = self.modal.len() / self.strain.len().max(1);
+        let modes = self.omega_squared.len();
         if modes > 0 {
+            self.coordinates.fill(0.0);
+            if self.modal_part == ModalPart::Included {
+                let read = self.coordinates.iter_mut().zip(coordinates);
+                read.for_each(|(place, eta)| *place = *eta);
+            }
+            self.take_friction_at_rest_out(mesh);
             for (strain, row) in self.strain.iter_mut().zip(self.modal.chunks_exact(modes)) {
-                let vibration: f64 = row.iter().zip(coordinates).map(|(g, eta)| g * eta).sum();
+                let vibration = dot(row, &self.coordinates);
                 strain.method_1 += vibration;
                 strain.method_2 += vibration;
             }
         }
         &self.strain
+    }
+
+    /// η − Ω⁻² Σ φ_t T: the tangential rows are whole, and method 1 reads no friction at rest.
+    fn take_friction_at_rest_out(&mut self, mesh: &GearMesh) {
+        for (side, _) in &self.sides {
+            let Some((found, forces)) = mesh.side(*side) else {
+                continue;
+            };
+            let rows = &found.modal[self.gear];
+            let friction = mesh.friction_coefficients(*side);
+            for (contact, (force_n, mu)) in forces.iter().zip(friction).enumerate() {
+                let to_tip_n = side.mirror() * mu * force_n;
+                let of_modes = rows.along_profile(contact).iter().zip(&self.omega_squared);
+                for (eta, (phi, omega_squared)) in self.coordinates.iter_mut().zip(of_modes) {
+                    *eta -= to_tip_n * phi / omega_squared;
+                }
+            }
+        }
     }
 }
 

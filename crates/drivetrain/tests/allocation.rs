@@ -21,11 +21,12 @@ fn evaluations_do_not_allocate() {
     for pair in pairs() {
         for name in CONFORMING {
             let of = |side| Damped::new(model(name, &pair, side), damping, SLICES).unwrap();
-            let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
+            let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
                 .unwrap()
                 .with_side(FlankSide::Left, of(FlankSide::Left))
                 .unwrap()
                 .with_friction(friction);
+            let mut mesh = with_own_modes(name, &pair, mesh);
             // From the pressed right flanks through the backlash to the left ones, around a whole pitch.
             let poses: Vec<Pose> = (0..200)
                 .map(|k| {

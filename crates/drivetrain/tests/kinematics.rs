@@ -7,6 +7,9 @@ use std::sync::Arc;
 
 use gearmesh_contact::tip_contact::{TipContact, TipGear};
 use gearmesh_contact::{ContactLine, ContactLines};
+use gearmesh_drivetrain::errors::deviation_table::DeviationTable;
+use gearmesh_drivetrain::errors::pitch::PitchErrors;
+use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::microgeometry::{ProfileCrowning, ReliefShape, TipRelief};
@@ -69,6 +72,53 @@ fn half_a_turn_leaves_no_slice_behind() {
             }
         }
     }
+}
+
+/// Flanks that a mesh does not look at because they are far apart do not touch, whatever is added to them.
+#[test]
+fn flanks_that_are_not_looked_at_are_open() {
+    let pair = spur_pair();
+    let hollow = |gear: &gearmesh_geometry::ToothGeometry| {
+        let mut flank = microgeometry(gear);
+        flank.profile_crowning.as_mut().unwrap().amount_m = -9e-6;
+        flank.flank_angle_m = -12e-6;
+        flank
+    };
+    let pitches = |side| {
+        let removed = (0..pair.gear_2.teeth).map(|tooth| 7e-6 * (tooth as f64).sin());
+        PitchErrors::new(side, removed.collect(), pair.gear_2.teeth).unwrap()
+    };
+    let lead = DeviationTable::new(&[], &[[-1e-2, -4e-6], [1e-2, 3e-6]]).unwrap();
+    let (mut skipped, mut touching) = (0, 0);
+    for side in SIDES {
+        let errors: [FlankErrors; 2] = [
+            vec![Arc::new(hollow(&pair.gear_1)), Arc::new(lead.clone())],
+            vec![Arc::new(pitches(side))],
+        ];
+        let with_errors = kinematics_with(&pair, errors, PathEnds::Extended);
+        let mut mesh = GearMesh::new(with_errors.clone(), side, impact()).unwrap();
+        for (i, te_m) in (0..160).map(|i| (i, 1e-6 * (f64::from(i) - 20.0))) {
+            let phi = angles(&pair, side, 0.37 * f64::from(i), te_m);
+            let tilt = Vector3::new(1e-3 * f64::from(i % 5), -7e-4 * f64::from(i % 3), 0.0);
+            let at = pose(&pair, phi, Vector3::new(2e-5, -1e-5, 3e-5), tilt);
+            mesh.evaluate(&at, false).unwrap();
+            let mut found = FlankContacts::default();
+            with_errors.contacts(&at, side, &mut found).unwrap();
+            let least = found
+                .contacts
+                .iter()
+                .fold(1.0, |least: f64, c| least.min(c.gap_m));
+            let (looked_at, _) = mesh.side(side).unwrap();
+            assert_eq!(looked_at.open_gap_m.is_none(), !looked_at.lines.is_empty());
+            touching += usize::from(least < 0.0);
+            if let Some(gap_m) = looked_at.open_gap_m {
+                skipped += 1;
+                assert!(least > 0.0, "{least:e} m at {te_m:e} m");
+                assert!((gap_m - found.lines[0].ideal_gap_m).abs() < 1e-15);
+            }
+        }
+    }
+    assert!(skipped > 50 && touching > 50, "{skipped}, {touching}");
 }
 
 /// Both kinematics see the same pairs, roll angles and gaps, on parallel axes and, to first order, on tilted ones.

@@ -75,7 +75,7 @@ impl SystemBuilder {
         let mut system = System {
             inertias: self.bodies.iter().map(Inertia::new).collect(),
             slots: slots.collect(),
-            motions: vec![BodyMotion::at_rest(); self.bodies.len()],
+            motions: vec![BodyMotion::at_rest(); self.bodies.len() + 1],
             bodies: self.bodies,
             joints: self.joints,
             layout,

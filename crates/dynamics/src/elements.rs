@@ -30,10 +30,14 @@ pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad};
 pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;
 
+use nalgebra::SVector;
+
 use crate::body::{BodyId, GROUND};
 use crate::error::{DynamicsError, ElementFailure};
 use crate::matrix::Matrix;
+use crate::relative_motion::PairTangent;
 use crate::state::{BodyMotion, Layout};
+use crate::system::motion_of;
 
 /// All that an element may look at: time, and the motion of its bodies.
 #[derive(Debug, Clone, Copy)]
@@ -52,12 +56,8 @@ pub struct View<'a> {
 impl View<'_> {
     /// Rigid motion of a body; the ground's is at rest.
     #[must_use]
-    pub fn body(&self, body: BodyId) -> BodyMotion {
-        if body == GROUND {
-            BodyMotion::at_rest()
-        } else {
-            self.motions[body.0]
-        }
+    pub fn body(&self, body: BodyId) -> &BodyMotion {
+        motion_of(self.motions, body)
     }
 
     /// Modal coordinates of a body \[√kg·m\]; none for rigid bodies and the ground.
@@ -134,9 +134,40 @@ impl Loads {
     }
 
     /// Adds to the force.
+    #[inline]
     pub fn add_force(&mut self, first: usize, values: &[f64]) {
         for (place, value) in self.force[first..].iter_mut().zip(values) {
             *place += value;
+        }
+    }
+
+    /// Adds to the rigid bodies of a pair; `places`: where their degrees of freedom begin.
+    #[inline]
+    pub fn add_pair_force(&mut self, places: [usize; 2], force: &SVector<f64, 12>) {
+        for (place, half) in places.iter().zip(force.as_slice().chunks_exact(6)) {
+            self.add_force(*place, half);
+        }
+    }
+
+    /// Adds to the tangents of the rigid bodies of a pair: ∂force/∂increments and ∂force/∂velocities.
+    pub fn add_pair_tangents(
+        &mut self,
+        places: [usize; 2],
+        by_position: &PairTangent,
+        by_velocity: &PairTangent,
+    ) {
+        for (matrix, values) in [
+            (&mut self.by_position, by_position),
+            (&mut self.by_velocity, by_velocity),
+        ] {
+            for (column, values) in values.as_slice().chunks_exact(12).enumerate() {
+                let target = matrix.column_mut(places[column / 6] + column % 6);
+                for (place, half) in places.iter().zip(values.chunks_exact(6)) {
+                    for (entry, value) in target[*place..].iter_mut().zip(half) {
+                        *entry += value;
+                    }
+                }
+            }
         }
     }
 

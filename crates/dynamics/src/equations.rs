@@ -132,7 +132,7 @@ impl System {
             }
             for (index, pair) in joint.pairs().iter().enumerate() {
                 let [a, b] = [pair.a.body, pair.b.body].map(|body| motion_of(&self.motions, body));
-                let motion = pair.motion(&a, &b);
+                let motion = pair.motion(a, b);
                 let starts = [pair.a.body, pair.b.body].map(|body| self.layout.start(body));
                 for equation in 0..count {
                     out.violation[first + equation] += joint.part(equation, index, &motion);
@@ -194,23 +194,19 @@ impl System {
                     time_s: at.state.time_s,
                     source,
                 })?;
-            for (place, force) in slot.places.iter().zip(&slot.loads.force) {
-                if let Some(place) = place {
-                    out.residual[*place] -= force;
-                }
+            for place in &slot.places {
+                place.subtract(&slot.loads.force, &mut out.residual);
             }
             if detail == Detail::Tangents {
                 slot.tangent_calls += 1;
-                for (j, column) in slot.places.iter().enumerate() {
-                    let Some(column) = column else { continue };
-                    let by_position = slot.loads.by_position.column(j);
-                    let by_velocity = slot.loads.by_velocity.column(j);
-                    let stiffness = out.stiffness.column_mut(*column);
-                    let damping = out.damping.column_mut(*column);
-                    for (i, row) in slot.places.iter().enumerate() {
-                        if let Some(row) = row {
-                            stiffness[*row] -= by_position[i];
-                            damping[*row] -= by_velocity[i];
+                for columns in &slot.places {
+                    for j in 0..columns.count {
+                        let (from, to) = (columns.local + j, columns.system + j);
+                        let by_position = slot.loads.by_position.column(from);
+                        let by_velocity = slot.loads.by_velocity.column(from);
+                        for rows in &slot.places {
+                            rows.subtract(by_position, out.stiffness.column_mut(to));
+                            rows.subtract(by_velocity, out.damping.column_mut(to));
                         }
                     }
                 }
@@ -231,7 +227,7 @@ impl System {
                 let terms = pairs.map(|(index, pair)| {
                     let [a, b] =
                         [pair.a.body, pair.b.body].map(|body| motion_of(&self.motions, body));
-                    let motion = pair.motion(&a, &b);
+                    let motion = pair.motion(a, b);
                     let tangent = joint.tangent(index, &unit, &motion, &motion.jacobian());
                     let mut velocity = SVector::<f64, 12>::zeros();
                     for (half, motion) in [a, b].iter().enumerate() {

@@ -312,7 +312,9 @@ impl Integrator {
         h: f64,
         tolerance: f64,
     ) -> (f64, usize, f64) {
-        self.pushed.fill(0.0);
+        if !system.kept.is_empty() {
+            self.pushed.fill(0.0);
+        }
         for &equation in &system.kept {
             let mu = self.mu[equation];
             for (push, b) in self
@@ -336,18 +338,27 @@ impl Integrator {
         let (arm, root_mass) = self.reach;
         size[0] = size[0].max(arm * size[1]);
         size[2] = size[2].max(root_mass * size[0]);
-        let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
+        let mut most = [(0.0_f64, 0); KINDS];
+        let mut sum = 0.0;
         let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
             let correction = delta.abs().max((inverse * push).abs());
+            // What is no number would be lost in the maximum.
+            sum += delta + push;
+            if correction > most[kind].0 {
+                most[kind] = (correction, dof);
+            }
+        }
+        let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
+        for (kind, (correction, dof)) in most.into_iter().enumerate() {
             let floor = self.floor[kind] * self.revolved;
             let ratio = correction / (tolerance * size[kind] + floor);
-            if ratio.is_nan() || ratio > worst {
+            if ratio > worst {
                 (worst, place) = (ratio, dof);
             }
             above = above.max(correction / floor);
         }
-        (worst, place, above)
+        (if sum.is_finite() { worst } else { f64::NAN }, place, above)
     }
 
     fn finish(&self, from: &Point, to: &mut Point, h: f64) {

@@ -24,8 +24,8 @@ pub struct Marker {
     pub body: BodyId,
     /// Its origin from the body's reference point, body axes \[m\].
     pub position_m: Vector3<f64>,
-    /// Body axes from marker axes.
-    pub orientation: UnitQuaternion<f64>,
+    /// Body axes from marker axes; none where they are the same.
+    orientation: Option<Rotation3<f64>>,
 }
 
 impl Marker {
@@ -35,7 +35,7 @@ impl Marker {
         Self {
             body,
             position_m: Vector3::from(position_m),
-            orientation: UnitQuaternion::identity(),
+            orientation: None,
         }
     }
 
@@ -45,23 +45,44 @@ impl Marker {
         Self::at(GROUND, position_m)
     }
 
+    /// The same place and axes on another body.
+    #[must_use]
+    pub fn on(mut self, body: BodyId) -> Self {
+        self.body = body;
+        self
+    }
+
     /// The marker turned against the body's axes.
     #[must_use]
     pub fn oriented(mut self, orientation: UnitQuaternion<f64>) -> Self {
-        self.orientation = orientation;
+        let same = orientation == UnitQuaternion::identity();
+        self.orientation = (!same).then(|| orientation.to_rotation_matrix());
         self
+    }
+
+    /// Body axes from marker axes.
+    #[must_use]
+    pub fn orientation(&self) -> Rotation3<f64> {
+        self.orientation.unwrap_or_else(Rotation3::identity)
+    }
+
+    /// A matrix times that.
+    fn turn(&self, matrix: Matrix3<f64>) -> Matrix3<f64> {
+        match &self.orientation {
+            None => matrix,
+            Some(orientation) => matrix * orientation.matrix(),
+        }
     }
 
     /// The same place as this one with its z axis along a direction of the body; x and y are any that fit. A direction of
     /// length zero leaves the axes as they are.
     #[must_use]
-    pub fn along(mut self, z_axis: [f64; 3]) -> Self {
+    pub fn along(self, z_axis: [f64; 3]) -> Self {
         let direction = Vector3::from(z_axis);
-        self.orientation = UnitQuaternion::rotation_between(&Vector3::z(), &direction)
-            .unwrap_or_else(|| {
-                UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
-            });
-        self
+        let turn = UnitQuaternion::rotation_between(&Vector3::z(), &direction);
+        self.oriented(turn.unwrap_or_else(|| {
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        }))
     }
 }
 
@@ -111,12 +132,10 @@ impl MarkerPair {
     /// The motion at given motions of both bodies.
     #[must_use]
     pub fn motion(&self, a: &BodyMotion, b: &BodyMotion) -> RelativeMotion {
-        let body_from_a = *self.a.orientation.to_rotation_matrix().matrix();
-        let body_from_b = *self.b.orientation.to_rotation_matrix().matrix();
-        let a_from_world = (a.rotation * body_from_a).transpose();
+        let a_from_world = self.a.turn(a.rotation).transpose();
         let (point_a, point_b) = (self.a.position_m, self.b.position_m);
         let a_from_b = a_from_world * b.rotation;
-        let a_from_body = body_from_a.transpose();
+        let a_from_body = self.a.turn(Matrix3::identity()).transpose();
         let gap = b.position_m - a.position_m;
         let arm = a_from_world * gap + a_from_b * point_b;
         let displacement = arm - a_from_body * point_a;
@@ -127,7 +146,7 @@ impl MarkerPair {
         let omega_a = a_from_body * a.angular_velocity_rad_per_s;
         RelativeMotion {
             displacement_m: displacement,
-            rotation: a_from_b * body_from_b,
+            rotation: self.b.turn(a_from_b),
             velocity_m_per_s: slip - omega_a.cross(&displacement),
             angular_velocity_rad_per_s: a_from_b * b.angular_velocity_rad_per_s - omega_a,
             a_from_body,

@@ -12,26 +12,49 @@ use crate::state::{BodyMotion, Layout, State};
 /// A force element at its place in the system.
 pub(crate) struct Slot {
     pub element: Box<dyn ForceElement>,
-    /// System degree of freedom of each local one; `None` on the ground.
-    pub places: Vec<Option<usize>>,
+    /// Where the degrees of freedom of its bodies stand; the ground has none.
+    pub places: Vec<Place>,
     pub loads: Loads,
     pub force_calls: u64,
     pub tangent_calls: u64,
 }
 
+/// Degrees of freedom of one body: first among the element's and the system's, and how many.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub local: usize,
+    pub system: usize,
+    pub count: usize,
+}
+
+impl Place {
+    /// Subtracts the body's part of an element's vector from that of the system's.
+    pub(crate) fn subtract(&self, of_element: &[f64], of_system: &mut [f64]) {
+        let values = &of_element[self.local..][..self.count];
+        let targets = &mut of_system[self.system..][..self.count];
+        for (target, value) in targets.iter_mut().zip(values) {
+            *target -= value;
+        }
+    }
+}
+
 impl Slot {
     pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
-        let places: Vec<Option<usize>> = element
-            .bodies()
-            .iter()
-            .flat_map(|&body| {
-                let start = layout.start(body);
-                (0..layout.size(body)).map(move |i| start.map(|start| start + i))
-            })
-            .collect();
+        let (mut places, mut local) = (Vec::new(), 0);
+        for &body in element.bodies() {
+            let count = layout.size(body);
+            if let Some(system) = layout.start(body) {
+                places.push(Place {
+                    local,
+                    system,
+                    count,
+                });
+            }
+            local += count;
+        }
         Self {
             element,
-            loads: Loads::new(places.len()),
+            loads: Loads::new(local),
             places,
             force_calls: 0,
             tangent_calls: 0,
@@ -178,7 +201,7 @@ impl System {
 
     /// Takes the motion of a state into [`Self::motions`].
     pub(crate) fn refresh(&mut self, state: &State) {
-        for (body, motion) in self.motions.iter_mut().enumerate() {
+        for (body, motion) in self.motions[..self.bodies.len()].iter_mut().enumerate() {
             *motion = BodyMotion::of(state, &self.layout, body);
         }
     }
@@ -188,7 +211,7 @@ impl System {
         self.refresh(state);
         let motions = &self.motions;
         for joint in &mut self.joints {
-            joint.begin(state.time_s, &|body| motion_of(motions, body));
+            joint.begin(state.time_s, &|body| *motion_of(motions, body));
         }
     }
 
@@ -206,7 +229,7 @@ impl System {
         self.refresh(state);
         let motions = &self.motions;
         for joint in &mut self.joints {
-            joint.commit(&|body| motion_of(motions, body));
+            joint.commit(&|body| *motion_of(motions, body));
         }
         let view = view(&self.motions, &self.layout, state, 1.0);
         for slot in &mut self.slots {
@@ -280,12 +303,9 @@ impl System {
     }
 }
 
-pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> BodyMotion {
-    if body == GROUND {
-        BodyMotion::at_rest()
-    } else {
-        motions[body.0]
-    }
+/// Motion of a body, of all motions with the ground's at the end.
+pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> &BodyMotion {
+    &motions[body.0.min(motions.len() - 1)]
 }
 
 pub(crate) fn view<'a>(

@@ -60,11 +60,7 @@ fn body(name: &str, modes: usize, random: &mut Random) -> Body {
 }
 
 fn marker(body: BodyId, random: &mut Random) -> Marker {
-    Marker {
-        body,
-        position_m: random.vector(0.3),
-        orientation: random.turn(0.4),
-    }
+    Marker::at(body, random.vector(0.3).into()).oriented(random.turn(0.4))
 }
 
 fn pair(random: &mut Random, a: BodyId, b: BodyId) -> MarkerPair {

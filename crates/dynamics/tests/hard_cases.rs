@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 
 use gearmesh_dynamics::elements::{LinearBearing, SpringDamper, TorsionSpring};
 use gearmesh_dynamics::{
-    Body, BodyId, DynamicsError, Joint, JointKind, Marker, MarkerPair, Motion, OutputGrid, Params,
-    Simulation, System, TimeFunction,
+    Body, BodyId, DynamicsError, ElementFailure, ForceElement, Joint, JointKind, Loads, Marker,
+    MarkerPair, Motion, OutputGrid, Params, Simulation, System, TimeFunction, View,
 };
 use nalgebra::Vector3;
 
@@ -281,6 +281,54 @@ fn a_step_of_a_whole_turn_is_refused_with_advice() {
     );
     let text = error.to_string();
     assert!(text.contains("step of 1.000e0 s") && text.contains("adaptive"));
+}
+
+/// A force that is no number from some time on.
+struct Broken {
+    body: [BodyId; 1],
+    from_s: f64,
+}
+
+impl ForceElement for Broken {
+    fn name(&self) -> &str {
+        "broken"
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.body
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let force = if view.time_s < self.from_s {
+            1.0
+        } else {
+            f64::NAN
+        };
+        loads.add_force(0, &[force]);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_force_that_is_no_number_ends_the_run() {
+    for joint in [false, true] {
+        let mut builder = System::builder();
+        let id = builder.body(Body::rigid("mass", 2.0, [1.0; 3])).unwrap();
+        builder.element(Broken {
+            body: [id],
+            from_s: 0.05,
+        });
+        if joint {
+            let (ground, mass) = (Marker::ground([0.0; 3]), Marker::at(id, [0.0; 3]));
+            builder.joint(Joint::new("rail", JointKind::Spherical, ground, mass).unwrap());
+        }
+        let system = builder.build().unwrap();
+        let mut simulation = Simulation::new(system, Params::fixed(1e-2)).unwrap();
+        let found = simulation.run(1.0, |_| ControlFlow::Continue(()));
+        assert!(found.is_err(), "with joint: {joint}");
+        assert!(simulation.state().time_s < 0.06);
+        assert!(simulation.state().velocity.iter().all(|v| v.is_finite()));
+    }
 }
 
 #[test]

@@ -71,6 +71,19 @@ impl Microgeometry {
         profile + relief + lead
     }
 
+    /// Bound of the material added anywhere on the flank \[m\], zero or positive: what negative amounts and the flank angle add, each
+    /// where it adds most.
+    pub fn most_added_m(&self) -> f64 {
+        let added = |amount_m: f64| (-amount_m).max(0.0);
+        let profile = self.profile_crowning.map_or(0.0, |c| {
+            let at_base = c.centre_roll_rad / (self.tip_roll_rad - c.centre_roll_rad);
+            added(c.amount_m) * at_base.powi(2).max(1.0)
+        });
+        let relief = self.tip_relief.map_or(0.0, |r| added(r.amount_m));
+        let lead = added(self.lead_crowning_m) + 0.5 * self.flank_angle_m.abs();
+        profile + relief + lead
+    }
+
     /// ∂e/∂ξ \[m/rad\], the slope of [`Microgeometry::removed_m`] along the profile.
     pub fn removed_slope_m_per_rad(&self, roll_rad: f64) -> f64 {
         let profile = self.profile_crowning.map_or(0.0, |c| {
@@ -127,6 +140,8 @@ mod tests {
             "lead crowning plus half the slope"
         );
         assert!((relief.removed_m(0.1, -0.01) - 1e-6).abs() < 1e-18);
+        assert_eq!(flank.most_added_m(), 0.0);
+        assert!((relief.most_added_m() - 3e-6).abs() < 1e-18);
         for (gear, roll) in [(&flank, 0.33), (&relief, 0.3), (&relief, 0.47)] {
             let change = gear.removed_m(roll + 1e-6, 0.002) - gear.removed_m(roll - 1e-6, 0.002);
             let slope = gear.removed_slope_m_per_rad(roll);

@@ -31,6 +31,14 @@ pub fn wait_for_writes() -> MutexGuard<'static, ()> {
     WRITING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Folder of a file; the current one for a bare name.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
 /// Lets `fill` write a temporary file in the folder of `path`, forces it to the disk and gives it its name.
 ///
 /// `fill` gets the temporary file's path and an open handle to it. When it fails, the temporary file is removed and
@@ -39,6 +47,19 @@ pub fn wait_for_writes() -> MutexGuard<'static, ()> {
 /// # Errors
 /// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::Io`].
 pub(crate) fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&Path, &mut File) -> Result<(), FileError>,
+) -> Result<(), FileError> {
+    write_atomically_from(folder_of(path), path, fill)
+}
+
+/// [`write_atomically`] with the temporary file in another folder of the same file system: one killed while writing
+/// leaves it there.
+///
+/// # Errors
+/// Those of [`write_atomically`].
+pub(crate) fn write_atomically_from(
+    staging: &Path,
     path: &Path,
     fill: impl FnOnce(&Path, &mut File) -> Result<(), FileError>,
 ) -> Result<(), FileError> {
@@ -56,10 +77,6 @@ pub(crate) fn write_atomically(
             path: path.to_owned(),
         });
     }
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".gearmesh-").suffix(".tmp");
     #[cfg(unix)]
@@ -69,8 +86,8 @@ pub(crate) fn write_atomically(
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let mut temporary = builder
-        .tempfile_in(folder)
-        .map_err(io("create a file beside"))?;
+        .tempfile_in(staging)
+        .map_err(io("create a temporary file for"))?;
     let temporary_path = temporary.path().to_owned();
     fill(&temporary_path, temporary.as_file_mut())?;
     temporary
@@ -82,7 +99,7 @@ pub(crate) fn write_atomically(
         .map_err(|failed| failed.error)
         .map_err(io("rename the new file to"))?;
     // The new name is on the disk only when its folder is. Where folders cannot be opened, the rename still holds.
-    if let Ok(folder) = File::open(folder) {
+    if let Ok(folder) = File::open(folder_of(path)) {
         folder
             .sync_all()
             .map_err(io("force to the disk the folder of"))?;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Dataset, File};
 
-use crate::atomic_file::write_atomically;
+use crate::atomic_file::write_atomically_from;
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::data_tree_file::{hdf5_error, missing};
 use crate::data_tree_read::{Reader, open_tree};
@@ -37,6 +37,9 @@ pub struct Column {
 
 /// Writes a tree and all rows of a log as a sealed HDF5 file, atomically. `axis` says what the rows count.
 ///
+/// The file is written in the folder of the log and then moved to `path`, which must be on the same file system: a
+/// process killed meanwhile leaves its half file where the log is, and nothing beside `path`.
+///
 /// # Errors
 /// As [`DataTree::write`], and those of reading the log.
 ///
@@ -60,7 +63,8 @@ pub fn write_columns(
         named.put(format!("{GROUP}/{name}"), place);
     }
     named.check_names(path)?;
-    write_atomically(path, |temporary, handle| {
+    let staging = log.folder().to_owned();
+    write_atomically_from(&staging, path, |temporary, handle| {
         tree.fill(path, temporary, format, |file| {
             let mut datasets = Vec::with_capacity(columns.len());
             for column in columns {

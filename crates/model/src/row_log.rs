@@ -8,6 +8,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::folder_of;
 use crate::file_error::FileError;
 
 const NUMBER_BYTES: usize = size_of::<f64>();
@@ -153,6 +154,11 @@ impl RowLog {
             .seek(SeekFrom::Start(place))
             .map_err(Self::io(&self.path, "read"))?;
         Ok(())
+    }
+
+    /// Folder that the log is in.
+    pub(crate) fn folder(&self) -> &Path {
+        folder_of(&self.path)
     }
 
     /// Owns the path only when something failed.

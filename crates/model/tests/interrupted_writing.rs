@@ -7,11 +7,14 @@
 #![allow(clippy::unwrap_used)]
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use gearmesh_model::synthetic::small_reduced_gear;
-use gearmesh_model::{FileError, ReducedGear, read_reduced_gear, write_reduced_gear};
+use gearmesh_model::{
+    Column, ColumnFile, DataTree, FileError, FileFormat, ReducedGear, RowLog, read_reduced_gear,
+    write_columns, write_reduced_gear,
+};
 
 const CHILD_PATH: &str = "GEARMESH_TEST_CHILD_PATH";
 
@@ -82,18 +85,65 @@ fn killed_run_leaves_a_whole_file() {
     let old = small_reduced_gear();
     write_reduced_gear(&path, &old).unwrap();
     for milliseconds in [20, 35, 50, 65, 80, 95] {
-        let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "killed_run_leaves_a_whole_file", "--nocapture"])
-            .env(CHILD_PATH, &path)
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
+        let mut child = this_test("killed_run_leaves_a_whole_file", &path);
         std::thread::sleep(Duration::from_millis(milliseconds));
         child.kill().unwrap();
         child.wait().unwrap();
         let found = read_reduced_gear(&path).unwrap();
         assert!(found == old || found == large_gear());
     }
+}
+
+/// A result is written where its log is: whenever the process is killed, nothing but the result stands beside it.
+#[test]
+fn killed_run_leaves_nothing_beside_its_result() {
+    const FORMAT: FileFormat = FileFormat {
+        name: "interrupted-result",
+        version: 1,
+    };
+    let columns = ["a_m", "b_m"].map(|name| Column {
+        name: name.to_owned(),
+        unit: "m".to_owned(),
+        description: "a column".to_owned(),
+    });
+    if let Some(path) = std::env::var_os(CHILD_PATH) {
+        let path = Path::new(&path);
+        let mut log = RowLog::create(&path.with_extension("part").join("rows.log"), 2).unwrap();
+        (0..20_000).for_each(|i| log.append(&[f64::from(i), 1.0]).unwrap());
+        let tree = DataTree::default();
+        loop {
+            write_columns(path, &FORMAT, &tree, ("time", &columns), &mut log).unwrap();
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    let part = path.with_extension("part");
+    std::fs::create_dir(&part).unwrap();
+    let mut half_written = 0;
+    for milliseconds in [60, 75, 90, 105, 120, 135] {
+        let mut child = this_test("killed_run_leaves_nothing_beside_its_result", &path);
+        while !path.exists() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+        half_written = std::fs::read_dir(&part).unwrap().count() - 1;
+        let (file, _) = ColumnFile::open(&path, &FORMAT).unwrap();
+        assert_eq!(file.rows(), 20_000);
+    }
+    assert!(half_written > 0, "no kill fell into a write");
+}
+
+/// Starts one test of this executable as the process that is to be killed.
+fn this_test(name: &str, path: &Path) -> Child {
+    Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", name, "--nocapture"])
+        .env(CHILD_PATH, path)
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap()
 }
 
 #[test]

@@ -18,7 +18,7 @@ use serde_json::Value;
 use crate::console::{readable, say};
 use crate::error::XtaskError;
 use crate::prepare;
-use crate::steps::{cargo, run_checked};
+use crate::steps::build_program;
 use crate::workspace::Workspace;
 pub use accuracy::accuracy_cost;
 use case::{measure, stages};
@@ -117,10 +117,8 @@ impl Bench {
             }
             None => {
                 let venv = prepare::prepare(workspace)?;
-                run_checked(cargo(workspace, &venv).args(["build", "--package", "gearmesh-cli"]))?;
-                // xtask is built by the same profile into the same place.
                 (
-                    built.with_file_name("gearmesh"),
+                    build_program(workspace, &venv)?,
                     venv.python(),
                     "profile `dev` of Cargo.toml (opt-level 3, overflow checks in the project's own crates)",
                 )

@@ -19,9 +19,13 @@ use crate::workspace::Workspace;
 pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
     let built = build_dir()?.join("libgearmesh.so");
     if !built.exists() {
-        console::say("building the Python module; the first build takes about 10 minutes");
+        console::say(
+            "building the libraries and the Python module; the first build takes about 10 minutes",
+        );
     }
-    run_checked(cargo(workspace, venv).args(["build", "--package", "gearmesh-python"]))?;
+    // The whole workspace, not the module's package: cargo unites features over what is named, and libraries built with
+    // others would be compiled again by the next step.
+    run_checked(cargo(workspace, venv).args(["build", "--workspace", "--lib"]))?;
 
     let installed = site_packages(venv)?.join("gearmesh.abi3.so");
     let content =
@@ -38,8 +42,11 @@ pub fn ensure(workspace: &Workspace, venv: &Venv) -> Result<(), XtaskError> {
         }))
 }
 
-/// The directory in which cargo put this program and will put the module: same target directory, same profile.
-fn build_dir() -> Result<PathBuf, XtaskError> {
+/// The directory in which cargo put this program and will put the others: same target directory, same profile.
+///
+/// # Errors
+/// [`XtaskError::Io`] where the system does not tell.
+pub fn build_dir() -> Result<PathBuf, XtaskError> {
     let mut program =
         std::env::current_exe().map_err(XtaskError::io(|| "finding xtask's own file".into()))?;
     program.pop();

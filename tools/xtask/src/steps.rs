@@ -8,6 +8,7 @@ use std::time::Instant;
 use crate::console::{readable, say};
 use crate::error::XtaskError;
 use crate::machine;
+use crate::python_module;
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
@@ -20,7 +21,8 @@ pub enum Extent {
     Fast,
 }
 
-/// Everything that CI runs, in order, up to the first failure.
+/// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of packages
+/// would unite other features, and what several steps need would be compiled for each.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] names the command that failed.
@@ -31,17 +33,11 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         command
     };
     // Program and Python module are both called gearmesh, so their pages would be written to one place at once.
-    let mut library_pages = cargo(&[
-        "doc",
-        "--workspace",
-        "--exclude",
-        "gearmesh-cli",
-        "--no-deps",
-        "--quiet",
-    ]);
-    library_pages.env("RUSTDOCFLAGS", "-D warnings");
-    let mut program_pages = cargo(&["doc", "--package", "gearmesh-cli", "--no-deps", "--quiet"]);
-    program_pages.env("RUSTDOCFLAGS", "-D warnings");
+    let pages = |targets: &str| {
+        let mut command = cargo(&["doc", "--workspace", targets, "--no-deps", "--quiet"]);
+        command.env("RUSTDOCFLAGS", "-D warnings");
+        command
+    };
     let mut rust_tests = cargo(&["test", "--workspace", "--tests", "--no-fail-fast"]);
     if extent == Extent::Full {
         rust_tests.args(["--", "--include-ignored"]);
@@ -70,18 +66,12 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
                 "warnings",
             ]),
         ),
-        ("documentation of the libraries", library_pages),
-        ("documentation of the program", program_pages),
+        ("documentation of the libraries", pages("--lib")),
+        ("documentation of the programs", pages("--bins")),
         ("Rust tests", rust_tests),
         (
             "documentation tests",
-            cargo(&[
-                "test",
-                "--workspace",
-                "--exclude",
-                "gearmesh-python",
-                "--doc",
-            ]),
+            cargo(&["test", "--workspace", "--doc"]),
         ),
         ("Python tests", python_tests),
     ];
@@ -111,9 +101,9 @@ pub fn demo(
     venv: &Venv,
     arguments: &[String],
 ) -> Result<ExitCode, XtaskError> {
-    run_checked(cargo(workspace, venv).args(["build", "--package", "gearmesh-cli"]))?;
-    let mut command = cargo(workspace, venv);
-    command.args(["run", "--quiet", "--package", "gearmesh-cli", "--", "demo"]);
+    let mut command = Command::new(build_program(workspace, venv)?);
+    set_environment(&mut command, venv);
+    command.current_dir(workspace.root()).arg("demo");
     command.args(demo_arguments(arguments));
     let status = command
         .status()
@@ -122,6 +112,15 @@ pub fn demo(
         .code()
         .and_then(|code| u8::try_from(code).ok())
         .map_or(ExitCode::FAILURE, ExitCode::from))
+}
+
+/// Builds the program `gearmesh` and returns its path.
+///
+/// # Errors
+/// [`XtaskError::Failed`] where it does not build.
+pub fn build_program(workspace: &Workspace, venv: &Venv) -> Result<PathBuf, XtaskError> {
+    run_checked(cargo(workspace, venv).args(["build", "--workspace", "--bin", "gearmesh"]))?;
+    Ok(python_module::build_dir()?.join("gearmesh"))
 }
 
 /// The user's arguments after a default output directory, which an output of his own replaces.

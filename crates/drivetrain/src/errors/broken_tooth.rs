@@ -48,4 +48,8 @@ impl FlankError for BrokenTooth {
             Removed::default()
         }
     }
+
+    fn most_added_m(&self) -> f64 {
+        0.0
+    }
 }

@@ -1,7 +1,7 @@
 //! Measured profile and lead deviations: two tables, added.
 
 use crate::error::DrivetrainError;
-use crate::flank_error::{FlankError, FlankPoint, Removed};
+use crate::flank_error::{FlankError, FlankPoint, Removed, most_added_m};
 
 /// Depth over a coordinate, linear between rows, held beyond the ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +90,10 @@ impl FlankError for DeviationTable {
             depth_m: profile + self.lead.value(at.z_m).0,
             slope_m_per_rad,
         }
+    }
+
+    fn most_added_m(&self) -> f64 {
+        most_added_m(&self.profile.depth_m) + most_added_m(&self.lead.depth_m)
     }
 }
 

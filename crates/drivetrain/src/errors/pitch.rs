@@ -3,7 +3,7 @@
 use gearmesh_geometry::FlankSide;
 
 use crate::error::DrivetrainError;
-use crate::flank_error::{FlankError, FlankPoint, Removed};
+use crate::flank_error::{FlankError, FlankPoint, Removed, most_added_m};
 
 /// Cumulative pitch deviations of the flanks of one side, given as material removed: a flank that stands back by f has +f.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +54,10 @@ impl FlankError for PitchErrors {
             depth_m,
             slope_m_per_rad: 0.0,
         }
+    }
+
+    fn most_added_m(&self) -> f64 {
+        most_added_m(&self.removed_m)
     }
 }
 

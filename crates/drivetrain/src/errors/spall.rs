@@ -79,4 +79,8 @@ impl FlankError for Spall {
             slope_m_per_rad: p.depth_m * (rise_slope * fall + rise * fall_slope),
         }
     }
+
+    fn most_added_m(&self) -> f64 {
+        0.0
+    }
 }

@@ -68,4 +68,8 @@ impl FlankError for TipChip {
             Removed::default()
         }
     }
+
+    fn most_added_m(&self) -> f64 {
+        0.0
+    }
 }

@@ -143,11 +143,36 @@ pub fn cracked_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
     ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
 }
 
+/// Teeth of gears that vibrate.
+pub fn vibrating_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+    let models = [&pair.gear_1, &pair.gear_2].map(|gear| modal_gear::modal_gear("", gear));
+    let local = LocalContact::WeberBanaschek;
+    ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
+}
+
+/// Gives a mesh of gears that vibrate their modes; leaves others as they are.
+pub fn with_own_modes(name: &str, pair: &GearPair, mesh: GearMesh) -> GearMesh {
+    if name != "vibrating hybrid" {
+        return mesh;
+    }
+    let models = [&pair.gear_1, &pair.gear_2].map(|gear| modal_gear::modal_gear("", gear));
+    let count = modal_gear::MODES.len();
+    let mesh = mesh.with_modes(1, &models[0], count).unwrap();
+    mesh.with_modes(2, &models[1], count).unwrap()
+}
+
 /// What a model is called in messages.
 pub const MODELS: [&str; 4] = ["impact", "iso6336", "analytic", "hybrid"];
 
-/// And with a crack.
-pub const CONFORMING: [&str; 5] = ["impact", "iso6336", "analytic", "hybrid", "cracked hybrid"];
+/// And with a crack, and with modes.
+pub const CONFORMING: [&str; 6] = [
+    "impact",
+    "iso6336",
+    "analytic",
+    "hybrid",
+    "cracked hybrid",
+    "vibrating hybrid",
+];
 
 pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
     match name {
@@ -155,6 +180,7 @@ pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel
         "iso6336" => Box::new(mesh_spring(pair)),
         "analytic" => Box::new(beam_teeth(pair)),
         "cracked hybrid" => Box::new(cracked_teeth(pair, side)),
+        "vibrating hybrid" => Box::new(vibrating_teeth(pair, side)),
         _ => Box::new(reduced_teeth(pair, side)),
     }
 }
@@ -162,10 +188,11 @@ pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel
 /// A mesh of the test pair with both sides of the teeth.
 pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh {
     let [right, left] = [FlankSide::Right, FlankSide::Left].map(|side| model(name, pair, side));
-    GearMesh::new(kinematics, FlankSide::Right, right)
+    let mesh = GearMesh::new(kinematics, FlankSide::Right, right)
         .unwrap()
         .with_side(FlankSide::Left, left)
-        .unwrap()
+        .unwrap();
+    with_own_modes(name, pair, mesh)
 }
 
 /// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel

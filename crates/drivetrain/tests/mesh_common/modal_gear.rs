@@ -20,12 +20,17 @@ pub const GAUGES: usize = 8;
 
 /// φ of a mode at a load: strongest at the tip, pairs of equal frequency turned against each other, so that the gear looks the same from
 /// each tooth.
-fn shape(mode: usize, tooth: usize, teeth: usize, side: f64, height: f64) -> f64 {
+pub fn shape(mode: usize, tooth: usize, teeth: usize, side: f64, height: f64) -> f64 {
     let (_, diameters, sine) = MODES[mode];
     let angle = TAU * (diameters * tooth) as f64 / teeth as f64;
     let around = if sine { angle.sin() } else { angle.cos() };
     let amplitude = [0.35, 0.25, 0.25, 0.3, 0.3, 0.4][mode];
     side * amplitude * around * (0.8 + 0.4 * height)
+}
+
+/// φ_t of a mode towards the tip: the same on both sides of a tooth, strongest at the root.
+pub fn tangential_shape(mode: usize, tooth: usize, teeth: usize, height: f64) -> f64 {
+    0.6 * shape(mode, tooth + 1, teeth, 1.0, 0.5 - height)
 }
 
 /// The gear with modes, mass and gauges.
@@ -39,13 +44,29 @@ pub fn modal_gear(name: &str, tooth: &ToothGeometry) -> ReducedGear {
         let side = if flank == 0 { 1.0 } else { -1.0 };
         shape(mode, tooth, teeth, side, height)
     };
-    for (number, c) in gear.c_hub.iter_mut().enumerate() {
-        // `[load flank][response tooth][response flank][load][response]`
-        let (m, l) = (number % loads, number / loads % loads);
-        let block = number / (loads * loads);
+    // `[mode][tooth][flank][load]`: cosines are too dear for every entry of the compliance.
+    let shapes: Vec<f64> = (0..MODES.len() * teeth * 2 * loads)
+        .map(|i| {
+            let (load, flank) = (i % loads, i / loads % 2);
+            let (tooth, mode) = (i / loads / 2 % teeth, i / loads / 2 / teeth);
+            at(mode, tooth, flank, load)
+        })
+        .collect();
+    let of_flank = |mode: usize, tooth: usize, flank: usize| {
+        &shapes[((mode * teeth + tooth) * 2 + flank) * loads..][..loads]
+    };
+    // `[load flank][response tooth][response flank][load][response]`
+    let blocks = gear.c_hub.chunks_exact_mut(loads * loads);
+    for (block, entries) in blocks.enumerate() {
         let (response_flank, tooth, load_flank) = (block % 2, block / 2 % teeth, block / 2 / teeth);
         for (mode, omega_squared) in omega_squared.iter().enumerate() {
-            *c += at(mode, 0, load_flank, l) * at(mode, tooth, response_flank, m) / omega_squared;
+            let loaded = of_flank(mode, 0, load_flank);
+            let moved = of_flank(mode, tooth, response_flank);
+            for (row, l) in entries.chunks_exact_mut(loads).zip(loaded) {
+                for (c, m) in row.iter_mut().zip(moved) {
+                    *c += l * m / omega_squared;
+                }
+            }
         }
     }
     let mut flank = Vec::new();
@@ -53,8 +74,9 @@ pub fn modal_gear(name: &str, tooth: &ToothGeometry) -> ReducedGear {
         for tooth in 0..teeth {
             for side in 0..2 {
                 for load in 0..loads {
-                    let normal = at(mode, tooth, side, load);
-                    flank.extend([normal, 0.1 * normal, 0.02]);
+                    let height = (load / axial) as f64 / (stations - 1) as f64;
+                    let tangential = tangential_shape(mode, tooth, teeth, height);
+                    flank.extend([at(mode, tooth, side, load), tangential, 0.02]);
                 }
             }
         }

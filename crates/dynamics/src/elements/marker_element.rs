@@ -75,7 +75,7 @@ impl<L: Law> MarkerElement<L> {
 
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
         self.pair
-            .motion(&view.body(self.bodies[0]), &view.body(self.bodies[1]))
+            .motion(view.body(self.bodies[0]), view.body(self.bodies[1]))
     }
 
     /// Local place of a row or column of the pair: bodies with modes have more than six.
@@ -99,9 +99,7 @@ impl<L: Law> ForceElement for MarkerElement<L> {
         loads.power = power;
         let force = motion.generalised_force(&load);
         let places = self.places(view);
-        for (half, place) in places.iter().enumerate() {
-            loads.add_force(*place, &force.as_slice()[6 * half..6 * half + 6]);
-        }
+        loads.add_pair_force(places, &force);
         if loads.wants_tangents() {
             let jacobian = motion.jacobian();
             let law = self.law.tangent(&motion);
@@ -109,16 +107,7 @@ impl<L: Law> ForceElement for MarkerElement<L> {
                 law.by_position * jacobian + law.by_velocity * motion.rate_jacobian(&jacobian);
             let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
             let by_velocity = jacobian.tr_mul(&(law.by_velocity * jacobian));
-            for column in 0..12 {
-                let to = places[column / 6] + column % 6;
-                for (half, place) in places.iter().enumerate() {
-                    for i in 0..6 {
-                        let from = (6 * half + i, column);
-                        loads.add_by_position(place + i, to, by_position[from]);
-                        loads.add_by_velocity(place + i, to, by_velocity[from]);
-                    }
-                }
-            }
+            loads.add_pair_tangents(places, &by_position, &by_velocity);
         }
         Ok(())
     }

@@ -8,7 +8,7 @@
 
 use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind, SpringDamper};
 use gearmesh_dynamics::{
-    Body, BodyId, GROUND, Joint, JointKind, Marker, MarkerPair, Simulation, System, TimeFunction,
+    Body, BodyId, Joint, JointKind, Marker, MarkerPair, Simulation, System, TimeFunction,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -119,10 +119,9 @@ pub fn mechanism(orientation: UnitQuaternion<f64>, origin: Vector3<f64>) -> Syst
             orientation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[index]);
         ids.push(builder.body(body).unwrap());
     }
-    let world = |[x, y]: [f64; 2]| Marker {
-        body: GROUND,
-        position_m: origin + orientation * Vector3::new(x, y, 0.0),
-        orientation,
+    let world = |[x, y]: [f64; 2]| {
+        let position = origin + orientation * Vector3::new(x, y, 0.0);
+        Marker::ground(position.into()).oriented(orientation)
     };
     let on = |body: BodyId, [x, y]: [f64; 2]| Marker::at(body, [x, y, 0.0]);
     let k = |number: usize| ids[number - 1];

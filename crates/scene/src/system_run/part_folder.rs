@@ -3,12 +3,14 @@
 //! ```text
 //! rows.log        rows of 64-bit floats, appended (RowLog)
 //! checkpoint.h5   state of the run and the number of rows that belong to it, replaced atomically
+//! *.tmp           the result or a checkpoint, while it is written
 //! ```
 //!
 //! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole checkpoint finds
 //! its rows; later ones are cut off and computed again, to the same bits. Decision: docs/decisions/0006-unfinished-runs.md.
 
 use std::ffi::OsString;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, RowLog};
@@ -65,9 +67,7 @@ impl PartFolder {
         };
         if restart || !checkpoint.exists() {
             let part = make(RowLog::create(&rows, columns)?);
-            if checkpoint.exists() {
-                std::fs::remove_file(&checkpoint).map_err(failed(&checkpoint, "remove"))?;
-            }
+            remove_file(&checkpoint)?;
             return Ok((part, None));
         }
         let damaged = |source| SystemRunError::Checkpoint { source };
@@ -112,7 +112,17 @@ impl PartFolder {
     pub fn finish(self) -> Result<(), SystemRunError> {
         let folder = self.folder.clone();
         drop(self);
+        // First, so that a process killed meanwhile leaves no checkpoint without its rows.
+        remove_file(&folder.join("checkpoint.h5"))?;
         std::fs::remove_dir_all(&folder).map_err(failed(&folder, "remove the folder"))
+    }
+}
+
+/// Removes a file if it is there.
+fn remove_file(path: &Path) -> Result<(), SystemRunError> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(failed(path, "remove")(error)),
+        _ => Ok(()),
     }
 }
 

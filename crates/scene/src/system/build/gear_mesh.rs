@@ -129,10 +129,7 @@ impl PreparedMesh {
         let ends = self.bodies.map(Some);
         match self.mesh {
             Some(mesh) => {
-                let markers = [0, 1].map(|i| Marker {
-                    body: bodies.id(ends[i]),
-                    ..self.seats[i]
-                });
+                let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
                 let mut element = MeshElement::new(&self.name, markers, mesh);
                 for gear in [1, 2] {
                     let on_gear = |gauge: &&BuiltGauge| {

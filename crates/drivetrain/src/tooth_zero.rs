@@ -1,0 +1,57 @@
+//! The flanks of tooth 0 in a slice plane: what all pairs of teeth share there, and from which each follows by its pitches.
+
+use std::f64::consts::PI;
+
+use gearmesh_geometry::{FlankSide, ToothGeometry};
+use nalgebra::Vector3;
+
+use crate::pose::{Pose, Vector6};
+use crate::slice_plane::{SlicePlane, stacked};
+
+/// Ideal spur flanks of tooth 0 of both gears in a slice plane; helical ones before their section turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ToothZero {
+    /// Roll angles on the line of action \[rad\].
+    pub roll_rad: [f64; 2],
+    /// ∂ξ/∂(increments), of every tooth.
+    pub roll_gradient: [Vector6; 2],
+    /// ∂(transverse gap)/∂(increments), of every pair.
+    pub gradient: Vector6,
+}
+
+impl ToothZero {
+    /// The flanks of one side in a plane.
+    pub(crate) fn new(
+        gears: &[ToothGeometry; 2],
+        (pose, spin_rad): (&Pose, f64),
+        side: FlankSide,
+        plane: &SlicePlane,
+    ) -> Self {
+        let sigma = side.mirror();
+        let (axis, turn) = (pose.axis_2(), pose.spin_gradient());
+        let along = sigma / plane.length_m * plane.across;
+        let of_1 = stacked(along, plane.z_m * axis.cross(&along));
+        let of_2 = of_1 - stacked(Vector3::zeros(), sigma * turn);
+        let r2 = gears[1].base_radius_m;
+        let moment = plane.z_m * axis.cross(&plane.normal) + sigma * r2 * turn;
+        Self {
+            roll_rad: Self::rolls_rad(gears, spin_rad, side, plane),
+            roll_gradient: [of_1, of_2],
+            gradient: stacked(plane.normal, moment),
+        }
+    }
+
+    /// The roll angles alone.
+    pub(crate) fn rolls_rad(
+        gears: &[ToothGeometry; 2],
+        spin_rad: f64,
+        side: FlankSide,
+        plane: &SlicePlane,
+    ) -> [f64; 2] {
+        let seen_from_mate = [-plane.polar_rad, spin_rad - plane.polar_rad - PI];
+        [0, 1].map(|i: usize| {
+            plane.pressure_angle_rad + gears[i].base_half_angle_rad
+                - side.mirror() * seen_from_mate[i]
+        })
+    }
+}
