@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Error of the constructors of [`LocalLaw`].
+/// Error of the constructors of [`LocalLaw`](super::LocalLaw).
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LocalLawError {
     /// A length, modulus or force is not a positive finite number.
