@@ -7,6 +7,7 @@ pub mod demo;
 pub mod mesh;
 pub mod modes;
 pub mod plan;
+pub mod ratings;
 pub mod recover;
 pub mod reduce;
 pub mod report;

@@ -35,6 +35,8 @@ gear_2 = [\"tension\"]
 [mesh]
 model = \"hybrid\"
 {further}
+[[rating]]
+kind = \"nominal\"
 "
     )
 }
@@ -75,6 +77,19 @@ fn both_hands_run_through_the_whole_chain() {
     let axial = -TORQUE_NM / base_radius_m * (beta.sin() * alpha_n.cos()).asin().tan();
     let found = number(&row["axial_force_1_mean_N"]);
     assert!((found / axial - 1.0).abs() < 1e-9, "{found} {axial}");
+
+    // Nominal stresses: the force spread evenly over the shortest contact lines, half at the pitch point and half where the flanks are most
+    // curved in single contact (overlap ratio 0.477). Elastic teeth without modifications load the ends of the path, too: 1.38 times that.
+    let rated = |name: &str| number(&figures["ratings"][0]["figures"][name]);
+    let pressures = SceneResult::read(&result).unwrap().pressure_pa;
+    let over = pressures.iter().copied().fold(0.0, f64::max) / rated("hertz_pressure_Pa");
+    assert!((1.25..1.5).contains(&over), "{over}");
+    let normal = TORQUE_NM / base_radius_m / (beta.sin() * alpha_n.cos()).asin().cos();
+    let force = rated("largest_force_N");
+    assert!((force / normal - 1.0).abs() < 1e-9, "{force} {normal}");
+    let lewis = force * alpha_n.cos() * beta.cos() / (12e-3 * 3e-3);
+    let found = rated("lewis_stress_gear1_Pa") * rated("lewis_factor_gear1");
+    assert!((found / lewis - 1.0).abs() < 1e-9, "{found} {lewis}");
 
     // Turned over, both gears change hands: the same curves and strains, the axial force the other way.
     let (other_desk, other, _, _) = ran("left", "right");

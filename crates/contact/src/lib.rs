@@ -14,6 +14,7 @@
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces of slices at given separations | [`SliceContact`] | `slice_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
+//! | why there are none | [`ContactError`] | `contact_error.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
 //! | mesh stiffness over a mesh cycle | [`mesh_stiffness`] | `mesh_stiffness.rs` |
 //! | how wide and under which pressure do two cylinders touch | [`hertz`] | `hertz.rs` |
@@ -23,6 +24,7 @@
 //! The theory is in docs/theory/contact.md.
 
 mod calibrated_field;
+mod contact_error;
 pub mod contact_lines;
 pub mod contact_slices;
 pub mod crack_rows;
@@ -40,11 +42,12 @@ pub mod static_contact;
 pub mod station_blocks;
 pub mod tip_contact;
 
+pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_slices::ContactSlice;
 pub use local_contact::LocalContact;
 pub use roll_shares::{RollHats, RollPlace};
 pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
-pub use static_contact::{ContactError, ContactOptions, ContactState, StaticContact};
+pub use static_contact::{ContactOptions, ContactState, StaticContact};
 pub use tip_contact::{PathExtension, TipContact, TipGear};

@@ -53,12 +53,17 @@
 //! would make the answer exact. A solve succeeds at `r ≤` [`Params::tolerance`]; `F ≥ 0` and
 //! `F_i = 0` off the active set hold exactly.
 
+mod active_set;
 mod bracket;
 mod descent;
 mod edge_contact;
+mod effort;
 mod error;
 mod ldl;
+mod line_contact;
 mod local_law;
+mod local_law_error;
+mod params;
 mod problem;
 mod solver;
 mod state;
@@ -66,10 +71,10 @@ mod workspace;
 
 pub use edge_contact::{EdgeContact, WEDGE_WIDTH};
 pub use error::NlcpError;
-pub use local_law::{
-    ContactBody, FLOOR_FRACTION, HALF_WIDTH_LIMIT, LEAST_SLOPE, LineContact, LocalLaw,
-    LocalLawError,
-};
+pub use line_contact::{ContactBody, LineContact};
+pub use local_law::{FLOOR_FRACTION, HALF_WIDTH_LIMIT, LEAST_SLOPE, LocalLaw};
+pub use local_law_error::LocalLawError;
+pub use params::Params;
 pub use problem::Problem;
-pub use solver::{Info, Params, solve_load, solve_position};
+pub use solver::{Info, solve_load, solve_position};
 pub use workspace::Workspace;

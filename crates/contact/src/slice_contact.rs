@@ -3,6 +3,7 @@
 //! This is what the static contact and the gear mesh of a multibody system share: it is told which lines and slices face each other and
 //! how far apart they stand, and does not ask where that comes from.
 
+use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines};
 use crate::contact_slices::ContactSlice;
 use crate::local_contact::{LawRate, LocalContact};
@@ -13,7 +14,6 @@ use crate::nlcp::{
 use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::RollPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
-use crate::static_contact::ContactError;
 use crate::station_blocks::LineBlock;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};

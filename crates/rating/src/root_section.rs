@@ -13,8 +13,8 @@
 //!
 //! Lewis's factor is Y = s²/(6 h m), so that σ = F_t/(b m Y) for a tangential force F_t across the tooth.
 
-use gearmesh_geometry::{GearPair, ProfileCurve, ToothGeometry};
-use std::f64::consts::FRAC_PI_6;
+use gearmesh_geometry::{GearPair, GeometryError, ProfileCurve, ToothGeometry};
+use std::f64::consts::{FRAC_PI_6, TAU};
 
 /// Sections tried before the search is refined.
 const SECTIONS: usize = 600;
@@ -33,8 +33,8 @@ pub enum RootConstruction {
 pub enum RootSectionError {
     /// The plane construction does not hold for helical teeth.
     #[error(
-        "helix angle {helix_angle_deg:.4} deg: the root section is that of spur teeth; rate the virtual spur gear of the normal \
-         section instead"
+        "helix angle {helix_angle_deg:.4} deg: the root section is that of spur teeth; take the virtual spur gear of the normal \
+         section (VirtualGear)"
     )]
     Helical {
         /// Helix angle found.
@@ -65,11 +65,19 @@ pub enum RootSectionError {
     },
     /// Two pairs carry everywhere.
     #[error(
-        "contact ratio {contact_ratio:.4}: with 2 or more no point of the path has a single pair in contact"
+        "contact ratio {contact_ratio:.4}: with 2 or more no point of the path has a single pair in contact; let the load act at the tip"
     )]
     NoSingleContact {
-        /// Transverse contact ratio.
+        /// Contact ratio, of helical teeth in the normal section.
         contact_ratio: f64,
+    },
+    /// The normal section of a helical tooth is that of no spur gear.
+    #[error("no spur gear with {teeth} teeth has the tooth's normal section: {source}")]
+    Virtual {
+        /// Number of teeth of the spur gear.
+        teeth: usize,
+        /// Why it cannot be cut.
+        source: GeometryError,
     },
 }
 
@@ -96,11 +104,7 @@ impl RootSection {
         load_roll_rad: f64,
         construction: RootConstruction,
     ) -> Result<Self, RootSectionError> {
-        if tooth.helix_angle_rad != 0.0 {
-            return Err(RootSectionError::Helical {
-                helix_angle_deg: tooth.helix_angle_rad.to_degrees(),
-            });
-        }
+        refuse_helical(tooth)?;
         let (low_rad, high_rad) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
         // Rolls computed from a pair's path meet the ends to rounding only.
         let slack = 1e-9;
@@ -171,29 +175,49 @@ pub fn lewis_stress_pa(
     tangential_force_n / (face_width_m * module_m * lewis_factor)
 }
 
-/// Roll angles \[rad\] of the highest points of single contact on gear 1 and gear 2: one base pitch after the start of contact, and one
-/// before its end.
+/// Where the whole force acts on a tooth for its root stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadPoint {
+    /// The highest point of single contact.
+    HighestSingleContact,
+    /// The tip, or the end of the flank below a chamfer.
+    Tip,
+}
+
+/// Roll angle \[rad\] of the highest point of single contact of a spur tooth: ε_α − 1 base pitches below the end of its flank, that is one
+/// base pitch from the other end of the path.
 ///
 /// # Errors
 /// [`RootSectionError::NoSingleContact`] from a contact ratio of 2 on, [`RootSectionError::Helical`].
+pub fn highest_single_contact_roll_rad(
+    tooth: &ToothGeometry,
+    contact_ratio: f64,
+) -> Result<f64, RootSectionError> {
+    refuse_helical(tooth)?;
+    if contact_ratio >= 2.0 {
+        return Err(RootSectionError::NoSingleContact { contact_ratio });
+    }
+    // Below a contact ratio of one only by rounding: the whole flank is in single contact.
+    let pitch_rad = TAU / tooth.teeth as f64;
+    Ok(tooth.flank_end_roll_rad - (contact_ratio - 1.0).max(0.0) * pitch_rad)
+}
+
+/// Roll angles \[rad\] of the highest points of single contact on gear 1 and gear 2 of a spur pair.
+///
+/// # Errors
+/// As [`highest_single_contact_roll_rad`].
 pub fn highest_single_contact_rolls_rad(pair: &GearPair) -> Result<[f64; 2], RootSectionError> {
-    if pair.is_helical() {
-        return Err(RootSectionError::Helical {
-            helix_angle_deg: pair.gear_1.helix_angle_rad.to_degrees(),
-        });
+    let of = |tooth| highest_single_contact_roll_rad(tooth, pair.contact_ratio());
+    Ok([of(&pair.gear_1)?, of(&pair.gear_2)?])
+}
+
+fn refuse_helical(tooth: &ToothGeometry) -> Result<(), RootSectionError> {
+    if tooth.helix_angle_rad == 0.0 {
+        return Ok(());
     }
-    if pair.contact_ratio() >= 2.0 {
-        return Err(RootSectionError::NoSingleContact {
-            contact_ratio: pair.contact_ratio(),
-        });
-    }
-    let on_1 = pair.roll_start_1_rad + pair.pitch_1_rad();
-    let on_2 = pair.roll_2_rad(pair.roll_end_1_rad - pair.pitch_1_rad());
-    // A contact ratio of one: the whole flank is in single contact, to rounding.
-    Ok([
-        on_1.min(pair.roll_end_1_rad),
-        on_2.min(pair.gear_2.flank_end_roll_rad),
-    ])
+    Err(RootSectionError::Helical {
+        helix_angle_deg: tooth.helix_angle_rad.to_degrees(),
+    })
 }
 
 /// The profile point below the load at which h/s² is largest.

@@ -14,10 +14,12 @@ mod comparison_table;
 mod min_max;
 pub mod page;
 pub mod quantity;
+mod ratings;
 pub mod record;
 mod record_data;
 pub mod scene_comparison;
 pub mod scene_page;
+mod short_number;
 mod system_page;
 
 pub use comparison::{

@@ -6,6 +6,7 @@ use crate::page::{
     PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
 };
 use crate::quantity::Quantity;
+use crate::ratings;
 use crate::record::ReferenceRecord;
 use crate::scene_comparison::{SceneComparisonError, blank_orders, compare_scene, mesh_order};
 use crate::system_page;
@@ -78,6 +79,9 @@ pub fn scene_page(
             .section(contact(r));
         if !r.strain.is_empty() {
             page = page.section(root_strain(chapter));
+        }
+        if let Some(section) = ratings::section(&r.title, &r.ratings) {
+            page = page.section(section);
         }
         if let Some(record) = &chapter.record {
             let table = comparison_table(&compare_scene(r, record)?);

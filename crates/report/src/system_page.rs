@@ -6,20 +6,21 @@
 //! | time histories, spectra, energy | `transient.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
-//! | what was judged after the run | `ratings.rs` |
+//! | what was judged after the run | `../ratings.rs` |
 
 mod columns;
 mod eigen;
 mod equilibria;
-mod ratings;
 mod sweep;
 mod transient;
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::SystemResult;
 
-use self::columns::{mesh_frequencies, short};
+use self::columns::mesh_frequencies;
 use crate::page::{KeyFigures, Section, Text};
+use crate::ratings;
+use crate::short_number::short;
 
 /// All sections of a result.
 pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
@@ -38,7 +39,7 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
         "static" => sections.push(equilibria::equilibria(r)?),
         _ => sections.push(eigen::eigen(r)),
     }
-    sections.extend(ratings::ratings(r));
+    sections.extend(ratings::section(&r.head.title, &r.ratings));
     sections.push(provenance(r));
     Ok(sections)
 }

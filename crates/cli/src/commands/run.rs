@@ -1,7 +1,7 @@
 //! `gearmesh run`: a scene to a result file.
 
 use crate::arguments::RunArguments;
-use crate::commands::run_system;
+use crate::commands::{ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
@@ -26,6 +26,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     })?;
     result.write(&arguments.output).map_err(Failure::work)?;
     result.warnings.iter().for_each(console::warning);
+    ratings::warn(&result.ratings);
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -101,6 +102,7 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         1e6 * result.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
         result.seconds[1]
     ));
+    lines.extend(ratings::lines(&result.ratings));
     Ok(lines)
 }
 
@@ -132,6 +134,6 @@ fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
         })
         .collect::<Result<Vec<_>, Failure>>()?;
     Ok(
-        json!({"title": result.title, "rows": rows, "warnings": result.warnings, "seconds": result.seconds}),
+        json!({"title": result.title, "rows": rows, "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds}),
     )
 }

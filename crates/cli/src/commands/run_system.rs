@@ -1,13 +1,14 @@
 //! `gearmesh run` on a multibody scene: runs it, resumes it, prints its figures.
 
 use crate::arguments::RunArguments;
+use crate::commands::ratings;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, ColumnSummary, EigenResult, Outcome, RatingResult, RunJob, RunOptions, RunRecord,
-    SystemResult, is_prominent, run as run_job,
+    Advance, ColumnSummary, EigenResult, Outcome, RunJob, RunOptions, RunRecord, SystemResult,
+    is_prominent, run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -59,11 +60,7 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     }
     drop(stop);
     let result = SystemResult::open(&arguments.output).map_err(Failure::work)?;
-    for rated in &result.ratings {
-        if let Some(problem) = &rated.problem {
-            console::warning(format!("{} is not rated: {problem}", rated.name));
-        }
-    }
+    ratings::warn(&result.ratings);
     if arguments.json {
         console::json(&figures(&result)?);
     } else {
@@ -87,25 +84,8 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
         "static" => equilibria(result)?,
         _ => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
-    lines.extend(result.ratings.iter().flat_map(rating));
+    lines.extend(ratings::lines(&result.ratings));
     Ok(lines)
-}
-
-fn rating(rated: &RatingResult) -> Vec<String> {
-    let mut lines = vec![format!("rating of {}: {}", rated.name, rated.method)];
-    lines.extend(
-        rated
-            .problem
-            .iter()
-            .map(|problem| format!("  not rated: {problem}")),
-    );
-    for figure in &rated.figures {
-        lines.push(format!(
-            "  {:<28} {:>13.6e}  {}",
-            figure.name, figure.value, figure.description
-        ));
-    }
-    lines
 }
 
 fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
@@ -285,14 +265,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         run["relative_energy_error"] = json!(result.relative_energy_error());
         value["run"] = run;
     }
-    let ratings = result.ratings.iter().map(|rated| {
-        let figures = rated.figures.iter();
-        json!({
-            "name": rated.name, "method": rated.method, "problem": rated.problem,
-            "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
-        })
-    });
-    value["ratings"] = ratings.collect();
+    value["ratings"] = ratings::json(&result.ratings);
     match &result.kind[..] {
         "transient" => {
             let columns = result.summaries(|_| true).map_err(Failure::work)?;

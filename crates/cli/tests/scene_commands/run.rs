@@ -213,3 +213,39 @@ fn a_run_is_rated() {
         );
     }
 }
+
+/// A pair is rated at each torque: on paper, in JSON, in the plan and on the page; its gauge over one revolution.
+#[test]
+fn a_pair_is_rated() {
+    let desk = Desk::new();
+    desk.file(
+        "sn.toml",
+        "cycles = [1e3, 1e6]\nstress_amplitude_MPa = [900, 1]\nbelow = \"endurance-limit\"\n",
+    );
+    let scene = changed(&workshop().scene(""), "pitches = 3", "pitches = 18")
+        + "\n[[rating]]\nkind = \"nominal\"\n[[rating]]\nkind = \"fatigue\"\ngauge = \"tension\"\nsn_table = \"sn.toml\"\n";
+    let (file, output) = (desk.file("scene.toml", scene), desk.path("result.h5"));
+    let plan = succeeds(&["plan", argument(&file)]).stdout;
+    let part = "rating     gauge tension of gear 2, at each torque: cycles and damage";
+    assert!(plan.contains(part), "{plan}");
+    let run = ["run", argument(&file), "-o", argument(&output)];
+    let text = succeeds(&run).stdout;
+    for part in [
+        "rating of the pair at 20 N m: Lewis's root stress",
+        "rating of gauge tension of gear 2 at 60 N m: cycles and damage",
+        "  life_revolutions ",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in {text}");
+    }
+    let json = succeeds(&[&run[..], &["--json"]].concat()).json();
+    let figure = |rating: usize, name: &str| number(&json["ratings"][rating]["figures"][name]);
+    // Lewis's stress goes with the torque, Hertz's pressure with its root.
+    let ratio = |name| figure(2, name) / figure(0, name);
+    assert!((ratio("lewis_stress_gear1_Pa") - 3.0).abs() < 1e-9);
+    assert!((ratio("hertz_pressure_Pa") - 3f64.sqrt()).abs() < 1e-9);
+    assert!(figure(3, "damage") > figure(1, "damage") && figure(1, "damage") > 0.0);
+    let page = desk.path("report.html");
+    succeeds(&["report", argument(&output), "-o", argument(&page)]);
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("small pair: rating") && page.contains("the same in revolutions"));
+}

@@ -6,7 +6,8 @@
 //! forces may change a lot within the last digits of `y`; each point is therefore handed to the bordered active set
 //! method, which has forces and deflection as separate unknowns and needs only the right slices to start from.
 
-use super::solver::{Effort, active_set};
+use super::active_set::active_set;
+use super::effort::Effort;
 use super::state::Evaluation;
 use super::{NlcpError, Params, Problem, Workspace, descent};
 

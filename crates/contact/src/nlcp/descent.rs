@@ -14,7 +14,7 @@
 //! parallel to `w` the same descent, on a plane. With friction (`b` not parallel to `w`) φ is no exact merit any more;
 //! the steps stay the same and the number of corrections is bounded.
 
-use super::solver::Effort;
+use super::effort::Effort;
 use super::state::Evaluation;
 use super::{NlcpError, Problem, Workspace};
 

@@ -30,7 +30,7 @@
 //!
 //! increasing and concave, with a finite slope `β ln(1/e)` at zero load.
 
-use super::local_law::LineContact;
+use super::line_contact::LineContact;
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// κ = 2/(π√e) of `a_w = κ q/(E* δ)`, no unit.

@@ -1,42 +1,9 @@
-//! The two calls, and the primal-dual active set method behind them.
+//! The two calls, and which method solves them: the active set, then the descent, then the bracket.
 
-use super::descent;
-use super::ldl::Shifted;
+use super::active_set::active_set;
+use super::effort::Effort;
 use super::state::Evaluation;
-use super::{NlcpError, Problem, Workspace, bracket};
-
-/// Settings of a solve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Params {
-    /// Largest accepted relative residual (norm in the module documentation), no unit.
-    ///
-    /// Default 1e-10, sensible range 1e-13 to 1e-6. The iteration is quadratic at its end, so that most solves end
-    /// near 1e-15; below 1e-13 the rounding of long rows may stand in the way.
-    pub tolerance: f64,
-    /// Newton corrections of the active set method before the descent takes over. Default 60; a warm solve needs 1 to 4.
-    pub max_corrections: usize,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Params {
-            tolerance: 1e-10,
-            max_corrections: 60,
-        }
-    }
-}
-
-impl Params {
-    fn check(&self) -> Result<(), NlcpError> {
-        if self.tolerance > 0.0 {
-            Ok(())
-        } else {
-            Err(NlcpError::Tolerance {
-                found: self.tolerance,
-            })
-        }
-    }
-}
+use super::{NlcpError, Params, Problem, Workspace, bracket, descent};
 
 /// What a solve found and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,35 +31,6 @@ pub struct Info {
     /// Tangent `dT/dx = bᵀ(C + diag δ')⁻¹ w` on the active set \[N\] (load per metre of approach).
     pub stiffness: f64,
 }
-
-/// Effort of the solve so far.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Effort {
-    pub(super) iterations: usize,
-    pub(super) factorisations: usize,
-    pub(super) shifts: usize,
-}
-
-impl Effort {
-    /// Factors the active block and counts it.
-    pub(super) fn factor(
-        &mut self,
-        work: &mut Workspace,
-        problem: &Problem,
-    ) -> Result<(), NlcpError> {
-        self.factorisations += 1;
-        if work.factor_active(problem)? == Shifted::Yes {
-            self.shifts += 1;
-        }
-        Ok(())
-    }
-}
-
-/// Corrections without a better active set after which the method is taken to cycle.
-///
-/// The number of slices on the wrong side falls nearly every time when the method converges; a set that does not
-/// improve eight times is either cycling or much slower than the descent.
-const STALL_LIMIT: usize = 8;
 
 /// Solves for the slice forces at the given approach `approach_m` \[m\].
 ///
@@ -224,95 +162,6 @@ fn solve(
         });
     }
     finish(problem, residual, last.load, descent, effort, work)
-}
-
-/// Newton corrections on the active set until nothing is on the wrong side; ends unconverged when it cycles.
-pub(super) fn active_set(
-    problem: &Problem,
-    load: Option<f64>,
-    params: &Params,
-    work: &mut Workspace,
-    effort: &mut Effort,
-) -> Result<Evaluation, NlcpError> {
-    let mut evaluation = work.evaluate(problem);
-    let mut fewest_wrong = usize::MAX;
-    let mut stalled = 0;
-    for _ in 0..params.max_corrections {
-        if evaluation.residual(load) <= params.tolerance {
-            break;
-        }
-        let entered = enter_penetrating(params.tolerance, work);
-        if work.list.is_empty() {
-            // Under load something must touch: the slice that closes first does.
-            enter_first(problem, work);
-        }
-        effort.iterations += 1;
-        effort.factor(work, problem)?;
-        work.correct_forces();
-        if let Some(load) = load
-            && !work.balance_correction(problem, load - evaluation.load)
-        {
-            break;
-        }
-        for (&slice, change) in work.list.iter().zip(&work.correction) {
-            work.force[slice] += change;
-        }
-        let left = leave_tensile(work);
-        evaluation = work.evaluate(problem);
-        let wrong = entered + left;
-        if wrong > 0 {
-            stalled += 1;
-            if wrong < fewest_wrong {
-                fewest_wrong = wrong;
-                stalled = 0;
-            } else if stalled >= STALL_LIMIT {
-                break;
-            }
-        }
-    }
-    Ok(evaluation)
-}
-
-/// Takes open slices with a gap below −tolerance × scale into the set; returns their number.
-fn enter_penetrating(tolerance: f64, work: &mut Workspace) -> usize {
-    let mut entered = 0;
-    for i in 0..work.size {
-        if !work.active[i] && work.gap[i] < -tolerance * work.scale[i] {
-            work.active[i] = true;
-            entered += 1;
-        }
-    }
-    work.collect();
-    entered
-}
-
-fn enter_first(problem: &Problem, work: &mut Workspace) {
-    let mut first = 0;
-    let mut smallest = f64::INFINITY;
-    for i in 0..work.size {
-        let touch = work.shifted[i] / problem.closing[i];
-        if touch < smallest {
-            smallest = touch;
-            first = i;
-        }
-    }
-    work.active[first] = true;
-    work.list.push(first);
-}
-
-/// Releases slices whose force is not positive; returns their number.
-fn leave_tensile(work: &mut Workspace) -> usize {
-    let mut left = 0;
-    for k in 0..work.list.len() {
-        let slice = work.list[k];
-        // NaN stays, and shows in the residual.
-        if work.force[slice] <= 0.0 {
-            work.force[slice] = 0.0;
-            work.active[slice] = false;
-            left += 1;
-        }
-    }
-    left
 }
 
 /// Tangent and counters at the solution.

@@ -160,9 +160,10 @@ fn the_parabola_touches_the_profile_at_its_weakest_section() {
 }
 
 /// ISO 6336-3:2006, section 6.2: s_Fn, h_Fe and Y_F of an external gear by its auxiliary values E, G, H and ϑ; another way to the same
-/// 30° tangent. Returns s_Fn/m, h_Fe/m, α_Fen, Y_F for a load at the radius `load_radius` (modules).
-fn iso_root(d: &ToothDefinition, load_radius: f64) -> [f64; 4] {
-    let (alpha, z) = (d.pressure_angle_rad, d.teeth as f64);
+/// 30° tangent. Returns s_Fn/m, h_Fe/m, α_Fen, Y_F of a spur gear of z teeth, also of virtual ones, for a load at the radius `load_radius`
+/// (modules).
+pub fn iso_root(d: &ToothDefinition, z: f64, load_radius: f64) -> [f64; 4] {
+    let alpha = d.pressure_angle_rad;
     let (h, rho, x) = (d.dedendum, d.rack_tip_radius, d.profile_shift);
     let e = 0.25 * PI - h * alpha.tan() - (1.0 - alpha.sin()) * rho / alpha.cos();
     let g = rho - h + x;
@@ -205,7 +206,7 @@ fn the_30_degree_tangent_is_that_of_iso_6336_3() {
                 tooth.form_roll_rad + share * (tooth.flank_end_roll_rad - tooth.form_roll_rad);
             let section = RootSection::new(&tooth, roll, RootConstruction::Tangent30).unwrap();
             let radius = involute::radius_m(roll, tooth.base_radius_m) / MODULE_M;
-            let expected = iso_root(&d, radius);
+            let expected = iso_root(&d, d.teeth as f64, radius);
             let found = [
                 section.thickness_m / MODULE_M,
                 section.lever_m / MODULE_M,

@@ -5,5 +5,6 @@
 mod bending;
 mod cycles;
 mod fatigue;
+mod helical;
 mod pressure;
 mod teeth;

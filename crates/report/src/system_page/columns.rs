@@ -28,18 +28,6 @@ pub(super) fn quantity(unit: &str) -> &'static str {
     }
 }
 
-/// Three to four digits.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else if !(1e-3..1e5).contains(&value.abs()) {
-        format!("{value:.3e}")
-    } else {
-        let digits = (3 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 6);
-        format!("{value:.*}", digits as usize)
-    }
-}
-
 /// `elements/mesh/normal_force_right` as `mesh: normal force right`.
 pub(super) fn readable(name: &str) -> String {
     let parts: Vec<&str> = name.split('/').skip(1).collect();

@@ -5,10 +5,11 @@ use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, split_un
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
-    MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, short, varies,
+    MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, varies,
 };
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
+use crate::short_number::short;
 
 /// Lines of a series that are transformed: the last so many.
 const LONGEST: usize = 1 << 20;

@@ -1,7 +1,8 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs` says what will
-//! be computed, `run.rs` computes, `result.rs` keeps and stores, `warnings.rs` tells where the model's assumptions are strained.
+//! be computed, `run.rs` computes, `result.rs` keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
 
 pub mod plan;
+pub mod rating;
 pub mod result;
 pub mod run;
 pub mod scene_file;

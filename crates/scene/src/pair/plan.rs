@@ -1,5 +1,6 @@
 //! What a scene will compute, before anything is computed.
 
+use super::rating::PairRating;
 use super::scene_file::Scene;
 use gearmesh_contact::ContactLines;
 use gearmesh_model::ReducedGear;
@@ -20,8 +21,8 @@ impl Plan {
     pub fn new(
         scene: &Scene,
         lines: &ContactLines,
-        gear_1: &ReducedGear,
-        gear_2: &ReducedGear,
+        [gear_1, gear_2]: [&ReducedGear; 2],
+        ratings: &[PairRating],
     ) -> Self {
         let pair = &lines.pair;
         let positions = scene.positions() * scene.torques_nm.len();
@@ -96,6 +97,8 @@ impl Plan {
                 2 * gauges * positions
             )
         });
+        let rated = |r: &PairRating| format!("rating     {}, at each torque: {}", r.name, r.method);
+        text.extend(ratings.iter().map(rated));
         Self {
             lines: text,
             positions,

@@ -1,5 +1,6 @@
 //! The result of a scene, in memory and as an HDF5 file.
 
+use crate::rating::{RatingResult, put_ratings, take_ratings};
 use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, Values};
 use std::path::Path;
 
@@ -79,6 +80,8 @@ pub struct SceneResult {
     pub torque_balance: Vec<f64>,
     /// Strain.
     pub strain: Vec<StrainSeries>,
+    /// Ratings, torque by torque.
+    pub ratings: Vec<RatingResult>,
     /// Warnings about assumptions.
     pub warnings: Vec<String>,
     /// Solution and strain time \[s\].
@@ -300,6 +303,7 @@ impl SceneResult {
         for (name, text) in self.texts() {
             tree.put_text(name, text);
         }
+        put_ratings(&mut tree, &self.ratings);
         tree.write(path, &RESULT_FORMAT)
     }
 
@@ -341,6 +345,7 @@ impl SceneResult {
                 method_2: tree.take_f64(path, &name("method_2"), &curves)?,
             });
         }
+        let ratings = take_ratings(&mut tree, path)?;
         let seconds = tree.take_f64(path, "seconds", &[2])?;
         let mut text = |name: &str| tree.take_text(path, name);
         let title = text("title")?;
@@ -376,6 +381,7 @@ impl SceneResult {
             residual: tree.take_f64(path, "residual", &[torques])?,
             torque_balance: tree.take_f64(path, "torque_balance", &[torques])?,
             strain,
+            ratings,
             warnings,
             seconds: [seconds[0], seconds[1]],
         })

@@ -1,6 +1,7 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
 use super::plan::Plan;
+use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
@@ -54,6 +55,8 @@ pub struct LoadedScene {
     pub lines: ContactLines,
     /// Gauges to read: gear (1 or 2) and index in the model.
     pub gauges: Vec<(usize, usize)>,
+    /// What is judged after the run.
+    pub ratings: Vec<PairRating>,
 }
 
 /// The model's word for a side.
@@ -87,8 +90,8 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
     let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
     let pair = GearPair::new(
-        gear_1.profile,
-        gear_2.profile,
+        gear_1.profile.clone(),
+        gear_2.profile.clone(),
         scene.centre_distance_m,
         scene.misalignment,
     )
@@ -101,13 +104,6 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     let extension = scene
         .edge_radius_m
         .map(|radius| PathExtension::new(&pair, radius));
-    let lines = ContactLines {
-        pair,
-        extension,
-        face_width_m: gear_1.tooth.face_width_m,
-        microgeometry_1: gear_1.microgeometry,
-        microgeometry_2: gear_2.microgeometry,
-    };
     let models = [model_1, model_2];
     for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
         model
@@ -135,18 +131,39 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
             gauges.push((gear, index));
         }
     }
+    let rated = RatedPair {
+        scene: &scene,
+        pair: &pair,
+        gears: [&gear_1, &gear_2],
+        models: &models,
+        gauges: &gauges,
+    };
+    let ratings = rated.ratings()?;
+    let lines = ContactLines {
+        pair,
+        extension,
+        face_width_m: gear_1.tooth.face_width_m,
+        microgeometry_1: gear_1.microgeometry,
+        microgeometry_2: gear_2.microgeometry,
+    };
     Ok(LoadedScene {
         scene,
         models,
         lines,
         gauges,
+        ratings,
     })
 }
 
 impl LoadedScene {
     /// What will be computed.
     pub fn plan(&self) -> Plan {
-        Plan::new(&self.scene, &self.lines, &self.models[0], &self.models[1])
+        Plan::new(
+            &self.scene,
+            &self.lines,
+            [&self.models[0], &self.models[1]],
+            &self.ratings,
+        )
     }
 
     /// Driver angles of the scene \[rad\].
@@ -313,6 +330,7 @@ pub fn run(
         residual: curves.iter().map(|c| c.residual).collect(),
         torque_balance: curves.iter().map(|c| c.torque_balance).collect(),
         strain: Vec::new(),
+        ratings: Vec::new(),
         warnings: warnings.sentences(),
         seconds: [contact_seconds, 0.0],
         angle_rad: angles,
@@ -320,6 +338,7 @@ pub fn run(
     let clock = Instant::now();
     result.strain = strain(loaded, &result, &loaded.gauges)?;
     result.seconds[1] = clock.elapsed().as_secs_f64();
+    result.ratings = judged(&loaded.ratings, &result);
     Ok(result)
 }
 

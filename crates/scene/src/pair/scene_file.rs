@@ -1,5 +1,6 @@
 //! The scene file: a gear pair, its models, torques, angle range and gauges.
 
+use crate::rating::RatingTable;
 use gearmesh_contact::{ContactOptions, Friction, LocalContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, InputError, Misalignment};
@@ -21,6 +22,9 @@ pub(crate) struct SceneTable {
     /// Gauges to read.
     #[serde(default)]
     gauges: GaugesTable,
+    /// What is judged after the run, at each torque.
+    #[serde(default)]
+    rating: Vec<RatingTable>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -165,6 +169,10 @@ pub struct Scene {
     pub gauges_1: Vec<String>,
     /// Gauges to read on gear 2, by name.
     pub gauges_2: Vec<String>,
+    /// What is judged after the run; checked when the models are known.
+    pub ratings: Vec<RatingTable>,
+    /// Where the scene is.
+    pub folder: PathBuf,
     /// The file, for later complaints and provenance.
     pub document: InputDocument,
 }
@@ -309,6 +317,8 @@ impl Scene {
             points_per_pitch: points,
             gauges_1: table.gauges.gear_1,
             gauges_2: table.gauges.gear_2,
+            ratings: table.rating,
+            folder: folder.into(),
             document,
         })
     }

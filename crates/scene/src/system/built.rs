@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use gearmesh_dynamics::{BodyId, System};
-use gearmesh_geometry::{GearPair, Material};
 use gearmesh_model::ReducedGear;
-use gearmesh_rating::{MeanStress, Passage, SnCurve};
+use gearmesh_rating::NominalRating;
+
+use crate::rating::FatigueJob;
 
 /// A system that is ready to run.
 pub struct BuiltSystem {
@@ -106,37 +107,7 @@ pub enum RatingRule {
     /// Cycles and damage of the sum of the columns, strain in µε.
     Fatigue(FatigueJob),
     /// Nominal stresses under the largest value of the columns, forces in N.
-    Nominal(Box<NominalJob>),
-}
-
-/// From the strain of a gauge to damage.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FatigueJob {
-    /// Stress over strain \[Pa\].
-    pub modulus_pa: f64,
-    /// S-N curve of local stress.
-    pub curve: SnCurve,
-    /// What the mean of a cycle does.
-    pub mean_stress: MeanStress,
-    /// How often the history is passed.
-    pub passage: Passage,
-}
-
-/// From the largest normal force to stresses; one tooth takes all of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NominalJob {
-    /// The pair as it stands at the start.
-    pub pair: GearPair,
-    /// Materials of gear 1 and gear 2.
-    pub materials: [Material; 2],
-    /// Common face width \[m\].
-    pub face_width_m: f64,
-    /// Module \[m\].
-    pub module_m: f64,
-    /// Lewis's factors Y of gear 1 and gear 2.
-    pub lewis_factors: [f64; 2],
-    /// Roll angle of gear 1 where the flank pressure is largest \[rad\].
-    pub pressure_roll_1_rad: f64,
+    Nominal(Box<NominalRating>),
 }
 
 /// An effect that a scene may name.

@@ -17,8 +17,7 @@ pub mod tables;
 
 pub use build::{LoadedSystem, Variation};
 pub use built::{
-    BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, FatigueJob, NominalJob,
-    RatingJob, RatingRule,
+    BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };
 pub use plan::SystemPlan;
 pub use scene::{SystemScene, SystemTables};

@@ -13,10 +13,10 @@ use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
 use super::tables::output::{Output, OutputTable};
-use super::tables::rating::RatingTable;
 use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
 use super::tables::solver::{Solver, SolverTable};
+use crate::rating::RatingTable;
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

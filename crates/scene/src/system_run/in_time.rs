@@ -22,6 +22,7 @@ use super::recorder::{Course, Moment, Recorder, Selection};
 use super::result;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
+use crate::rating::put_ratings;
 use crate::system::{RatingJob, Start};
 
 /// Wall time between two calls of the progress.
@@ -291,13 +292,13 @@ pub(super) fn run_in_time(
     let mut tree = result::base(&head, kind, Some(&record));
     if run.windows.is_empty() {
         result::put_statistics(&mut tree, &tape.statistics.figures());
-        rating::put(&mut tree, &rating::of_rows(ratings, &columns, part.log())?);
+        put_ratings(&mut tree, &rating::of_rows(ratings, &columns, part.log())?);
         let rows = ("time", &columns[..], part.log());
         result::write_rows(options.output, &tree, rows)?;
     } else {
         result::put_sweep(&mut tree, &columns, &run.windows, &tape.figures);
         let rated = rating::of_windows(ratings, &columns, &tape.figures);
-        rating::put(&mut tree, &rated);
+        put_ratings(&mut tree, &rated);
         result::write(options.output, &tree)?;
     }
     part.finish()?;

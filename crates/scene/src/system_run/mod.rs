@@ -8,7 +8,7 @@
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
-//! | what is judged after the run | [`RatingResult`] | `rating.rs` |
+//! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
 //! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
 
 mod column_names;
@@ -38,7 +38,6 @@ pub use job::{
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use part_folder::PartFolder;
-pub use rating::{RatingFigure, RatingResult};
 pub(crate) use recorder::element_column;
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};

@@ -11,9 +11,9 @@ use gearmesh_model::{
 use super::column_names::varying;
 use super::column_statistics::Figures;
 use super::job::{EigenPoint, MeshRecord, RunHead};
-use super::rating::{self, RatingResult};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
+use crate::rating::{RatingResult, take_ratings};
 
 /// Name and version of the result file.
 pub const SYSTEM_RESULT_FORMAT: FileFormat = FileFormat {
@@ -305,7 +305,7 @@ impl SystemResult {
         let sweep = (kind == "speed-sweep")
             .then(|| take_sweep(tree, path))
             .transpose()?;
-        let ratings = rating::take(tree, path)?;
+        let ratings = take_ratings(tree, path)?;
         let (bodies, eigen) = if kind == "eigen" {
             take_eigen(tree, path)?
         } else {

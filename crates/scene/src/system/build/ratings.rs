@@ -1,19 +1,16 @@
 //! `[[rating]]` to what is made of which columns of the result.
 
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, GearPair, InputError};
-use gearmesh_rating::{
-    MeanStress, Passage, RootConstruction, RootSection, SurfaceState, flank_pressure,
-    highest_single_contact_rolls_rad, root_stress_pa,
-};
+use gearmesh_geometry::{FlankSide, InputError};
+use gearmesh_rating::{LoadPoint, NominalRating};
 
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
-use crate::system::built::{BuiltGauge, FatigueJob, NominalJob, RatingJob, RatingRule};
+use crate::rating::{FatigueJob, FatigueRule, Rating, RatingTable, nominal_error, nominal_method};
+use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
 use crate::system::names;
 use crate::system::scene::SystemScene;
 use crate::system::tables::gear_mesh::MeshModel;
-use crate::system::tables::rating::{FatigueRule, LoadPointWord, Rating, read_sn_table};
 use crate::system::tables::run::Run;
 use crate::system_run::element_column;
 
@@ -29,27 +26,24 @@ pub(super) fn build(
         let key = format!("rating.{i}");
         let keys = TableKeys::new(&scene.document, &key);
         let rating = table.check(&keys)?;
+        table.refuse_keys_of_pairs(&keys)?;
         let from_s = start(scene, &rating, table.from_s, &keys)?;
         let job = match &rating {
-            Rating::Fatigue(rule) => fatigue(scene, rule, from_s, (bodies, gauges), &keys)?,
-            Rating::Nominal { mesh, load_point } => {
-                let prepared = meshes.iter().find(|other| other.name == *mesh);
+            Rating::Fatigue(rule) => {
+                fatigue(scene, (table, rule), from_s, (bodies, gauges), &keys)?
+            }
+            Rating::Nominal(load) => {
+                let mesh = keys.needed("mesh", table.mesh.clone(), "kind = \"nominal\"")?;
+                let prepared = meshes.iter().find(|other| other.name == mesh);
                 let prepared = prepared.ok_or_else(|| {
                     let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.name).collect();
-                    keys.error("mesh", names::unknown("gear mesh", mesh, &known))
+                    keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
                 })?;
-                let job = nominal(prepared, *load_point, bodies, &keys)?;
-                written(scene, mesh, &keys)?;
+                let job = nominal(prepared, *load, bodies, &keys)?;
+                written(scene, &mesh, &keys)?;
                 RatingJob {
                     name: format!("mesh {mesh}"),
-                    method: format!(
-                        "Lewis's root stress (load at the {}) and Hertz's flank pressure under the largest normal force",
-                        match load_point {
-                            LoadPointWord::HighestSingleContact =>
-                                "highest point of single contact",
-                            LoadPointWord::Tip => "tip",
-                        }
-                    ),
+                    method: nominal_method(*load),
                     from_s,
                     columns: normal_forces(prepared),
                     rule: RatingRule::Nominal(Box::new(job)),
@@ -71,7 +65,7 @@ fn start(
     let run = scene.run.kind().name();
     let end_s = match (&scene.run, rating) {
         (Run::Transient { end_s }, _) => *end_s,
-        (Run::SpeedSweep(_), Rating::Nominal { .. }) => {
+        (Run::SpeedSweep(_), Rating::Nominal(_)) => {
             if from_s.is_some() {
                 let problem =
                     "is not used by run.kind = \"speed-sweep\", whose windows all count; remove it";
@@ -110,15 +104,15 @@ fn written(scene: &SystemScene, mesh: &str, keys: &TableKeys<'_>) -> Result<(), 
 
 fn fatigue(
     scene: &SystemScene,
-    rule: &FatigueRule,
+    (table, rule): (&RatingTable, &FatigueRule),
     from_s: f64,
     (bodies, gauges): (&Bodies, &[BuiltGauge]),
     keys: &TableKeys<'_>,
 ) -> Result<RatingJob, InputError> {
-    if let Some(body) = &rule.body {
+    if let Some(body) = &table.body {
         bodies.find_body(keys, "body", body)?;
     }
-    let of_body = |gauge: &&BuiltGauge| rule.body.as_ref().is_none_or(|body| gauge.body == *body);
+    let of_body = |gauge: &&BuiltGauge| table.body.as_ref().is_none_or(|body| gauge.body == *body);
     let mut found = gauges.iter().filter(of_body);
     let gauge = found.clone().find(|gauge| gauge.name == rule.gauge);
     let gauge = gauge.ok_or_else(|| {
@@ -149,34 +143,12 @@ fn fatigue(
         .and_then(|placed| placed.gear.as_ref())
         .map(|gear| gear.definition.material)
         .ok_or_else(|| keys.error("gauge", "its body is no gear"))?;
-    let curve = read_sn_table(&scene.folder.join(&rule.sn_table), keys)?;
-    let mean = match rule.mean_stress {
-        MeanStress::None => "without regard to the mean",
-        MeanStress::Goodman { .. } => "mean by Goodman's line",
-    };
-    let passage = match rule.passage {
-        Passage::Once => "passed once",
-        Passage::Repeated => "repeated",
-    };
-    let surface = match rule.surface {
-        SurfaceState::PlaneStrain => "plane strain",
-        SurfaceState::Uniaxial => "uniaxial",
-    };
     Ok(RatingJob {
         name: format!("gauge {} of {}", gauge.name, gauge.body),
-        method: format!(
-            "cycles and damage of the stress ({surface}) from strain by method {}, S-N table {}, {mean}, history {passage}",
-            rule.method,
-            rule.sn_table.display()
-        ),
+        method: rule.method(),
         from_s,
         columns,
-        rule: RatingRule::Fatigue(FatigueJob {
-            modulus_pa: root_stress_pa(&[1.0], material, rule.surface)[0],
-            curve,
-            mean_stress: rule.mean_stress,
-            passage: rule.passage,
-        }),
+        rule: RatingRule::Fatigue(FatigueJob::new(rule, material, &scene.folder, keys)?),
     })
 }
 
@@ -193,10 +165,10 @@ fn normal_forces(mesh: &PreparedMesh) -> Vec<String> {
 
 fn nominal(
     mesh: &PreparedMesh,
-    load_point: LoadPointWord,
+    load: LoadPoint,
     bodies: &Bodies,
     keys: &TableKeys<'_>,
-) -> Result<NominalJob, InputError> {
+) -> Result<NominalRating, InputError> {
     if mesh.model == MeshModel::Kinematic {
         let problem = format!("`{}` is kinematic and has no normal force", mesh.name);
         return Err(keys.error("mesh", problem));
@@ -207,51 +179,10 @@ fn nominal(
     };
     let pair = fitting_pair([first, second], &mesh.pose(bodies), keys)?;
     let gears = [&first.definition, &second.definition];
-    let rolls = match load_point {
-        LoadPointWord::Tip => [&pair.gear_1, &pair.gear_2].map(|gear| gear.flank_end_roll_rad),
-        LoadPointWord::HighestSingleContact => {
-            highest_single_contact_rolls_rad(&pair).map_err(|e| keys.error("load_point", e))?
-        }
-    };
-    let module_m = gears[0].tooth.module_m;
-    let factor = |gear, roll_rad| {
-        RootSection::new(gear, roll_rad, RootConstruction::Parabola)
-            .map(|section| section.lewis_factor(module_m))
-            .map_err(|e| keys.error("mesh", e))
-    };
-    let mut job = NominalJob {
-        materials: gears.map(|gear| gear.material),
-        face_width_m: gears[0].tooth.face_width_m.min(gears[1].tooth.face_width_m),
-        module_m,
-        lewis_factors: [
-            factor(&pair.gear_1, rolls[0])?,
-            factor(&pair.gear_2, rolls[1])?,
-        ],
-        pressure_roll_1_rad: 0.0,
-        pair,
-    };
-    job.pressure_roll_1_rad = most_curved(&job, keys)?;
-    Ok(job)
-}
-
-/// Where one pair of teeth bears all and the flanks are most curved against each other. ρ₁ρ₂/(ρ₁ + ρ₂) has its maximum between the
-/// ends of a stretch of the path, so its minimum is at one of them. With two pairs everywhere it is the pitch point.
-fn most_curved(job: &NominalJob, keys: &TableKeys<'_>) -> Result<f64, InputError> {
-    let pair: &GearPair = &job.pair;
-    let [start, end] = [pair.roll_start_1_rad, pair.roll_end_1_rad];
-    let pitch = pair.pitch_1_rad();
-    let rolls = if end - start < 2.0 * pitch {
-        vec![(end - pitch).max(start), (start + pitch).min(end)]
-    } else {
-        vec![pair.working_pressure_angle_rad.tan()]
-    };
-    let mut worst = (f64::NEG_INFINITY, 0.0);
-    for roll in rolls {
-        let found = flank_pressure(pair, roll, 1.0, job.materials);
-        let pressure = found.map_err(|e| keys.error("mesh", e))?.peak_pressure_pa;
-        if pressure > worst.0 {
-            worst = (pressure, roll);
-        }
-    }
-    Ok(worst.1)
+    let (teeth, materials) = (
+        gears.map(|gear| &gear.tooth),
+        gears.map(|gear| gear.material),
+    );
+    NominalRating::new(&pair, teeth, materials, load)
+        .map_err(|error| nominal_error(&error, "mesh", keys))
 }

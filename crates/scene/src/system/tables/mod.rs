@@ -9,7 +9,6 @@ pub mod joint;
 pub mod load;
 pub mod number_table;
 pub mod output;
-pub mod rating;
 pub mod run;
 pub mod shaft;
 pub mod solver;

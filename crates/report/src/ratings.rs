@@ -1,17 +1,17 @@
-//! Ratings: a table for each.
+//! Ratings of scenes of both kinds: a table for each.
 
-use gearmesh_scene::system_run::{RatingFigure, RatingResult, SystemResult};
+use gearmesh_scene::rating::{RatingFigure, RatingResult};
 
-use super::columns::short;
 use crate::page::{Align, Section, Table, Text};
+use crate::short_number::short;
 
 /// The section, where there are ratings.
-pub(super) fn ratings(r: &SystemResult) -> Option<Section> {
-    if r.ratings.is_empty() {
+pub(crate) fn section(title: &str, ratings: &[RatingResult]) -> Option<Section> {
+    if ratings.is_empty() {
         return None;
     }
-    let mut section = Section::new(format!("{}: rating", r.head.title));
-    for rated in &r.ratings {
+    let mut section = Section::new(format!("{title}: rating"));
+    for rated in ratings {
         section = section.push(Text::paragraph(format!(
             "{}: {}.",
             rated.name, rated.method

@@ -1,15 +1,16 @@
-//! `[[rating]]`: is a tooth strong enough, and for how long; computed after the run from what it writes.
+//! `[[rating]]` of scenes of both kinds. Which gauge or mesh is meant is said by other keys in each: `body`, `mesh` and `from_s` in multibody
+//! scenes, `gear` in those of a pair.
 //!
 //! | kind | what | keys |
 //! | --- | --- | --- |
 //! | `fatigue` | cycles and damage of the stress at a root gauge | `gauge`, `sn_table`; `method`, `surface`, `mean_stress`, `tensile_strength_MPa`, `passage` |
-//! | `nominal` | Lewis's root stress and Hertz's pressure under the largest normal force | `mesh`; `load_point` |
+//! | `nominal` | Lewis's root stress and Hertz's pressure under the largest normal force | `load_point` |
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_rating::{MeanStress, Passage, SnCurve, SnError, SnTable, SnTableError, SurfaceState};
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_rating::{LoadPoint, MeanStress, Passage, SurfaceState};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -23,12 +24,14 @@ const MPA: f64 = 1e6;
 pub struct RatingTable {
     /// What is computed.
     pub kind: RatingKind,
-    /// The part of the run before this time is left out: 0 where not given.
+    /// Multibody scenes: the part of the run before this time is left out; 0 where not given.
     pub from_s: Option<f64>,
-    /// `fatigue`: name of a gauge that a `[[gauge]]` reads.
+    /// `fatigue`: name of a gauge that a `[[gauge]]` reads, or `[gauges]` in scenes of a pair.
     pub gauge: Option<String>,
-    /// `fatigue`: body of the gauge; needed where gauges of several bodies have that name.
+    /// `fatigue`, multibody scenes: body of the gauge; needed where gauges of several bodies have that name.
     pub body: Option<String>,
+    /// `fatigue`, scenes of a pair: gear of the gauge, 1 or 2; needed where gauges of both have that name.
+    pub gear: Option<usize>,
     /// `fatigue`: S-N table (.toml) of local stress amplitudes at zero mean, relative to the scene.
     pub sn_table: Option<PathBuf>,
     /// `fatigue`: method of strain recovery, 1 or 2; 2 where not given.
@@ -42,7 +45,7 @@ pub struct RatingTable {
     pub tensile_strength_MPa: Option<f64>,
     /// `fatigue`: "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not given.
     pub passage: Option<PassageWord>,
-    /// `nominal`: name of a `[[gear_mesh]]`.
+    /// `nominal`, multibody scenes: name of a `[[gear_mesh]]`.
     pub mesh: Option<String>,
     /// `nominal`: where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer and for any contact
     /// ratio; the former where not given.
@@ -114,18 +117,13 @@ pub enum LoadPointWord {
     Tip,
 }
 
-/// A rating, checked as far as no part of the system is needed.
+/// A rating, checked as far as no part of the scene is needed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Rating {
     /// Rainflow count and Miner's sum.
     Fatigue(FatigueRule),
-    /// Lewis and Hertz.
-    Nominal {
-        /// Name of the gear mesh.
-        mesh: String,
-        /// Where the force acts for Lewis's stress.
-        load_point: LoadPointWord,
-    },
+    /// Lewis and Hertz, where the force acts for Lewis's stress.
+    Nominal(LoadPoint),
 }
 
 /// How a stress history is judged.
@@ -133,8 +131,6 @@ pub enum Rating {
 pub struct FatigueRule {
     /// Gauge.
     pub gauge: String,
-    /// Its body, where stated.
-    pub body: Option<String>,
     /// Method of strain recovery, 1 or 2.
     pub method: usize,
     /// From strain to stress.
@@ -160,6 +156,7 @@ impl RatingTable {
             &[
                 ("gauge", self.gauge.is_some(), fatigue),
                 ("body", self.body.is_some(), fatigue),
+                ("gear", self.gear.is_some(), fatigue),
                 ("sn_table", self.sn_table.is_some(), fatigue),
                 ("method", self.method.is_some(), fatigue),
                 ("surface", self.surface.is_some(), fatigue),
@@ -176,16 +173,15 @@ impl RatingTable {
         )?;
         let kind = format!("kind = \"{word}\"");
         if self.kind == RatingKind::Nominal {
-            return Ok(Rating::Nominal {
-                mesh: keys.needed("mesh", self.mesh.clone(), &kind)?,
-                load_point: self.load_point.unwrap_or_default(),
-            });
+            return Ok(Rating::Nominal(match self.load_point.unwrap_or_default() {
+                LoadPointWord::HighestSingleContact => LoadPoint::HighestSingleContact,
+                LoadPointWord::Tip => LoadPoint::Tip,
+            }));
         }
         let method = self.method.unwrap_or(2);
         keys.require("method", method as f64, (1..=2).contains(&method), "1 or 2")?;
         Ok(Rating::Fatigue(FatigueRule {
             gauge: keys.needed("gauge", self.gauge.clone(), &kind)?,
-            body: self.body.clone(),
             method,
             surface: match self.surface.unwrap_or_default() {
                 SurfaceWord::PlaneStrain => SurfaceState::PlaneStrain,
@@ -198,6 +194,42 @@ impl RatingTable {
             },
             sn_table: keys.needed("sn_table", self.sn_table.clone(), &kind)?,
         }))
+    }
+
+    /// Refuses the keys of multibody scenes, for a scene of a pair.
+    ///
+    /// # Errors
+    /// [`InputError`] for the first of them that is given.
+    pub fn refuse_keys_of_systems(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
+        for (key, given, instead) in [
+            (
+                "body",
+                self.body.is_some(),
+                "; gear = 1 or 2 says whose gauge it is",
+            ),
+            ("mesh", self.mesh.is_some(), ", which has one mesh"),
+            ("from_s", self.from_s.is_some(), ", which has no time"),
+        ] {
+            if given {
+                let problem = format!("is not used by a scene of a [pair]{instead}; remove it");
+                return Err(keys.error(key, problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses the key of scenes of a pair, for a multibody scene.
+    ///
+    /// # Errors
+    /// [`InputError`] where it is given.
+    pub fn refuse_keys_of_pairs(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
+        match self.gear {
+            None => Ok(()),
+            Some(_) => Err(keys.error(
+                "gear",
+                "is not used by a multibody scene; body says whose gauge it is; remove it",
+            )),
+        }
     }
 
     fn mean_stress(&self, keys: &TableKeys<'_>) -> Result<MeanStress, InputError> {
@@ -217,37 +249,5 @@ impl RatingTable {
                 })
             }
         }
-    }
-}
-
-/// Reads an S-N table; complaints name its file, line and key, that of the scene where there is no such file.
-///
-/// # Errors
-/// [`InputError`].
-pub fn read_sn_table(path: &Path, keys: &TableKeys<'_>) -> Result<SnCurve, InputError> {
-    if !path.is_file() {
-        let problem = format!("the S-N table {} does not exist", path.display());
-        return Err(keys.error("sn_table", problem));
-    }
-    let document = InputDocument::read(path)?;
-    let table: SnTable = document.parse()?;
-    table
-        .curve()
-        .map_err(|error| document.error(&place(&error), error))
-}
-
-/// The key that a complaint about an S-N table is about.
-fn place(error: &SnTableError) -> String {
-    let amplitude = |row: &usize| format!("stress_amplitude_MPa.{}", row - 1);
-    let cycles = |row: &usize| format!("cycles.{}", row - 1);
-    match error {
-        SnTableError::SlopeBelow | SnTableError::Curve(SnError::Slope { .. }) => "below".into(),
-        SnTableError::Curve(SnError::NotDecreasing { row, .. }) => amplitude(row),
-        SnTableError::Curve(SnError::CyclesNotIncreasing { row, .. }) => cycles(row),
-        SnTableError::Curve(SnError::NotPositive { row, what, .. }) if *what == "cycles" => {
-            cycles(row)
-        }
-        SnTableError::Curve(SnError::NotPositive { row, .. }) => amplitude(row),
-        _ => "cycles".into(),
     }
 }

@@ -1,39 +1,21 @@
-//! Ratings of scenes: against a case computed by hand, against the functions of the rating crate on the same series, and what is refused.
-#![allow(clippy::unwrap_used, missing_docs)]
+//! Multibody scenes: against a case computed by hand, against the functions of the rating crate on the same columns, and what is refused.
 
-mod common;
-mod made_up_gears;
-mod system_runs;
-
-use common::load;
+use crate::common::load;
+use crate::made_up_gears::{YOUNG_PA, pair, scene};
+use crate::system_runs::{Desk, driven_wheel, job, transient};
+use crate::{STEEL, TABLE, folder, near};
 use gearmesh_dynamics::{Motion, Params, TimeFunction};
-use gearmesh_geometry::Material;
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::{GearDefinition, GearPair, Misalignment};
 use gearmesh_rating::{
     BelowTable, MeanStress, Passage, RootConstruction, RootSection, SnCurve, SnPoint, SurfaceState,
     flank_pressure, highest_single_contact_rolls_rad, history_damage, lewis_stress_pa,
     root_stress_pa,
 };
-use gearmesh_scene::system::{
-    FatigueJob, LoadedSystem, RatingJob, RatingRule, SystemPlan, SystemScene,
-};
+use gearmesh_scene::rating::FatigueJob;
+use gearmesh_scene::system::{LoadedSystem, RatingJob, RatingRule, SystemPlan, SystemScene};
 use gearmesh_scene::system_run::*;
-use made_up_gears::{YOUNG_PA, pair, scene, write_models};
 use std::f64::consts::{FRAC_PI_2, PI};
-use system_runs::{Desk, driven_wheel, job, transient};
-
-const STEEL: Material = Material {
-    young_pa: YOUNG_PA,
-    poisson: 0.3,
-    density_kg_per_m3: Some(7850.0),
-};
-
-fn near(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found / expected - 1.0).abs() < tolerance,
-        "{found:e} for {expected:e}"
-    );
-}
 
 /// Ten pulses of stress from 0 to 800 MPa in 5 s. N = 2·10⁶ (300/400)⁶ without regard to the mean; by Goodman with 1200 MPa the
 /// amplitude counts as 400/(1 − 400/1200) = 600 MPa, N = 2·10⁶/2⁶.
@@ -116,8 +98,6 @@ start = "equilibrium"
 [output]
 interval_s = 1e-4"#;
 
-const TABLE: &str = "cycles = [1e3, 1e5, 2e6]\nstress_amplitude_MPa = [900, 520, 300]\nbelow = \"haibach\"\nabove = \"first-slope\"\n";
-
 const RATED: &str = r#"[[gauge]]
 body = "wheel"
 names = ["g0", "g5"]
@@ -145,13 +125,6 @@ mesh = "mesh"
 load_point = "tip"
 from_s = 0.025
 "#;
-
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    write_models(folder.path());
-    std::fs::write(folder.path().join("sn.toml"), TABLE).unwrap();
-    folder
-}
 
 /// The ratings of a run are those that the rating crate gives for the columns that it wrote, in the result's file, too.
 #[test]
@@ -245,6 +218,39 @@ fn ratings_are_those_of_the_written_columns() {
     }
 }
 
+/// The shipped helical pair has an overlap ratio of 1.016: F_t = F cos α_n cos β at the reference circle, and ISO 6336-2's
+/// Z_H Z_E Z_ε √(F_t/(d₁ b) (u + 1)/u) but for the 1.6 % of an axial pitch.
+#[test]
+fn a_helical_mesh_is_rated() {
+    let rating = "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\n";
+    let text = crate::common::text("dynamics_helical.toml") + rating;
+    let built = crate::common::build(&text).unwrap();
+    let RatingRule::Nominal(rating) = &built.ratings[0].rule else {
+        panic!("{:?}", built.ratings[0]);
+    };
+    let found = rating.under(1000.0).unwrap();
+    let (alpha_n, beta) = (20f64.to_radians(), 20f64.to_radians());
+    let (width_m, module_m) = (28e-3, 3e-3);
+    let tangential = 1000.0 * alpha_n.cos() * beta.cos();
+    for (stress, factor) in found.lewis_pa.iter().zip(rating.lewis_factors) {
+        assert!((0.5..0.9).contains(&factor), "{factor}");
+        near(*stress, tangential / (width_m * module_m * factor), 1e-9);
+    }
+    let gears = ["helical1.toml", "helical2.toml"]
+        .map(|name| GearDefinition::read(&crate::common::fe_models().join(name)).unwrap());
+    let [first, second] = gears.map(|gear| gear.profile);
+    let pair = GearPair::new(first, second, 113.6e-3, Misalignment::default()).unwrap();
+    let alpha_t = (alpha_n.tan() / beta.cos()).atan();
+    let beta_b = (beta.sin() * alpha_n.cos()).asin();
+    let zone = (2.0 * beta_b.cos() / pair.working_pressure_angle_rad.tan()).sqrt() / alpha_t.cos();
+    let elastic = (YOUNG_PA / (2.0 * PI * (1.0 - 0.09))).sqrt();
+    let ratio = pair.gear_2.teeth as f64 / 31.0;
+    let load = tangential / (31.0 * module_m / beta.cos() * width_m) * (ratio + 1.0) / ratio;
+    let iso = zone * elastic * (load / pair.contact_ratio()).sqrt();
+    let over = found.flank_pressure_pa / iso;
+    assert!((1.0..1.01).contains(&over), "{over}");
+}
+
 /// A sweep keeps no rows; its windows hold the largest force.
 #[test]
 fn a_sweep_has_nominal_ratings() {
@@ -311,6 +317,10 @@ fn ratings_that_cannot_be_are_refused() {
         (
             with("gauge = \"g0\"\n", ""),
             "rating.0.gauge: missing; kind = \"fatigue\" needs it",
+        ),
+        (
+            with("gauge = \"g0\"", "gauge = \"g0\"\ngear = 2"),
+            "rating.0.gear: is not used by a multibody scene; body says whose gauge it is; remove it",
         ),
         (
             with("method = 1", "method = 3"),

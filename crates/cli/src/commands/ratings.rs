@@ -1,0 +1,41 @@
+//! Ratings of a run as warnings, lines and JSON.
+
+use crate::console;
+use gearmesh_scene::rating::RatingResult;
+use serde_json::{Value, json};
+
+/// Tells what could not be judged.
+pub fn warn(ratings: &[RatingResult]) {
+    for rated in ratings {
+        if let Some(problem) = &rated.problem {
+            console::warning(format!("{} is not rated: {problem}", rated.name));
+        }
+    }
+}
+
+/// The figures for people.
+pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for rated in ratings {
+        lines.push(format!("rating of {}: {}", rated.name, rated.method));
+        let problem = rated.problem.iter();
+        lines.extend(problem.map(|problem| format!("  not rated: {problem}")));
+        lines.extend(rated.figures.iter().map(|figure| {
+            let (name, value) = (figure.name, figure.value);
+            format!("  {name:<28} {value:>13.6e}  {}", figure.description)
+        }));
+    }
+    lines
+}
+
+/// The figures as JSON; an infinite life is null.
+pub fn json(ratings: &[RatingResult]) -> Value {
+    let all = ratings.iter().map(|rated| {
+        let figures = rated.figures.iter();
+        json!({
+            "name": rated.name, "method": rated.method, "problem": rated.problem,
+            "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    all.collect()
+}

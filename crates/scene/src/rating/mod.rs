@@ -1,0 +1,22 @@
+//! Ratings of scenes of both kinds: is a tooth strong enough, and for how long; judged after the run from what it has given.
+//!
+//! | question | answer | file |
+//! | --- | --- | --- |
+//! | what stands in `[[rating]]` | [`RatingTable`] | `table.rs`, `sn_table_file.rs` |
+//! | what is made of a stress history | [`FatigueJob`] | `fatigue_job.rs` |
+//! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
+//! | what came out, in memory and in result files | [`RatingResult`] | `result.rs` |
+//!
+//! Where histories and forces come from is said by each kind of scene: `system/build/ratings.rs` and `system_run/rating.rs` take
+//! columns of a run in time, `pair/rating.rs` the positions of a pair. Equations: docs/theory/rating.md.
+
+mod fatigue_job;
+mod nominal_figures;
+mod result;
+mod sn_table_file;
+pub mod table;
+
+pub use fatigue_job::{FatigueJob, PassageLength};
+pub use nominal_figures::{nominal_error, nominal_figures, nominal_method};
+pub use result::{RatingFigure, RatingResult, put_ratings, take_ratings};
+pub use table::{FatigueRule, Rating, RatingTable};
