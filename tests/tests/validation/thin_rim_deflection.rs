@@ -1,6 +1,5 @@
 //! What a thin rim adds to the deflection: the gear less the same gear with a solid blank, on the loaded tooth, the next two on either
 //! side and the opposite one. Converged on the default mesh, and the program's estimate of its error is of the right size.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
