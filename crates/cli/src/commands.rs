@@ -14,4 +14,5 @@ pub mod report;
 pub mod run;
 pub mod run_system;
 pub mod schema;
+pub mod signal;
 pub mod study;

@@ -32,6 +32,7 @@ fn help_names_all_commands() {
       recover     Recover the strain of all gauges from a result, and whole fields on request
       compare     Compare a result with a reference record
       report      Write a report page
+      signal      Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
       check       Check a gear file, scene, model or result
       study       Run a multibody scene again and again with some of its keys changed
       schema      Print the JSON Schema of scene, study or gear files

@@ -1,10 +1,7 @@
 //! Gears in ten-node tetrahedra: the mesh is one body without gaps, has the volume of its contour with fillets, repeats; the
 //! teeth deflect as those of hexahedra; small fillets lead to the sharp contour.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod common;
-
-use common::{CONTOUR, FILLETED, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, gear, reduced};
+use crate::small_gears::{CONTOUR, FILLETED, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, gear, reduced};
 use gearmesh_geometry::body_outline::body_outline;
 use gearmesh_geometry::{GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
@@ -304,9 +301,10 @@ fn a_helical_gear_deflects_as_one_of_hexahedra() {
     }
 }
 
-/// Fillets of radius ρ stiffen; as ρ falls the deflection rises to that of the sharp contour in moved layers of hexahedra.
+/// Fillets of radius ρ stiffen; as ρ falls the deflection rises to that of the sharp contour in moved layers of hexahedra: what is
+/// missing falls to less than 0.6 with each halving, and to less than 1 % at 0.5 mm. (0.25 mm would cost as much as the others.)
 #[test]
-#[ignore = "five gears with small elements in their fillets, half a minute"]
+#[ignore = "four gears with small elements in their fillets, half a minute"]
 fn small_fillets_lead_to_the_sharp_contour() {
     let mesh = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 3.0\naxial_mm = 3.0\n";
     let tetrahedra = format!("element = \"tet10\"\n{mesh}");
@@ -324,7 +322,7 @@ fn small_fillets_lead_to_the_sharp_contour() {
     };
     let sharp = deflections(&gear(&tetrahedra, CONTOUR, 0.0));
     let layers = deflections(&gear(&format!("element = \"hex20\"\n{mesh}"), CONTOUR, 0.0));
-    let rounded = [2.0, 1.0, 0.5, 0.25].map(with);
+    let rounded = [2.0, 1.0, 0.5].map(with);
     println!("layers {layers:?}\nsharp {sharp:?}\n{rounded:?}");
     for k in 0..2 {
         let gaps: Vec<f64> = rounded
@@ -334,6 +332,9 @@ fn small_fillets_lead_to_the_sharp_contour() {
         println!("{k}: {gaps:?} {}", layers[k] / sharp[k] - 1.0);
     }
     let gaps: Vec<f64> = rounded.iter().map(|d| 1.0 - d[0] / sharp[0]).collect();
-    assert!(gaps.windows(2).all(|g| g[1] < 0.6 * g[0]), "{gaps:?}");
+    assert!(
+        gaps.windows(2).all(|g| g[1] < 0.6 * g[0]) && gaps[2].abs() < 0.01,
+        "{gaps:?}"
+    );
     assert!((layers[0] / sharp[0] - 1.0).abs() < 0.01);
 }

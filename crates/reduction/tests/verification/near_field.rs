@@ -1,5 +1,4 @@
 //! The calibration in plane strain: order of convergence, interpolation between the places, and the law of the load width.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::input::InputDocument;

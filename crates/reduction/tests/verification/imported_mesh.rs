@@ -1,10 +1,7 @@
 //! A gear that was meshed elsewhere: the same numbers from our own mesh read back, agreement with a mesh of tetrahedra, and
 //! what is said when the mesh is not the gear.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod common;
-
-use common::{MESH, QUADRATIC, SOLID, difference, reduced};
+use crate::small_gears::{self, MESH, QUADRATIC, SOLID, difference, reduced};
 use gearmesh_fe::{QuadraticMesh, arc_middle, chord_middle};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
@@ -19,7 +16,7 @@ use std::f64::consts::TAU;
 const AGREEMENT: f64 = 1e-9;
 
 fn gear(mesh: &str) -> GearDefinition {
-    common::gear(mesh, SOLID, 0.0)
+    small_gears::gear(mesh, SOLID, 0.0)
 }
 
 fn meshed_elsewhere() -> MeshedBody {

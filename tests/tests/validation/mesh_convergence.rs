@@ -1,9 +1,7 @@
 //! Validation on gear 2 of seed 004: what a finer mesh changes in the numbers that people read, and the trend of the
 //! seed's table 3.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod line_load;
-
+use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::GearDefinition;
@@ -11,7 +9,6 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
-use line_load::line_load_strain;
 use std::path::Path;
 use std::sync::OnceLock;
 

@@ -3,15 +3,12 @@
 //! A load at the tip of gear 1, above the pitch circle, with friction towards the root and mu = 0.3. The seed's five
 //! elements of the root lose 24 to 28 % of their von Mises stress; it states neither tooth proportions nor where the
 //! elements lie, so the number itself is checked against a beam.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod line_load;
-
+use crate::line_load::line_load_strain;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve, RootPosition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
-use line_load::line_load_strain;
 use std::path::Path;
 
 const FRICTION: f64 = 0.3;

@@ -1,6 +1,5 @@
 //! Validation: the calibrated flank deflection against an independent, converged plane-strain solution of the whole gear
 //! (reference/plane_gear), on coarse to fine flank meshes; and what the other local terms make of it.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};

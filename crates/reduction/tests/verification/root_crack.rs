@@ -1,11 +1,11 @@
 //! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and by its depth.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod common;
-#[path = "../../../tests/support/whole_compliance.rs"]
+#[path = "../../../../tests/support/whole_compliance.rs"]
 mod whole_compliance;
 
-use common::{MESH, SLOTS, SOLID, THIN_RIM, difference, reduced, with_gauges, without_symmetry};
+use crate::small_gears::{
+    MESH, SLOTS, SOLID, THIN_RIM, difference, reduced, with_gauges, without_symmetry,
+};
 use gearmesh_fe::{DofMap, FeModel};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition};

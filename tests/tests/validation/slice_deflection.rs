@@ -4,10 +4,8 @@
 //! The reference is C_g + W: C_g, the deflection without the near field, from a finer mesh with more roll stations; W, that of the
 //! tooth-only submodel under a Hertz pressure that stands on a tenth of the width, from meshes of quadratic elements graded to
 //! the contact in all directions, extrapolated. No calibration and no law of a half plane enters it.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod graded_tooth;
-
+use crate::graded_tooth::{Contact, GradedTooth, PARTS};
 use gearmesh_contact::{LocalContact, SliceCompliance};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, involute};
@@ -15,7 +13,6 @@ use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
-use graded_tooth::{Contact, GradedTooth, PARTS};
 use std::f64::consts::PI;
 
 const YOUNG: f64 = 206e9;

@@ -1,9 +1,6 @@
 //! Reduction of small helical gears: unit loads, mirror images, the spur limit, with and without cyclic symmetry.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{MESH, QUADRATIC, SOLID, body, difference, without_symmetry};
+use crate::small_gears::{self, MESH, QUADRATIC, SOLID, body, difference, without_symmetry};
 use gearmesh_geometry::{FlankSide, GearDefinition};
 use gearmesh_model::{Flank, ReducedGear};
 use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
@@ -19,11 +16,11 @@ phase_deg = 10.0
 ";
 
 fn gear(helix_deg: f64, blank: &str) -> GearDefinition {
-    common::gear(MESH, blank, helix_deg)
+    small_gears::gear(MESH, blank, helix_deg)
 }
 
 fn reduced(gear: &GearDefinition) -> ReducedGear {
-    common::reduced(gear, false).0
+    small_gears::reduced(gear, false).0
 }
 
 #[test]
@@ -82,7 +79,7 @@ fn the_identities_hold_and_symmetry_changes_nothing() {
         (-10.0, DRILLED, 3, MESH),
         (-10.0, DRILLED, 3, QUADRATIC),
     ] {
-        let definition = common::gear(mesh, blank, helix_deg);
+        let definition = small_gears::gear(mesh, blank, helix_deg);
         let cyclic = reduced(&definition);
         let whole = reduced(&without_symmetry(&definition));
         assert_eq!(cyclic.sectors, sectors);

@@ -1,9 +1,6 @@
 //! Identities of the reduction on a coarse small gear: loads, patterns over several teeth, gauges, convergence.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod common;
-
-use common::{MESH, QUADRATIC, SOLID, THIN_RIM, body, gear, reduced};
+use crate::small_gears::{MESH, QUADRATIC, SOLID, THIN_RIM, body, gear, reduced};
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;

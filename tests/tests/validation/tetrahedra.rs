@@ -1,5 +1,4 @@
 //! A filleted web with holes in ten-node tetrahedra against scikit-fem on the same mesh: stiffness and displacements.
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition};
@@ -123,7 +122,7 @@ fn stiffness_and_displacements_are_those_of_scikit_fem() {
         loads_file.to_str().unwrap(),
         fields_file.to_str().unwrap(),
     ];
-    let script = include_str!("../python/tetrahedra_skfem.py");
+    let script = include_str!("../../python/tetrahedra_skfem.py");
     let answer = python.run("scikit-fem", script, &arguments, b"").unwrap();
     std::fs::remove_dir_all(folder).unwrap();
     let answer = String::from_utf8(answer).unwrap();

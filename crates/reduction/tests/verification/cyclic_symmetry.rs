@@ -1,10 +1,7 @@
 //! The cyclic solution against one factorisation of the whole gear: compliance, gauge rows, fields, effort.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{
-    CONTOUR, FILLETED, MESH, QUADRATIC, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, body, difference,
+use crate::small_gears::{
+    self, CONTOUR, FILLETED, MESH, QUADRATIC, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, body, difference,
     reduced, without_symmetry,
 };
 use gearmesh_geometry::input::InputDocument;
@@ -19,7 +16,7 @@ const AGREEMENT: f64 = 1e-9;
 
 /// A gear with a gauge on the first sector and one elsewhere.
 fn gear(mesh: &str, blank: &str) -> GearDefinition {
-    common::with_gauges(mesh, blank, 0.0, &[(0, "right"), (7, "left")])
+    small_gears::with_gauges(mesh, blank, 0.0, &[(0, "right"), (7, "left")])
 }
 
 /// Reduces a gear both ways and compares everything; `factorisations` of the cyclic way are tooth, sector, harmonics.

@@ -1,0 +1,293 @@
+//! `gearmesh signal`: what a reader of vibration does with a column of a result.
+
+mod outcome;
+mod series;
+
+use crate::arguments::{SignalAnalysis, SignalArguments};
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
+use gearmesh_signal::{
+    Band, OrderBlocks, Resampler, SidebandSettings, Spectrum, Window, amplitude_spectrum, envelope,
+    sideband_table, synchronous_average,
+};
+use outcome::{Curve, Outcome};
+use series::{Series, open};
+use std::f64::consts::TAU;
+
+/// Runs the command.
+pub fn run(a: &SignalArguments) -> Result<(), Failure> {
+    match &a.analysis {
+        SignalAnalysis::Columns { result } => {
+            let result = open(result)?;
+            let names = result.rows.columns().iter().map(|column| &column.name);
+            names.for_each(console::data);
+            Ok(())
+        }
+        SignalAnalysis::Statistics { series: from } => {
+            statistics(&Series::read(from, None)?).finish(from)
+        }
+        SignalAnalysis::Spectrum {
+            series: from,
+            abscissa,
+            peaks,
+        } => {
+            let series = Series::read(from, abscissa.shaft.as_deref())?;
+            let series = series.over_abscissa(abscissa)?;
+            let spectrum = series.spectrum(abscissa)?;
+            let mut outcome = Outcome::new(&series, "spectrum");
+            outcome.curves = spectrum_curves(&series, &spectrum);
+            outcome.is_logarithmic = true;
+            outcome.list_peaks(&spectrum, *peaks);
+            outcome.finish(from)
+        }
+        SignalAnalysis::Sidebands {
+            series: from,
+            abscissa,
+            carrier,
+            modulator,
+            pairs,
+            search_lines,
+        } => {
+            let series = Series::read(from, abscissa.shaft.as_deref())?;
+            let series = series.over_abscissa(abscissa)?;
+            let spectrum = series.spectrum(abscissa)?;
+            let settings = SidebandSettings {
+                carrier: *carrier,
+                modulator: *modulator,
+                pairs: *pairs,
+                search_lines: *search_lines,
+            };
+            let table = sideband_table(&spectrum, settings).map_err(Failure::input)?;
+            let mut outcome = Outcome::new(&series, "sidebands");
+            outcome.curves = spectrum_curves(&series, &spectrum);
+            outcome.is_logarithmic = true;
+            outcome.heads = ["number", series.place, "amplitude", "over the carrier"]
+                .map(str::to_owned)
+                .to_vec();
+            let row = |s: &gearmesh_signal::Sideband| {
+                vec![f64::from(s.number), s.at, s.amplitude, s.ratio]
+            };
+            outcome.rows = table.iter().map(row).collect();
+            let beside = table.iter().filter(|line| line.number != 0);
+            let energy: f64 = beside.map(|line| line.ratio.powi(2)).sum();
+            outcome.figure(
+                "sidebands over the carrier (root of the sum of squares)",
+                energy.sqrt(),
+                "",
+            );
+            outcome.finish(from)
+        }
+        SignalAnalysis::Envelope {
+            series: from,
+            abscissa,
+            low,
+            high,
+            edge,
+            peaks,
+        } => {
+            let series = Series::read(from, abscissa.shaft.as_deref())?;
+            let series = series.over_abscissa(abscissa)?;
+            let band = Band {
+                low: *low,
+                high: *high,
+                edge: edge.unwrap_or(0.1 * (high - low)),
+            };
+            let found = envelope(&series.values, series.rate, band).map_err(Failure::input)?;
+            let of_envelope = series.spectrum_of(&found.envelope, abscissa)?;
+            let mut outcome = Outcome::new(&series, "envelope");
+            let level = mean(&found.envelope).map_err(Failure::input)?;
+            outcome.figure("mean of the envelope", level, series.unit);
+            let swing = peak_to_peak(&found.envelope).map_err(Failure::input)?;
+            outcome.figure("peak to peak of the envelope", swing, series.unit);
+            let spiky = kurtosis(&found.filtered).unwrap_or(f64::NAN);
+            outcome.figure("kurtosis of the band", spiky, "");
+            outcome.list_peaks(&of_envelope, *peaks);
+            outcome.curves = vec![
+                series.abscissa(),
+                Curve::new("band", series.unit, found.filtered),
+                Curve::new("envelope", series.unit, found.envelope),
+            ];
+            outcome.finish(from)
+        }
+        SignalAnalysis::Average {
+            series: from,
+            shaft,
+            periods_per_turn,
+        } => {
+            let series = Series::read(from, Some(&shaft.shaft))?;
+            average(&series, shaft.samples_per_turn, *periods_per_turn)?.finish(from)
+        }
+        SignalAnalysis::Map {
+            series: from,
+            shaft,
+            block_turns,
+            step_turns,
+            peaks,
+        } => {
+            let series = Series::read(from, Some(&shaft.shaft))?;
+            let blocks = OrderBlocks {
+                samples_per_revolution: series.samples_per_turn(shaft.samples_per_turn)?,
+                block_revolutions: *block_turns,
+                step_revolutions: *step_turns,
+                window: Window::Hann,
+            };
+            map(&series, blocks, *peaks)?.finish(from)
+        }
+    }
+}
+
+fn statistics(series: &Series) -> Outcome {
+    let values = &series.values;
+    let centre = mean(values).unwrap_or(f64::NAN);
+    let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
+    let mut outcome = Outcome::new(series, "statistics");
+    let or_none = |value: Result<f64, _>| value.unwrap_or(f64::NAN);
+    outcome.figure("mean", centre, series.unit);
+    outcome.figure("RMS", or_none(rms(values)), series.unit);
+    outcome.figure("RMS about the mean", or_none(rms(&centred)), series.unit);
+    outcome.figure("peak to peak", or_none(peak_to_peak(values)), series.unit);
+    outcome.figure("kurtosis", or_none(kurtosis(values)), "");
+    outcome.figure(
+        "crest factor about the mean",
+        or_none(crest_factor(&centred)),
+        "",
+    );
+    outcome.curves = vec![
+        series.abscissa(),
+        Curve::new(&series.column, series.unit, values.clone()),
+    ];
+    outcome
+}
+
+fn spectrum_curves(series: &Series, spectrum: &Spectrum) -> Vec<Curve> {
+    let places = (0..spectrum.values.len()).map(|line| spectrum.at(line));
+    vec![
+        Curve::new(series.place, series.place_unit, places.collect()),
+        Curve::new("amplitude", series.unit, spectrum.values.clone()),
+    ]
+}
+
+/// Average over the periods of a shaft.
+fn average(
+    series: &Series,
+    samples_per_turn: Option<usize>,
+    periods_per_turn: usize,
+) -> Result<Outcome, Failure> {
+    let per_period = series.samples_per_turn(samples_per_turn)? / periods_per_turn.max(1);
+    if periods_per_turn == 0 || per_period < 4 {
+        return Err(Failure::input(format!(
+            "--periods-per-turn: found {periods_per_turn}, which leaves {per_period} samples in a period; allowed is 1 or more with at least 4 samples each (shorten interval_s of the scene's [output], or give --samples-per-turn)"
+        )));
+    }
+    let per_turn = per_period * periods_per_turn;
+    let resampled = series.to_angle(per_turn)?;
+    let periods = resampled.values.len() / per_period;
+    let found =
+        synchronous_average(&resampled.values, per_period, periods).map_err(Failure::input)?;
+    let mut outcome = Outcome::new(series, "synchronous average");
+    outcome.figure("periods averaged", found.periods as f64, "");
+    let swing = peak_to_peak(&found.average).map_err(Failure::input)?;
+    outcome.figure("peak to peak of the average", swing, series.unit);
+    let left = rms(&found.residual).map_err(Failure::input)?;
+    outcome.figure("RMS of the residual", left, series.unit);
+    outcome.figure(
+        "kurtosis of the residual",
+        found.residual_kurtosis.unwrap_or(f64::NAN),
+        "",
+    );
+    let step = TAU / per_turn as f64;
+    let angle = |sample: usize| resampled.start_rad + sample as f64 * step;
+    outcome.curves = vec![
+        Curve::new("angle", "rad", (0..per_period).map(angle).collect()),
+        Curve::new("average", series.unit, found.average),
+    ];
+    Ok(outcome)
+}
+
+/// Amplitudes of all orders, block by block, and the strongest orders over the speed.
+fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Failure> {
+    let angles = series.angles()?;
+    let rows = gearmesh_signal::campbell::order_map(
+        &series.values,
+        angles,
+        series.rate,
+        blocks,
+        &Resampler::default(),
+    )
+    .map_err(Failure::input)?;
+    let Some(first) = rows.first() else {
+        return Err(Failure::input("the series holds no whole block"));
+    };
+    let lines = first.spectrum.values.len();
+    let largest = |line: usize| {
+        rows.iter()
+            .map(|row| row.spectrum.values[line])
+            .fold(0.0, f64::max)
+    };
+    let envelope = Spectrum {
+        values: (0..lines).map(largest).collect(),
+        line_spacing: first.spectrum.line_spacing,
+    };
+    let mut outcome = Outcome::new(series, "order map");
+    outcome.figure("blocks", rows.len() as f64, "");
+    let rpm = |speed: f64| speed * 60.0 / TAU;
+    let mut tracks = Vec::new();
+    outcome.heads = ["order", "largest amplitude", "at rpm"]
+        .map(str::to_owned)
+        .to_vec();
+    for (line, amplitude) in outcome::peaks(&envelope, peaks) {
+        let at = rows
+            .iter()
+            .find(|row| row.spectrum.values[line] == amplitude);
+        let speed = at.map_or(f64::NAN, |row| rpm(row.speed_rad_per_s));
+        outcome.rows.push(vec![envelope.at(line), amplitude, speed]);
+        tracks.push(line);
+    }
+    outcome.curves = vec![
+        Curve::new(
+            "speed",
+            "rpm",
+            rows.iter().map(|row| rpm(row.speed_rad_per_s)).collect(),
+        ),
+        Curve::new(
+            "time",
+            "s",
+            rows.iter().map(|row| series.start_s + row.time_s).collect(),
+        ),
+    ];
+    for line in 0..lines {
+        let values = rows.iter().map(|row| row.spectrum.values[line]);
+        let name = format!("order {}", envelope.at(line));
+        let mut curve = Curve::new(&name, series.unit, values.collect());
+        curve.is_drawn = tracks.contains(&line);
+        outcome.curves.push(curve);
+    }
+    // Drawn over the speed where that rises, over time otherwise.
+    let rises = rows
+        .windows(2)
+        .all(|pair| pair[1].speed_rad_per_s > pair[0].speed_rad_per_s);
+    outcome.curves[usize::from(rises)].is_drawn = false;
+    Ok(outcome)
+}
+
+impl Series {
+    /// Amplitudes over frequency or order, mean removed.
+    fn spectrum(
+        &self,
+        abscissa: &crate::arguments::AbscissaArguments,
+    ) -> Result<Spectrum, Failure> {
+        self.spectrum_of(&self.values, abscissa)
+    }
+
+    /// The same of other values at the same places.
+    fn spectrum_of(
+        &self,
+        values: &[f64],
+        abscissa: &crate::arguments::AbscissaArguments,
+    ) -> Result<Spectrum, Failure> {
+        let centre = mean(values).map_err(Failure::input)?;
+        let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
+        amplitude_spectrum(&centred, self.rate, self.window(abscissa)).map_err(Failure::input)
+    }
+}

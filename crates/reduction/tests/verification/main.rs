@@ -1,0 +1,12 @@
+//! Verification of the reduction on small gears. One binary, so that it links once and long tests run beside each other.
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+mod cyclic_symmetry;
+mod helical;
+mod imported_mesh;
+mod natural_modes;
+mod near_field;
+mod reduction;
+mod root_crack;
+mod small_gears;
+mod tetrahedra;

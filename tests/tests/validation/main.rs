@@ -1,0 +1,14 @@
+//! Validation of whole gears and pairs against other programs, finer meshes and reference records. One binary, so that it links
+//! once and long tests run beside each other.
+#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+mod friction_at_the_root;
+mod gear_modes;
+mod graded_tooth;
+mod line_load;
+mod mesh_convergence;
+mod plane_strain_deflection;
+mod slice_deflection;
+mod solid_pair_transmission_error;
+mod tetrahedra;
+mod thin_rim_deflection;
