@@ -8,7 +8,7 @@
 //! | proportional to stiffness | the teeth are a Kelvin-Voigt solid: they feel the gap g + τ s(δ) ġ |
 //! | viscous | F = max(0, F_elastic − c s(δ) ġ), c for each tooth pair, shared by its slices; for the whole mesh where the model has no single teeth (`iso6336`) |
 //!
-//! Neither pulls. The first spends τ ġᵀ K s ġ (to first order in τ ġ/δ), the second c s ġ².
+//! Neither pulls. The first spends τ ġᵀ K s ġ (but for what K changes within τ s ġ), the second c s ġ².
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
@@ -121,8 +121,10 @@ impl<M: TeethModel> Damped<M> {
         (self.teeth).apply_stiffness(&self.felt, loads, &self.advance_m, &mut self.drag_n);
         for (i, contact) in flanks.contacts.iter().enumerate() {
             loads.dissipated_w += contact.gap_rate_m_per_s * self.drag_n[i];
-            // The energy at the true gap, to first order in the difference to the felt one.
-            loads.stored_j += loads.normal_n[i] * self.advance_m[i];
+            // The energy V at the true gap g, from the felt one g + a: V(g) = V(g + a) + F·a + ½ aᵀK a, so that what the forces do is the change
+            // of V and aᵀK ġ but for what K changes.
+            let mean_n = loads.normal_n[i] + 0.5 * self.drag_n[i];
+            loads.stored_j += mean_n * self.advance_m[i];
         }
         if tangents {
             let rows = loads.stiffness_n_per_m.chunks_exact_mut(n.max(1));

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
-use gearmesh_geometry::GearPair;
+use gearmesh_geometry::{FlankSide, GearPair};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::mesh_common::*;
@@ -62,6 +62,42 @@ fn energy_of_a_hybrid_pair_at_full_load() {
     let lost = error(PathEnds::LineOfAction, 4e-6);
     println!("{lost}");
     assert!((5e-3..50e-3).contains(&lost), "{lost}");
+}
+
+/// With damping proportional to stiffness the balance closes to what the stiffness changes within τ ġ, where a pair begins to carry: the same at
+/// any step. Seen: 3.6e-6 and 3.4e-6 J at 0.25 and 0.125 µs of 3.1 mJ of heat; 1.25e-5 J at both where the stored energy is that of the
+/// felt gaps to first order.
+#[test]
+fn energy_of_a_damped_hybrid_pair_at_full_load() {
+    let pair = spur_pair();
+    let torque = 200.0;
+    let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
+    let scene = Scene {
+        te_m: -4e-6,
+        speed_rad_per_s: 60.0,
+        torque_1: Some(TimeFunction::Constant(torque * r1 / r2)),
+        ..Scene::new(&pair).loaded_by(torque)
+    };
+    let damping = Damping::StiffnessProportional {
+        time_s: 2e-6,
+        full_depth_m: 1e-6,
+    };
+    let of = |side| Damped::new(model("hybrid", &pair, side), damping, SLICES).unwrap();
+    let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
+        .unwrap()
+        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .unwrap();
+    let params = Params {
+        rho_infinity: 1.0,
+        newton_tolerance: 1e-12,
+        ..Params::fixed(0.5e-6)
+    };
+    let mut run = Simulation::new(scene.system(mesh), params).unwrap();
+    run.run(3e-3, |_| ControlFlow::Continue(())).unwrap();
+    let energy = run.info().energy;
+    assert!(energy.dissipated_j > 2e-3, "{energy:?}");
+    let off = energy.largest_error_j / energy.dissipated_j;
+    assert!(off < 1.8e-3, "{off:e} {energy:?}");
 }
 
 /// The scene turned by 90° about its second Cardan angle, turned at random and moved: the same run, to rounding.
