@@ -3,7 +3,7 @@
 mod outcome;
 mod series;
 
-use crate::arguments::{SignalAnalysis, SignalArguments};
+use crate::arguments::{AbscissaArguments, SignalAnalysis, SignalArguments};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
@@ -24,117 +24,144 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             names.for_each(console::data);
             Ok(())
         }
-        SignalAnalysis::Statistics { series: from } => {
-            statistics(&Series::read(from, None)?).finish(from)
+        SignalAnalysis::Statistics { series } => {
+            statistics(&Series::read(series, None)?).finish(series)
         }
         SignalAnalysis::Spectrum {
-            series: from,
+            series,
             abscissa,
             peaks,
         } => {
-            let series = Series::read(from, abscissa.shaft.as_deref())?;
-            let series = series.over_abscissa(abscissa)?;
-            let spectrum = series.spectrum(abscissa)?;
-            let mut outcome = Outcome::new(&series, "spectrum");
-            outcome.curves = spectrum_curves(&series, &spectrum);
-            outcome.is_logarithmic = true;
+            let read = Series::over(series, abscissa)?;
+            let spectrum = spectrum(&read, &read.values, abscissa)?;
+            let mut outcome = spectrum_outcome(&read, "spectrum", &spectrum);
             outcome.list_peaks(&spectrum, *peaks);
-            outcome.finish(from)
+            outcome.finish(series)
         }
         SignalAnalysis::Sidebands {
-            series: from,
+            series,
             abscissa,
             carrier,
             modulator,
             pairs,
             search_lines,
         } => {
-            let series = Series::read(from, abscissa.shaft.as_deref())?;
-            let series = series.over_abscissa(abscissa)?;
-            let spectrum = series.spectrum(abscissa)?;
+            let read = Series::over(series, abscissa)?;
             let settings = SidebandSettings {
                 carrier: *carrier,
                 modulator: *modulator,
                 pairs: *pairs,
                 search_lines: *search_lines,
             };
-            let table = sideband_table(&spectrum, settings).map_err(Failure::input)?;
-            let mut outcome = Outcome::new(&series, "sidebands");
-            outcome.curves = spectrum_curves(&series, &spectrum);
-            outcome.is_logarithmic = true;
-            outcome.heads = ["number", series.place, "amplitude", "over the carrier"]
-                .map(str::to_owned)
-                .to_vec();
-            let row = |s: &gearmesh_signal::Sideband| {
-                vec![f64::from(s.number), s.at, s.amplitude, s.ratio]
-            };
-            outcome.rows = table.iter().map(row).collect();
-            let beside = table.iter().filter(|line| line.number != 0);
-            let energy: f64 = beside.map(|line| line.ratio.powi(2)).sum();
-            outcome.figure(
-                "sidebands over the carrier (root of the sum of squares)",
-                energy.sqrt(),
-                "",
-            );
-            outcome.finish(from)
+            sidebands(&read, &spectrum(&read, &read.values, abscissa)?, settings)?.finish(series)
         }
         SignalAnalysis::Envelope {
-            series: from,
+            series,
             abscissa,
             low,
             high,
             edge,
             peaks,
         } => {
-            let series = Series::read(from, abscissa.shaft.as_deref())?;
-            let series = series.over_abscissa(abscissa)?;
             let band = Band {
                 low: *low,
                 high: *high,
                 edge: edge.unwrap_or(0.1 * (high - low)),
             };
-            let found = envelope(&series.values, series.rate, band).map_err(Failure::input)?;
-            let of_envelope = series.spectrum_of(&found.envelope, abscissa)?;
-            let mut outcome = Outcome::new(&series, "envelope");
-            let level = mean(&found.envelope).map_err(Failure::input)?;
-            outcome.figure("mean of the envelope", level, series.unit);
-            let swing = peak_to_peak(&found.envelope).map_err(Failure::input)?;
-            outcome.figure("peak to peak of the envelope", swing, series.unit);
-            let spiky = kurtosis(&found.filtered).unwrap_or(f64::NAN);
-            outcome.figure("kurtosis of the band", spiky, "");
-            outcome.list_peaks(&of_envelope, *peaks);
-            outcome.curves = vec![
-                series.abscissa(),
-                Curve::new("band", series.unit, found.filtered),
-                Curve::new("envelope", series.unit, found.envelope),
-            ];
-            outcome.finish(from)
+            let read = Series::over(series, abscissa)?;
+            band_envelope(&read, band, (abscissa, *peaks))?.finish(series)
         }
         SignalAnalysis::Average {
-            series: from,
+            series,
             shaft,
             periods_per_turn,
         } => {
-            let series = Series::read(from, Some(&shaft.shaft))?;
-            average(&series, shaft.samples_per_turn, *periods_per_turn)?.finish(from)
+            let read = Series::read(series, Some(&shaft.shaft))?;
+            average(&read, shaft.samples_per_turn, *periods_per_turn)?.finish(series)
         }
         SignalAnalysis::Map {
-            series: from,
+            series,
             shaft,
             block_turns,
             step_turns,
             peaks,
         } => {
-            let series = Series::read(from, Some(&shaft.shaft))?;
+            let read = Series::read(series, Some(&shaft.shaft))?;
             let blocks = OrderBlocks {
-                samples_per_revolution: series.samples_per_turn(shaft.samples_per_turn)?,
+                samples_per_revolution: read.samples_per_turn(shaft.samples_per_turn)?,
                 block_revolutions: *block_turns,
                 step_revolutions: *step_turns,
                 window: Window::Hann,
             };
-            map(&series, blocks, *peaks)?.finish(from)
+            map(&read, blocks, *peaks)?.finish(series)
         }
     }
+}
+
+/// Amplitudes of values at the places of a series over frequency or order, mean removed.
+fn spectrum(
+    series: &Series,
+    values: &[f64],
+    abscissa: &AbscissaArguments,
+) -> Result<Spectrum, Failure> {
+    let centre = mean(values).map_err(Failure::input)?;
+    let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
+    amplitude_spectrum(&centred, series.rate, series::window(abscissa)).map_err(Failure::input)
+}
+
+/// An outcome that draws a spectrum.
+fn spectrum_outcome(series: &Series, analysis: &'static str, spectrum: &Spectrum) -> Outcome {
+    let mut outcome = Outcome::new(series, analysis);
+    let places = (0..spectrum.values.len()).map(|line| spectrum.at(line));
+    outcome.curves = vec![
+        Curve::new(series.place, series.place_unit, places.collect()),
+        Curve::new("amplitude", series.unit, spectrum.values.clone()),
+    ];
+    outcome.is_logarithmic = true;
+    outcome
+}
+
+fn sidebands(
+    series: &Series,
+    spectrum: &Spectrum,
+    settings: SidebandSettings,
+) -> Result<Outcome, Failure> {
+    let table = sideband_table(spectrum, settings).map_err(Failure::input)?;
+    let mut outcome = spectrum_outcome(series, "sidebands", spectrum);
+    outcome.heads = ["number", series.place, "amplitude", "over the carrier"]
+        .map(str::to_owned)
+        .to_vec();
+    for line in &table {
+        let row = vec![f64::from(line.number), line.at, line.amplitude, line.ratio];
+        outcome.rows.push(row);
+    }
+    let beside = table.iter().filter(|line| line.number != 0);
+    let square: f64 = beside.map(|line| line.ratio.powi(2)).sum();
+    let name = "sidebands over the carrier (root of the sum of squares)";
+    outcome.figure(name, square.sqrt(), "");
+    Ok(outcome)
+}
+
+fn band_envelope(
+    series: &Series,
+    band: Band,
+    (abscissa, peaks): (&AbscissaArguments, usize),
+) -> Result<Outcome, Failure> {
+    let found = envelope(&series.values, series.rate, band).map_err(Failure::input)?;
+    let mut outcome = Outcome::new(series, "envelope");
+    let level = mean(&found.envelope).map_err(Failure::input)?;
+    outcome.figure("mean of the envelope", level, series.unit);
+    let swing = peak_to_peak(&found.envelope).map_err(Failure::input)?;
+    outcome.figure("peak to peak of the envelope", swing, series.unit);
+    let spiky = kurtosis(&found.filtered).unwrap_or(f64::NAN);
+    outcome.figure("kurtosis of the band", spiky, "");
+    outcome.list_peaks(&spectrum(series, &found.envelope, abscissa)?, peaks);
+    outcome.curves = vec![
+        series.abscissa(),
+        Curve::new("band", series.unit, found.filtered),
+        Curve::new("envelope", series.unit, found.envelope),
+    ];
+    Ok(outcome)
 }
 
 fn statistics(series: &Series) -> Outcome {
@@ -158,14 +185,6 @@ fn statistics(series: &Series) -> Outcome {
         Curve::new(&series.column, series.unit, values.clone()),
     ];
     outcome
-}
-
-fn spectrum_curves(series: &Series, spectrum: &Spectrum) -> Vec<Curve> {
-    let places = (0..spectrum.values.len()).map(|line| spectrum.at(line));
-    vec![
-        Curve::new(series.place, series.place_unit, places.collect()),
-        Curve::new("amplitude", series.unit, spectrum.values.clone()),
-    ]
 }
 
 /// Average over the periods of a shaft.
@@ -269,25 +288,4 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
         .all(|pair| pair[1].speed_rad_per_s > pair[0].speed_rad_per_s);
     outcome.curves[usize::from(rises)].is_drawn = false;
     Ok(outcome)
-}
-
-impl Series {
-    /// Amplitudes over frequency or order, mean removed.
-    fn spectrum(
-        &self,
-        abscissa: &crate::arguments::AbscissaArguments,
-    ) -> Result<Spectrum, Failure> {
-        self.spectrum_of(&self.values, abscissa)
-    }
-
-    /// The same of other values at the same places.
-    fn spectrum_of(
-        &self,
-        values: &[f64],
-        abscissa: &crate::arguments::AbscissaArguments,
-    ) -> Result<Spectrum, Failure> {
-        let centre = mean(values).map_err(Failure::input)?;
-        let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
-        amplitude_spectrum(&centred, self.rate, self.window(abscissa)).map_err(Failure::input)
-    }
 }

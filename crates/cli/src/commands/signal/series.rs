@@ -112,13 +112,14 @@ impl Series {
         })
     }
 
-    /// Over the shaft's angle, whole turns, if one is asked for; as it is otherwise.
-    pub fn over_abscissa(self, a: &AbscissaArguments) -> Result<Self, Failure> {
-        if a.shaft.is_none() {
-            return Ok(self);
+    /// Reads a column over time, or over a shaft's angle for whole turns if one is asked for.
+    pub fn over(a: &SeriesArguments, abscissa: &AbscissaArguments) -> Result<Self, Failure> {
+        let series = Self::read(a, abscissa.shaft.as_deref())?;
+        if abscissa.shaft.is_none() {
+            return Ok(series);
         }
-        let per_turn = self.samples_per_turn(a.samples_per_turn)?;
-        let resampled = self.to_angle(per_turn)?;
+        let per_turn = series.samples_per_turn(abscissa.samples_per_turn)?;
+        let resampled = series.to_angle(per_turn)?;
         let mut values = resampled.values;
         let turns = values.len() / per_turn;
         if turns == 0 {
@@ -134,7 +135,7 @@ impl Series {
             place: "order",
             place_unit: "",
             values,
-            ..self
+            ..series
         })
     }
 
@@ -167,17 +168,6 @@ impl Series {
         Ok(samples as usize)
     }
 
-    /// The window that was asked for, or the usual one.
-    pub fn window(&self, a: &AbscissaArguments) -> Window {
-        match a.window {
-            Some(WindowKind::None) => Window::None,
-            Some(WindowKind::Hann) => Window::Hann,
-            Some(WindowKind::FlatTop) => Window::FlatTop,
-            None if a.shaft.is_some() => Window::None,
-            None => Window::Hann,
-        }
-    }
-
     /// Times or turns of the samples.
     pub fn abscissa(&self) -> Curve {
         let (name, unit) = match self.place {
@@ -186,6 +176,17 @@ impl Series {
         };
         let at = |i: usize| self.start + i as f64 / self.rate;
         Curve::new(name, unit, (0..self.values.len()).map(at).collect())
+    }
+}
+
+/// The window that was asked for, or the usual one.
+pub fn window(a: &AbscissaArguments) -> Window {
+    match a.window {
+        Some(WindowKind::None) => Window::None,
+        Some(WindowKind::Hann) => Window::Hann,
+        Some(WindowKind::FlatTop) => Window::FlatTop,
+        None if a.shaft.is_some() => Window::None,
+        None => Window::Hann,
     }
 }
 
