@@ -5,7 +5,7 @@
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
 //! | read the gears that it names | [`LoadedSystem`] | `build/gears.rs` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
-//! | what will be computed, and what it costs | [`SystemPlan`] | `plan.rs` |
+//! | what will be computed | [`SystemPlan`] | `plan.rs` |
 
 pub mod build;
 pub mod built;
