@@ -21,6 +21,7 @@ pub use built::{
     RatingJob, RatingRule,
 };
 pub use plan::SystemPlan;
+pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};
 pub use tables::output::Output;
 pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};

@@ -7,7 +7,6 @@ use gearmesh_geometry::InputError;
 use super::built::BuiltSystem;
 use super::scene::SystemScene;
 use super::tables::run::{Direction, Run, Schedule};
-use crate::system_run::RunCost;
 
 /// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
 const MOST_FOR_MODES: usize = 120;
@@ -135,45 +134,13 @@ impl SystemPlan {
             ));
         }
     }
-
-    /// Adds what the run will cost.
-    #[must_use]
-    pub fn with_cost(mut self, scene: &SystemScene, cost: Option<RunCost>) -> Self {
-        let (Some(params), Some(cost)) = (scene.solver.params, cost) else {
-            return self;
-        };
-        let (step_s, word) = step_in_words(params.step);
-        let step_cost_s = cost.wall_s / cost.steps;
-        self.lines.push(format!(
-            "cost       {} s in steps of {step_s} s ({word}): {:.0} steps of {:.1} us, about {} s; from {}",
-            (1e6 * cost.simulated_s).round() / 1e6,
-            cost.steps,
-            1e6 * step_cost_s,
-            rounded(cost.wall_s),
-            match cost.trials {
-                1 => "a trial from the start".to_string(),
-                trials => format!("{trials} trials over the range"),
-            }
-        ));
-        (self.steps, self.step_cost_s) = (Some(cost.steps), Some(step_cost_s));
-        self
-    }
 }
 
 /// The step, for adaptive ones the longest, and how to call it.
-fn step_in_words(step: StepControl) -> (f64, &'static str) {
+pub(crate) fn step_in_words(step: StepControl) -> (f64, &'static str) {
     match step {
         StepControl::Fixed { step_s } => (step_s, "fixed"),
         StepControl::Adaptive(limits) => (limits.largest_step_s, "adaptive, at most"),
-    }
-}
-
-/// Two digits that count.
-fn rounded(seconds: f64) -> String {
-    if seconds >= 10.0 {
-        format!("{seconds:.0}")
-    } else {
-        format!("{seconds:.2}")
     }
 }
 

@@ -21,7 +21,7 @@ use super::from_scene::varied;
 use super::in_time::begin;
 use super::job::{RunJob, RunKind};
 use super::recorder::{Course, Moment, Recorder, Selection};
-use crate::system::{LoadedSystem, Run, Start};
+use crate::system::{LoadedSystem, Run, Start, SystemPlan, SystemScene, step_in_words};
 
 /// Wall time of all trials together, equilibria not counted: enough for some thousand steps of a pair.
 const TRIALS: Duration = Duration::from_millis(1000);
@@ -250,6 +250,40 @@ impl Trial<'_> {
             steps_per_s: f64::from(steps) / simulated_s,
             wall_per_s: clock.elapsed().as_secs_f64() / simulated_s,
         })
+    }
+}
+
+impl SystemPlan {
+    /// Adds what the run will cost.
+    #[must_use]
+    pub fn with_cost(mut self, scene: &SystemScene, cost: Option<RunCost>) -> Self {
+        let (Some(params), Some(cost)) = (scene.solver.params, cost) else {
+            return self;
+        };
+        let (step_s, word) = step_in_words(params.step);
+        let step_cost_s = cost.wall_s / cost.steps;
+        self.lines.push(format!(
+            "cost       {} s in steps of {step_s} s ({word}): {:.0} steps of {:.1} us, about {} s; from {}",
+            (1e6 * cost.simulated_s).round() / 1e6,
+            cost.steps,
+            1e6 * step_cost_s,
+            rounded(cost.wall_s),
+            match cost.trials {
+                1 => "a trial from the start".to_string(),
+                trials => format!("{trials} trials over the range"),
+            }
+        ));
+        (self.steps, self.step_cost_s) = (Some(cost.steps), Some(step_cost_s));
+        self
+    }
+}
+
+/// Two digits that count.
+fn rounded(seconds: f64) -> String {
+    if seconds >= 10.0 {
+        format!("{seconds:.0}")
+    } else {
+        format!("{seconds:.2}")
     }
 }
 
