@@ -4,6 +4,7 @@ use crate::arguments::PlanArguments;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_scene::system::SystemPlan;
+use gearmesh_scene::system_run::RunCost;
 use gearmesh_scene::{SceneFile, load};
 use serde_json::json;
 
@@ -17,7 +18,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
-            let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?;
+            let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
+                .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
             let figures = json!({
                 "lines": plan.lines, "degrees_of_freedom": plan.degrees_of_freedom, "equations": plan.equations,
                 "mobility": plan.mobility, "highest_frequency_Hz": plan.highest_frequency_hz, "steps": plan.steps,

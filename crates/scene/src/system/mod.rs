@@ -5,7 +5,7 @@
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
 //! | read the gears that it names | [`LoadedSystem`] | `build/gears.rs` |
 //! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
-//! | what will be computed, and what it costs | [`SystemPlan`] | `plan.rs` |
+//! | what will be computed | [`SystemPlan`] | `plan.rs` |
 
 pub mod build;
 pub mod built;
@@ -20,6 +20,7 @@ pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };
 pub use plan::SystemPlan;
+pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};
 pub use tables::output::Output;
 pub use tables::run::{Direction, MotionValues, Run, RunKind, Schedule, SpeedSweep};

@@ -1,17 +1,12 @@
 //! What a multibody scene will compute, before it is computed.
 
-use std::time::Instant;
-
 use gearmesh_dynamics::scheme::StepControl;
-use gearmesh_dynamics::{DynamicsError, Simulation, natural_modes};
+use gearmesh_dynamics::{DynamicsError, natural_modes};
 use gearmesh_geometry::InputError;
 
 use super::built::BuiltSystem;
 use super::scene::SystemScene;
 use super::tables::run::{Direction, Run, Schedule};
-
-/// Steps that are timed for the cost, after as many that are not.
-const TIMED_STEPS: usize = 20;
 
 /// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
 const MOST_FOR_MODES: usize = 120;
@@ -19,7 +14,7 @@ const MOST_FOR_MODES: usize = 120;
 /// Steps a period of the highest natural frequency below which the plan says so: the scheme damps what it does not resolve.
 const RESOLVED: f64 = 10.0;
 
-/// Size, effects and cost of a scene.
+/// Size and effects of a scene, and what its run costs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SystemPlan {
     /// Lines for people.
@@ -32,17 +27,17 @@ pub struct SystemPlan {
     pub mobility: usize,
     /// Highest natural frequency at the start \[Hz\].
     pub highest_frequency_hz: Option<f64>,
-    /// Steps of a run that steps through time; for adaptive steps the fewest possible.
+    /// Steps of a run that steps through time, if its cost is known.
     pub steps: Option<f64>,
-    /// Time of one step on this machine \[s\], from the first ones.
+    /// Wall time of one step on this machine \[s\], the mean of the trials.
     pub step_cost_s: Option<f64>,
 }
 
 impl SystemPlan {
-    /// Derives the plan; makes some steps to see what they cost.
+    /// Derives the plan, without the cost.
     ///
     /// # Errors
-    /// [`InputError`] when the first steps fail: the run would, too.
+    /// [`InputError`] when the equations at the start cannot be solved: the run would fail, too.
     pub fn new(scene: &SystemScene, built: BuiltSystem) -> Result<Self, InputError> {
         Self::derive(scene, built).map_err(|error| scene.complaint(&error))
     }
@@ -122,57 +117,30 @@ impl SystemPlan {
             steps: None,
             step_cost_s: None,
         };
-        plan.add_cost(scene, built)?;
+        plan.add_resolution(scene);
         Ok(plan)
     }
 
-    fn add_cost(&mut self, scene: &SystemScene, built: BuiltSystem) -> Result<(), DynamicsError> {
-        let (Some(params), Some(simulated)) = (scene.solver.params, scene.run.simulated_s()) else {
-            return Ok(());
+    fn add_resolution(&mut self, scene: &SystemScene) {
+        let (Some(params), Some(highest)) = (scene.solver.params, self.highest_frequency_hz) else {
+            return;
         };
-        let (step_s, word) = match params.step {
-            StepControl::Fixed { step_s } => (step_s, "fixed"),
-            StepControl::Adaptive(limits) => (limits.largest_step_s, "adaptive, at most"),
-        };
-        if let Some(highest) = self.highest_frequency_hz
-            && highest * step_s * RESOLVED > 1.0
-        {
+        let (step_s, _) = step_in_words(params.step);
+        if scene.run.simulated_s().is_some() && highest * step_s * RESOLVED > 1.0 {
             self.lines.push(format!(
                 "note       a step of {step_s} s has {:.1} steps in a period of the highest natural frequency: what is above {:.1} Hz is damped by the scheme, not resolved",
                 1.0 / (highest * step_s),
                 1.0 / (RESOLVED * step_s)
             ));
         }
-        let mut simulation = Simulation::new(built.system, params)?;
-        let mut first = || {
-            for _ in 0..TIMED_STEPS {
-                simulation.step()?;
-            }
-            Ok::<_, DynamicsError>(())
-        };
-        first()?;
-        let clock = Instant::now();
-        first()?;
-        let cost_s = clock.elapsed().as_secs_f64() / TIMED_STEPS as f64;
-        let steps = simulated / step_s;
-        self.lines.push(format!(
-            "cost       {} s in steps of {step_s} s ({word}): {steps:.0} steps of {:.1} us as the first ones take, about {} s",
-            (1e6 * simulated).round() / 1e6,
-            1e6 * cost_s,
-            rounded(steps * cost_s)
-        ));
-        self.steps = Some(steps);
-        self.step_cost_s = Some(cost_s);
-        Ok(())
     }
 }
 
-/// Two digits that count.
-fn rounded(seconds: f64) -> String {
-    if seconds >= 10.0 {
-        format!("{seconds:.0}")
-    } else {
-        format!("{seconds:.2}")
+/// The step, for adaptive ones the longest, and how to call it.
+pub(crate) fn step_in_words(step: StepControl) -> (f64, &'static str) {
+    match step {
+        StepControl::Fixed { step_s } => (step_s, "fixed"),
+        StepControl::Adaptive(limits) => (limits.largest_step_s, "adaptive, at most"),
     }
 }
 

@@ -87,7 +87,8 @@ impl RunJob {
     }
 }
 
-fn varied(motion: &str, function: Motion, load_factor: f64) -> Variation {
+/// A scene with another function for a motion.
+pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variation {
     Variation {
         motions: vec![(motion.to_owned(), function)],
         load_factor,

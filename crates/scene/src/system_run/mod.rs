@@ -5,6 +5,7 @@
 //! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
 //! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs` |
 //! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
+//! | what it will cost | [`RunCost`] | `cost.rs` |
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
@@ -13,6 +14,7 @@
 
 mod column_names;
 mod column_statistics;
+mod cost;
 mod counted_angles;
 mod eigen_run;
 mod error;
@@ -31,6 +33,7 @@ mod summary;
 
 pub use column_names::{is_prominent, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
+pub use cost::RunCost;
 pub use eigen_run::participation;
 pub use error::SystemRunError;
 pub use job::{

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::system::{Run, SystemPlan};
+use gearmesh_scene::system_run::RunCost;
 
 use crate::common::*;
 use crate::{assert_labelled, spin};
@@ -40,7 +41,9 @@ fn plans_say_what_is_computed_and_what_is_not() {
         };
         let loaded = scene.load().unwrap();
         assert!(matches!(loaded.scene.run, Run::Transient { .. }));
-        let plan = SystemPlan::new(&loaded.scene, loaded.build().unwrap()).unwrap();
+        let plan = SystemPlan::new(&loaded.scene, loaded.build().unwrap())
+            .unwrap()
+            .with_cost(&loaded.scene, RunCost::timed(&loaded).unwrap());
         let text = plan.lines.join("\n");
         for part in expected {
             assert!(text.contains(part), "`{part}` is not in\n{text}");
