@@ -9,7 +9,7 @@ use crate::calibrated_field::CalibratedField;
 use crate::crack_rows::CrackRows;
 use crate::local_contact::{CompliancePart, LocalContact, effective_depth_m};
 use crate::placed_slice::{PlacedSlice, axial_shares};
-use crate::roll_shares::{RollHats, RollPlace};
+use crate::roll_shares::{RollHats, RollPlace, SHARES};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::{LineBlock, StationBlocks};
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
@@ -295,7 +295,7 @@ impl SliceCompliance {
 
     /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours,
     /// and a neighbour gets the mean of the two slices' terms. With all slices at one place that of [`Self::add_block`].
-    fn spread_between(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
+    fn spread_between(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
         if a.tooth != b.tooth {
             return 0.0;
         }
@@ -308,36 +308,38 @@ impl SliceCompliance {
 
     /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
     /// calibrated correction's part between neighbours is included.
-    pub fn between_slices(&self, a: PlacedSlice, b: PlacedSlice) -> f64 {
-        self.combined(&a, a.place.shares(), &b)
+    pub fn between_slices(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
+        self.combined(a, a.place.all_shares(), b)
             + self.spread_between(a, b)
-            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(&a, &b))
+            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(a, b))
     }
 
-    /// Σ w_s C between the stations of slice `a` with weights w_s and slice `b` at its place.
-    fn combined(
-        &self,
-        a: &PlacedSlice,
-        weights: impl Iterator<Item = (usize, f64)>,
-        b: &PlacedSlice,
-    ) -> f64 {
+    /// Σ w_s C between the stations of slice `a` with weights w_s and slice `b` at its place. Plain loops: on helical teeth most of the
+    /// time goes here.
+    fn combined(&self, a: &PlacedSlice, weights: &[f64; SHARES], b: &PlacedSlice) -> f64 {
         let pair = self.pair(a.tooth, b.tooth);
         let entry = a.slice * self.slices + b.slice;
-        let along = |station: usize| -> f64 {
-            let shares = b.place.shares();
-            shares
-                .map(|(other, share)| share * self.blocks.block(pair, station, other)[entry])
-                .sum()
-        };
-        weights
-            .map(|(station, weight)| weight * along(station))
-            .sum()
+        let mut sum = 0.0;
+        for (station, weight) in (a.place.first()..).zip(weights) {
+            // Stations that do not exist have no share.
+            if *weight == 0.0 {
+                continue;
+            }
+            let mut along = 0.0;
+            for (other, share) in (b.place.first()..).zip(b.place.all_shares()) {
+                if *share != 0.0 {
+                    along += share * self.blocks.block(pair, station, other)[entry];
+                }
+            }
+            sum += weight * along;
+        }
+        sum
     }
 
     /// Derivative of [`Self::between_slices`] by the roll angle of slice `a` \[m/(N·rad)\]; of a slice with itself half of what its
     /// compliance changes by.
     pub fn between_slices_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        let rate = self.combined(a, a.place.rates(), b);
+        let rate = self.combined(a, a.place.all_rates(), b);
         // As in `spread_between`: in sum over both slices of a term half of its change.
         let spread = match a.slice.abs_diff(b.slice) {
             _ if a.tooth != b.tooth => 0.0,

@@ -394,7 +394,7 @@ impl SliceContact {
         for (i, a) in self.placed.iter().enumerate() {
             for (j, b) in self.placed.iter().enumerate() {
                 c[i * n + j] =
-                    gears[0].between_slices(a[0], b[0]) + gears[1].between_slices(a[1], b[1]);
+                    gears[0].between_slices(&a[0], &b[0]) + gears[1].between_slices(&a[1], &b[1]);
             }
         }
         symmetrise(c, n);

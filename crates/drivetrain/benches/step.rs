@@ -179,7 +179,7 @@ fn print_accuracy() {
             let off = force / exact - 1.0;
             println!("  Newton to {tolerance:e}: {off:+.1e}, {corrections:.2} corrections a step");
         }
-        for steps in [2 * STEPS_A_PERIOD, 4 * STEPS_A_PERIOD] {
+        for steps in [12, 2 * STEPS_A_PERIOD, 4 * STEPS_A_PERIOD] {
             let (force, _) = of(1e-12, steps);
             println!("  {steps} steps a period: {:+.3}", force / exact - 1.0);
         }

@@ -128,7 +128,7 @@ impl SliceContact {
     pub fn energy_by_share(&self, slice: usize) -> f64 {
         let (force, share) = (self.work.forces()[slice], self.shares[slice]);
         if self.local_contact == LocalContact::None {
-            let [a, b] = self.placed[slice];
+            let [a, b] = &self.placed[slice];
             let own =
                 self.compliance_1.between_slices(a, a) + self.compliance_2.between_slices(b, b);
             return -0.5 * force * force * own / (share * share);

@@ -8,6 +8,7 @@ use gearmesh_dynamics::{State, System};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system::{BuiltSystem, LoadedSystem, SystemPlan, SystemScene};
+use gearmesh_scene::system_run::RunCost;
 
 /// The folder of the shipped scenes.
 pub fn fe_models() -> PathBuf {
@@ -29,10 +30,11 @@ pub fn build_in(text: &str, folder: &Path) -> Result<BuiltSystem, InputError> {
     load(text, folder)?.build()
 }
 
-/// Reads, builds and plans a scene in the folder of the shipped ones.
+/// Reads, builds and plans a scene in the folder of the shipped ones, with the trials that tell its cost.
 pub fn plan(text: &str) -> Result<SystemPlan, InputError> {
     let loaded = load(text, &fe_models())?;
-    SystemPlan::new(&loaded.scene, loaded.build()?)
+    let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?;
+    Ok(plan.with_cost(&loaded.scene, RunCost::timed(&loaded)?))
 }
 
 pub fn build(text: &str) -> Result<BuiltSystem, InputError> {
