@@ -179,7 +179,10 @@ fn print_accuracy() {
             let off = force / exact - 1.0;
             println!("  Newton to {tolerance:e}: {off:+.1e}, {corrections:.2} corrections a step");
         }
-        for steps in [12, 2 * STEPS_A_PERIOD, 4 * STEPS_A_PERIOD] {
+        // Seed 002's pair refuses a step as long as the first one.
+        let fits = |steps: &usize| *steps > 12 || kind.name == IMPACT.name;
+        let all = [12, 2 * STEPS_A_PERIOD, 4 * STEPS_A_PERIOD];
+        for steps in all.into_iter().filter(fits) {
             let (force, _) = of(1e-12, steps);
             println!("  {steps} steps a period: {:+.3}", force / exact - 1.0);
         }
