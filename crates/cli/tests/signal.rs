@@ -124,6 +124,9 @@ fn tones_are_found_over_frequency_and_order() {
     assert_near(amplitudes[1], response(1.0, 60.0));
     assert_near(found[2], 8.0);
     assert_near(amplitudes[2], response(1.0, 80.0));
+    // 200 samples in a turn: right up to order 80, and nothing above is shown.
+    let all = signal("spectrum", &["--shaft", "disc", "--peaks", "1000"]);
+    assert!(list(&all, "order").iter().all(|order| *order <= 80.0));
     // A flat top reads the same amplitude between two lines.
     assert_near(list(&frequencies, "amplitude")[0], amplitudes[0]);
 }

@@ -98,7 +98,7 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
     }
 }
 
-/// Amplitudes of values at the places of a series over frequency or order, mean removed.
+/// Amplitudes of values at the places of a series over frequency or order, mean removed. Orders end where the resampling is no longer right.
 fn spectrum(
     series: &Series,
     values: &[f64],
@@ -106,7 +106,18 @@ fn spectrum(
 ) -> Result<Spectrum, Failure> {
     let centre = mean(values).map_err(Failure::input)?;
     let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
-    amplitude_spectrum(&centred, series.rate, series::window(abscissa)).map_err(Failure::input)
+    let window = series::window(abscissa);
+    let mut found = amplitude_spectrum(&centred, series.rate, window).map_err(Failure::input)?;
+    if abscissa.shaft.is_some() {
+        found.values.truncate(right_lines(&found, series.rate));
+    }
+    Ok(found)
+}
+
+/// Lines of orders that resampling keeps, for so many samples in a turn.
+fn right_lines(spectrum: &Spectrum, per_turn: f64) -> usize {
+    let highest = 0.5 * per_turn * Resampler::default().band();
+    (highest / spectrum.line_spacing).floor() as usize + 1
 }
 
 /// An outcome that draws a spectrum.
@@ -238,7 +249,7 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
     let Some(first) = rows.first() else {
         return Err(Failure::input("the series holds no whole block"));
     };
-    let lines = first.spectrum.values.len();
+    let lines = right_lines(&first.spectrum, blocks.samples_per_revolution as f64);
     let largest = |line: usize| {
         rows.iter()
             .map(|row| row.spectrum.values[line])
