@@ -30,15 +30,14 @@ use crate::flank_contacts::{FlankContacts, FlankErrors, Section, TeethLine, Toot
 use crate::flank_error::FlankPoint;
 use crate::path_ends::{PathEnds, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{CentreLine, Matrix6, PoseGeometry, SlicePlane, line_of_action};
+use crate::slice_plane::{
+    CentreLine, Matrix6, PoseGeometry, SlicePlane, even_width_m, line_of_action,
+};
 use crate::tooth_zero::ToothZero;
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
 /// of its square, 1e-4 of the lengths. The static scene has the same limit.
 pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
-
-/// How far the spacing of slice planes may vary, as a share of it: rounding.
-const UNEVEN: f64 = 1e-6;
 
 /// Two gears with their deviations.
 #[derive(Clone)]
@@ -492,16 +491,4 @@ impl MeshKinematics {
         }
         (depth, slope)
     }
-}
-
-/// Width of evenly spaced slices \[m\]; none where there is one.
-fn even_width_m(slices_m: &[f64]) -> Result<Option<f64>, DrivetrainError> {
-    let steps = || slices_m.windows(2).map(|pair| pair[1] - pair[0]);
-    let Some(width) = steps().next() else {
-        return Ok(None);
-    };
-    if width > 0.0 && steps().all(|step| (step - width).abs() <= UNEVEN * width) {
-        return Ok(Some(width));
-    }
-    Err(DrivetrainError::UnevenSlices)
 }

@@ -8,6 +8,9 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use crate::error::DrivetrainError;
 use crate::pose::{Pose, Vector6};
 
+/// How far the spacing of slice planes may vary, as a share of it: rounding.
+const UNEVEN: f64 = 1e-6;
+
 /// 6×6 matrix on the increments of a pose.
 pub type Matrix6 = SMatrix<f64, 6, 6>;
 
@@ -137,4 +140,16 @@ impl SlicePlane {
         h.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment_by_turn);
         h
     }
+}
+
+/// Width of evenly spaced slices \[m\]; none where there is one.
+pub(crate) fn even_width_m(slices_m: &[f64]) -> Result<Option<f64>, DrivetrainError> {
+    let steps = || slices_m.windows(2).map(|pair| pair[1] - pair[0]);
+    let Some(width) = steps().next() else {
+        return Ok(None);
+    };
+    if width > 0.0 && steps().all(|step| (step - width).abs() <= UNEVEN * width) {
+        return Ok(Some(width));
+    }
+    Err(DrivetrainError::UnevenSlices)
 }

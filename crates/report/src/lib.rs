@@ -5,13 +5,14 @@
 //! | a folder with record.toml and data.csv | the reference as columns in SI units | [`ReferenceRecord::read`] |
 //! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
 //! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
+//! | a curve of many points | fewer of them without losing a peak | [`min_max`] |
 //! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] (`system_page.rs` for multibody scenes) |
 //!
 //! [`page`] knows nothing of gears: it draws what it is given.
 
 pub mod comparison;
 mod comparison_table;
-mod min_max;
+pub mod min_max;
 pub mod page;
 pub mod quantity;
 mod ratings;

@@ -4,7 +4,7 @@
 const BINS: usize = 1500;
 
 /// Abscissas for curves over `x`: two for every bin, or all where that is not fewer.
-pub(crate) fn abscissas(x: &[f64]) -> Vec<f64> {
+pub fn abscissas(x: &[f64]) -> Vec<f64> {
     let size = bin(x.len());
     if size <= 2 {
         return x.to_vec();
@@ -17,7 +17,7 @@ pub(crate) fn abscissas(x: &[f64]) -> Vec<f64> {
 }
 
 /// The values that belong to [`abscissas`].
-pub(crate) fn values(y: &[f64]) -> Vec<f64> {
+pub fn values(y: &[f64]) -> Vec<f64> {
     let size = bin(y.len());
     if size <= 2 {
         return y.to_vec();

@@ -5,6 +5,7 @@ use crate::commands::signal::series::Series;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_model::write_text;
+use gearmesh_report::min_max;
 use gearmesh_report::page::{Align, Axis, AxisScale, LineChart, LineSeries, Page, Section, Table};
 use gearmesh_signal::Spectrum;
 use serde_json::{Map, Value, json};
@@ -177,10 +178,10 @@ impl Outcome {
             Axis::new(x.name.clone(), x.unit.clone()),
             Axis::new(what, unit),
         )
-        .x_values(x.values[first..].to_vec())
+        .x_values(min_max::abscissas(&x.values[first..]))
         .y_scale(scale);
         for curve in ordinates {
-            let mut values = curve.values[first..].to_vec();
+            let mut values = min_max::values(&curve.values[first..]);
             if self.is_logarithmic {
                 let floor = FLOOR * values.iter().copied().fold(0.0, f64::max);
                 values
