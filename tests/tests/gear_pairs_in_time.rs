@@ -59,7 +59,7 @@ fn at_ten_rpm(driven: &str, periods: usize) {
     let lines = ContactLines {
         pair: pair.clone(),
         extension: None,
-        face_width_m: gear_1.tooth.face_width_m,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(gear_1.tooth.face_width_m),
         microgeometry_1: gear_1.microgeometry.clone(),
         microgeometry_2: gear_2.microgeometry.clone(),
     };
@@ -77,7 +77,7 @@ fn at_ten_rpm(driven: &str, periods: usize) {
         let nominal_n = torque / pair.gear_2.base_radius_m;
         let teeth =
             || ReducedTeeth::new(&pair, FlankSide::Right, models, local, nominal_n).unwrap();
-        let planes = teeth().slice_centres_m().to_vec();
+        let planes = *teeth().layout();
         let kinematics = || {
             let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
             let errors = [&gear_1, &gear_2].map(|gear| {
@@ -88,7 +88,7 @@ fn at_ten_rpm(driven: &str, periods: usize) {
                 gears,
                 errors,
                 pair.centre_distance_m,
-                planes.clone(),
+                planes,
                 PathEnds::Extended,
             )
             .unwrap()
@@ -98,7 +98,7 @@ fn at_ten_rpm(driven: &str, periods: usize) {
             time_s: 1e-6,
             full_depth_m: 1e-6,
         };
-        let damped = Damped::new(teeth(), damping, planes.len()).unwrap();
+        let damped = Damped::new(teeth(), damping, planes.slices).unwrap();
         let mesh = GearMesh::new(kinematics(), FlankSide::Right, damped).unwrap();
         let scene = Scene {
             width_m: gear_1.tooth.face_width_m,
@@ -160,7 +160,7 @@ fn seed_002_shows_its_mesh_frequency() {
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let none = [Vec::new(), Vec::new()];
     let kinematics =
-        MeshKinematics::new(gears, none, 55e-3, vec![0.0], PathEnds::Extended).unwrap();
+        MeshKinematics::new(gears, none, 55e-3, gearmesh_contact::SliceLayout::new([20e-3; 2], 0.0, 1), PathEnds::Extended).unwrap();
     let friction = Friction::new([0.78, 0.65], [1e-3, 0.1]).unwrap();
     let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
         .unwrap()

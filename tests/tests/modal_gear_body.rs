@@ -80,7 +80,7 @@ impl Scene {
             [self.pair.gear_1.clone(), self.pair.gear_2.clone()],
             [Vec::new(), Vec::new()],
             self.pair.centre_distance_m,
-            teeth.slice_centres_m().to_vec(),
+            *teeth.layout(),
             PathEnds::Extended,
         )
         .unwrap();

@@ -157,7 +157,7 @@ pub fn field_of(
     let slices = loaded.slices_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);
     let loads = loaded.loaded_slices(case.gear, &slices, forces);
-    let forces: Vec<GridForce> = grid_forces(&model.grid, loads)
+    let forces: Vec<GridForce> = grid_forces(&model.grid, &loaded.spreads[case.gear - 1], loads)
         .into_iter()
         .map(|f| GridForce {
             tooth: f.tooth,

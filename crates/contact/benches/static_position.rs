@@ -90,7 +90,7 @@ fn static_position(bencher: divan::Bencher, torque_nm: f64) {
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
         extension: None,
-        face_width_m: gear_1.tooth.face_width_m,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(gear_1.tooth.face_width_m),
     };
     let options = ContactOptions {
         local: LocalContact::WeberBanaschek,

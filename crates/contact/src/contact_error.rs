@@ -9,19 +9,17 @@ pub enum ContactError {
     /// The model does not carry loads on the flank in contact.
     #[error(transparent)]
     Model(#[from] ReducedGearError),
-    /// The two models have different slices.
+    /// The faces do not overlap.
     #[error(
-        "the gears have {slices_1} and {slices_2} slices of {width_1_mm:.4} and {width_2_mm:.4} mm; reduce both with the same reduction.slices and face width"
+        "the gears stand side by side: {displacement_mm:.4} mm apart along the axis with faces {:.4} and {:.4} mm wide; move them so that their faces overlap",
+        widths_mm[0],
+        widths_mm[1]
     )]
-    Slices {
-        /// Slices of gear 1.
-        slices_1: usize,
-        /// Slices of gear 2.
-        slices_2: usize,
-        /// Slice width of gear 1.
-        width_1_mm: f64,
-        /// Slice width of gear 2.
-        width_2_mm: f64,
+    Apart {
+        /// Axial displacement of gear 2.
+        displacement_mm: f64,
+        /// Face widths.
+        widths_mm: [f64; 2],
     },
     /// The model's teeth are not those of the pair.
     #[error("the model of gear {gear} has {found} teeth, the pair needs {needed}")]

@@ -1,5 +1,6 @@
 //! Which tooth pairs touch at a driver angle, where, and how far their slices stand apart unloaded.
 
+use crate::contact_zone::ContactZone;
 use crate::tip_contact::{PathExtension, TipContact, TipGear};
 use gearmesh_geometry::{GearPair, Microgeometry};
 
@@ -74,8 +75,8 @@ pub struct ContactLines {
     pub microgeometry_2: Microgeometry,
     /// Contact beyond the ends of the path; without it pairs touch on the rigid path only. Spur teeth only.
     pub extension: Option<PathExtension>,
-    /// Width over which the teeth face each other \[m\]: how far a helical contact line reaches.
-    pub face_width_m: f64,
+    /// Where the faces overlap: how far contact lines reach. Sections are counted from halfway between the mid-faces.
+    pub zone: ContactZone,
 }
 
 impl ContactLines {
@@ -135,7 +136,7 @@ impl ContactLines {
             (self.pair.roll_start_1_rad, self.pair.roll_end_1_rad),
             |e| (e.start_1_rad, e.end_1_rad),
         );
-        let slant = 0.5 * self.face_width_m * self.pair.roll_slope_1_rad_per_m().abs();
+        let slant = self.zone.reach_m() * self.pair.roll_slope_1_rad_per_m().abs();
         (start - slant, end + slant)
     }
 
@@ -149,8 +150,9 @@ impl ContactLines {
     /// edge, material removed from both flanks and misalignment. `line` is the line in the slice's section. What is removed from a tip edge along its own normal opens the gap by
     /// its component cos δ.
     pub fn separation_m(&self, line: &ContactLine, z_m: f64) -> f64 {
-        let removed_1 = self.microgeometry_1.removed_m(line.roll_1_rad, z_m);
-        let removed_2 = self.microgeometry_2.removed_m(line.roll_2_rad, z_m);
+        let [height_1, height_2] = self.zone.heights_m(z_m);
+        let removed_1 = self.microgeometry_1.removed_m(line.roll_1_rad, height_1);
+        let removed_2 = self.microgeometry_2.removed_m(line.roll_2_rad, height_2);
         let tilted_axes = self.pair.misalignment;
         let (gap, misalignment) = match line.tip {
             None => (

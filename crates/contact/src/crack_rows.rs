@@ -2,7 +2,8 @@
 //!
 //! The rows of the model are combined to slices as the compliance is: along the axis once, along the profile at each place.
 
-use crate::placed_slice::{PlacedSlice, axial_shares};
+use crate::axial_spread::AxialSpread;
+use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::{RollPlace, SHARES};
 use crate::station_blocks::LineBlock;
 use gearmesh_model::{FlankGrid, RootCrack};
@@ -23,16 +24,17 @@ pub struct CrackRows {
 impl CrackRows {
     /// Combines the rows of a model to its slices.
     #[must_use]
-    pub fn new(crack: &RootCrack, teeth: usize, grid: &FlankGrid) -> Self {
-        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
+    pub fn new(crack: &RootCrack, teeth: usize, grid: &FlankGrid, spread: &AxialSpread) -> Self {
+        let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
+        let loads = grid.len();
         let rows = crack.count(teeth, loads);
         let mut values = Vec::with_capacity(teeth * rows * stations * slices);
         for tooth in 0..teeth {
             for row in 0..rows {
                 let own = &crack.rows[(row * teeth + tooth) * loads..][..loads];
                 for k in 0..stations * slices {
-                    let shares = axial_shares(k % slices, slices);
-                    let terms = shares.map(|(i, share)| share * own[grid.load(k / slices, i)]);
+                    let shares = spread.shares(k % slices).iter();
+                    let terms = shares.map(|&(i, share)| share * own[grid.load(k / slices, i)]);
                     values.push(terms.sum());
                 }
             }

@@ -4,7 +4,8 @@
 //! | --- | --- | --- |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
-//! | which axial stations carry a slice's force | [`placed_slice`] | `placed_slice.rs` |
+//! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
+//! | which axial stations carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
 //! | which unit loads make a force at a roll angle | [`RollHats`] | `roll_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | the same of a calibrated model | | `calibrated_field.rs` |
@@ -23,10 +24,12 @@
 //! Cost of a static position with five slices and one or two pairs: some microseconds, without allocation.
 //! The theory is in docs/theory/contact.md.
 
+pub mod axial_spread;
 mod calibrated_field;
 mod contact_error;
 pub mod contact_lines;
 pub mod contact_slices;
+pub mod contact_zone;
 pub mod crack_rows;
 pub mod flank_deflection;
 pub mod hertz;
@@ -42,9 +45,11 @@ pub mod static_contact;
 pub mod station_blocks;
 pub mod tip_contact;
 
+pub use axial_spread::AxialSpread;
 pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_slices::ContactSlice;
+pub use contact_zone::{ContactZone, SliceLayout};
 pub use local_contact::LocalContact;
 pub use roll_shares::{RollHats, RollPlace};
 pub use slice_compliance::SliceCompliance;

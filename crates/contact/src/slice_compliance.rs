@@ -1,6 +1,6 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
-//! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`axial_shares`]) make it
+//! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`AxialSpread`]) make it
 //! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the nearest
 //! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
@@ -8,7 +8,8 @@
 use crate::calibrated_field::CalibratedField;
 use crate::crack_rows::CrackRows;
 use crate::local_contact::{CompliancePart, LocalContact, effective_depth_m};
-use crate::placed_slice::{PlacedSlice, axial_shares};
+use crate::axial_spread::AxialSpread;
+use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::{RollHats, RollPlace, SHARES};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::{LineBlock, StationBlocks};
@@ -35,7 +36,6 @@ pub struct SliceCompliance {
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
-    z_m: Vec<f64>,
 }
 
 /// Depth of the local logarithm on one flank, and how it grows as the contact moves.
@@ -50,15 +50,28 @@ pub struct LocalDepth {
 }
 
 impl SliceCompliance {
-    /// Condenses a reduced gear to its slices.
+    /// Condenses a reduced gear to its own slices.
     ///
     /// # Errors
-    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
-    /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
+    /// As [`Self::on_slices`].
     pub fn new(
         gear: &ReducedGear,
         flank: Flank,
         local: LocalContact,
+    ) -> Result<Self, ReducedGearError> {
+        Self::on_slices(gear, flank, local, &AxialSpread::own(gear))
+    }
+
+    /// Condenses a reduced gear to slices that lie anywhere on its face.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
+    /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
+    pub fn on_slices(
+        gear: &ReducedGear,
+        flank: Flank,
+        local: LocalContact,
+        spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
         let flank_index = gear.flank_index(flank)?;
         let near_field = match local {
@@ -66,7 +79,8 @@ impl SliceCompliance {
             LocalContact::None | LocalContact::WeberBanaschek => None,
         };
         let grid = &gear.grid;
-        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
+        let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
+        let loads = grid.len();
         let size = stations * slices;
         let own = gear.teeth_per_sector();
         let mut blocks = StationBlocks::new(stations, slices, own * gear.teeth);
@@ -74,8 +88,9 @@ impl SliceCompliance {
         // Loads and shares of each (station, slice).
         let axial: Vec<Vec<(usize, f64)>> = (0..size)
             .map(|k| {
-                axial_shares(k % slices, slices)
-                    .map(|(i, share)| (grid.load(k / slices, i), share))
+                let shares = spread.shares(k % slices).iter();
+                shares
+                    .map(|&(i, share)| (grid.load(k / slices, i), share))
                     .collect()
             })
             .collect();
@@ -103,13 +118,14 @@ impl SliceCompliance {
                 });
             }
         }
-        let slice_width_m = gear.face_width_m / slices as f64;
+        let slice_width_m = spread.width_m();
         let hats = RollHats::new(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);
-        let spread = neighboured.map_or(Vec::new(), |field| {
-            let neighbours = NeighbourTerm::new();
+        let to_neighbours = neighboured.map_or(Vec::new(), |field| {
+            let own_width_m = gear.face_width_m / grid.slices as f64;
+            let neighbours = NeighbourTerm::new(own_width_m / slice_width_m);
             let opposite_m = gear.opposite_distances_m(flank);
             // Hats are stiffer at a station than between two, where the load is shared.
             (0..2 * stations - 1)
@@ -134,12 +150,12 @@ impl SliceCompliance {
             opposite_distance_m: gear.opposite_distances_m(flank).to_vec(),
             blocks,
             near_field,
-            spread,
-            crack: (gear.crack_for(flank)).map(|crack| CrackRows::new(crack, gear.teeth, grid)),
+            spread: to_neighbours,
+            crack: (gear.crack_for(flank))
+                .map(|crack| CrackRows::new(crack, gear.teeth, grid, spread)),
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
-            z_m: (0..slices).map(|k| grid.z_m[2 * k + 1]).collect(),
         })
     }
 
@@ -156,11 +172,6 @@ impl SliceCompliance {
     /// Width of a slice \[m\].
     pub fn slice_width_m(&self) -> f64 {
         self.slice_width_m
-    }
-
-    /// Axial centres of the slices \[m\].
-    pub fn slice_centres_m(&self) -> &[f64] {
-        &self.z_m
     }
 
     /// Young's modulus \[Pa\] and Poisson's ratio.

@@ -6,6 +6,7 @@
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines};
 use crate::contact_slices::ContactSlice;
+use crate::contact_zone::SliceLayout;
 use crate::local_contact::{LawRate, LocalContact};
 use crate::nlcp::{
     ContactBody, EdgeContact, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
@@ -44,6 +45,8 @@ pub struct Separations<'a> {
 #[derive(Debug, Clone)]
 pub struct SliceContact {
     lines: ContactLines,
+    layout: SliceLayout,
+    centres_m: Vec<f64>,
     compliance_1: SliceCompliance,
     compliance_2: SliceCompliance,
     local_contact: LocalContact,
@@ -60,6 +63,8 @@ pub struct SliceContact {
     /// Of helical teeth: where each slice stands on both gears, and the share of its width that touches.
     placed: Vec<[PlacedSlice; 2]>,
     shares: Vec<f64>,
+    /// Without a local law: compliance of each slice before it was divided by its share \[m/N\].
+    own_compliance: Vec<f64>,
     c: Vec<f64>,
     /// Hertz contact of each touching slice, and the edge where it is one.
     hertz: Vec<(LineContact, Option<EdgeContact>)>,
@@ -68,12 +73,13 @@ pub struct SliceContact {
 }
 
 impl SliceContact {
-    /// Prepares the contact of two gears on the flanks that the pair names.
+    /// Prepares the contact of two gears on the flanks that the pair names, on slices over the overlap of the models' faces at the axial
+    /// displacement of the lines' zone.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the pair or each other.
     pub fn new(
-        lines: ContactLines,
+        mut lines: ContactLines,
         gear_1: &ReducedGear,
         gear_2: &ReducedGear,
         local_contact: LocalContact,
@@ -97,18 +103,16 @@ impl SliceContact {
                 });
             }
         }
-        let compliance_1 = SliceCompliance::new(gear_1, flank, local_contact)?;
-        let compliance_2 = SliceCompliance::new(gear_2, flank, local_contact)?;
-        let (w1, w2) = (compliance_1.slice_width_m(), compliance_2.slice_width_m());
-        if compliance_1.slices() != compliance_2.slices() || (w1 - w2).abs() > 1e-9 * w1 {
-            return Err(ContactError::Slices {
-                slices_1: compliance_1.slices(),
-                slices_2: compliance_2.slices(),
-                width_1_mm: w1 * 1e3,
-                width_2_mm: w2 * 1e3,
-            });
-        }
-        let slices = compliance_1.slices();
+        let layout = SliceLayout::of_models([gear_1, gear_2], lines.zone.displacement_m);
+        layout.check()?;
+        lines.zone = layout.reference;
+        let condense = |gear: usize, model: &ReducedGear| {
+            let spread = layout.spread(gear, model);
+            SliceCompliance::on_slices(model, flank, local_contact, &spread)
+        };
+        let compliance_1 = condense(1, gear_1)?;
+        let compliance_2 = condense(2, gear_2)?;
+        let slices = layout.slices;
         let most_lines = lines.most_pairs() + 1;
         let capacity = most_lines * slices;
         Ok(Self {
@@ -117,7 +121,10 @@ impl SliceContact {
             depths: Vec::with_capacity(capacity),
             law_rates: Vec::with_capacity(capacity),
             shares: Vec::with_capacity(capacity),
+            own_compliance: Vec::with_capacity(capacity),
             lines,
+            layout,
+            centres_m: layout.centres_m(),
             compliance_1,
             compliance_2,
             local_contact,
@@ -147,12 +154,17 @@ impl SliceContact {
 
     /// Width of a slice \[m\].
     pub fn slice_width_m(&self) -> f64 {
-        self.compliance_1.slice_width_m()
+        self.layout.width_m()
     }
 
-    /// Axial centres of the slices \[m\].
+    /// Middles of the slices from halfway between the gears' mid-faces \[m\].
     pub fn slice_centres_m(&self) -> &[f64] {
-        self.compliance_1.slice_centres_m()
+        &self.centres_m
+    }
+
+    /// Where the slices lie.
+    pub fn layout(&self) -> &SliceLayout {
+        &self.layout
     }
 
     /// Forgets the last solution: the next solve starts cold.
@@ -218,6 +230,7 @@ impl SliceContact {
             self.find_places(active);
             self.fill_compliance_by_lines(active, false);
         }
+        self.take_shares(touching);
         self.fill_laws(touching, floor_n)
     }
 
@@ -375,8 +388,6 @@ impl SliceContact {
     fn fill_compliance_by_slices(&mut self, touching: &[ContactSlice]) {
         let n = touching.len();
         let gears = [&self.compliance_1, &self.compliance_2];
-        self.shares.clear();
-        self.shares.extend(touching.iter().map(|slice| slice.share));
         self.placed.clear();
         self.placed.extend(touching.iter().map(|s| {
             let line = &s.section;
@@ -398,12 +409,22 @@ impl SliceContact {
             }
         }
         symmetrise(c, n);
-        if self.local_contact == LocalContact::None {
-            // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
-            // compliance grows instead.
-            for (i, slice) in touching.iter().enumerate() {
-                c[i * n + i] /= slice.share;
-            }
+    }
+
+    /// Shares of the slices' widths that touch.
+    fn take_shares(&mut self, touching: &[ContactSlice]) {
+        self.shares.clear();
+        self.shares.extend(touching.iter().map(|slice| slice.share));
+        self.own_compliance.clear();
+        if self.local_contact != LocalContact::None {
+            return;
+        }
+        // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
+        // compliance grows instead.
+        let n = touching.len();
+        for (i, share) in self.shares.iter().enumerate() {
+            self.own_compliance.push(self.c[i * n + i]);
+            self.c[i * n + i] /= share;
         }
     }
 }

@@ -13,7 +13,7 @@
 //! the distances ρ across the line between force and deflection (`Distances`): under the Hertz pressure those from its middle;
 //! between the hats those of two points of one hat each, scaled so that an endless line is as stiff as the hats on the mesh,
 //! ⟨ln ρ⟩_h = ⟨ln ρ⟩ + (c₀ − w_h)/k. The ends of a slice see ⟨ρ⟩ as well, which is why the shape matters.
-//! With s the uniform density of a slice force, f that of its hats ([`axial_shares`]),
+//! With s the uniform density of a slice force, f that of its hats ([`crate::axial_spread`]),
 //!
 //! ```text
 //! e = ∫∫ s_i K s_j dz dz' − ∫∫ f_i K_h f_j dz dz'                      j next to i
@@ -21,11 +21,11 @@
 //!
 //! is added to the compliance of neighbours and taken from the own one, so that a uniform load deflects as before.
 
-use crate::placed_slice::axial_shares;
+use crate::axial_spread::stretch_shares;
 use std::f64::consts::FRAC_PI_2;
 
 /// Slices of the stretch on which the integrals are done; the densities of the two in the middle end inside it.
-const SLICES: usize = 6;
+const SLICES: usize = 8;
 /// Integration cells in a slice.
 const CELLS: usize = 48;
 /// Distances across the line for which the kernel is taken.
@@ -86,19 +86,14 @@ impl Distances {
     }
 }
 
-impl Default for NeighbourTerm {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl NeighbourTerm {
-    /// The overlaps, which depend on neither width nor material.
-    pub fn new() -> Self {
+    /// The overlaps, which depend on neither width nor material; `own_width`: that of the model's own slices, on which its stations lie, over that of
+    /// the slices.
+    pub fn new(own_width: f64) -> Self {
         let first = SLICES / 2 - 1;
         Self {
             uniform: overlaps(&uniform(first), &uniform(first + 1)),
-            hats: overlaps(&hats(first), &hats(first + 1)),
+            hats: overlaps(&hats(first, own_width), &hats(first + 1, own_width)),
             from_hertz_centre: Distances::from_hertz_centre(),
             between_hats: Distances::between_hats(),
         }
@@ -134,15 +129,18 @@ fn uniform(slice: usize) -> Vec<f64> {
     density
 }
 
-fn hats(slice: usize) -> Vec<f64> {
-    let mut stations = [0.0; 2 * SLICES + 1];
-    for (station, share) in axial_shares(slice, SLICES) {
-        // A hat of one newton on stations half a unit apart is two high.
-        stations[station] = 2.0 * share;
+/// The stretch begins where slices of the model and of the contact begin together, and the model's go on beyond its ends.
+fn hats(slice: usize, own_width: f64) -> Vec<f64> {
+    let own_slices = (SLICES as f64 / own_width).ceil() as usize;
+    let mut stations = vec![0.0; 2 * own_slices + 2];
+    let ends = [slice, slice + 1].map(|edge| edge as f64 / own_width);
+    for (station, share) in stretch_shares(ends, own_slices) {
+        // A hat of one newton is one over the spacing of the stations high.
+        stations[station] = 2.0 / own_width * share;
     }
     (0..SLICES * CELLS)
         .map(|cell| {
-            let at = (cell as f64 + 0.5) / CELLS as f64 * 2.0;
+            let at = (cell as f64 + 0.5) / CELLS as f64 * 2.0 / own_width;
             let below = at as usize;
             let share = at - below as f64;
             (1.0 - share) * stations[below] + share * stations[below + 1]
@@ -208,10 +206,10 @@ mod tests {
     #[test]
     fn the_term_grows_as_slices_get_narrow() {
         let (k, missing, a0) = (2.8e-12, 6e-12, 1e-4);
-        let term = NeighbourTerm::new();
+        let term = NeighbourTerm::new(1.0);
         let share = |width: f64| term.at(k, missing, a0, (3e-3, width)) * width / missing;
         // What the hats of neighbours overlap, times their near field over the right one.
-        let overlap: f64 = (hats(2).iter().zip(hats(3)))
+        let overlap: f64 = (hats(2, 1.0).iter().zip(hats(3, 1.0)))
             .map(|(f, g)| f * g)
             .sum::<f64>()
             / CELLS as f64;

@@ -31,7 +31,7 @@ fn lines(helix_deg: f64, flank: FlankSide) -> ContactLines {
         microgeometry_1: Microgeometry::default(),
         microgeometry_2: Microgeometry::default(),
         extension: None,
-        face_width_m: FACE_WIDTH_M,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(FACE_WIDTH_M),
     }
 }
 

@@ -1,36 +1,41 @@
-//! Helical teeth in space: the height of gear 2's sections in gear 1, which turns gear 1's tooth, and its derivatives.
+//! Helical teeth in space: the sections of both gears at the contact in a slice plane, and their derivatives.
 //!
-//! Slices are numbered on gear 2: the slice z of it stands at z along its axis b. Seen from gear 2's axis its contact point lies at −m, in
-//! gear 1 therefore at the height z₁, where the tooth of gear 1 has turned by κ₁ z₁:
+//! The plane cuts the axes at z₁ and z₂ (mesh_frame.rs). A contact at r_b1 (σ w⊥ + ξ₁ w) from gear 1's axis lies on gear 1 at the height
+//! z₁ − r_b1 (σ f·w⊥ + ξ₁ f·w), on gear 2 at z₂ − r_b2 (σ f·w⊥ + ξ₂ f·w). Its sections there have turned by κ times that, κ = tan β_b/r_b
+//! with the sign of the hand, κ₂ r_b2 = −κ₁ r_b1. With ξ⁰ the roll angle without twist, T = tan β_b, φ = f·w, ψ = f·w⊥,
 //!
 //! ```text
-//! m  = r_b2 (σ w⊥ + ξ₂ w),      z₁ = u_z + z b_z + b·m,      κ = tan β_b/r_b,    κ₂ r_b2 = −κ₁ r_b1 = −tan β_b
-//! ∂z₁/∂(u, ϑ) = (e_z, z b × e_z + b × m − σ r_b2 (b·w) t) + r_b2 ξ₂ (b·w⊥) ∂ω,      ∂ω = (w⊥, z b × w⊥)/L
+//! ξ₁ = (ξ₁⁰ − σ κ₁ z₁ + T ψ)/(1 − σ T φ),        ξ₂ = (ξ₂⁰ − σ κ₂ z₂ − T ψ)/(1 + σ T φ)
+//! g = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂),           ∂φ = ½ (0, b × w) + ψ ∂ω,      ∂ψ = ½ (0, b × w⊥) − φ ∂ω
 //! ```
 //!
-//! On parallel axes the gap along the normal, cos β_b times the transverse one, then has the gradient (n, (P − u) × n) with
-//! n = cos β_b w + σ sin β_b e_z and P the point of contact: the wrench of the flanks' normal.
+//! On parallel axes ∂g = (n, (P − u) × n) with n = cos β_b w + σ sin β_b e_z and P the point of contact: the wrench of the flanks' normal.
 
 use gearmesh_geometry::ToothGeometry;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, SlicePlane, stacked};
+use crate::mesh_frame::{MeshFrame, turn_of_spin_gradient};
+use crate::pose::Vector6;
+use crate::slice_plane::{Matrix6, SlicePlane, on_turn};
+use crate::tooth_zero::ToothZero;
 
 /// The helix of a pair; β_b is gear 1's, positive for a right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BaseHelix {
-    pub sin: f64,
     pub cos: f64,
     pub tan: f64,
     /// κ of gear 1 and gear 2 \[rad/m\].
     pub twist_rad_per_m: [f64; 2],
-    base_radius_2_m: f64,
+    base_radii_m: [f64; 2],
 }
 
-/// z₁ \[m\] and ∂z₁/∂(increments of the pose).
-pub(crate) struct Height {
-    pub z_m: f64,
+/// Roll angles and gap of ideal flanks in a slice plane, with their derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct IdealFlanks {
+    pub roll_rad: [f64; 2],
+    pub roll_gradient: [Vector6; 2],
+    /// Along the normal \[m\].
+    pub gap_m: f64,
     pub gradient: Vector6,
 }
 
@@ -44,65 +49,118 @@ impl BaseHelix {
         let twist = gears[0].twist_rad_per_m();
         let [r1, r2] = [0, 1].map(|i: usize| gears[i].base_radius_m);
         Some(Self {
-            sin: angle.sin(),
             cos: angle.cos(),
             tan: r1 * twist,
             twist_rad_per_m: [twist, -twist * r1 / r2],
-            base_radius_2_m: r2,
+            base_radii_m: [r1, r2],
         })
     }
 
-    /// m \[m\].
-    fn arm(&self, plane: &SlicePlane, sigma: f64, roll_2_rad: f64) -> Vector3<f64> {
-        self.base_radius_2_m * (sigma * plane.across + roll_2_rad * plane.normal)
-    }
-
-    /// ∂ω: turn of the line of action.
-    fn turn(plane: &SlicePlane, axis: &Vector3<f64>) -> Vector6 {
-        let along = plane.across / plane.length_m;
-        stacked(along, plane.z_m * axis.cross(&along))
-    }
-
-    /// Height in gear 1 of the contact in the slice plane of gear 2, which has its roll angle there.
-    pub(crate) fn height(
+    /// The sections of two flanks whose roll angles without twist are `plain_rad`, and their gap. With `common` at a contact there, r_b1 ξ₁ − r_b2 ξ₂
+    /// \[m\], wherever these flanks touch: on tilted axes the gap changes from one pair of teeth to the next by 2 sin β_b f·w p_b, and what stands for all of
+    /// them takes it at one place. Its roll angles are then those of X = ξ (1 ∓ σ T φ), which teeth a pitch apart share but for their pitch.
+    pub(crate) fn flanks(
         &self,
-        plane: &SlicePlane,
-        pose: &Pose,
-        sigma: f64,
-        roll_2_rad: f64,
-    ) -> Height {
-        let axis = pose.axis_2();
-        let arm = self.arm(plane, sigma, roll_2_rad);
-        let tilted = self.base_radius_2_m * roll_2_rad * axis.dot(&plane.across);
-        let moment = plane.z_m * axis.cross(&Vector3::z()) + axis.cross(&arm)
-            - sigma * self.base_radius_2_m * axis.dot(&plane.normal) * pose.spin_gradient();
-        Height {
-            z_m: pose.displacement_m[2] + plane.z_m * axis[2] + axis.dot(&arm),
-            gradient: stacked(Vector3::z(), moment) + tilted * Self::turn(plane, &axis),
+        (frame, plane): (&MeshFrame, &SlicePlane),
+        zero: &ToothZero,
+        (plain_rad, sigma): ([f64; 2], f64),
+        common: Option<f64>,
+    ) -> IdealFlanks {
+        let [r1, r2] = self.base_radii_m;
+        let [phi, psi] = plane.tilt;
+        let turn = plane.turn(frame);
+        let half = 0.5 * frame.axis_2;
+        let phi_gradient = on_turn(half.cross(&plane.normal)) + psi * turn;
+        let psi_gradient = on_turn(half.cross(&plane.across)) - phi * turn;
+        let half_along = 0.5 * frame.displacement_along_gradient;
+        let height_gradient = [
+            plane.plane_gradient + half_along,
+            plane.plane_gradient - half_along,
+        ];
+        let (mut roll_rad, mut roll_gradient) = ([0.0; 2], [Vector6::zeros(); 2]);
+        // What 1/(1 ∓ σ T φ) makes of a roll angle, and its change with φ.
+        let mut stretch = [(1.0, 0.0); 2];
+        for (gear, sense) in [(0, 1.0), (1, -1.0)] {
+            let twist = sigma * self.twist_rad_per_m[gear];
+            let tan = sense * self.tan;
+            roll_rad[gear] =
+                plain_rad[gear] - twist * plane.axis_heights_m[gear] + tan * psi;
+            roll_gradient[gear] =
+                zero.roll_gradient[gear] - twist * height_gradient[gear] + tan * psi_gradient;
+            let factor = 1.0 / (1.0 - sigma * tan * phi);
+            stretch[gear] = (factor, sigma * tan * factor * factor);
+        }
+        let length_gradient =
+            zero.gradient + r1 * zero.roll_gradient[0] + r2 * zero.roll_gradient[1];
+        // r ξ of both flanks, in what follows to stretch.
+        let mut arcs = [r1 * roll_rad[0], r2 * roll_rad[1]];
+        let mut arc_gradients = [r1 * roll_gradient[0], r2 * roll_gradient[1]];
+        if let Some(difference_m) = common {
+            let half_sum = 0.5 * (arcs[0] + arcs[1]);
+            let sum_gradient = 0.5 * (arc_gradients[0] + arc_gradients[1]);
+            arcs = [half_sum + 0.5 * difference_m, half_sum - 0.5 * difference_m];
+            arc_gradients = [sum_gradient; 2];
+        }
+        let (mut gap_m, mut gradient) = (plane.length_m, length_gradient);
+        for gear in 0..2 {
+            let (factor, by_phi) = stretch[gear];
+            gap_m -= factor * arcs[gear];
+            gradient -= factor * arc_gradients[gear] + by_phi * arcs[gear] * phi_gradient;
+            if common.is_none() {
+                roll_gradient[gear] =
+                    factor * roll_gradient[gear] + by_phi * roll_rad[gear] * phi_gradient;
+                roll_rad[gear] *= factor;
+            }
+        }
+        IdealFlanks {
+            roll_rad,
+            roll_gradient,
+            gap_m: self.cos * gap_m,
+            gradient: self.cos * gradient,
         }
     }
 
-    /// Second derivative of z₁; what falls to zero with the tilt of the axes is left out.
-    pub(crate) fn height_curvature(
+    /// Second derivative of the gap along the normal, with the same omissions as [`SlicePlane::transverse_curvature`].
+    pub(crate) fn curvature(
         &self,
-        plane: &SlicePlane,
-        pose: &Pose,
-        sigma: f64,
-        roll_2_rad: f64,
+        (frame, plane): (&MeshFrame, &SlicePlane),
+        zero: &ToothZero,
+        (roll_rad, sigma): ([f64; 2], f64),
+        transverse: Matrix6,
     ) -> Matrix6 {
-        let axis = pose.axis_2();
-        let from_origin = plane.z_m * Vector3::z() + self.arm(plane, sigma, roll_2_rad);
-        let by_turn: Matrix3<f64> = from_origin.cross_matrix() * axis.cross_matrix();
-        let mut h = Matrix6::zeros();
-        h.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_turn);
-        let none = Vector3::zeros();
-        let r2 = self.base_radius_2_m;
-        let turn = Self::turn(plane, &axis);
-        let across = r2 * roll_2_rad * stacked(none, axis.cross(&plane.across));
-        let normal = sigma * r2 * stacked(none, axis.cross(&plane.normal));
-        let spin = stacked(none, pose.spin_gradient());
-        h += across * turn.transpose() + turn * across.transpose();
-        h -= normal * spin.transpose() + spin * normal.transpose();
-        h
+        let [r1, r2] = self.base_radii_m;
+        let (b, tan) = (frame.axis_2, self.tan);
+        let turn = plane.turn(frame);
+        let by_normal = on_turn(0.5 * b.cross(&plane.normal));
+        let by_across = on_turn(0.5 * b.cross(&plane.across));
+        let symmetric = |x: &Vector6, y: &Vector6| x * y.transpose() + y * x.transpose();
+        let half_block = |v: &Vector3<f64>| {
+            let mut h = Matrix6::zeros();
+            h.fixed_view_mut::<3, 3>(3, 3)
+                .copy_from(&(0.5 * b * v.transpose()));
+            h
+        };
+        // ∂²D′.
+        let mut along = Matrix6::zeros();
+        let spin = turn_of_spin_gradient();
+        along.fixed_view_mut::<3, 3>(0, 3).copy_from(&spin);
+        along.fixed_view_mut::<3, 3>(3, 0).copy_from(&(-spin));
+        let u_across = frame.displacement_m - frame.displacement_along_m * b;
+        along += half_block(&u_across);
+        // ∂²ψ and ∂²φ.
+        let of_psi = half_block(&plane.across) - symmetric(&by_normal, &turn);
+        let of_phi = half_block(&plane.normal) + symmetric(&by_across, &turn);
+        let twist = sigma * tan;
+        let difference = r1 * roll_rad[0] - r2 * roll_rad[1];
+        let sum = r1 * roll_rad[0] + r2 * roll_rad[1];
+        // ∂(r_b1 ξ₁ − r_b2 ξ₂): the sum of both heights changes by twice that of the plane.
+        let changes = r1 * zero.roll_gradient[0] - r2 * zero.roll_gradient[1]
+            - 2.0 * twist * plane.plane_gradient
+            + (r1 + r2) * tan * by_across;
+        let own = twist * along
+            - (r1 - r2) * tan * of_psi
+            - twist * (difference * of_phi + symmetric(&by_normal, &changes))
+            - 2.0 * tan * tan * sum * by_normal * by_normal.transpose();
+        self.cos * (transverse + own)
     }
 }

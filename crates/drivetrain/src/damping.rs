@@ -99,6 +99,7 @@ impl<M: TeethModel> Damped<M> {
         if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
             return self.teeth.evaluate(flanks, tangents, loads);
         }
+        self.felt.frame = flanks.frame;
         self.felt.lines.clone_from(&flanks.lines);
         self.felt.sections.clone_from(&flanks.sections);
         self.felt.contacts.clone_from(&flanks.contacts);

@@ -50,11 +50,16 @@ pub enum DrivetrainError {
         /// Base helix angle of gear 2.
         helix_2_deg: f64,
     },
-    /// Slice planes of helical teeth that are not evenly spaced.
+    /// Gears that have moved along their axes beyond what their slices stand for.
     #[error(
-        "the slice planes of helical gears must rise in even steps, each the width of a slice, which leaves the path of contact bit by bit"
+        "the gears have moved by {moved_mm:.4} mm along their axes from where the slices of the hybrid mesh were laid, more than a slice's width of {allowed_mm:.4} mm: start them where they run, or hold them along the axis"
     )]
-    UnevenSlices,
+    AxialMotion {
+        /// Motion of gear 2 against gear 1.
+        moved_mm: f64,
+        /// Largest motion.
+        allowed_mm: f64,
+    },
     /// A body that is no sum of rings.
     #[error(
         "mass and inertia in closed form are for hub and web with plane faces: take those of a contour or an imported mesh from the reduced gear's model file, or state them"

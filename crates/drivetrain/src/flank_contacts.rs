@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+use gearmesh_contact::ContactZone;
+
 use crate::flank_error::FlankError;
 use crate::flank_modes::dot;
+use crate::mesh_frame::MeshFrame;
 use crate::pose::Vector6;
 use crate::slice_plane::SlicePlane;
 use crate::tooth_zero::ToothZero;
@@ -21,7 +24,8 @@ pub struct Section {
     pub touching_roll_rad: [f64; 2],
     /// Derivatives of the roll angles by the increments of the pose.
     pub roll_gradient: [Vector6; 2],
-    /// Share of the slice's width that is on the path, above zero; one but for helical teeth that touch on the rigid path only.
+    /// Width that touches over the slice's width at the reference displacement, above zero: it changes with the overlap of the faces, and of helical
+    /// teeth on the rigid path with the part that is on it.
     pub share: f64,
     /// Its derivative by the increments of the pose.
     pub share_gradient: Vector6,
@@ -42,9 +46,9 @@ impl Section {
 pub struct TeethLine {
     /// Teeth of gear 1 and gear 2.
     pub teeth: [usize; 2],
-    /// The section at mid-face; of helical teeth continued where it is off the flanks.
+    /// The section in the middle of the zone; of helical teeth continued where it is off the flanks.
     pub middle: Section,
-    /// Gap that ideal flanks would have at mid-face \[m\], in the transverse plane.
+    /// Gap that ideal flanks would have in the middle of the zone \[m\], in the transverse plane.
     pub ideal_gap_m: f64,
     /// First of its contacts, and how many there are.
     pub contacts: (usize, usize),
@@ -119,6 +123,8 @@ impl ModalRows {
 /// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct FlankContacts {
+    /// What both gears share at the pose; none where nothing was looked for.
+    pub(crate) frame: Option<MeshFrame>,
     /// Slice planes.
     pub planes: Vec<SlicePlane>,
     /// The flanks of tooth 0 in them.
@@ -131,7 +137,7 @@ pub struct FlankContacts {
     pub contacts: Vec<ToothContact>,
     /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
     pub modal: [ModalRows; 2],
-    /// Gap of ideal flanks at mid-face \[m\] where no flanks of this side can touch and no lines were looked for.
+    /// Gap of ideal flanks in the middle of the zone \[m\] where no flanks of this side can touch and no lines were looked for.
     pub open_gap_m: Option<f64>,
 }
 
@@ -140,6 +146,7 @@ impl FlankContacts {
     #[must_use]
     pub fn with_capacity(planes: usize, contacts: usize) -> Self {
         Self {
+            frame: None,
             planes: Vec::with_capacity(planes),
             zeros: Vec::with_capacity(planes),
             lines: Vec::with_capacity(contacts),
@@ -152,12 +159,19 @@ impl FlankContacts {
 
     /// Forgets what was found; the modes' shapes are left alone.
     pub(crate) fn clear(&mut self) {
+        self.frame = None;
         self.planes.clear();
         self.zeros.clear();
         self.lines.clear();
         self.sections.clear();
         self.contacts.clear();
         self.open_gap_m = None;
+    }
+
+    /// Where the faces overlap at the pose; none where nothing was looked for.
+    #[must_use]
+    pub fn zone(&self) -> Option<&ContactZone> {
+        self.frame.as_ref().map(|frame| &frame.zone)
     }
 
     /// φ_t1·η̇₁ + φ_t2·η̇₂ \[m/s\] of a contact: how fast vibration moves both flanks towards their tips; zero without friction.

@@ -32,6 +32,8 @@ pub struct Removed {
     pub depth_m: f64,
     /// Its derivative by the roll angle \[m/rad\].
     pub slope_m_per_rad: f64,
+    /// Its derivative along the axis. No unit.
+    pub slope_along_axis: f64,
 }
 
 impl Removed {
@@ -39,6 +41,7 @@ impl Removed {
     pub const EVERYTHING: Self = Self {
         depth_m: f64::INFINITY,
         slope_m_per_rad: 0.0,
+        slope_along_axis: 0.0,
     };
 }
 
@@ -65,6 +68,7 @@ impl FlankError for Microgeometry {
         Removed {
             depth_m: self.removed_m(at.roll_rad, at.z_m),
             slope_m_per_rad: self.removed_slope_m_per_rad(at.roll_rad),
+            slope_along_axis: self.removed_slope_along_axis(at.z_m),
         }
     }
 

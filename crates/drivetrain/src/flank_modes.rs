@@ -8,8 +8,7 @@
 //! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap.
 //! Friction pushes on the modes by φ_t, along the profile towards the tip. Theory: docs/theory/gear_meshes.md.
 
-use gearmesh_contact::RollHats;
-use gearmesh_contact::placed_slice::axial_shares;
+use gearmesh_contact::{AxialSpread, RollHats};
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
@@ -48,11 +47,16 @@ pub struct FlankModes {
 }
 
 impl FlankModes {
-    /// The lowest `modes` modes of a model at its flanks of one side.
+    /// The lowest `modes` modes of a model at its flanks of one side; `spread`: where the slices' forces sit on the gear.
     ///
     /// # Errors
     /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it has fewer modes.
-    pub fn new(gear: &ReducedGear, side: FlankSide, modes: usize) -> Result<Self, DrivetrainError> {
+    pub fn new(
+        gear: &ReducedGear,
+        side: FlankSide,
+        modes: usize,
+        spread: &AxialSpread,
+    ) -> Result<Self, DrivetrainError> {
         let flank = flank_of(side);
         gear.flank_index(flank)?;
         let basis = gear.modal_basis()?;
@@ -65,7 +69,7 @@ impl FlankModes {
             });
         }
         let grid = &gear.grid;
-        let (stations, slices) = (grid.roll_angles_rad.len(), grid.slices);
+        let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
         let mut rows = vec![0.0; gear.teeth * stations * slices * modes];
         let mut tangential_rows = rows.clone();
         for mode in 0..modes {
@@ -75,8 +79,8 @@ impl FlankModes {
                     for slice in 0..slices {
                         let row = ((tooth * stations + station) * slices + slice) * modes + mode;
                         let along = |component: usize| -> f64 {
-                            axial_shares(slice, slices)
-                                .map(|(axial, share)| {
+                            (spread.shares(slice).iter())
+                                .map(|&(axial, share)| {
                                     share * shape[3 * grid.load(station, axial) + component]
                                 })
                                 .sum()

@@ -5,17 +5,21 @@
 //! μ runs by STEP from −μ_s at −v_s to μ_s at v_s, then to μ_d at v_d; odd in v
 //! ```
 //!
-//! The contact of tooth k₁ stands at P = σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis, so that v = k·(u̇, ω) and the load is T k with
+//! The contact stands at σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis and at −(σ r_b2 w⊥ + r_b2 ξ₂ w) from gear 2's, the gap between; P is halfway.
+//! So v = k·(u̇, ω) and the load is T k with
 //!
 //! ```text
 //! k = (w⊥, (P − u) × w⊥),   ∂k: dω = w⊥·dd/L,   dw⊥ = −w dω,   dP = r_b1 ξ₁ w⊥ dω
 //! ```
+//!
+//! where what falls to zero with the tilt is left out of ∂k.
 
 use nalgebra::Vector3;
 
 use crate::error::{DrivetrainError, not_negative, positive};
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, SlicePlane};
+use crate::mesh_frame::MeshFrame;
+use crate::pose::Vector6;
+use crate::slice_plane::{Matrix6, SlicePlane, stacked};
 use crate::step::step;
 
 /// Coefficients and transition speeds.
@@ -102,51 +106,47 @@ pub struct Sliding {
     pub speed_m_per_s: f64,
 }
 
-impl Sliding {
-    fn arm(
-        plane: &SlicePlane,
-        pose: &Pose,
-        sigma: f64,
-        (base_radius_1_m, roll_1_rad): (f64, f64),
-    ) -> Vector3<f64> {
-        base_radius_1_m * (sigma * plane.across + roll_1_rad * plane.normal)
-            + Vector3::new(0.0, 0.0, plane.z_m)
-            - pose.displacement_m
+/// A contact in a slice plane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SlidingAt<'a> {
+    pub frame: &'a MeshFrame,
+    pub plane: &'a SlicePlane,
+    /// +1 for right flanks, −1 for left ones.
+    pub sigma: f64,
+    /// Of gear 1 and gear 2.
+    pub base_radii_m: [f64; 2],
+    pub roll_rad: [f64; 2],
+}
+
+impl SlidingAt<'_> {
+    /// P − u.
+    fn arm(&self) -> Vector3<f64> {
+        let (frame, plane) = (self.frame, self.plane);
+        let [r1, r2] = self.base_radii_m;
+        let [xi_1, xi_2] = self.roll_rad;
+        let along = |r: f64, xi: f64| r * (self.sigma * plane.across + xi * plane.normal);
+        let from_1 = plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + along(r1, xi_1);
+        let from_2 = plane.axis_heights_m[1] * frame.axis_2 - along(r2, xi_2);
+        0.5 * (from_1 + from_2)
     }
 
-    /// The sliding of a contact in a plane, on gear 1 at roll angle ξ₁; `sigma` is +1 for right flanks.
-    #[must_use]
-    pub fn new(plane: &SlicePlane, pose: &Pose, sigma: f64, on_gear_1: (f64, f64)) -> Self {
-        let moment = Self::arm(plane, pose, sigma, on_gear_1).cross(&plane.across);
-        let w = plane.across;
-        let direction = Vector6::new(w[0], w[1], w[2], moment[0], moment[1], moment[2]);
-        Self {
+    /// The sliding at rates (u̇, ω).
+    pub(crate) fn sliding(&self, rates: &Vector6) -> Sliding {
+        let w = self.plane.across;
+        let direction = stacked(w, self.arm().cross(&w));
+        Sliding {
             direction,
-            speed_m_per_s: direction.dot(&pose.rates()),
+            speed_m_per_s: direction.dot(rates),
         }
     }
 
     /// ∂k/∂(u, ϑ), shape 6×6.
-    #[must_use]
-    pub fn direction_gradient(
-        plane: &SlicePlane,
-        pose: &Pose,
-        sigma: f64,
-        on_gear_1: (f64, f64),
-    ) -> Matrix6 {
-        let turned_by_shift = plane.across / plane.length_m;
-        let turned_by_tilt = plane.z_m * pose.axis_2().cross(&turned_by_shift);
-        let arm = Self::arm(plane, pose, sigma, on_gear_1);
-        let moment = arm.cross(&plane.normal);
-        let mut g = Matrix6::zeros();
-        for (start, turned) in [(0, turned_by_shift), (3, turned_by_tilt)] {
-            g.fixed_view_mut::<3, 3>(0, start)
-                .copy_from(&(-plane.normal * turned.transpose()));
-            g.fixed_view_mut::<3, 3>(3, start)
-                .copy_from(&(-moment * turned.transpose()));
-        }
+    pub(crate) fn direction_gradient(&self) -> Matrix6 {
+        let turn = self.plane.turn(self.frame);
+        let moment = self.arm().cross(&self.plane.normal);
+        let mut g = -stacked(self.plane.normal, moment) * turn.transpose();
         let mut lower = g.fixed_view_mut::<3, 3>(3, 0);
-        lower += plane.across.cross_matrix();
+        lower += self.plane.across.cross_matrix();
         g
     }
 }

@@ -15,11 +15,12 @@ use gearmesh_model::ReducedGear;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, ToothContact};
 use crate::flank_modes::{FlankModes, ModalMotion};
-use crate::friction::{Friction, Sliding};
+use crate::friction::{Friction, SlidingAt};
+use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
 use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, PoseGeometry};
+use crate::slice_plane::Matrix6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What a mesh does at a pose.
@@ -119,12 +120,15 @@ impl GearMesh {
         if !model.resolves_teeth() && self.kinematics.has_errors() {
             return Err(DrivetrainError::UnusedFlankErrors);
         }
+        if !model.resolves_teeth() {
+            self.kinematics.share_one_gap();
+        }
         let capacity = self.kinematics.capacity();
         self.sides.retain(|side| side.flank != flank);
         self.sides.push(Side {
             flank,
             model: Box::new(model),
-            found: FlankContacts::with_capacity(self.kinematics.slices_m().len(), capacity),
+            found: FlankContacts::with_capacity(self.kinematics.layout().slices, capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),
             modes: [None, None],
@@ -148,11 +152,12 @@ impl GearMesh {
     ) -> Result<Self, DrivetrainError> {
         assert!(gear == 1 || gear == 2, "gear {gear} of 1 and 2");
         let capacity = self.kinematics.capacity();
+        let spread = self.kinematics.layout().spread(gear, model);
         for side in &mut self.sides {
             if !side.model.takes_modes() {
                 return Err(DrivetrainError::ModesWithoutReducedTeeth { gear });
             }
-            let modes = FlankModes::new(model, side.flank, count)?;
+            let modes = FlankModes::new(model, side.flank, count, &spread)?;
             side.found.modal[gear - 1] = modes.rows_with_capacity(capacity);
             side.modes[gear - 1] = Some(modes);
         }
@@ -292,7 +297,7 @@ impl GearMesh {
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
-        let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
+        let base_radii_m = [0, 1].map(|i: usize| self.kinematics.gears()[i].base_radius_m);
         self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
             let rigid = side.modes.iter().all(Option::is_none);
@@ -325,13 +330,12 @@ impl GearMesh {
             result.power.stored_j += side.loads.stored_j;
             result.power.dissipated_w += side.loads.dissipated_w;
             let assembly = Assembly {
-                pose,
                 rates,
                 found: &side.found,
                 loads: &side.loads,
                 flank: side.flank,
                 kinematics: &self.kinematics,
-                base_radius_1_m,
+                base_radii_m,
                 friction: self.friction,
                 modal_rates: modal.rates,
             };
@@ -357,13 +361,12 @@ struct Parts<'a> {
 
 /// One side at one pose, put together.
 struct Assembly<'a> {
-    pose: &'a Pose,
     rates: Vector6,
     found: &'a FlankContacts,
     loads: &'a TeethLoads,
     flank: FlankSide,
     kinematics: &'a MeshKinematics,
-    base_radius_1_m: f64,
+    base_radii_m: [f64; 2],
     friction: Option<Friction>,
     modal_rates: [&'a [f64]; 2],
 }
@@ -378,10 +381,7 @@ impl Assembly<'_> {
             }
         }
         for (section, energy) in found.sections.iter().zip(&loads.energy_by_share) {
-            // Whole slices do not change their width.
-            if section.share < 1.0 {
-                result.load += *energy * section.share_gradient;
-            }
+            result.load += *energy * section.share_gradient;
         }
         for (i, contact) in found.contacts.iter().enumerate() {
             let force = loads.normal_n[i];
@@ -393,11 +393,16 @@ impl Assembly<'_> {
             let mut direction = contact.gradient;
             let mut to_tip_n = 0.0;
             let mut rubbing = None;
-            if let Some(friction) = self.friction {
+            if let Some((friction, frame)) = self.friction.zip(found.frame.as_ref()) {
                 parts.effort.friction += 1;
-                let roll_1_rad = found.section(contact).touching_roll_rad[0];
-                let on_gear_1 = (self.base_radius_1_m, roll_1_rad);
-                let sliding = Sliding::new(plane, self.pose, sigma, on_gear_1);
+                let at = SlidingAt {
+                    frame,
+                    plane,
+                    sigma,
+                    base_radii_m: self.base_radii_m,
+                    roll_rad: found.section(contact).touching_roll_rad,
+                };
+                let sliding = at.sliding(&self.rates);
                 let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);
                 let speed_m_per_s = sliding.speed_m_per_s - sigma * vibration;
                 let (mu, slope) = friction.coefficient(speed_m_per_s);
@@ -406,7 +411,7 @@ impl Assembly<'_> {
                 to_tip_n = sigma * mu * force;
                 result.power.dissipated_w += mu * force * speed_m_per_s;
                 if tangents {
-                    let turned = Sliding::direction_gradient(plane, self.pose, sigma, on_gear_1);
+                    let turned = at.direction_gradient();
                     let speed_by_pose = turned.tr_mul(&self.rates);
                     let k = sliding.direction;
                     result.by_position -= mu * force * turned;
@@ -458,36 +463,37 @@ impl Assembly<'_> {
             let damping = loads.damping_n_s_per_m[i * n + j];
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
-                let roll_2_rad = self.roll_2_rad(contact);
-                let curvature = self.gap_curvature(contact.slice, roll_2_rad);
+                let roll_rad = self.roll_rad(contact);
+                let curvature = self.gap_curvature(contact.slice, roll_rad);
                 by_pose -= damping * (curvature.tr_mul(&self.rates));
             }
         }
         (by_pose, by_rates)
     }
 
-    /// Roll angle on gear 2 in the middle of a slice: that of the section but for a slice that is partly on the path.
-    fn roll_2_rad(&self, contact: &ToothContact) -> f64 {
-        self.found.section(contact).roll_rad[1]
+    /// Roll angles in the middle of a slice: those of the section but for a slice that is partly on the path.
+    fn roll_rad(&self, contact: &ToothContact) -> [f64; 2] {
+        self.found.section(contact).roll_rad
     }
 
     /// Second derivative of the gaps in a slice plane.
-    fn gap_curvature(&self, slice: usize, roll_2_rad: f64) -> Matrix6 {
-        let plane = &self.found.planes[slice];
-        (self.kinematics).gap_curvature(plane, self.pose, self.flank, roll_2_rad)
+    fn gap_curvature(&self, slice: usize, roll_rad: [f64; 2]) -> Matrix6 {
+        (self.kinematics).gap_curvature(self.found, slice, self.flank, roll_rad)
     }
 
     fn add_curvature(&self, result: &mut MeshLoad) {
         let (found, loads) = (self.found, self.loads);
         for slice in 0..found.planes.len() {
-            let (mut of_plane, mut rolled) = (0.0, 0.0);
+            let (mut of_plane, mut rolled) = (0.0, [0.0; 2]);
             let in_plane = found.contacts.iter().zip(&loads.normal_n);
             for (contact, force) in in_plane.filter(|(contact, _)| contact.slice == slice) {
                 of_plane += force;
-                rolled += force * self.roll_2_rad(contact);
+                let roll_rad = self.roll_rad(contact);
+                (0..2).for_each(|gear| rolled[gear] += force * roll_rad[gear]);
             }
             if of_plane > 0.0 {
-                result.by_position += of_plane * self.gap_curvature(slice, rolled / of_plane);
+                let mean_rad = rolled.map(|sum| sum / of_plane);
+                result.by_position += of_plane * self.gap_curvature(slice, mean_rad);
             }
         }
     }

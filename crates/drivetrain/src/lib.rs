@@ -2,7 +2,7 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
+//! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `mesh_frame.rs`, `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
@@ -28,6 +28,7 @@ pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
 pub mod mesh_element;
+mod mesh_frame;
 pub mod mesh_kinematics;
 pub mod modal_loads;
 pub mod models;

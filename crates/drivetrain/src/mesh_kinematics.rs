@@ -1,38 +1,38 @@
 //! Which tooth flanks face each other at a pose of two gears, and how far apart they are.
 //!
-//! Everything is seen in gear 1's frame, slice plane by slice plane. With b gear 2's axis, σ = ±1 for right and left flanks, and
-//! at the plane z
+//! Seen in planes across the axis halfway between the gears' axes (mesh_frame.rs), slice by slice. With d the way from gear 1's axis to gear 2's in
+//! such a plane, z₁ and z₂ where it cuts them, and σ = ±1 for right and left flanks
 //!
 //! ```text
-//! d = u + z b,   a = |d_xy|,   β = polar angle of d,   cos α = R/a,   R = r_b1 + r_b2,   L = a sin α
-//! ξ₁ = α + ψ_b1 − σ(−β + k₁τ₁ + κ₁z₁),  ξ₂ = α + ψ_b2 − σ(γ − β − π + k₂τ₂ + κ₂z)   roll angles on the line of action
-//! g  = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂) + e₁(ξ₁, z) + e₂(ξ₂, z)                       gap, e: material removed
+//! a = |d|,   β = polar angle of d,   cos α = R/a,   R = r_b1 + r_b2,   L = a sin α
+//! ξ₁ = α + ψ_b1 − σ(−β + k₁τ₁ + κ₁z₁),  ξ₂ = α + ψ_b2 − σ(γ − β − π + k₂τ₂ + κ₂z₂)   roll angles on the line of action
+//! g  = cos β_b (L − r_b1 ξ₁ − r_b2 ξ₂) + e₁(ξ₁, z₁) + e₂(ξ₂, z₂)                      gap, e: material removed
 //! ```
 //!
-//! for tooth k₁ against tooth k₂; κ turns helical sections (base_helix.rs) and is zero on spur teeth. The gradient is in closed form: with w
-//! the unit vector of the line of action (the transverse force on gear 2), w⊥ = e_z × w and t = ∂γ/∂ϑ,
+//! for tooth k₁ against tooth k₂; κ turns helical sections, on tilted axes as base_helix.rs has it, and is zero on spur teeth. The gradient is in
+//! closed form: with w the unit vector of the line of action (the transverse force on gear 2), w⊥ across it, t = ∂γ/∂ϑ and m the turn of the frame,
 //!
 //! ```text
-//! ∂ξ₁/∂(u, ϑ) = (σ w⊥/L, z b × σ w⊥/L) − σ κ₁ ∂z₁,     ∂ξ₂ = (σ w⊥/L, z b × σ w⊥/L) − (0, σ t)
-//! ∂g/∂(u, ϑ)  = cos β_b (w, z b × w + σ r_b2 t) + σ sin β_b ∂z₁ + e₁′ ∂ξ₁ + e₂′ ∂ξ₂
+//! ∂ξ₁/∂(u, ϑ) = σ w⊥·∂d/L − σ ∂m,     ∂ξ₂ = ∂ξ₁ − (0, σ t),     ∂g/∂(u, ϑ)  = w·∂d + (0, σ r_b2 t) + σ R ∂m + e₁′ ∂ξ₁ + e₂′ ∂ξ₂ + …
 //! ```
 //!
-//! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again. Derivation, and
-//! the second derivative: docs/theory/gear_meshes.md.
+//! Which teeth face each other follows from the angles alone: there is no memory, and a slipped pair is found again. Exchanging the gears
+//! changes nothing. Derivation, and the second derivative: docs/theory/gear_meshes.md.
 
 use std::f64::consts::TAU;
 
 use gearmesh_geometry::{FlankSide, ToothGeometry};
 
-use crate::base_helix::BaseHelix;
+use gearmesh_contact::SliceLayout;
+
+use crate::base_helix::{BaseHelix, IdealFlanks};
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, FlankErrors, Section, TeethLine, ToothContact};
 use crate::flank_error::FlankPoint;
-use crate::path_ends::{PathEnds, TipEdges, part_on_path};
+use crate::mesh_frame::{MeshFrame, PoseGeometry};
+use crate::path_ends::{LEAST_SHARE, PathEnds, SlicePart, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{
-    CentreLine, Matrix6, PoseGeometry, SlicePlane, even_width_m, line_of_action,
-};
+use crate::slice_plane::{CentreLine, Matrix6, SlicePlane, line_of_action};
 use crate::tooth_zero::ToothZero;
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
@@ -44,50 +44,41 @@ pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
 pub struct MeshKinematics {
     gears: [ToothGeometry; 2],
     errors: [FlankErrors; 2],
-    slices_m: Vec<f64>,
+    layout: SliceLayout,
     ends: PathEnds,
     edges: TipEdges,
     /// Roll angles up to which flanks touch, tip edges included.
     ends_rad: [f64; 2],
     helix: Option<BaseHelix>,
-    /// Width of a slice \[m\]; none where there is one slice, which then stands for the whole face.
-    slice_width_m: Option<f64>,
-    /// How far the roll angle on gear 1 changes from mid-face to the faces \[rad\]; zero on spur teeth.
+    /// How far the roll angle on gear 1 changes from mid-face to the faces, tilted axes included \[rad\]; zero on spur teeth.
     slant_1_rad: f64,
+    /// r_b1 ξ₁ − r_b2 ξ₂ \[m\] in the middle of the path, where a spring that stands for the whole mesh has its gap; none where each pair has its own.
+    common_place_m: Option<f64>,
     /// Bound of what deviations add to both flanks together \[m\].
     most_added_m: f64,
 }
 
 /// A pair of teeth in the slice planes of a pose: what its sections share.
 struct PlacedTeeth<'a> {
-    pose: &'a Pose,
+    frame: &'a MeshFrame,
+    rates: &'a Vector6,
     side: FlankSide,
     /// Roll angles that it is behind tooth 0 \[rad\].
     behind_rad: [f64; 2],
     teeth: [usize; 2],
 }
 
-/// Ideal flanks in a slice plane.
-#[derive(Clone, Copy)]
-struct IdealFlanks {
-    roll_rad: [f64; 2],
-    roll_gradient: [Vector6; 2],
-    /// Along the normal \[m\].
-    gap_m: f64,
-    gradient: Vector6,
-}
-
 impl MeshKinematics {
-    /// Two gears that run at about `centre_distance_m`, with slice planes at `slices_m` \[m\], evenly spaced on helical gears.
+    /// Two gears that run at about `centre_distance_m`, with slices over the overlap of their faces.
     ///
     /// # Errors
     /// [`DrivetrainError::Helix`] if the helices do not fit, [`DrivetrainError::CentreDistance`], [`DrivetrainError::Length`] without
-    /// slices, or [`DrivetrainError::UnevenSlices`].
+    /// slices, [`DrivetrainError::Contact`] if the faces do not overlap where the slices are laid.
     pub fn new(
         gears: [ToothGeometry; 2],
         errors: [FlankErrors; 2],
         centre_distance_m: f64,
-        slices_m: Vec<f64>,
+        layout: SliceLayout,
         ends: PathEnds,
     ) -> Result<Self, DrivetrainError> {
         let [helix_1, helix_2] = [0, 1].map(|i: usize| gears[i].base_helix_angle_rad());
@@ -97,22 +88,20 @@ impl MeshKinematics {
                 helix_2_deg: helix_2.to_degrees(),
             });
         }
-        if slices_m.is_empty() {
+        if layout.slices == 0 {
             return Err(DrivetrainError::Length {
                 owner: "gear mesh",
-                what: "the list of slice planes",
+                what: "the list of slices",
                 found: 0,
                 expected: 1,
             });
         }
+        layout.check()?;
         let helix = BaseHelix::new(&gears);
-        let slice_width_m = match helix {
-            None => None,
-            Some(_) => even_width_m(&slices_m)?,
-        };
-        let outermost = (slices_m.iter()).fold(0.0, |most: f64, z| most.max(z.abs()));
-        let half_width = outermost + 0.5 * slice_width_m.unwrap_or(0.0);
-        let slant_1_rad = helix.map_or(0.0, |h| h.twist_rad_per_m[0].abs() * half_width);
+        let slant_1_rad = helix.map_or(0.0, |h| {
+            let along_face = 0.5 * layout.face_widths_m[0] * h.twist_rad_per_m[0].abs();
+            along_face + LARGEST_MISALIGNMENT_RAD * h.tan.abs()
+        });
         let (length, _) = line_of_action(&gears, centre_distance_m)?;
         let edges = match ends {
             PathEnds::LineOfAction => TipEdges::default(),
@@ -125,13 +114,13 @@ impl MeshKinematics {
         Ok(Self {
             gears,
             errors,
-            slices_m,
+            layout,
             ends,
             ends_rad,
             edges,
             helix,
-            slice_width_m,
             slant_1_rad,
+            common_place_m: None,
             most_added_m,
         })
     }
@@ -142,10 +131,19 @@ impl MeshKinematics {
         &self.gears
     }
 
-    /// Slice planes \[m\].
+    /// Where the slices lie.
     #[must_use]
-    pub fn slices_m(&self) -> &[f64] {
-        &self.slices_m
+    pub fn layout(&self) -> &SliceLayout {
+        &self.layout
+    }
+
+    /// Gives all pairs of teeth in a slice one gap, that of ideal flanks in the middle of the path: for a spring that stands for the whole mesh.
+    pub(crate) fn share_one_gap(&mut self) {
+        let [r1, r2] = [0, 1].map(|i: usize| {
+            let gear = &self.gears[i];
+            gear.base_radius_m * gear.flank_end_roll_rad
+        });
+        self.common_place_m = Some(r1 - r2);
     }
 
     /// How the path ends.
@@ -170,7 +168,7 @@ impl MeshKinematics {
     #[must_use]
     pub fn capacity(&self) -> usize {
         let span = self.ends_rad[0] + 2.0 * self.slant_1_rad;
-        (span / self.pitch_rad(0)).ceil() as usize * self.slices_m.len() + self.slices_m.len()
+        (span / self.pitch_rad(0)).ceil() as usize * self.layout.slices + self.layout.slices
     }
 
     /// Finds what both sides of the teeth share.
@@ -185,35 +183,18 @@ impl MeshKinematics {
                 allowed_mrad: LARGEST_MISALIGNMENT_RAD * 1e3,
             });
         }
-        at.slices.clear();
-        at.middle = None;
-        for &z in &self.slices_m {
-            let line = CentreLine::new(&self.gears, pose, z)?;
-            if z == 0.0 {
-                at.middle = Some(line);
-            }
-            at.slices.push(line);
-        }
-        let middle = match at.middle {
-            Some(middle) => middle,
-            None => CentreLine::new(&self.gears, pose, 0.0)?,
-        };
-        at.slices
-            .iter_mut()
-            .for_each(|line| line.turn_next_to(&middle));
-        at.middle = Some(middle);
-        at.spin_rad = pose.spin_rad();
-        Ok(())
+        at.locate(&self.gears, &self.layout, pose)
     }
 
-    /// Gap \[m\] of ideal flanks of one side at mid-face if no flanks of that side can touch at a pose that has been located; none if some
+    /// Gap \[m\] of ideal flanks of one side in the middle of the zone if no flanks of that side can touch at a pose that has been located; none if some
     /// might. Spur teeth only: in each plane all their pairs have the same ideal gap.
     pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: FlankSide) -> Option<f64> {
         let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
+        let frame = at.frame.as_ref()?;
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let rolls =
-            |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, at.spin_rad, side, plane);
-        let plane = middle.plane(side);
+            |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, frame.spin_rad, side, plane);
+        let plane = middle.plane(frame, side);
         let [roll_1, roll_2] = rolls(&plane);
         let touching = (plane.length_m - r1 * roll_1) / r2;
         let pitch_2 = self.pitch_rad(1);
@@ -222,7 +203,7 @@ impl MeshKinematics {
             plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
         };
         let is_open = |line: &CentreLine| {
-            let plane = line.plane(side);
+            let plane = line.plane(frame, side);
             gap_m(&plane, rolls(&plane)) > self.most_added_m
         };
         at.slices
@@ -256,34 +237,34 @@ impl MeshKinematics {
         found: &mut FlankContacts,
     ) {
         found.clear();
-        let Some(middle) = &at.middle else {
+        let (Some(middle), Some(frame)) = (&at.middle, &at.frame) else {
             return;
         };
-        let planes = at.slices.iter().map(|line| line.plane(side));
+        found.frame = Some(*frame);
+        let planes = at.slices.iter().map(|line| line.plane(frame, side));
         found.planes.extend(planes);
-        let zero =
-            |plane: &SlicePlane| ToothZero::new(&self.gears, (pose, at.spin_rad), side, plane);
+        let zero = |plane: &SlicePlane| ToothZero::new(&self.gears, frame, side, plane);
         found.zeros.extend(found.planes.iter().map(zero));
-        let middle = middle.plane(side);
+        let rates = pose.rates();
+        let middle = middle.plane(frame, side);
         let middle = (middle, zero(&middle));
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
-        let [mut zero_1, zero_2] = middle.1.roll_rad;
-        if let Some(helix) = &self.helix {
-            zero_1 -= side.mirror() * helix.twist_rad_per_m[0] * pose.displacement_m[2];
-        }
+        let [zero_1, zero_2] = self.mid_face_rolls_rad(&middle, side);
         let length_m = middle.0.length_m;
         let start_1 = (length_m - r2 * ends[1]) / r1;
         let first = ((zero_1 - ends[0] - self.slant_1_rad) / pitch_1).ceil() as i64;
         let last = ((zero_1 - start_1 + self.slant_1_rad) / pitch_1).floor() as i64;
-        for count_1 in first..=last {
+        // Flanks that stand open touch later: one more pair is looked at.
+        for count_1 in first..=last + 1 {
             let behind_1 = count_1 as f64 * pitch_1;
             // The mate is the tooth whose flank is nearest.
             let touching = (length_m - r1 * (zero_1 - behind_1)) / r2;
             let count_2 = ((zero_2 - touching) / pitch_2).round();
             let behind_2 = count_2 * pitch_2;
-            if self.helix.is_none() && zero_2 - behind_2 > ends[1] {
+            let on_flanks = zero_1 - behind_1 <= ends[0] && zero_2 - behind_2 <= ends[1];
+            if self.helix.is_none() && !on_flanks {
                 continue;
             }
             let counts = [count_1, count_2 as i64];
@@ -291,13 +272,29 @@ impl MeshKinematics {
             let teeth =
                 [0, 1].map(|i| (sense * counts[i]).rem_euclid(self.gears[i].teeth as i64) as usize);
             let placed = PlacedTeeth {
-                pose,
+                frame,
+                rates: &rates,
                 side,
                 behind_rad: [behind_1, behind_2],
                 teeth,
             };
             self.add_line(&placed, &middle, found);
         }
+    }
+
+    /// Roll angles of tooth 0 of both gears where its sections at mid-face would touch.
+    fn mid_face_rolls_rad(&self, (plane, zero): &(SlicePlane, ToothZero), side: FlankSide) -> [f64; 2] {
+        let Some(helix) = &self.helix else {
+            return zero.roll_rad;
+        };
+        // Gear 1's mid-face, and gear 2's section against it.
+        let twist_2 = helix.twist_rad_per_m[1];
+        let [height_1, height_2] = plane.axis_heights_m;
+        let [roll_1, roll_2] = zero.roll_rad;
+        [
+            roll_1,
+            roll_2 - side.mirror() * twist_2 * (height_2 - height_1),
+        ]
     }
 
     /// Adds a pair of teeth with its slices, unless all of them are off the path.
@@ -309,16 +306,15 @@ impl MeshKinematics {
     ) {
         let line = found.lines.len();
         let first = found.contacts.len();
-        let rates = placed.pose.rates();
         let mut at_middle = None;
         for (slice, (plane, zero)) in found.planes.iter().zip(&found.zeros).enumerate() {
             let ideal = self.ideal_flanks(placed, plane, zero);
-            if plane.z_m == middle.0.z_m {
+            if plane.section_m == middle.0.section_m {
                 at_middle = Some(ideal);
             }
             let own = match &self.helix {
                 None => None,
-                Some(helix) => match self.own_section(helix, placed.side, &ideal) {
+                Some(helix) => match self.own_section(helix, placed, &ideal) {
                     None => continue,
                     section => section,
                 },
@@ -328,11 +324,18 @@ impl MeshKinematics {
                     (&section.roll_rad, &section.roll_gradient)
                 });
             let (mut gap_m, mut gradient) = (ideal.gap_m, ideal.gradient);
-            for gear in 0..2 {
-                let at = (placed.side, roll_rad[gear], plane.z_m);
-                let (depth, slope) = self.removed(gear, placed.teeth[gear], at);
-                gap_m += depth;
-                gradient += slope * roll_gradient[gear];
+            // What the whole mesh shares is the gap of ideal flanks.
+            if self.common_place_m.is_none() {
+                for (gear, sense) in [(0, 0.5), (1, -0.5)] {
+                    let at = (placed.side, roll_rad[gear], plane.heights_m[gear]);
+                    let (depth, [by_roll, by_height]) = self.removed(gear, placed.teeth[gear], at);
+                    gap_m += depth;
+                    gradient += by_roll * roll_gradient[gear];
+                    if by_height != 0.0 {
+                        let shift = sense * placed.frame.displacement_gradient;
+                        gradient += by_height * (plane.section_gradient + shift);
+                    }
+                }
             }
             if !gap_m.is_finite() {
                 continue;
@@ -349,7 +352,7 @@ impl MeshKinematics {
                 slice,
                 section,
                 gap_m,
-                gap_rate_m_per_s: gradient.dot(&rates),
+                gap_rate_m_per_s: gradient.dot(placed.rates),
                 gradient,
             });
         }
@@ -360,7 +363,7 @@ impl MeshKinematics {
         let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, &middle.0, &middle.1));
         let middle = Section {
             contacts,
-            ..self.section(&ideal)
+            ..self.section(placed.frame, &ideal)
         };
         if self.helix.is_none() {
             found.sections.push(middle);
@@ -381,36 +384,29 @@ impl MeshKinematics {
         zero: &ToothZero,
     ) -> IdealFlanks {
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let mut roll_rad = [0, 1].map(|i| zero.roll_rad[i] - placed.behind_rad[i]);
-        let mut roll_gradient = zero.roll_gradient;
-        let mut gradient = zero.gradient;
-        let mut helix_cos = 1.0;
+        let roll_rad = [0, 1].map(|i| zero.roll_rad[i] - placed.behind_rad[i]);
         if let Some(helix) = &self.helix {
-            let sigma = placed.side.mirror();
-            helix_cos = helix.cos;
-            let [twist_1, twist_2] = helix.twist_rad_per_m;
-            roll_rad[1] -= sigma * twist_2 * plane.z_m;
-            let height = helix.height(plane, placed.pose, sigma, roll_rad[1]);
-            roll_rad[0] -= sigma * twist_1 * height.z_m;
-            roll_gradient[0] -= sigma * twist_1 * height.gradient;
-            gradient = helix.cos * (gradient + sigma * helix.tan * height.gradient);
+            let plain = (roll_rad, placed.side.mirror());
+            return helix.flanks((placed.frame, plane), zero, plain, self.common_place_m);
         }
         IdealFlanks {
-            gap_m: helix_cos * (plane.length_m - r1 * roll_rad[0] - r2 * roll_rad[1]),
+            gap_m: plane.length_m - r1 * roll_rad[0] - r2 * roll_rad[1],
             roll_rad,
-            roll_gradient,
-            gradient,
+            roll_gradient: zero.roll_gradient,
+            gradient: zero.gradient,
         }
     }
 
     /// The section of a whole slice, without its contacts.
-    fn section(&self, ideal: &IdealFlanks) -> Section {
+    fn section(&self, frame: &MeshFrame, ideal: &IdealFlanks) -> Section {
+        let width_m = self.layout.reference.width_m;
+        let rate = frame.zone.width_by_displacement / width_m;
         Section {
             roll_rad: ideal.roll_rad,
             touching_roll_rad: self.touching_roll_rad(ideal.roll_rad),
             roll_gradient: ideal.roll_gradient,
-            share: 1.0,
-            share_gradient: Vector6::zeros(),
+            share: frame.zone.width_m / width_m,
+            share_gradient: rate * frame.displacement_gradient,
             contacts: (0, 0),
         }
     }
@@ -426,52 +422,66 @@ impl MeshKinematics {
     fn own_section(
         &self,
         helix: &BaseHelix,
-        side: FlankSide,
+        placed: &PlacedTeeth<'_>,
         ideal: &IdealFlanks,
     ) -> Option<Section> {
-        let mut section = self.section(ideal);
-        let touches = match (self.ends, self.slice_width_m) {
-            (PathEnds::LineOfAction, Some(width_m)) => {
-                let slopes = helix.twist_rad_per_m.map(|twist| -side.mirror() * twist);
-                part_on_path(&mut section, (slopes, self.ends_rad), width_m)
+        let mut section = self.section(placed.frame, ideal);
+        let touches = match self.ends {
+            _ if self.common_place_m.is_some() => true,
+            PathEnds::LineOfAction => {
+                let slopes = helix
+                    .twist_rad_per_m
+                    .map(|twist| -placed.side.mirror() * twist);
+                let part = SlicePart {
+                    slopes,
+                    ends: self.ends_rad,
+                    width_m: self.layout.width_m(),
+                };
+                part_on_path(&mut section, &part)
             }
-            _ => (0..2).all(|i| section.roll_rad[i] <= self.ends_rad[i]),
+            PathEnds::Extended => (0..2).all(|i| section.roll_rad[i] <= self.ends_rad[i]),
         };
         section.touching_roll_rad = self.touching_roll_rad(section.roll_rad);
-        touches.then_some(section)
+        (touches && section.share > LEAST_SHARE).then_some(section)
     }
 
-    /// Second derivative of the gap in a plane by the increments, microgeometry left out: that is of the order of the load times its
-    /// curvature, 1e-6 of the stiffness. `roll_2_rad`: of the contact, or the mean of several ones weighted by their forces; unused on
-    /// spur teeth.
+    /// Second derivative of the gap in a slice plane by the increments, microgeometry left out: that is of the order of the load times its
+    /// curvature, 1e-6 of the stiffness. `roll_rad`: of the contact, or the means of several ones weighted by their forces; unused on spur teeth.
+    ///
+    /// # Panics
+    /// If nothing was found or there is no such slice.
     #[must_use]
     pub fn gap_curvature(
         &self,
-        plane: &SlicePlane,
-        pose: &Pose,
+        found: &FlankContacts,
+        slice: usize,
         side: FlankSide,
-        roll_2_rad: f64,
+        roll_rad: [f64; 2],
     ) -> Matrix6 {
-        let base_radius_2_m = self.gears[1].base_radius_m;
-        let transverse = plane.transverse_curvature(pose, side, base_radius_2_m);
+        let (plane, zero) = (&found.planes[slice], &found.zeros[slice]);
+        let Some(frame) = &found.frame else {
+            return Matrix6::zeros();
+        };
+        let base_radii_m = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let transverse = plane.transverse_curvature(frame, side, base_radii_m);
         let Some(helix) = &self.helix else {
             return transverse;
         };
-        let sigma = side.mirror();
-        let along_axis = helix.height_curvature(plane, pose, sigma, roll_2_rad);
-        helix.cos * transverse + sigma * helix.sin * along_axis
+        let at = (roll_rad, side.mirror());
+        helix.curvature((frame, plane), zero, at, transverse)
     }
 
-    /// Depth \[m\] and slope \[m/rad\] of everything removed at a flank, the tip edge's gap beyond the flank's end included.
+    /// Depth \[m\] and slopes along the profile \[m/rad\] and the axis of everything removed at a flank, the tip edge's gap beyond the flank's end
+    /// included.
     fn removed(
         &self,
         gear: usize,
         tooth: usize,
         (side, roll, z_m): (FlankSide, f64, f64),
-    ) -> (f64, f64) {
+    ) -> (f64, [f64; 2]) {
         let end = self.gears[gear].flank_end_roll_rad;
         let beyond = roll - end;
-        let (mut depth, mut slope) = (0.0, 0.0);
+        let (mut depth, mut slope, mut along_axis) = (0.0, 0.0, 0.0);
         if beyond > 0.0 {
             let edge = self.edges.gap_m_per_rad2[gear];
             depth += edge * beyond * beyond;
@@ -485,10 +495,11 @@ impl MeshKinematics {
                 z_m,
             });
             depth += removed.depth_m;
+            along_axis += removed.slope_along_axis;
             if beyond <= 0.0 {
                 slope += removed.slope_m_per_rad;
             }
         }
-        (depth, slope)
+        (depth, [slope, along_axis])
     }
 }

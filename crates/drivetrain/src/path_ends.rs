@@ -5,7 +5,6 @@ use gearmesh_geometry::ToothGeometry;
 use std::f64::consts::TAU;
 
 use crate::flank_contacts::Section;
-use crate::pose::Vector6;
 
 /// What happens where the rigid path of contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -46,20 +45,28 @@ impl TipEdges {
 /// a hundred-thousandth of a slice's force; far below, the floor of the local law's logarithm would reach its cap.
 pub(crate) const LEAST_SHARE: f64 = 1e-5;
 
-/// Takes the section in the middle of a slice of helical teeth to the middle of the part that is on the rigid path; false where none of it
-/// is. `slopes`: dξ/dz of both gears \[rad/m\], `ends`: where their flanks end \[rad\].
+/// What the part of a slice on the path depends on besides its section.
+pub(crate) struct SlicePart {
+    /// dξ/dz of both gears \[rad/m\].
+    pub slopes: [f64; 2],
+    /// Where their flanks end \[rad\].
+    pub ends: [f64; 2],
+    /// Width of a slice at the reference displacement \[m\].
+    pub width_m: f64,
+}
+
+/// Takes the section in the middle of a whole slice of helical teeth to the middle of the part that is on the rigid path; false where none of
+/// it is.
 ///
 /// The part lies between the slice's edges and the places x = (ξ_end − ξ)/ξ′ where a flank ends; its share of the width and the roll angles
 /// in its middle go with the pose as these do.
-pub(crate) fn part_on_path(
-    section: &mut Section,
-    (slopes, ends): ([f64; 2], [f64; 2]),
-    width_m: f64,
-) -> bool {
-    let none = Vector6::zeros();
-    let (mut low, mut high) = ((-0.5 * width_m, none), (0.5 * width_m, none));
-    for (gear, slope) in slopes.into_iter().enumerate() {
-        let at = (ends[gear] - section.roll_rad[gear]) / slope;
+pub(crate) fn part_on_path(section: &mut Section, part: &SlicePart) -> bool {
+    let half = 0.5 * part.width_m;
+    let (share, by_pose) = (section.share, section.share_gradient);
+    let mut low = (-half * share, -half * by_pose);
+    let mut high = (half * share, half * by_pose);
+    for (gear, slope) in part.slopes.into_iter().enumerate() {
+        let at = (part.ends[gear] - section.roll_rad[gear]) / slope;
         let by_pose = -section.roll_gradient[gear] / slope;
         if slope > 0.0 && at < high.0 {
             high = (at, by_pose);
@@ -67,10 +74,10 @@ pub(crate) fn part_on_path(
             low = (at, by_pose);
         }
     }
-    section.share = (high.0 - low.0) / width_m;
-    section.share_gradient = (high.1 - low.1) / width_m;
+    section.share = (high.0 - low.0) / part.width_m;
+    section.share_gradient = (high.1 - low.1) / part.width_m;
     let (middle, by_pose) = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1));
-    for (gear, slope) in slopes.into_iter().enumerate() {
+    for (gear, slope) in part.slopes.into_iter().enumerate() {
         section.roll_rad[gear] += slope * middle;
         section.roll_gradient[gear] += slope * by_pose;
     }

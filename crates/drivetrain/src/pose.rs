@@ -69,13 +69,13 @@ impl Pose {
         (Vector3::z() + b) / (1.0 + b[2])
     }
 
-    /// ∂²γ/∂ϑ∂ϑ as the derivative of [`Self::spin_gradient`], shape 3×3.
+    /// D \[m\]: how far gear 2's mid-face stands from gear 1's along the axes, at the pitch point; see mesh_frame.rs.
     #[must_use]
-    pub fn spin_curvature(&self) -> Matrix3<f64> {
-        let b = self.axis_2();
-        let turned = -b.cross_matrix();
-        let below = 1.0 + b[2];
-        turned / below - (Vector3::z() + b) * turned.row(2) / (below * below)
+    pub fn face_displacement_m(&self, base_radii_m: [f64; 2]) -> f64 {
+        let (b, [r1, r2]) = (self.axis_2(), base_radii_m);
+        let along_m = self.spin_gradient().dot(&self.displacement_m);
+        let shift_m = 0.5 * (b - Vector3::z()).dot(&self.displacement_m);
+        along_m - (r1 - r2) / (r1 + r2) * shift_m
     }
 
     /// (u̇, ω).

@@ -1,15 +1,17 @@
-//! A plane across gear 1's axis at a pose: where gear 2's axis crosses it, and the line of action in it.
-
-use std::f64::consts::TAU;
+//! A plane across the axis halfway between the gears' axes: where it cuts them, and the line of action in it.
+//!
+//! With the frame of mesh_frame.rs, d the way from gear 1's axis to gear 2's in the plane, and v any vector in it,
+//!
+//! ```text
+//! d = u − ½ D′ h + 2 (s + F/2) f,      v·∂d = (v, z₂ b × v) + 2 (f·v) ∂(s + F/2)
+//! ```
 
 use gearmesh_geometry::{FlankSide, ToothGeometry};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
-use crate::pose::{Pose, Vector6};
-
-/// How far the spacing of slice planes may vary, as a share of it: rounding.
-const UNEVEN: f64 = 1e-6;
+use crate::mesh_frame::{MeshFrame, ZoneSection, turn_of_spin_gradient};
+use crate::pose::Vector6;
 
 /// 6×6 matrix on the increments of a pose.
 pub type Matrix6 = SMatrix<f64, 6, 6>;
@@ -17,11 +19,13 @@ pub type Matrix6 = SMatrix<f64, 6, 6>;
 /// A slice plane at a pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlicePlane {
-    /// Axial position \[m\].
-    pub z_m: f64,
+    /// Place of the slice along the axes at the pitch point, from halfway between the mid-faces \[m\].
+    pub section_m: f64,
+    /// The same from the mid-faces of gear 1 and gear 2 \[m\].
+    pub heights_m: [f64; 2],
     /// w: unit vector of the line of action, direction of the force on gear 2, gear 1 axes.
     pub normal: Vector3<f64>,
-    /// w⊥ = e_z × w.
+    /// w⊥: across it in the plane, counter-clockwise.
     pub across: Vector3<f64>,
     /// L: length of the line of action between the base circles \[m\].
     pub length_m: f64,
@@ -29,27 +33,27 @@ pub struct SlicePlane {
     pub pressure_angle_rad: f64,
     /// β: polar angle of gear 2's axis from gear 1's \[rad\].
     pub polar_rad: f64,
+    /// Where the plane cuts the axes of gear 1 and gear 2, from their origins \[m\].
+    pub(crate) axis_heights_m: [f64; 2],
+    /// f·w and f·w⊥.
+    pub(crate) tilt: [f64; 2],
+    /// ∂s and ∂(s + F/2).
+    pub(crate) section_gradient: Vector6,
+    pub(crate) plane_gradient: Vector6,
 }
 
 /// What both sides of the teeth share in a slice plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CentreLine {
-    pub z_m: f64,
-    /// e_r(β)
+    at: ZoneSection,
+    /// e_r(β) and e_t(β).
     radial: Vector3<f64>,
+    tangential: Vector3<f64>,
     /// sin α and cos α.
     pressure_angle: (f64, f64),
     pressure_angle_rad: f64,
     length_m: f64,
-    polar_rad: f64,
-}
-
-/// Slice planes at a pose, what both sides of the teeth share. Reused from call to call.
-#[derive(Debug, Clone, Default)]
-pub struct PoseGeometry {
-    pub(crate) slices: Vec<CentreLine>,
-    pub(crate) middle: Option<CentreLine>,
-    pub(crate) spin_rad: f64,
+    pub polar_rad: f64,
 }
 
 /// Length L \[m\] of the line of action between the base circles, and working pressure angle \[rad\].
@@ -73,83 +77,99 @@ pub(crate) fn stacked(upper: Vector3<f64>, lower: Vector3<f64>) -> Vector6 {
     Vector6::new(upper[0], upper[1], upper[2], lower[0], lower[1], lower[2])
 }
 
+/// A vector on the rotation alone.
+pub(crate) fn on_turn(lower: Vector3<f64>) -> Vector6 {
+    stacked(Vector3::zeros(), lower)
+}
+
 impl CentreLine {
-    /// The centre line in the plane z.
+    /// The centre line in a section.
     pub(crate) fn new(
         gears: &[ToothGeometry; 2],
-        pose: &Pose,
-        z_m: f64,
+        frame: &MeshFrame,
+        at: ZoneSection,
     ) -> Result<Self, DrivetrainError> {
-        let d = pose.displacement_m + z_m * pose.axis_2();
-        let distance = d[0].hypot(d[1]);
+        let [z_1, z_2] = at.axis_heights_m;
+        // Of one magnitude: nothing is lost where the gears stand far along the axes.
+        let d = frame.displacement_m + z_2 * frame.axis_2 - z_1 * Vector3::z();
+        let d = d - d.dot(&frame.axis) * frame.axis;
+        let distance = d.norm();
         let (length_m, pressure_angle_rad) = line_of_action(gears, distance)?;
         let sum = gears[0].base_radius_m + gears[1].base_radius_m;
+        let radial = d / distance;
         Ok(Self {
-            z_m,
-            radial: Vector3::new(d[0] / distance, d[1] / distance, 0.0),
+            at,
+            radial,
+            tangential: frame.axis.cross(&radial),
             pressure_angle: (length_m / distance, sum / distance),
             pressure_angle_rad,
             length_m,
-            polar_rad: d[1].atan2(d[0]),
+            polar_rad: frame.polar_rad(&radial),
         })
     }
 
-    /// Takes the polar angle within half a turn of that of the middle: where gear 1 has turned by half a turn, those of some slices would be π,
-    /// of others −π, and teeth that are counted in the middle would be a whole turn off.
-    pub(crate) fn turn_next_to(&mut self, middle: &Self) {
-        self.polar_rad += TAU * ((middle.polar_rad - self.polar_rad) / TAU).round();
-    }
-
     /// The slice plane for flanks of one side.
-    pub(crate) fn plane(&self, side: FlankSide) -> SlicePlane {
+    pub(crate) fn plane(&self, frame: &MeshFrame, side: FlankSide) -> SlicePlane {
         let (sin, cos) = self.pressure_angle;
-        let tangential = Vector3::new(-self.radial[1], self.radial[0], 0.0);
-        let normal = sin * self.radial - side.mirror() * cos * tangential;
+        let sigma = side.mirror();
+        let normal = sin * self.radial - sigma * cos * self.tangential;
+        let across = sin * self.tangential + sigma * cos * self.radial;
         SlicePlane {
-            z_m: self.z_m,
+            section_m: self.at.section_m,
+            heights_m: self.at.heights_m,
             normal,
-            across: Vector3::new(-normal[1], normal[0], 0.0),
+            across,
             length_m: self.length_m,
             pressure_angle_rad: self.pressure_angle_rad,
             polar_rad: self.polar_rad,
+            axis_heights_m: self.at.axis_heights_m,
+            tilt: [frame.half_tilt.dot(&normal), frame.half_tilt.dot(&across)],
+            section_gradient: self.at.gradient,
+            plane_gradient: self.at.plane_gradient,
         }
     }
 }
 
 impl SlicePlane {
-    /// Second derivative of the transverse gap by the increments, microgeometry left out: that is of the order of the load times its
-    /// curvature, 1e-6 of the stiffness.
+    /// w·∂d.
+    pub(crate) fn along_normal(&self, frame: &MeshFrame) -> Vector6 {
+        self.of_distance(frame, &self.normal, self.tilt[0])
+    }
+
+    /// ∂ω = w⊥·∂d/L: turn of the line of action in the plane.
+    pub(crate) fn turn(&self, frame: &MeshFrame) -> Vector6 {
+        self.of_distance(frame, &self.across, self.tilt[1]) / self.length_m
+    }
+
+    fn of_distance(&self, frame: &MeshFrame, along: &Vector3<f64>, tilt: f64) -> Vector6 {
+        let moment = self.axis_heights_m[1] * frame.axis_2.cross(along);
+        stacked(*along, moment) + 2.0 * tilt * self.plane_gradient
+    }
+
+    /// Second derivative of the transverse gap of spur flanks by the increments; what falls to zero with the tilt is left out, and
+    /// microgeometry: that is of the order of the load times its curvature, 1e-6 of the stiffness. On parallel axes, with p = (0, b × w) and
+    /// ∂z₂ = ∂(s + F/2) − ∂D′/2,
+    ///
+    /// ```text
+    /// ∂²g = L ∂ω ∂ωᵀ + p ∂z₂ᵀ + ∂(s + F/2) pᵀ − ½ (c, 0) pᵀ + [z₂ b wᵀ − (σ r_b2/2 + σ R/8) b×]
+    /// ```
     pub(crate) fn transverse_curvature(
         &self,
-        pose: &Pose,
+        frame: &MeshFrame,
         side: FlankSide,
-        base_radius_2_m: f64,
+        base_radii_m: [f64; 2],
     ) -> Matrix6 {
-        let axis = pose.axis_2().cross_matrix();
-        let carried: Matrix3<f64> = -self.z_m * axis;
-        let normal_by_d = self.across * self.across.transpose() / self.length_m;
-        let moment_by_turn = -carried * normal_by_d * carried
-            + self.z_m * self.normal.cross_matrix() * axis
-            + side.mirror() * base_radius_2_m * pose.spin_curvature();
-        let mut h = Matrix6::zeros();
-        h.fixed_view_mut::<3, 3>(0, 0).copy_from(&normal_by_d);
-        h.fixed_view_mut::<3, 3>(0, 3)
-            .copy_from(&(normal_by_d * carried));
-        h.fixed_view_mut::<3, 3>(3, 0)
-            .copy_from(&(-carried * normal_by_d));
-        h.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment_by_turn);
+        let turn = self.turn(frame);
+        let by_tilt = on_turn(frame.axis_2.cross(&self.normal));
+        let height_2 = self.plane_gradient - 0.5 * frame.displacement_along_gradient;
+        let upright = stacked(0.5 * frame.axis, Vector3::zeros());
+        let mut h = self.length_m * turn * turn.transpose();
+        h += by_tilt * height_2.transpose();
+        h += (self.plane_gradient - upright) * by_tilt.transpose();
+        let [r1, r2] = base_radii_m;
+        let mut turns = h.fixed_view_mut::<3, 3>(3, 3);
+        turns += self.axis_heights_m[1] * frame.axis_2 * self.normal.transpose();
+        turns += side.mirror() * (r2 + 0.25 * (r1 + r2)) * turn_of_spin_gradient();
         h
     }
-}
-
-/// Width of evenly spaced slices \[m\]; none where there is one.
-pub(crate) fn even_width_m(slices_m: &[f64]) -> Result<Option<f64>, DrivetrainError> {
-    let steps = || slices_m.windows(2).map(|pair| pair[1] - pair[0]);
-    let Some(width) = steps().next() else {
-        return Ok(None);
-    };
-    if width > 0.0 && steps().all(|step| (step - width).abs() <= UNEVEN * width) {
-        return Ok(Some(width));
-    }
-    Err(DrivetrainError::UnevenSlices)
 }

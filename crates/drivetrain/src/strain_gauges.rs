@@ -85,9 +85,11 @@ impl StrainGauges {
                 modal.extend((0..modes).map(|mode| basis.gauges[mode * gauges + number]));
             }
         }
+        let spread = mesh.kinematics().layout().spread(gear, model);
         let mut sides = Vec::new();
         for side in mesh.flanks() {
-            sides.push((side, GaugeArray::new(model, &rows, flank_of(side))?));
+            let array = GaugeArray::new(model, &rows, flank_of(side), &spread)?;
+            sides.push((side, array));
         }
         Ok(Self {
             gear: gear - 1,

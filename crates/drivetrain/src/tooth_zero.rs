@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use gearmesh_geometry::{FlankSide, ToothGeometry};
-use nalgebra::Vector3;
 
-use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{SlicePlane, stacked};
+use crate::mesh_frame::MeshFrame;
+use crate::pose::Vector6;
+use crate::slice_plane::{SlicePlane, on_turn};
 
 /// Ideal spur flanks of tooth 0 of both gears in a slice plane; helical ones before their section turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,21 +23,19 @@ impl ToothZero {
     /// The flanks of one side in a plane.
     pub(crate) fn new(
         gears: &[ToothGeometry; 2],
-        (pose, spin_rad): (&Pose, f64),
+        frame: &MeshFrame,
         side: FlankSide,
         plane: &SlicePlane,
     ) -> Self {
         let sigma = side.mirror();
-        let (axis, turn) = (pose.axis_2(), pose.spin_gradient());
-        let along = sigma / plane.length_m * plane.across;
-        let of_1 = stacked(along, plane.z_m * axis.cross(&along));
-        let of_2 = of_1 - stacked(Vector3::zeros(), sigma * turn);
-        let r2 = gears[1].base_radius_m;
-        let moment = plane.z_m * axis.cross(&plane.normal) + sigma * r2 * turn;
+        let frame_turn = on_turn(sigma * frame.frame_turn);
+        let spin = on_turn(sigma * frame.spin_gradient);
+        let of_1 = sigma * plane.turn(frame) - frame_turn;
+        let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
         Self {
-            roll_rad: Self::rolls_rad(gears, spin_rad, side, plane),
-            roll_gradient: [of_1, of_2],
-            gradient: stacked(plane.normal, moment),
+            roll_rad: Self::rolls_rad(gears, frame.spin_rad, side, plane),
+            roll_gradient: [of_1, of_1 - spin],
+            gradient: plane.along_normal(frame) + r2 * spin + (r1 + r2) * frame_turn,
         }
     }
 

@@ -150,7 +150,7 @@ fn gaps_are_those_of_the_static_scene() {
                 microgeometry_1: modified(&pair.gear_1),
                 microgeometry_2: modified(&pair.gear_2),
                 extension: None,
-                face_width_m: WIDTH,
+                zone: gearmesh_contact::ContactZone::of_equal_faces(WIDTH),
                 pair: pair.clone(),
             };
             let errors = [&lines.microgeometry_1, &lines.microgeometry_2]
@@ -192,7 +192,7 @@ fn gaps_are_those_of_the_static_scene() {
                     let (first, count) = line.contacts;
                     assert_eq!(count, SLICES);
                     for contact in &found.contacts[first..first + count] {
-                        let z = found.planes[contact.slice].z_m;
+                        let z = found.planes[contact.slice].section_m;
                         let expected = lines.separation_m(twin, z) + te;
                         let off = contact.gap_m - expected;
                         assert!(off.abs() < tolerance + 1e-16, "{off:e} at {theta}, z {z}");

@@ -38,7 +38,7 @@ fn transmission_error_is_that_of_the_static_scene() {
         microgeometry_1: Microgeometry::default(),
         microgeometry_2: Microgeometry::default(),
         extension: None,
-        face_width_m: WIDTH,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(WIDTH),
     };
     let mut contact =
         StaticContact::new(lines, &models[0], &models[1], pair_common::FRICTIONLESS).unwrap();

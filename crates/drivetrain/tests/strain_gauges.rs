@@ -7,6 +7,7 @@ use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Simulation;
 use gearmesh_geometry::FlankSide;
+use gearmesh_contact::AxialSpread;
 use gearmesh_recovery::{LoadedSlice, grid_forces};
 use mesh_common::running_pair::*;
 use mesh_common::*;
@@ -60,7 +61,7 @@ fn gauges_read_the_forces_on_the_flanks() {
                         force_n: forces[i],
                     }
                 });
-                let loads = grid_forces(&model.grid, slices);
+                let loads = grid_forces(&model.grid, &AxialSpread::own(model), slices);
                 let flank = usize::from(side == FlankSide::Left);
                 let mut rubbed = 0;
                 for (gauge, found) in model.gauges.iter().zip(&found) {

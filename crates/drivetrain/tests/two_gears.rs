@@ -135,7 +135,7 @@ fn seed_003() -> GearPair {
 #[test]
 fn the_pair_of_seed_003() {
     let pair = seed_003();
-    let planes = vec![0.0];
+    let planes = layout(1);
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let none = [Vec::new(), Vec::new()];
     let kinematics = MeshKinematics::new(

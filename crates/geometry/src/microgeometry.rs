@@ -84,6 +84,16 @@ impl Microgeometry {
         profile + relief + lead
     }
 
+    /// ∂e/∂z, the slope of [`Microgeometry::removed_m`] along the axis. No unit.
+    pub fn removed_slope_along_axis(&self, z_m: f64) -> f64 {
+        if self.face_width_m > 0.0 {
+            let eta = z_m / self.face_width_m;
+            (self.lead_crowning_m * 8.0 * eta + self.flank_angle_m) / self.face_width_m
+        } else {
+            0.0
+        }
+    }
+
     /// ∂e/∂ξ \[m/rad\], the slope of [`Microgeometry::removed_m`] along the profile.
     pub fn removed_slope_m_per_rad(&self, roll_rad: f64) -> f64 {
         let profile = self.profile_crowning.map_or(0.0, |c| {

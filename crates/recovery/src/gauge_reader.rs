@@ -1,7 +1,6 @@
 //! Gauges of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::placed_slice::axial_shares;
-use gearmesh_contact::{RollHats, RollPlace};
+use gearmesh_contact::{AxialSpread, RollHats, RollPlace};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
 /// Force on one slice of this gear.
@@ -9,7 +8,7 @@ use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 pub struct LoadedSlice {
     /// Tooth of this gear.
     pub tooth: usize,
-    /// Slice over the face width.
+    /// Slice of the contact zone, as spread over this gear.
     pub slice: usize,
     /// Roll angle on this gear \[rad\].
     pub roll_rad: f64,
@@ -41,7 +40,7 @@ pub struct GaugeArray {
 }
 
 impl GaugeArray {
-    /// Condenses gauges of a model for loads on one hand of flank.
+    /// Condenses gauges of a model for loads on one hand of flank; `spread`: where the slices' forces sit on this gear.
     ///
     /// # Errors
     /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads there.
@@ -49,15 +48,17 @@ impl GaugeArray {
         model: &ReducedGear,
         gauges: impl IntoIterator<Item = &'a GaugeRows>,
         flank: Flank,
+        spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
         let f = model.flank_index(flank)?;
         let gauges: Vec<&GaugeRows> = gauges.into_iter().collect();
         let grid = &model.grid;
-        let (stations, slices, loads) = (grid.roll_angles_rad.len(), grid.slices, grid.len());
+        let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
+        let loads = grid.len();
         let mut rows = Vec::with_capacity(model.teeth * stations * slices * gauges.len());
         let row = |gauge: &GaugeRows, tooth: usize, station: usize, slice: usize| {
             let mut row = [0.0; 3];
-            for (axial, share) in axial_shares(slice, slices) {
+            for &(axial, share) in spread.shares(slice) {
                 let load = grid.load(station, axial);
                 let at = 3 * ((tooth * model.flanks.len() + f) * loads + load);
                 let (normal, tangential) = (gauge.adjoint[at], gauge.adjoint[at + 1]);
@@ -133,10 +134,11 @@ impl GaugeReader {
         model: &ReducedGear,
         gauge: &GaugeRows,
         flank: Flank,
+        spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
         Ok(Self {
             name: gauge.name.clone(),
-            array: GaugeArray::new(model, [gauge], flank)?,
+            array: GaugeArray::new(model, [gauge], flank, spread)?,
         })
     }
 
@@ -155,13 +157,14 @@ impl GaugeReader {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use gearmesh_contact::placed_slice::axial_shares;
     use gearmesh_model::synthetic::small_reduced_gear;
 
     #[test]
     fn without_friction_the_methods_differ_by_the_submodels_strain() {
         let model = small_reduced_gear();
         let gauge = &model.gauges[0];
-        let reader = GaugeReader::new(&model, gauge, Flank::Right).unwrap();
+        let reader = GaugeReader::new(&model, gauge, Flank::Right, &AxialSpread::own(&model)).unwrap();
         let forces: Vec<f64> = (0..model.grid.slices)
             .map(|k| 100.0 + 30.0 * k as f64)
             .collect();

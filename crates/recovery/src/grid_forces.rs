@@ -1,8 +1,7 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
 use crate::gauge_reader::LoadedSlice;
-use gearmesh_contact::RollHats;
-use gearmesh_contact::placed_slice::axial_shares;
+use gearmesh_contact::{AxialSpread, RollHats};
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.
@@ -21,13 +20,14 @@ pub struct GridLoadForce {
 /// Spreads the forces of slices over the flank grid, with the same shares as the compliance: f = Φ F.
 pub fn grid_forces(
     grid: &FlankGrid,
+    spread: &AxialSpread,
     slices: impl IntoIterator<Item = LoadedSlice>,
 ) -> Vec<GridLoadForce> {
     let hats = RollHats::new(&grid.roll_angles_rad);
     let mut forces = Vec::new();
     for loaded in slices {
         for (station, weight) in hats.place(loaded.roll_rad).shares() {
-            for (axial, share) in axial_shares(loaded.slice, grid.slices) {
+            for &(axial, share) in spread.shares(loaded.slice) {
                 let on_load = weight * share * loaded.force_n;
                 if on_load != 0.0 {
                     forces.push(GridLoadForce {

@@ -50,7 +50,7 @@ fn the_transmission_error_agrees_at_every_position() {
         let lines = ContactLines {
             extension: extended.then(|| PathExtension::new(&pair, EDGE_RADIUS_M)),
             pair,
-            face_width_m: gear.tooth.face_width_m,
+            zone: gearmesh_contact::ContactZone::of_equal_faces(gear.tooth.face_width_m),
             microgeometry_1: gear.microgeometry.clone(),
             microgeometry_2: gear.microgeometry.clone(),
         };

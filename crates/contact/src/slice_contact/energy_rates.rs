@@ -33,6 +33,7 @@ impl SliceContact {
             self.find_places(active);
             self.fill_compliance_by_lines(active, true);
         }
+        self.take_shares(touching);
         self.fill_laws(touching, floor_n)?;
         self.law_rates.clear();
         let laws_a_place = if helical { 1 } else { self.slices() };
@@ -101,7 +102,22 @@ impl SliceContact {
                 bilinear(own, &block.by_a, self.forces_at(other))
             }
         });
-        local + with_others.sum::<f64>()
+        local + with_others.sum::<f64>() + self.own_energy_by_roll(place, gear)
+    }
+
+    /// What the own compliance of a spur line's slices, over their share where there is no local law, adds to ∂E*/∂ξ.
+    fn own_energy_by_roll(&self, place: usize, gear: usize) -> f64 {
+        if self.local_contact != LocalContact::None {
+            return 0.0;
+        }
+        let slices = self.slices();
+        let block = &self.line_blocks[block_number(self.places.len(), gear, place, place)];
+        let own = self.forces_at(place).iter().enumerate();
+        own.map(|(i, force)| {
+            let share = self.shares[place * slices + i];
+            force * force * block.by_a[i * slices + i] * (1.0 / share - 1.0)
+        })
+        .sum()
     }
 
     /// Σ_j ∂_a C_ij F_j \[m/rad\] of a helical slice on one gear.
@@ -121,20 +137,30 @@ impl SliceContact {
             .sum()
     }
 
-    /// ∂E*/∂s \[J\] at the forces of the last solve, s the share of the width of a helical slice that touches.
+    /// ∂E*/∂s \[J\] at the forces of the last solve, s the share of the width of a place's slices that touches: a line of spur teeth, a slice of helical
+    /// ones.
     ///
     /// # Panics
     /// If the slices were prepared without rates.
-    pub fn energy_by_share(&self, slice: usize) -> f64 {
+    pub fn energy_by_share(&self, place: usize) -> f64 {
+        let laws = if self.lines.pair.is_helical() {
+            1
+        } else {
+            self.slices()
+        };
+        let slices = place * laws..(place + 1) * laws;
+        slices.map(|slice| self.slice_energy_by_share(slice, place)).sum()
+    }
+
+    fn slice_energy_by_share(&self, slice: usize, place: usize) -> f64 {
         let (force, share) = (self.work.forces()[slice], self.shares[slice]);
         if self.local_contact == LocalContact::None {
-            let [a, b] = &self.placed[slice];
-            let own =
-                self.compliance_1.between_slices(a, a) + self.compliance_2.between_slices(b, b);
+            // The slice's own compliance was divided by its share.
+            let own = self.own_compliance[slice];
             return -0.5 * force * force * own / (share * share);
         }
         let (contact, law) = (&self.hertz[slice].0, &self.local[slice]);
-        let growths = self.depths[slice].map(|depth| depth.growth_by_share);
+        let growths = self.depths[place].map(|depth| depth.growth_by_share);
         let LawRate { alpha, beta, cap } =
             (self.local_contact).law_rate_by_share((contact, law), growths, share);
         law.complementary_energy_rate(force, alpha, cap)

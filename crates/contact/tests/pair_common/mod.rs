@@ -47,7 +47,7 @@ pub fn extended(pair: GearPair, edge_radius_m: f64) -> ContactLines {
         microgeometry_1: Microgeometry::default(),
         microgeometry_2: Microgeometry::default(),
         extension,
-        face_width_m: 20e-3,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(20e-3),
     }
 }
 

@@ -86,9 +86,11 @@ impl FlankError for DeviationTable {
             return Removed::default();
         }
         let (profile, slope_m_per_rad) = self.profile.value(at.roll_rad);
+        let (lead, slope_along_axis) = self.lead.value(at.z_m);
         Removed {
-            depth_m: profile + self.lead.value(at.z_m).0,
+            depth_m: profile + lead,
             slope_m_per_rad,
+            slope_along_axis,
         }
     }
 

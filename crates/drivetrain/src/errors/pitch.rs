@@ -52,7 +52,7 @@ impl FlankError for PitchErrors {
         };
         Removed {
             depth_m,
-            slope_m_per_rad: 0.0,
+            ..Removed::default()
         }
     }
 

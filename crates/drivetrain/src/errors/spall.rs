@@ -77,6 +77,7 @@ impl FlankError for Spall {
         Removed {
             depth_m: p.depth_m * rise * fall,
             slope_m_per_rad: p.depth_m * (rise_slope * fall + rise * fall_slope),
+            slope_along_axis: 0.0,
         }
     }
 

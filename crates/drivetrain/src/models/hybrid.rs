@@ -13,7 +13,7 @@
 //! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
-use gearmesh_contact::LocalContact;
+use gearmesh_contact::{ContactZone, LocalContact, SliceLayout};
 use gearmesh_contact::contact_lines::{ContactLine, ContactLines};
 use gearmesh_contact::contact_slices::ContactSlice;
 use gearmesh_contact::nlcp::{FLOOR_FRACTION, LocalLawError, NlcpError};
@@ -23,6 +23,7 @@ use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
 use crate::flank_contacts::{FlankContacts, Section, ToothContact};
+use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// A pair whose nearest slice is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
@@ -81,16 +82,31 @@ impl KnownForces {
 }
 
 impl ReducedTeeth {
-    /// The contact of two models on one side of the teeth. `nominal_force_n`: normal force of the nominal load, which sets the floor of
-    /// the local law's logarithm.
+    /// The contact of two models on one side of the teeth, gears that do not stand displaced along their axes. `nominal_force_n`: normal force of the
+    /// nominal load, which sets the floor of the local law's logarithm.
     ///
     /// # Errors
-    /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side, [`DrivetrainError::Value`].
+    /// As [`Self::displaced`].
     pub fn new(
         pair: &GearPair,
         side: FlankSide,
         models: [&ReducedGear; 2],
         local: LocalContact,
+        nominal_force_n: f64,
+    ) -> Result<Self, DrivetrainError> {
+        Self::displaced(pair, side, models, (local, 0.0), nominal_force_n)
+    }
+
+    /// The same with the slices where the faces overlap with gear 2's mid-face `displacement_m` from gear 1's along the axes: the reference from
+    /// which the gears may move by a slice's width.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side, [`DrivetrainError::Value`].
+    pub fn displaced(
+        pair: &GearPair,
+        side: FlankSide,
+        models: [&ReducedGear; 2],
+        (local, displacement_m): (LocalContact, f64),
         nominal_force_n: f64,
     ) -> Result<Self, DrivetrainError> {
         positive("hybrid mesh", "the nominal force in N", nominal_force_n)?;
@@ -99,7 +115,7 @@ impl ReducedTeeth {
             microgeometry_1: Microgeometry::default(),
             microgeometry_2: Microgeometry::default(),
             extension: None,
-            face_width_m: models[0].face_width_m,
+            zone: ContactZone::new(models.map(|model| model.face_width_m), displacement_m),
         };
         let slices = SliceContact::new(lines, models[0], models[1], local)?;
         let capacity = slices.capacity();
@@ -121,10 +137,24 @@ impl ReducedTeeth {
         })
     }
 
-    /// Axial centres of the slices \[m\]: the planes that the mesh kinematics must have.
+    /// Where the slices lie: the layout that the mesh kinematics must have.
     #[must_use]
-    pub fn slice_centres_m(&self) -> &[f64] {
-        self.slices.slice_centres_m()
+    pub fn layout(&self) -> &SliceLayout {
+        self.slices.layout()
+    }
+
+    /// Refuses gears that have moved along their axes so far that the slices would stand for other parts of the teeth.
+    fn check_displacement(&self, flanks: &FlankContacts) -> Result<(), DrivetrainError> {
+        let (reference, allowed_m) = (self.layout().reference, self.layout().width_m());
+        let at = flanks.zone().map_or(reference, |zone| *zone);
+        let moved_m = at.displacement_m - reference.displacement_m;
+        if moved_m.abs() <= allowed_m {
+            return Ok(());
+        }
+        Err(DrivetrainError::AxialMotion {
+            moved_mm: moved_m * 1e3,
+            allowed_mm: allowed_m * 1e3,
+        })
     }
 
     /// Takes the lines within reach and the separations of a pose.
@@ -156,20 +186,25 @@ impl ReducedTeeth {
                     }
                 }
             } else {
-                self.take_line(contacts, (first, number));
+                self.take_line(contacts, (first, number), line.middle.share);
             }
         }
     }
 
     /// All slices of a spur line; those whose flank is gone far away.
-    fn take_line(&mut self, contacts: &[ToothContact], (first, number): (usize, usize)) {
+    fn take_line(
+        &mut self,
+        contacts: &[ToothContact],
+        (first, number): (usize, usize),
+        share: f64,
+    ) {
         let section = self.active[number];
         let begin = self.touching.len();
         let centres = self.slices.slice_centres_m().iter().enumerate();
         (self.touching).extend(centres.map(|(slice, &z_m)| ContactSlice {
             line: number,
             slice,
-            share: 1.0,
+            share,
             z_m,
             section,
         }));
@@ -295,7 +330,7 @@ impl ReducedTeeth {
                         - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
             }
-            if section.share < 1.0 {
+            if section.share_gradient != Vector6::zeros() {
                 loads.energy_by_share[number] = self.slices.energy_by_share(place);
             }
         }
@@ -334,6 +369,7 @@ impl TeethModel for ReducedTeeth {
             self.touching.clear();
             return Ok(());
         }
+        self.check_displacement(flanks)?;
         self.take(flanks);
         let size = self.touching.len();
         if size > self.slices.capacity() {

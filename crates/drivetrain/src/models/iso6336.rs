@@ -6,11 +6,10 @@
 //! c′ falls with the fourth root of the load below 100 N/mm,   c_γα = c′ (0.75 ε_α + 0.25)
 //! ```
 //!
-//! in N/(mm·µm). The spring acts on the gap of the ideal flanks, which all pairs have in common, and knows no single tooth: flank errors
-//! are refused with it. In each slice it stands on the pair that is on the path there; on helical teeth each slice has its own phase of the
-//! sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
-
-use std::f64::consts::TAU;
+//! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the middle of the path, which all pairs have in common, and knows no single
+//! tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever pair of teeth is nearest: on tilted helical gears
+//! pairs differ in their gaps, and a spring that went from one to the next would make energy. Friction acts where the pair on the path is; on
+//! helical teeth each slice has its own phase of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::{FlankContacts, Section};
@@ -81,12 +80,21 @@ pub fn blank_factor(web_over_face: f64, rim_over_module: f64) -> f64 {
     1.0 + web.ln() / (5.0 * (rim_over_module.max(1.0) / 5.0).exp())
 }
 
+/// 1 + A cos over the mesh cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sine {
+    amplitude: f64,
+    /// Roll angles of both gears where the stiffness is largest \[rad\].
+    maximum_rad: [f64; 2],
+    /// Numbers of teeth.
+    teeth: [f64; 2],
+}
+
 /// The spring of the whole mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshSpring {
     mean_n_per_m: f64,
-    /// Amplitude over the mean, roll angle of the maximum, pitch \[rad\].
-    sine: Option<[f64; 3]>,
+    sine: Option<Sine>,
     slices: f64,
     middle_roll_rad: f64,
 }
@@ -116,15 +124,16 @@ impl MeshSpring {
         self
     }
 
-    /// Lets the stiffness vary as 1 + A cos(z₁(ξ₁ − ξ_max)) over the mesh cycle, 0 ≤ A < 1.
+    /// Lets the stiffness vary as 1 + A cos ½[z₁(ξ₁ − ξ₁max) − z₂(ξ₂ − ξ₂max)] over the mesh cycle, 0 ≤ A < 1: both roll angles turn the phase alike where
+    /// flanks touch.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`].
     pub fn with_sine(
         mut self,
         relative_amplitude: f64,
-        roll_of_maximum_rad: f64,
-        teeth_1: usize,
+        maximum_rad: [f64; 2],
+        teeth: [usize; 2],
     ) -> Result<Self, DrivetrainError> {
         let what = "the relative amplitude of the stiffness";
         not_negative("iso6336 mesh", what, relative_amplitude)?;
@@ -136,21 +145,26 @@ impl MeshSpring {
                 allowed: "below 1",
             });
         }
-        let pitch = TAU / teeth_1 as f64;
-        self.sine = Some([relative_amplitude, roll_of_maximum_rad, pitch]);
+        self.sine = Some(Sine {
+            amplitude: relative_amplitude,
+            maximum_rad,
+            teeth: teeth.map(|count| count as f64),
+        });
         Ok(self)
     }
 
-    /// Stiffness \[N/m\] and its derivative by the roll angle on gear 1.
+    /// Stiffness \[N/m\] and its derivatives by the roll angles on gear 1 and gear 2.
     #[must_use]
-    pub fn stiffness(&self, roll_1_rad: f64) -> (f64, f64) {
-        let Some([amplitude, maximum, pitch]) = self.sine else {
-            return (self.mean_n_per_m, 0.0);
+    pub fn stiffness(&self, roll_rad: [f64; 2]) -> (f64, [f64; 2]) {
+        let Some(sine) = &self.sine else {
+            return (self.mean_n_per_m, [0.0; 2]);
         };
-        let (sin, cos) = (TAU * (roll_1_rad - maximum) / pitch).sin_cos();
+        let [turn_1, turn_2] = [0, 1].map(|i| sine.teeth[i] * (roll_rad[i] - sine.maximum_rad[i]));
+        let (sin, cos) = (0.5 * (turn_1 - turn_2)).sin_cos();
+        let slope = -0.5 * self.mean_n_per_m * sine.amplitude * sin;
         (
-            self.mean_n_per_m * (1.0 + amplitude * cos),
-            -self.mean_n_per_m * amplitude * sin * TAU / pitch,
+            self.mean_n_per_m * (1.0 + sine.amplitude * cos),
+            [slope * sine.teeth[0], -slope * sine.teeth[1]],
         )
     }
 }
@@ -162,11 +176,10 @@ impl TeethModel for MeshSpring {
         _tangents: bool,
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
-        // Beyond a flank's end the gap is that of a tip edge, no longer the one that all ideal pairs share.
+        // All pairs of a slice have one gap here: which of them carries is where friction acts.
         let off_path = |section: &Section| -> f64 {
             let beyond = [0, 1].map(|i| section.roll_rad[i] - section.touching_roll_rad[i]);
-            let beyond: f64 = beyond.iter().map(|rad| rad.max(0.0)).sum();
-            beyond + (1.0 - section.share)
+            beyond.iter().map(|rad| rad.max(0.0)).sum()
         };
         let from_middle = |section: &Section| (section.roll_rad[0] - self.middle_roll_rad).abs();
         let order = |a: &Section, b: &Section| {
@@ -183,12 +196,18 @@ impl TeethModel for MeshSpring {
             };
             let depth = -contact.gap_m;
             if depth > 0.0 {
-                let (stiffness, slope) = self.stiffness(flanks.section(contact).roll_rad[0]);
-                let (each, each_slope) = (stiffness / self.slices, slope / self.slices);
+                let section = flanks.section(contact);
+                let (stiffness, slopes) = self.stiffness(section.roll_rad);
+                let width = section.share / self.slices;
+                let each = stiffness * width;
+                let half_square = 0.5 * depth * depth;
                 loads.normal_n[i] = each * depth;
                 loads.stiffness_n_per_m[i * n + i] = each;
-                loads.stored_j += 0.5 * each * depth * depth;
-                loads.energy_by_roll[contact.section][0] -= 0.5 * each_slope * depth * depth;
+                loads.stored_j += each * half_square;
+                for (gear, slope) in slopes.into_iter().enumerate() {
+                    loads.energy_by_roll[contact.section][gear] -= slope * width * half_square;
+                }
+                loads.energy_by_share[contact.section] -= stiffness / self.slices * half_square;
             }
         }
         Ok(())

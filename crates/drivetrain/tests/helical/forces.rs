@@ -171,7 +171,7 @@ fn at_rest_it_is_the_static_contact() {
             microgeometry_1: Microgeometry::default(),
             microgeometry_2: Microgeometry::default(),
             extension: None,
-            face_width_m: WIDTH,
+            zone: gearmesh_contact::ContactZone::of_equal_faces(WIDTH),
         };
         let options = ContactOptions {
             local,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::mesh_common::*;
-use gearmesh_contact::{ContactLine, ContactLines};
+use gearmesh_contact::{ContactLine, ContactLines, ContactZone, SliceLayout};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
@@ -26,7 +26,7 @@ fn slices_are_those_of_the_static_scene() {
                 microgeometry_1: none(),
                 microgeometry_2: none(),
                 extension: None,
-                face_width_m: WIDTH,
+                zone: ContactZone::of_equal_faces(WIDTH),
             };
             let kinematics =
                 kinematics_with(&pair, [Vec::new(), Vec::new()], PathEnds::LineOfAction);
@@ -105,8 +105,7 @@ fn the_gap_is_that_of_the_helicoids() {
             points += 1;
             let plane = &found.planes[contact.slice];
             let teeth = found.lines[contact.line].teeth;
-            // Gear 2's slice stands at z on its own axis.
-            let heights = [plane.z_m + shift[2], plane.z_m];
+            let heights = plane.heights_m;
             let turned = |gear: usize, tooth: &ToothGeometry| {
                 let pitch = std::f64::consts::TAU / tooth.teeth as f64;
                 let twist = tooth.twist_rad_per_m() * heights[gear];
@@ -229,8 +228,8 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
                     continue;
                 }
                 let change = (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
-                let plane = &here.planes[contact.slice];
-                let curvature = kinematics.gap_curvature(plane, &at, side, section.roll_rad[1]);
+                let roll_rad = section.roll_rad;
+                let curvature = kinematics.gap_curvature(&here, contact.slice, side, roll_rad);
                 let off = change - curvature.column(direction);
                 worst = worst.max(off.norm() / (1e-3 + change.norm()));
             }
@@ -244,27 +243,22 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
     assert!((8.0..12.0).contains(&(more / some)), "{some:e} {more:e}");
 }
 
-/// Slice planes that are not evenly spaced, and helices that do not fit, are refused with what to do.
+/// Helices that do not fit, no slices, and faces that do not overlap are refused with what to do.
 #[test]
 fn impossible_helices_are_refused() {
     let pair = helical_pair(20.0);
-    let new = |gear_2: &ToothGeometry, planes: Vec<f64>| {
+    let new = |gear_2: &ToothGeometry, layout: SliceLayout| {
         let gears = [pair.gear_1.clone(), gear_2.clone()];
         let none = [Vec::new(), Vec::new()];
-        let made = MeshKinematics::new(
-            gears,
-            none,
-            pair.centre_distance_m,
-            planes,
-            PathEnds::Extended,
-        );
+        let a = pair.centre_distance_m;
+        let made = MeshKinematics::new(gears, none, a, layout, PathEnds::Extended);
         made.err().map(|error| error.to_string())
     };
-    let same_hand = new(&pair.gear_1, slice_planes()).unwrap();
+    let same_hand = new(&pair.gear_1, layout(SLICES)).unwrap();
     assert!(same_hand.contains("opposite hand"), "{same_hand}");
-    let uneven = new(&pair.gear_2, vec![-5e-3, 0.0, 6e-3]).unwrap();
-    assert!(uneven.contains("even steps"), "{uneven}");
-    let falling = new(&pair.gear_2, vec![5e-3, 0.0, -5e-3]).unwrap();
-    assert!(falling.contains("even steps"), "{falling}");
-    assert!(new(&pair.gear_2, vec![0.0]).is_none());
+    let none = new(&pair.gear_2, layout(0)).unwrap();
+    assert!(none.contains("list of slices"), "{none}");
+    let apart = new(&pair.gear_2, SliceLayout::new([20e-3, 12e-3], -16e-3, 3)).unwrap();
+    assert!(apart.contains("side by side"), "{apart}");
+    assert!(new(&pair.gear_2, layout(1)).is_none());
 }

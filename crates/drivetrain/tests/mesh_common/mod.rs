@@ -8,7 +8,7 @@ pub mod cracked_gear;
 pub mod modal_gear;
 pub mod running_pair;
 
-use gearmesh_contact::LocalContact;
+use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Marker;
@@ -85,13 +85,18 @@ pub fn slice_planes() -> Vec<f64> {
         .collect()
 }
 
+/// Slices over equal faces that do not stand displaced.
+pub fn layout(slices: usize) -> SliceLayout {
+    SliceLayout::new([WIDTH; 2], 0.0, slices)
+}
+
 pub fn kinematics_with(
     pair: &GearPair,
     errors: [FlankErrors; 2],
     ends: PathEnds,
 ) -> MeshKinematics {
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
-    MeshKinematics::new(gears, errors, pair.centre_distance_m, slice_planes(), ends).unwrap()
+    MeshKinematics::new(gears, errors, pair.centre_distance_m, layout(SLICES), ends).unwrap()
 }
 
 pub fn kinematics(pair: &GearPair) -> MeshKinematics {
@@ -117,7 +122,7 @@ pub fn mesh_spring(pair: &GearPair) -> MeshSpring {
     let middle = pair.working_pressure_angle_rad.tan();
     MeshSpring::new(3e8, SLICES, middle)
         .unwrap()
-        .with_sine(0.2, middle, pair.gear_1.teeth)
+        .with_sine(0.2, [middle; 2], [pair.gear_1.teeth, pair.gear_2.teeth])
         .unwrap()
 }
 

@@ -11,7 +11,7 @@ use gearmesh_model::{Flank, GaugeRows, NearField, ReducedGear};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::{SLICES, WIDTH, angles, disc, made_up_gear, slice_planes};
+use super::{SLICES, WIDTH, angles, disc, layout, made_up_gear};
 
 /// Speed of gear 1 \[rad/s\].
 pub const SPEED: f64 = TAU * 10.0;
@@ -147,8 +147,8 @@ fn teeth(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
 pub fn running_mesh(name: &str, pair: &GearPair) -> GearMesh {
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let planes = match name {
-        "impact" => vec![0.0],
-        _ => slice_planes(),
+        "impact" => layout(1),
+        _ => layout(SLICES),
     };
     let errors = [vec![crowned(&pair.gear_1)], Vec::new()];
     let kinematics = MeshKinematics::new(

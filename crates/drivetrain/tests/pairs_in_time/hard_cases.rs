@@ -39,7 +39,7 @@ fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
     let none = [Vec::new(), Vec::new()];
     let a = pair.centre_distance_m;
     let kinematics =
-        MeshKinematics::new(gears, none, a, vec![0.0], PathEnds::LineOfAction).unwrap();
+        MeshKinematics::new(gears, none, a, layout(1), PathEnds::LineOfAction).unwrap();
     GearMesh::new(kinematics, FlankSide::Right, law)
         .unwrap()
         .with_side(FlankSide::Left, law)

@@ -66,7 +66,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
     let omega = (MEAN / mass / delta).sqrt();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
-    let kinematics = MeshKinematics::new(gears, none, a, vec![0.0], PathEnds::Extended).unwrap();
+    let kinematics = MeshKinematics::new(gears, none, a, layout(1), PathEnds::Extended).unwrap();
     let run = |x: f64, v: f64| {
         let scene = Scene {
             te_m: x - DEPTH,
@@ -172,7 +172,7 @@ fn a_sine_is_unstable_where_mathieu_says() {
     let middle = pair.working_pressure_angle_rad.tan();
     let teeth = || -> Box<dyn TeethModel> {
         let spring = MeshSpring::new(MEAN, 1, middle).unwrap();
-        Box::new(spring.with_sine(0.4, middle, pair.gear_1.teeth).unwrap())
+        Box::new(spring.with_sine(0.4, [middle; 2], [pair.gear_1.teeth, pair.gear_2.teeth]).unwrap())
     };
     let borders = [
         (0.15, 0.25, 0.2076296396748409),

@@ -2,7 +2,7 @@
 
 use super::rating::PairRating;
 use super::scene_file::Scene;
-use gearmesh_contact::ContactLines;
+use gearmesh_contact::{ContactLines, SliceLayout};
 use gearmesh_model::ReducedGear;
 
 /// Size and effects of a scene.
@@ -22,11 +22,12 @@ impl Plan {
         scene: &Scene,
         lines: &ContactLines,
         [gear_1, gear_2]: [&ReducedGear; 2],
+        layout: &SliceLayout,
         ratings: &[PairRating],
     ) -> Self {
         let pair = &lines.pair;
         let positions = scene.positions() * scene.torques_nm.len();
-        let unknowns = lines.most_pairs() * gear_1.grid.slices;
+        let unknowns = lines.most_pairs() * layout.slices;
         let mut text = vec![
             format!("scene      {}", scene.title),
             format!(
@@ -61,8 +62,8 @@ impl Plan {
                 pair.gear_2.hand(),
                 pair.base_helix_angle_rad().abs().to_degrees(),
                 pair.contact_ratio(),
-                pair.overlap_ratio(gear_1.face_width_m),
-                pair.total_contact_ratio(gear_1.face_width_m)
+                pair.overlap_ratio(layout.reference.width_m),
+                pair.total_contact_ratio(layout.reference.width_m)
             ));
         }
         text.push(format!(
@@ -72,7 +73,7 @@ impl Plan {
                 Some(radius) => format!("`extended` with a tip edge radius of {} um", (radius * 1e9).round() / 1e3),
             },
             scene.contact.local.name(),
-            gear_1.grid.slices
+            layout.slices
         ));
         text.push(match scene.contact.friction {
             None => "friction   not computed".to_string(),

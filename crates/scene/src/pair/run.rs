@@ -7,7 +7,9 @@ use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
-use gearmesh_contact::{ContactError, ContactLines, ContactSlice, PathExtension, StaticContact};
+use gearmesh_contact::{
+    AxialSpread, ContactError, ContactLines, ContactSlice, PathExtension, SliceLayout, StaticContact,
+};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
@@ -53,6 +55,10 @@ pub struct LoadedScene {
     pub models: [ReducedGear; 2],
     /// Kinematics and microgeometry.
     pub lines: ContactLines,
+    /// Slices over the overlap of the faces.
+    pub layout: SliceLayout,
+    /// Where their forces sit on gear 1 and gear 2.
+    pub spreads: [AxialSpread; 2],
     /// Gauges to read: gear (1 or 2) and index in the model.
     pub gauges: Vec<(usize, usize)>,
     /// What is judged after the run.
@@ -139,10 +145,20 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         gauges: &gauges,
     };
     let ratings = rated.ratings()?;
+    let layout = SliceLayout::of_models([&models[0], &models[1]], scene.axial_offset_m);
+    if layout.reference.width_m <= 0.0 {
+        let [b1, b2] = layout.face_widths_m.map(|width| 1e3 * width);
+        let problem = format!(
+            "faces of {b1} and {b2} mm do not overlap at that offset; allowed is less than {} either way",
+            0.5 * (b1 + b2)
+        );
+        return Err(scene.document.error("pair.axial_offset_mm", problem).into());
+    }
+    let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
     let lines = ContactLines {
         pair,
         extension,
-        face_width_m: gear_1.tooth.face_width_m,
+        zone: layout.reference,
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
     };
@@ -150,6 +166,8 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         scene,
         models,
         lines,
+        layout,
+        spreads,
         gauges,
         ratings,
     })
@@ -162,6 +180,7 @@ impl LoadedScene {
             &self.scene,
             &self.lines,
             [&self.models[0], &self.models[1]],
+            &self.layout,
             &self.ratings,
         )
     }
@@ -176,9 +195,7 @@ impl LoadedScene {
 
     /// The slices that touch or may touch at a driver angle.
     pub fn slices_at(&self, driver_angle_rad: f64) -> Vec<ContactSlice> {
-        let model = &self.models[0];
-        let centres: Vec<f64> = model.grid.z_m.iter().skip(1).step_by(2).copied().collect();
-        let width = model.face_width_m / model.grid.slices as f64;
+        let (centres, width) = (self.layout.centres_m(), self.layout.width_m());
         let mut lines = Vec::new();
         self.lines.at(driver_angle_rad, &mut lines);
         let mut slices = Vec::new();
@@ -195,7 +212,7 @@ impl LoadedScene {
         slices: &'a [ContactSlice],
         forces_n: &'a [f64],
     ) -> impl Iterator<Item = LoadedSlice> + 'a {
-        let count = self.models[0].grid.slices;
+        let count = self.layout.slices;
         slices.iter().map(move |slice| {
             let line = &slice.section;
             let (tooth, roll_rad) = if gear == 1 {
@@ -320,7 +337,7 @@ pub fn run(
         secant_n_per_m: flatten(|c| &c.secant),
         tangent_n_per_m: flatten(|c| &c.tangent),
         slots,
-        slices: loaded.models[0].grid.slices,
+        slices: loaded.layout.slices,
         pair,
         pair_count,
         force_n: flatten(|c| &c.force),
@@ -448,7 +465,7 @@ pub fn strain(
         .map(|&(gear, index)| {
             let model = &loaded.models[gear - 1];
             let rows = &model.gauges[index];
-            let reader = GaugeReader::new(model, rows, flank)?;
+            let reader = GaugeReader::new(model, rows, flank, &loaded.spreads[gear - 1])?;
             let readings: Vec<_> = (0..result.torque_nm.len() * result.angles())
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());

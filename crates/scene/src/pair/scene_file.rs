@@ -39,6 +39,9 @@ struct PairTable {
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
     flank: FlankSide,
+    /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
+    #[serde(default)]
+    axial_offset_mm: f64,
     /// Axis error in the plane of the axes; 0 where not given.
     #[serde(default)]
     inclination_mrad: f64,
@@ -149,6 +152,8 @@ pub struct Scene {
     pub gear_2: PathBuf,
     /// Centre distance \[m\].
     pub centre_distance_m: f64,
+    /// Mid-face of gear 2 from that of gear 1 along the axes \[m\].
+    pub axial_offset_m: f64,
     /// Hand of the flanks in contact, on both gears.
     pub flank: FlankSide,
     /// Axis errors.
@@ -206,6 +211,12 @@ impl Scene {
             pair.centre_distance_mm,
             pair.centre_distance_mm > 0.0,
             "more than 0",
+        )?;
+        require(
+            "pair.axial_offset_mm",
+            pair.axial_offset_mm,
+            pair.axial_offset_mm.abs() <= 10_000.0,
+            "-10000 to 10000",
         )?;
         for (key, value) in [
             ("pair.inclination_mrad", pair.inclination_mrad),
@@ -296,6 +307,7 @@ impl Scene {
             gear_1: folder.join(&pair.gear_1),
             gear_2: folder.join(&pair.gear_2),
             centre_distance_m: pair.centre_distance_mm * 1e-3,
+            axial_offset_m: pair.axial_offset_mm * 1e-3,
             flank: pair.flank,
             misalignment: Misalignment {
                 inclination_rad: pair.inclination_mrad * 1e-3,

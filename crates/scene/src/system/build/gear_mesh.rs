@@ -76,7 +76,8 @@ impl PreparedMesh {
             seat(&table.eccentricity_1, &keys, "eccentricity_1")?,
             seat(&table.eccentricity_2, &keys, "eccentricity_2")?,
         ];
-        let pair = fitting_pair(gears, &pose(bodies, numbers, &seats), &keys)?;
+        let at_start = pose(bodies, numbers, &seats);
+        let pair = fitting_pair(gears, &at_start, &keys)?;
         let mut prepared = Self {
             name: table.name.clone(),
             model: table.model,
@@ -98,6 +99,7 @@ impl PreparedMesh {
             folder,
             gears,
             pair: &pair,
+            displacement_m: at_start.face_displacement_m(gears.map(|gear| gear.definition.profile.base_radius_m)),
         };
         scene.refuse_unfelt_cracks()?;
         if table.model == MeshModel::Kinematic {
@@ -246,7 +248,8 @@ pub(super) fn fitting_pair(
         return Err(keys.error("gear_2", problem));
     }
     let widths = 0.5 * (first.tooth.face_width_m + second.tooth.face_width_m);
-    let offset = pose.displacement_m[2].abs();
+    let radii = [first, second].map(|gear| gear.profile.base_radius_m);
+    let offset = pose.face_displacement_m(radii).abs();
     if offset >= widths {
         let problem = format!(
             "the gears stand side by side: {:.3} mm apart along the axis, their faces overlap below {:.3} mm",

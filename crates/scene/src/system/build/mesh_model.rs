@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::LocalContact;
+use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{
@@ -97,6 +97,8 @@ pub(super) struct SceneMesh<'a> {
     pub folder: &'a Path,
     pub gears: [&'a Arc<Gear>; 2],
     pub pair: &'a GearPair,
+    /// Mid-face of gear 2 from that of gear 1 along the axes at the start \[m\].
+    pub displacement_m: f64,
 }
 
 impl SceneMesh<'_> {
@@ -104,10 +106,15 @@ impl SceneMesh<'_> {
         |error| self.keys.error("", error)
     }
 
-    /// Face width that both gears have \[m\].
-    fn face_width_m(&self) -> f64 {
-        let [a, b] = self.gears.map(|gear| gear.definition.tooth.face_width_m);
-        a.min(b)
+    /// Width of the contact zone at the start \[m\].
+    fn zone_width_m(&self) -> f64 {
+        self.layout(1).reference.width_m
+    }
+
+    /// So many slices over the overlap of the faces at the start.
+    fn layout(&self, slices: usize) -> SliceLayout {
+        let widths = self.gears.map(|gear| gear.definition.tooth.face_width_m);
+        SliceLayout::new(widths, self.displacement_m, slices)
     }
 
     fn models(&self) -> Result<[&ReducedGear; 2], InputError> {
@@ -193,8 +200,8 @@ impl SceneMesh<'_> {
         Ok(errors)
     }
 
-    /// Centres of the slices \[m\], for models that do not state them.
-    fn slices_m(&self) -> Result<Vec<f64>, InputError> {
+    /// The slices of models that do not state them.
+    fn stated_layout(&self) -> Result<SliceLayout, InputError> {
         let count = self.table.slices.unwrap_or(1);
         self.keys.require(
             "slices",
@@ -202,18 +209,16 @@ impl SceneMesh<'_> {
             (1..=200).contains(&count),
             "1 to 200",
         )?;
-        let width = self.face_width_m() / count as f64;
-        Ok((0..count)
-            .map(|k| (k as f64 + 0.5) * width - 0.5 * self.face_width_m())
-            .collect())
+        Ok(self.layout(count))
     }
 
     pub(super) fn mesh(&self, sides: &[FlankSide]) -> Result<GearMesh, InputError> {
         let mut teeth: Vec<(FlankSide, Box<dyn TeethModel>)> = Vec::new();
-        let mut slices = self.slices_m()?;
+        let mut layout = self.stated_layout()?;
+        let slices = layout.slices;
         match self.table.model {
             MeshModel::Kinematic | MeshModel::Impact => {
-                let law = self.impact(slices.len())?;
+                let law = self.impact(slices)?;
                 teeth.extend(
                     sides
                         .iter()
@@ -221,22 +226,22 @@ impl SceneMesh<'_> {
                 );
             }
             MeshModel::Iso6336 => {
-                let spring = self.spring(slices.len())?;
+                let spring = self.spring(slices)?;
                 for side in sides {
-                    teeth.push((*side, self.damped(spring, slices.len())?));
+                    teeth.push((*side, self.damped(spring, slices)?));
                 }
             }
             MeshModel::Analytic => {
-                let beams = self.beams(slices.len())?;
+                let beams = self.beams(slices)?;
                 for side in sides {
-                    teeth.push((*side, self.damped(beams.clone(), slices.len())?));
+                    teeth.push((*side, self.damped(beams.clone(), slices)?));
                 }
             }
             MeshModel::Hybrid => {
                 for side in sides {
                     let reduced = self.reduced(*side)?;
-                    slices = reduced.slice_centres_m().to_vec();
-                    teeth.push((*side, self.damped(reduced, slices.len())?));
+                    layout = *reduced.layout();
+                    teeth.push((*side, self.damped(reduced, layout.slices)?));
                 }
             }
         }
@@ -249,7 +254,7 @@ impl SceneMesh<'_> {
             gears,
             self.errors()?,
             self.pair.centre_distance_m,
-            slices,
+            layout,
             ends,
         )
         .map_err(self.fault())?;
@@ -356,7 +361,7 @@ impl SceneMesh<'_> {
             }
         };
         let middle = self.pair.working_pressure_angle_rad.tan();
-        let spring = MeshSpring::new(per_width * self.face_width_m(), slices, middle)
+        let spring = MeshSpring::new(per_width * self.zone_width_m(), slices, middle)
             .map_err(self.fault())?
             .on_base_helix(self.pair.base_helix_angle_rad());
         match table.stiffness_amplitude {
@@ -369,7 +374,11 @@ impl SceneMesh<'_> {
                     "0 to below 1",
                 )?;
                 spring
-                    .with_sine(amplitude, middle, self.pair.gear_1.teeth)
+                    .with_sine(
+                        amplitude,
+                        [middle; 2],
+                        [self.pair.gear_1.teeth, self.pair.gear_2.teeth],
+                    )
                     .map_err(self.fault())
             }
         }
@@ -408,7 +417,8 @@ impl SceneMesh<'_> {
                 gear: i + 1,
                 tooth: &gear.profile,
                 material: gear.material,
-                face_width_m: gear.tooth.face_width_m,
+                // Slices bend on their own: what stands beside the zone does not help.
+                face_width_m: self.zone_width_m(),
                 bore_radius_m: gear.blank.bore_radius_m,
             }
         };
@@ -420,7 +430,7 @@ impl SceneMesh<'_> {
 
     fn reduced(&self, side: FlankSide) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
-        let reference = REFERENCE_LINE_LOAD_N_PER_M * self.face_width_m();
+        let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = self.table.nominal_force_N.unwrap_or(reference);
         self.keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
@@ -429,7 +439,8 @@ impl SceneMesh<'_> {
             LocalWord::WeberBanaschek => LocalContact::WeberBanaschek,
             LocalWord::Calibrated => LocalContact::Calibrated,
         };
-        ReducedTeeth::new(self.pair, side, models, local, nominal).map_err(|error| {
+        let contact = (local, self.displacement_m);
+        ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.table.flanks.unwrap_or_default() {
                 FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
                 _ => "",
