@@ -12,7 +12,7 @@ use serde_json::json;
 
 /// Runs the command.
 pub fn run(a: &ModesArguments) -> Result<(), Failure> {
-    let gear = GearDefinition::read(&a.gear)?;
+    let gear = offline::gear(&a.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "natural modes are");
     let range = range(a, &gear)?;

@@ -13,7 +13,11 @@ use serde_json::json;
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let scene = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => scene,
-        SceneFile::System(scene) => return run_system::run(scene.load()?, arguments),
+        SceneFile::System(scene) => {
+            let loaded = scene.load()?;
+            console::unit_slips(loaded.unit_slips());
+            return run_system::run(loaded, arguments);
+        }
     };
     if arguments.restart {
         return Err(Failure::input(
@@ -21,6 +25,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         ));
     }
     let loaded = load(*scene)?;
+    loaded.scene.notes.iter().for_each(console::note);
+    console::unit_slips(loaded.unit_slips());
     let result = run_scene(&loaded, &|done, total| {
         console::note(format!("torque {done} of {total} solved"))
     })?;
