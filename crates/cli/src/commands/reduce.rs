@@ -2,12 +2,13 @@
 
 use crate::arguments::ReduceArguments;
 use crate::failure::Failure;
-use crate::{console, offline};
+use crate::{console, offline, output_name};
 use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&arguments.output)?;
     let gear = offline::gear(&arguments.gear)?;
     let model = match &gear.blank.meshed {
         Some(body) => {
