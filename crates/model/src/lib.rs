@@ -48,7 +48,7 @@ pub use cell_kind::CellKind;
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use file_error::FileError;
-pub use mesh_data::{Field, MeshData, MeshDataError};
+pub use mesh_data::{EXPORT_ENDINGS, Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;
 pub use near_field::{ContactCurve, NearField};
