@@ -49,7 +49,7 @@ impl SceneMesh<'_> {
         let ok = harmonics <= MOST_HARMONICS;
         keys.require("stiffness.harmonics", harmonics as f64, ok, "0 to 50")?;
         let curves = match (&table.from, table.local) {
-            (Some(file), None) => self.from_result(&self.folder.join(file), table)?,
+            (Some(file), None) => self.stored(&self.folder.join(file), table)?,
             (Some(_), Some(_)) => {
                 let problem = "is not used with `from`, whose curve has its own; remove it";
                 return Err(keys.error("stiffness.local", problem));
@@ -74,7 +74,7 @@ impl SceneMesh<'_> {
     }
 
     /// Takes the curves from the result of a `[pair]` scene of the same gears.
-    fn from_result(&self, file: &Path, table: &PairStiffnessTable) -> Result<Curves, InputError> {
+    fn stored(&self, file: &Path, table: &PairStiffnessTable) -> Result<Curves, InputError> {
         let keys = &self.keys;
         let shown = file.display();
         let fault = |problem: String| keys.error("stiffness.from", problem);
@@ -148,7 +148,7 @@ impl SceneMesh<'_> {
         let on = self.table.microgeometry.unwrap_or(true);
         let microgeometry = |i: usize| {
             let own = &self.gears[i].definition.microgeometry;
-            on.then(|| own.clone()).unwrap_or_default()
+            if on { own.clone() } else { Default::default() }
         };
         let base_2 = pair.gear_2.base_radius_m;
         let lines = ContactLines {
