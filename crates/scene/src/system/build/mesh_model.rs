@@ -15,7 +15,6 @@ use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
 use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, MeshModel, PathWord};
-use crate::system::tables::{MM, UM};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene does not state.
 pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
