@@ -106,7 +106,7 @@ fn summary(results: &[PartResult]) -> Result<(), XtaskError> {
         times.len(),
         readable(total)
     ));
-    times.sort_by(|a, b| b.0.cmp(&a.0));
+    times.sort_by_key(|(time, _)| std::cmp::Reverse(*time));
     for (time, name) in times.iter().take(SLOWEST) {
         say(&format!("  {:>12}  {name}", readable(*time)));
     }
