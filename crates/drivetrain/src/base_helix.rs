@@ -56,6 +56,19 @@ impl BaseHelix {
         })
     }
 
+    /// Roll angles of tooth 0 of both gears in the section at gear 1's mid-face.
+    pub(crate) fn mid_face_rolls_rad(
+        &self,
+        plane: &SlicePlane,
+        zero: &ToothZero,
+        sigma: f64,
+    ) -> [f64; 2] {
+        let [height_1, height_2] = plane.axis_heights_m;
+        let [roll_1, roll_2] = zero.roll_rad;
+        let turned_2 = sigma * self.twist_rad_per_m[1] * (height_2 - height_1);
+        [roll_1, roll_2 - turned_2]
+    }
+
     /// The sections of two flanks whose roll angles without twist are `plain_rad`, and their gap. With `common` at a contact there, r_b1 ξ₁ − r_b2 ξ₂
     /// \[m\], wherever these flanks touch: on tilted axes the gap changes from one pair of teeth to the next by 2 sin β_b f·w p_b, and what stands for all of
     /// them takes it at one place. Its roll angles are then those of X = ξ (1 ∓ σ T φ), which teeth a pitch apart share but for their pitch.

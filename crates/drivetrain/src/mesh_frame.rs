@@ -27,6 +27,8 @@ use crate::slice_plane::{CentreLine, stacked};
 /// The frame at a pose; all vectors in gear 1's axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MeshFrame {
+    /// r_b of gear 1 and gear 2 \[m\].
+    pub base_radii_m: [f64; 2],
     /// u.
     pub displacement_m: Vector3<f64>,
     /// b.
@@ -85,6 +87,7 @@ impl MeshFrame {
         let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
         let unequal = (r1 - r2) / (r1 + r2);
         Self {
+            base_radii_m: [r1, r2],
             displacement_m: u,
             axis_2: b,
             axis,

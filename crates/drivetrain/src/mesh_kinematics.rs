@@ -251,7 +251,9 @@ impl MeshKinematics {
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
-        let [zero_1, zero_2] = self.mid_face_rolls_rad(&middle, side);
+        let [zero_1, zero_2] = (self.helix.as_ref()).map_or(middle.1.roll_rad, |helix| {
+            helix.mid_face_rolls_rad(&middle.0, &middle.1, side.mirror())
+        });
         let length_m = middle.0.length_m;
         let start_1 = (length_m - r2 * ends[1]) / r1;
         let first = ((zero_1 - ends[0] - self.slant_1_rad) / pitch_1).ceil() as i64;
@@ -280,21 +282,6 @@ impl MeshKinematics {
             };
             self.add_line(&placed, &middle, found);
         }
-    }
-
-    /// Roll angles of tooth 0 of both gears where its sections at mid-face would touch.
-    fn mid_face_rolls_rad(&self, (plane, zero): &(SlicePlane, ToothZero), side: FlankSide) -> [f64; 2] {
-        let Some(helix) = &self.helix else {
-            return zero.roll_rad;
-        };
-        // Gear 1's mid-face, and gear 2's section against it.
-        let twist_2 = helix.twist_rad_per_m[1];
-        let [height_1, height_2] = plane.axis_heights_m;
-        let [roll_1, roll_2] = zero.roll_rad;
-        [
-            roll_1,
-            roll_2 - side.mirror() * twist_2 * (height_2 - height_1),
-        ]
     }
 
     /// Adds a pair of teeth with its slices, unless all of them are off the path.

@@ -1,4 +1,5 @@
-//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B; constant or with a sine over the mesh cycle.
+//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B, constant or with a sine over the mesh cycle; or the tangent to
+//! the static curve of the pair itself (pair_curve.rs).
 //!
 //! ```text
 //! q′ = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 − 0.00635 x₁ − 0.11654 x₁/z_n1 − 0.00193 x₂ − 0.24188 x₂/z_n2 + 0.00529 x₁² + 0.00182 x₂²
@@ -7,12 +8,14 @@
 //! ```
 //!
 //! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the middle of the path, which all pairs have in common, and knows no single
-//! tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever pair of teeth is nearest: on tilted helical gears
-//! pairs differ in their gaps, and a spring that went from one to the next would make energy. Friction acts where the pair on the path is; on
-//! helical teeth each slice has its own phase of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
+//! tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever pair of teeth is nearest: on tilted
+//! helical gears pairs differ in their gaps, and a spring that went from one to the next would make energy. Friction acts where the pair on
+//! the path is; on helical teeth each slice has its own phase of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
 
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::{FlankContacts, Section};
+use crate::pair_curve::PairCurve;
+use crate::roll_harmonics::RollHarmonics;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What the single stiffness of ISO 6336-1 depends on. Gear 1 is the pinion.
@@ -80,27 +83,36 @@ pub fn blank_factor(web_over_face: f64, rim_over_module: f64) -> f64 {
     1.0 + web.ln() / (5.0 * (rim_over_module.max(1.0) / 5.0).exp())
 }
 
-/// 1 + A cos over the mesh cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Sine {
-    amplitude: f64,
-    /// Roll angles of both gears where the stiffness is largest \[rad\].
-    maximum_rad: [f64; 2],
-    /// Numbers of teeth.
-    teeth: [f64; 2],
+/// The load at which a pair's static curve was taken: there the spring has the pair's deflection.
+#[derive(Debug, Clone, PartialEq)]
+struct OperatingPoint {
+    force_n: f64,
+    deflection_m: RollHarmonics,
 }
 
 /// The spring of the whole mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MeshSpring {
-    mean_n_per_m: f64,
-    sine: Option<Sine>,
+    stiffness_n_per_m: RollHarmonics,
+    operating: Option<OperatingPoint>,
     slices: f64,
     middle_roll_rad: f64,
+    /// Roll angle of each slice's section less that at whose phase the curves are taken \[rad\]; none where that is its own.
+    ahead_rad: Vec<f64>,
+}
+
+/// A spring at one roll angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SpringAt {
+    /// k and dk/dξ.
+    stiffness: (f64, f64),
+    /// Depth at which the force begins, and its derivative by ξ.
+    touch_m: (f64, f64),
 }
 
 impl MeshSpring {
-    /// A spring of `stiffness_n_per_m` shared by `slices`; `middle_roll_rad` is the roll angle on gear 1 about half-way of the path.
+    /// A spring of `stiffness_n_per_m` shared by `slices`; `middle_roll_rad` is the roll angle at the pitch point, the same on both
+    /// gears: about half-way of the path.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`].
@@ -109,31 +121,60 @@ impl MeshSpring {
         slices: usize,
         middle_roll_rad: f64,
     ) -> Result<Self, DrivetrainError> {
+        let mean = positive("iso6336 mesh", "the stiffness in N/m", stiffness_n_per_m)?;
         Ok(Self {
-            mean_n_per_m: positive("iso6336 mesh", "the stiffness in N/m", stiffness_n_per_m)?,
-            sine: None,
+            stiffness_n_per_m: RollHarmonics::constant(mean),
+            operating: None,
             slices: slices as f64,
             middle_roll_rad,
+            ahead_rad: Vec::new(),
         })
+    }
+
+    /// The tangent to a pair's static curve, F = F₀ + k(ξ) (δ − δ₀(ξ)) where that is positive, shared by `slices`.
+    #[must_use]
+    pub fn on_curve(curve: &PairCurve, slices: usize, middle_roll_rad: f64) -> Self {
+        Self {
+            stiffness_n_per_m: curve.tangent_n_per_m().clone(),
+            operating: Some(OperatingPoint {
+                force_n: curve.force_n(),
+                deflection_m: curve.deflection_m().clone(),
+            }),
+            slices: slices as f64,
+            middle_roll_rad,
+            ahead_rad: Vec::new(),
+        }
+    }
+
+    /// Takes the curves of all slices at one phase, that at mid-face: for curves of the mesh as a whole on helical teeth. `ahead_rad`: roll
+    /// angle of each slice's section on gear 1 less that at mid-face.
+    #[must_use]
+    pub fn with_phase_of_mid_face(mut self, ahead_rad: Vec<f64>) -> Self {
+        self.ahead_rad = ahead_rad;
+        self
     }
 
     /// Turns a stiffness in the transverse plane, as ISO 6336-1 states it, into that along the normal of helical flanks: over cos²β_b.
     #[must_use]
     pub fn on_base_helix(mut self, base_helix_angle_rad: f64) -> Self {
-        self.mean_n_per_m /= base_helix_angle_rad.cos().powi(2);
+        let cos = base_helix_angle_rad.cos();
+        self.stiffness_n_per_m = self.stiffness_n_per_m.scaled(1.0 / (cos * cos));
+        self.operating = self.operating.map(|point| OperatingPoint {
+            force_n: point.force_n / cos,
+            deflection_m: point.deflection_m.scaled(cos),
+        });
         self
     }
 
-    /// Lets the stiffness vary as 1 + A cos ½[z₁(ξ₁ − ξ₁max) − z₂(ξ₂ − ξ₂max)] over the mesh cycle, 0 ≤ A < 1: both roll angles turn the phase alike where
-    /// flanks touch.
+    /// Lets the stiffness vary as 1 + A cos(z₁(ξ₁ − ξ_max)) over the mesh cycle, 0 ≤ A < 1.
     ///
     /// # Errors
     /// [`DrivetrainError::Value`].
     pub fn with_sine(
         mut self,
         relative_amplitude: f64,
-        maximum_rad: [f64; 2],
-        teeth: [usize; 2],
+        roll_of_maximum_rad: f64,
+        teeth_1: usize,
     ) -> Result<Self, DrivetrainError> {
         let what = "the relative amplitude of the stiffness";
         not_negative("iso6336 mesh", what, relative_amplitude)?;
@@ -145,27 +186,34 @@ impl MeshSpring {
                 allowed: "below 1",
             });
         }
-        self.sine = Some(Sine {
-            amplitude: relative_amplitude,
-            maximum_rad,
-            teeth: teeth.map(|count| count as f64),
-        });
+        let mean = self.stiffness_n_per_m.mean();
+        let sine = [(relative_amplitude * mean, 0.0)];
+        self.stiffness_n_per_m = RollHarmonics::new(mean, &sine, teeth_1, roll_of_maximum_rad);
         Ok(self)
     }
 
-    /// Stiffness \[N/m\] and its derivatives by the roll angles on gear 1 and gear 2.
-    #[must_use]
-    pub fn stiffness(&self, roll_rad: [f64; 2]) -> (f64, [f64; 2]) {
-        let Some(sine) = &self.sine else {
-            return (self.mean_n_per_m, [0.0; 2]);
+    /// Roll angle on gear 1 at whose phase the curves are taken, and its derivatives by both roll angles: halfway between that of gear 1 and that which
+    /// gear 2's means where the flanks touch, so that neither gear is the first.
+    fn phase_rad(&self, flanks: &FlankContacts, [roll_1, roll_2]: [f64; 2]) -> (f64, [f64; 2]) {
+        let Some(frame) = &flanks.frame else {
+            return (roll_1, [1.0, 0.0]);
         };
-        let [turn_1, turn_2] = [0, 1].map(|i| sine.teeth[i] * (roll_rad[i] - sine.maximum_rad[i]));
-        let (sin, cos) = (0.5 * (turn_1 - turn_2)).sin_cos();
-        let slope = -0.5 * self.mean_n_per_m * sine.amplitude * sin;
-        (
-            self.mean_n_per_m * (1.0 + sine.amplitude * cos),
-            [slope * sine.teeth[0], -slope * sine.teeth[1]],
-        )
+        let [r1, r2] = frame.base_radii_m;
+        let middle = self.middle_roll_rad;
+        let of_2 = -0.5 * r2 / r1;
+        let phase = middle + 0.5 * (roll_1 - middle) + of_2 * (roll_2 - middle);
+        (phase, [0.5, of_2])
+    }
+
+    fn at(&self, roll_1_rad: f64) -> SpringAt {
+        let stiffness = self.stiffness_n_per_m.at(roll_1_rad);
+        let touch_m = self.operating.as_ref().map_or((0.0, 0.0), |point| {
+            let (k, k_slope) = stiffness;
+            let (deflection, slope) = point.deflection_m.at(roll_1_rad);
+            let taken_up = point.force_n / k;
+            (deflection - taken_up, slope + taken_up * k_slope / k)
+        });
+        SpringAt { stiffness, touch_m }
     }
 }
 
@@ -194,20 +242,25 @@ impl TeethModel for MeshSpring {
             let Some((i, contact)) = nearest else {
                 continue;
             };
-            let depth = -contact.gap_m;
+            let ahead = self.ahead_rad.get(slice).copied().unwrap_or(0.0);
+            let section = flanks.section(contact);
+            let (phase_rad, by_roll) = self.phase_rad(flanks, section.roll_rad);
+            let spring = self.at(phase_rad - ahead);
+            let depth = -contact.gap_m - spring.touch_m.0;
             if depth > 0.0 {
-                let section = flanks.section(contact);
-                let (stiffness, slopes) = self.stiffness(section.roll_rad);
+                let (stiffness, slope) = spring.stiffness;
                 let width = section.share / self.slices;
-                let each = stiffness * width;
-                let half_square = 0.5 * depth * depth;
-                loads.normal_n[i] = each * depth;
+                let (each, each_slope) = (stiffness * width, slope * width);
+                let force = each * depth;
+                let stored = 0.5 * force * depth;
+                loads.normal_n[i] = force;
                 loads.stiffness_n_per_m[i * n + i] = each;
-                loads.stored_j += each * half_square;
-                for (gear, slope) in slopes.into_iter().enumerate() {
-                    loads.energy_by_roll[contact.section][gear] -= slope * width * half_square;
+                loads.stored_j += stored;
+                let by_phase = force * spring.touch_m.1 - 0.5 * each_slope * depth * depth;
+                for (gear, rate) in by_roll.into_iter().enumerate() {
+                    loads.energy_by_roll[contact.section][gear] += by_phase * rate;
                 }
-                loads.energy_by_share[contact.section] -= stiffness / self.slices * half_square;
+                loads.energy_by_share[contact.section] -= stored / section.share;
             }
         }
         Ok(())

@@ -4,9 +4,11 @@
 mod backlash;
 mod effects;
 mod energy;
+mod exchange;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;
 mod models;
+mod zone;
 mod two_bodies;
 
 use gearmesh_drivetrain::pose::Vector6;

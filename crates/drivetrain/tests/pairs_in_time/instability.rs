@@ -172,7 +172,7 @@ fn a_sine_is_unstable_where_mathieu_says() {
     let middle = pair.working_pressure_angle_rad.tan();
     let teeth = || -> Box<dyn TeethModel> {
         let spring = MeshSpring::new(MEAN, 1, middle).unwrap();
-        Box::new(spring.with_sine(0.4, [middle; 2], [pair.gear_1.teeth, pair.gear_2.teeth]).unwrap())
+        Box::new(spring.with_sine(0.4, middle, pair.gear_1.teeth).unwrap())
     };
     let borders = [
         (0.15, 0.25, 0.2076296396748409),

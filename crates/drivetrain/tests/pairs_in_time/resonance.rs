@@ -135,7 +135,7 @@ impl Oscillator {
         let middle = pair.working_pressure_angle_rad.tan();
         let teeth = pair.gear_1.teeth;
         let spring = MeshSpring::new(STIFFNESS, 1, middle).unwrap();
-        let spring = spring.with_sine(self.amplitude, [middle; 2], [teeth, pair.gear_2.teeth]).unwrap();
+        let spring = spring.with_sine(self.amplitude, middle, teeth).unwrap();
         let damping = Damping::Viscous {
             coefficient_n_s_per_m: self.damping,
             full_depth_m: FULL_DEPTH,

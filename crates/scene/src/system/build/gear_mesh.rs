@@ -93,14 +93,16 @@ impl PreparedMesh {
             },
             key: key.clone(),
         };
-        let scene = SceneMesh {
+        let mut scene = SceneMesh {
             table,
             keys,
             folder,
             gears,
             pair: &pair,
             displacement_m: at_start.face_displacement_m(gears.map(|gear| gear.definition.profile.base_radius_m)),
+            curve: None,
         };
+        scene.curve = scene.static_curve(prepared.sides[0])?;
         scene.refuse_unfelt_cracks()?;
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
@@ -111,6 +113,7 @@ impl PreparedMesh {
             )?);
         }
         scene.effects(parts);
+        parts.notes.extend(scene.stiffness_note()?);
         Ok(prepared)
     }
 
