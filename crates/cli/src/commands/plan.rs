@@ -13,7 +13,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
     let (lines, figures) = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => {
             let plan = load(*scene)?.plan();
-            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns});
+            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal});
             (plan.lines, figures)
         }
         SceneFile::System(scene) => {
