@@ -1,5 +1,6 @@
 //! How far a computed series and a reference agree, both seen through the rig pipeline.
 
+use crate::pair_orders::{PairOrders, Shaft};
 use crate::quantity::Quantity;
 use crate::record::{RecordColumn, ReferenceRecord};
 use gearmesh_signal::rig::{OrderFilter, RigError, RigSettings, RigSignal, process};
@@ -7,7 +8,6 @@ use gearmesh_signal::statistics::{
     StatisticsError, correlation, largest_deviation, peak_to_peak, rms, rms_deviation,
 };
 use gearmesh_signal::{AngleSeries, AngleSeriesError, OrderError, SeriesError, best_offset};
-use crate::pair_orders::{PairOrders, Shaft};
 
 /// Why two series cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -141,7 +141,12 @@ pub struct RigView {
 
 impl RigView {
     /// The rig of seed 004 on a shaft of a pair, in blocks of so many of its revolutions.
-    pub fn of(pair: &PairOrders, shaft: Shaft, revolutions_per_block: usize, orders: Vec<f64>) -> Self {
+    pub fn of(
+        pair: &PairOrders,
+        shaft: Shaft,
+        revolutions_per_block: usize,
+        orders: Vec<f64>,
+    ) -> Self {
         Self {
             settings: RigSettings {
                 revolutions_per_block,

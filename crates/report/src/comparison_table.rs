@@ -42,8 +42,7 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
         .map(String::from)
         .to_vec(),
         [
-            "", "ours", "ref.", "", "ours", "ref.", "", "ours", "ref.", "", "", "", "best",
-            "there",
+            "", "ours", "ref.", "", "ours", "ref.", "", "ours", "ref.", "", "", "", "best", "there",
         ]
         .map(String::from)
         .to_vec(),
@@ -203,10 +202,10 @@ fn write_aligned(text: &mut String, rows: &[Vec<String>]) {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::comparison::compare;
-    use crate::quantity::Quantity;
     use crate::comparison::RigView;
+    use crate::comparison::compare;
     use crate::pair_orders::{PairOrders, Shaft};
+    use crate::quantity::Quantity;
     use gearmesh_signal::AngleSeries;
     use std::f64::consts::TAU;
 

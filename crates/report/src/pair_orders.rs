@@ -104,6 +104,9 @@ mod tests {
             openings: [3, 3],
         };
         assert_eq!(slotted.of_openings(Shaft::Gear1), [3.0]);
-        assert_eq!((pair.teeth_on(Shaft::Gear2), pair.driver_turns(Shaft::Gear1)), (47, 1.0));
+        assert_eq!(
+            (pair.teeth_on(Shaft::Gear2), pair.driver_turns(Shaft::Gear1)),
+            (47, 1.0)
+        );
     }
 }

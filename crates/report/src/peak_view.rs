@@ -47,8 +47,7 @@ impl PeakView {
     fn angle_deg(&self, r: &SceneResult, index: usize) -> f64 {
         let before = self.first > 0 && index >= self.first && self.peak < self.first;
         let after = self.first > 0 && index < self.first && self.peak >= self.first;
-        r.angle_rad[index].to_degrees()
-            + self.period_deg * (f64::from(after) - f64::from(before))
+        r.angle_rad[index].to_degrees() + self.period_deg * (f64::from(after) - f64::from(before))
     }
 
     pub(crate) fn angles_deg(&self, r: &SceneResult) -> Vec<f64> {

@@ -5,9 +5,9 @@
 //! of a multibody result) and a table `[uncertainty]` with `te_mean_um`, `te_peak_to_peak_um` and `strain_range_ustrain`. Further keys
 //! describe the record for people and are not read. `data.csv` is described at [`crate::record::ReferenceRecord`].
 
+use crate::pair_orders::Shaft;
 use crate::quantity::{Quantity, Unit};
 use crate::record_data::{DataError, parse_data};
-use crate::pair_orders::Shaft;
 use gearmesh_signal::{AngleSeries, AngleSeriesError, ShaftPeriod};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -179,10 +179,13 @@ impl ReferenceRecord {
                 message,
             },
         )?;
-        let data = parse_data(&read_bytes(&data_path)?, description.revolutions()).map_err(|source| RecordError::Data {
-            path: data_path,
-            source,
-        })?;
+        let data =
+            parse_data(&read_bytes(&data_path)?, description.revolutions()).map_err(|source| {
+                RecordError::Data {
+                    path: data_path,
+                    source,
+                }
+            })?;
         let revolutions = description.revolutions();
         Ok(Self {
             folder: folder.to_path_buf(),

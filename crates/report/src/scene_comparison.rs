@@ -83,10 +83,19 @@ pub fn compare_scene(
     )];
     for series in &result.strain {
         let gauge = series.name.clone();
-        quantities.push((Quantity::Strain { gauge }, series.coverage, &series.method_2));
+        quantities.push((
+            Quantity::Strain { gauge },
+            series.coverage,
+            &series.method_2,
+        ));
     }
     let (shaft, revolutions) = (record.shaft, record.revolutions);
-    let te_view = RigView::of(&pair, shaft, revolutions, compared_orders(&pair, shaft, revolutions));
+    let te_view = RigView::of(
+        &pair,
+        shaft,
+        revolutions,
+        compared_orders(&pair, shaft, revolutions),
+    );
     // A gauge's spectrum is that of a short pulse and tells nothing order by order.
     let strain_view = RigView {
         orders: Vec::new(),

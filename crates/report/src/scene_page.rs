@@ -5,21 +5,21 @@ use crate::page::{
     Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
     PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
 };
+use crate::pair_orders::{PairOrders, Shaft};
 use crate::peak_view::PeakView;
 use crate::quantity::Quantity;
 use crate::ratings;
 use crate::record::ReferenceRecord;
-use crate::pair_orders::{PairOrders, Shaft};
 use crate::result_series::series;
 use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::system_page;
 use gearmesh_model::FileError;
-use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
+use gearmesh_signal::RigSettings;
 use gearmesh_signal::rig::process;
 use gearmesh_signal::statistics::{mean, peak_to_peak};
-use gearmesh_signal::RigSettings;
 
 /// A gear's cross-section coloured by stress.
 #[derive(Debug, Clone)]
@@ -252,10 +252,7 @@ fn reference_values(
 fn transmission_error(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let mut chart = LineChart::new(
-        format!(
-            "Transmission error by torque{}",
-            mark(&r.contact_coverage)
-        ),
+        format!("Transmission error by torque{}", mark(&r.contact_coverage)),
         angle_axis(),
         Axis::new("TE", "µm"),
     )
@@ -305,7 +302,8 @@ fn order_spectrum(r: &SceneResult) -> Result<Option<SpectrumChart>, String> {
     let shown = if last == 0 { vec![0] } else { vec![0, last] };
     for k in shown {
         let te = r.curve(&r.te_m, k);
-        let series = series(r, &r.contact_coverage, te, (&pair, shaft)).map_err(|e| e.to_string())?;
+        let series =
+            series(r, &r.contact_coverage, te, (&pair, shaft)).map_err(|e| e.to_string())?;
         let period = series.period();
         let settings = RigSettings::default().in_blocks(period.whole_revolutions(), period);
         let signal = process(&series, &settings, pair.filter(shaft)).map_err(|e| e.to_string())?;

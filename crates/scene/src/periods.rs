@@ -349,7 +349,10 @@ mod tests {
             (8, 184, 48)
         );
         assert_eq!(solid.with_unlike_teeth(2), drilled);
-        assert_eq!((drilled.common(), pair([20, 30], [20, 30]).common()), (1081, 60));
+        assert_eq!(
+            (drilled.common(), pair([20, 30], [20, 30]).common()),
+            (1081, 60)
+        );
     }
 
     /// The definition itself: teeth of pair p, and the place of each body under them, are those of pair p + period, and of no earlier one.
@@ -403,7 +406,10 @@ mod tests {
         assert_eq!(Coverage::of_contact(1, 60).periodic_pitches(57), Some(57));
         assert_eq!(Coverage::of_contact(1, 5).periodic_pitches(57), Some(1));
         let part = Coverage::of_contact(47, 3);
-        assert_eq!((part.averaged_pitches(), part.periodic_pitches(23)), (3, None));
+        assert_eq!(
+            (part.averaged_pitches(), part.periodic_pitches(23)),
+            (3, None)
+        );
     }
 
     proptest! {

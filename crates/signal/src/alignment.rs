@@ -62,7 +62,13 @@ pub fn best_offset(x: &[f64], y: &[f64]) -> Result<Option<BestOffset>, SeriesErr
     let sums = fourier.samples_of(&mut product)?;
     let correlations: Vec<f64> = sums.iter().map(|sum| sum / scale).collect();
     let largest = correlations.iter().copied().fold(f64::MIN, f64::max);
-    let signed = |s: usize| if 2 * s > n { s as f64 - n as f64 } else { s as f64 };
+    let signed = |s: usize| {
+        if 2 * s > n {
+            s as f64 - n as f64
+        } else {
+            s as f64
+        }
+    };
     let is_peak = |s: &usize| correlations[*s] >= largest - EQUAL_CORRELATIONS;
     let nearest = (0..n)
         .filter(is_peak)
@@ -81,8 +87,7 @@ pub fn best_offset(x: &[f64], y: &[f64]) -> Result<Option<BestOffset>, SeriesErr
             break;
         }
     }
-    let [before, top, after] =
-        [(best + n - 1) % n, best, (best + 1) % n].map(|s| correlations[s]);
+    let [before, top, after] = [(best + n - 1) % n, best, (best + 1) % n].map(|s| correlations[s]);
     let curvature = before - 2.0 * top + after;
     let beside = if curvature < 0.0 {
         0.5 * (before - after) / curvature
@@ -118,7 +123,10 @@ mod tests {
                 let f = |a: f64| a.cos() + 0.5 * (3.0 * a + 1.0).cos() + 0.2 * (23.0 * a).cos();
                 let (x, y) = (sampled(n, f), sampled(n, |a| 2.0 * f(a - turned) - 4.0));
                 let best = best_offset(&x, &y).unwrap().unwrap();
-                assert!((best.angle_rad(1) - turned).abs() < 1e-4, "{best:?} {turned}");
+                assert!(
+                    (best.angle_rad(1) - turned).abs() < 1e-4,
+                    "{best:?} {turned}"
+                );
                 assert!((best.correlation - 1.0).abs() < 1e-5, "{best:?}");
                 assert!((best.angle_rad(47) - 47.0 * best.angle_rad(1)).abs() < 1e-12);
             }

@@ -58,7 +58,8 @@ impl RigSettings {
     /// equally often.
     #[must_use]
     pub fn in_blocks(self, revolutions_per_block: usize, period: ShaftPeriod) -> Self {
-        let common = least_common_multiple(revolutions_per_block.max(1), period.whole_revolutions());
+        let common =
+            least_common_multiple(revolutions_per_block.max(1), period.whole_revolutions());
         Self {
             revolutions_per_block,
             revolutions: self.revolutions.div_ceil(common).max(1) * common,

@@ -86,7 +86,9 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
                        "complete": s.coverage.has_extremes(), "mesh_error_relative": s.error_estimate_relative})
             })
             .collect();
-        console::json(&json!({"rows": list, "coverage": periods::json(result), "seconds": result.seconds[1]}));
+        console::json(
+            &json!({"rows": list, "coverage": periods::json(result), "seconds": result.seconds[1]}),
+        );
         return Ok(());
     }
     console::data(format!(

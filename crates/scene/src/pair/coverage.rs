@@ -8,9 +8,7 @@ use gearmesh_model::{DataArray, DataTree, FileError};
 
 use super::result::StrainSeries;
 use super::run::LoadedScene;
-use crate::periods::{
-    Coverage, Extent, PairPeriods, Passage, RunStretch, passage_run, whole_run,
-};
+use crate::periods::{Coverage, Extent, PairPeriods, Passage, RunStretch, passage_run, whole_run};
 
 /// What has the period of the mesh, in words.
 const CONTACT: &str = "transmission error, stiffness, forces and pressure";
@@ -71,7 +69,13 @@ impl LoadedScene {
     /// The periods, what the run sees of them, and a run that sees more: lines of a plan.
     pub(super) fn period_lines(&self) -> Vec<String> {
         let periods = &self.periods;
-        let of_gear = |gear: usize| format!("gear {gear} {} (body {})", periods.teeth[gear - 1], periods.body(gear));
+        let of_gear = |gear: usize| {
+            format!(
+                "gear {gear} {} (body {})",
+                periods.teeth[gear - 1],
+                periods.body(gear)
+            )
+        };
         let mut lines = vec![format!(
             "periods    in pitches: mesh 1, {}, {}, common {}",
             of_gear(1),
@@ -83,7 +87,10 @@ impl LoadedScene {
             let name = &self.models[gear - 1].gauges[index].name;
             (gauge_name(name, gear), self.gauge_coverage(gear, index))
         }));
-        lines.extend(all.iter().map(|(name, coverage)| format!("covered    {name}: {coverage}")));
+        lines.extend(
+            all.iter()
+                .map(|(name, coverage)| format!("covered    {name}: {coverage}")),
+        );
         let proposal = self.proposal(&self.gauges);
         if !proposal.is_empty() {
             lines.push(format!("proposal   {proposal}"));
@@ -99,7 +106,11 @@ fn gauge_name(name: &str, gear: usize) -> String {
 /// All quantities of a result by name.
 pub(super) fn named(contact: Coverage, strain: &[StrainSeries]) -> Vec<(String, Coverage)> {
     let mut all = vec![(CONTACT.to_owned(), contact)];
-    all.extend(strain.iter().map(|s| (gauge_name(&s.name, s.gear), s.coverage)));
+    all.extend(
+        strain
+            .iter()
+            .map(|s| (gauge_name(&s.name, s.gear), s.coverage)),
+    );
     all
 }
 
@@ -107,7 +118,10 @@ pub(super) fn named(contact: Coverage, strain: &[StrainSeries]) -> Vec<(String, 
 pub(super) fn put_coverage(tree: &mut DataTree, group: &str, coverage: &Coverage) {
     tree.put(
         format!("{group}/period_pitches"),
-        DataArray::count(coverage.period_pitches as u32, "pitches after which it repeats"),
+        DataArray::count(
+            coverage.period_pitches as u32,
+            "pitches after which it repeats",
+        ),
     );
     tree.put_text(format!("{group}/extent"), coverage.extent.name());
 }

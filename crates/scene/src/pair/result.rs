@@ -125,7 +125,8 @@ impl SceneResult {
 
     /// What is incomplete, a sentence for each quantity; empty where nothing is.
     pub fn incomplete(&self) -> Vec<String> {
-        let sentence = |(name, coverage): (String, Coverage)| Some(format!("{name}: {}", coverage.missing()?));
+        let sentence =
+            |(name, coverage): (String, Coverage)| Some(format!("{name}: {}", coverage.missing()?));
         self.coverages().into_iter().filter_map(sentence).collect()
     }
 

@@ -137,7 +137,10 @@ pub fn put_ratings(tree: &mut DataTree, ratings: &[RatingResult]) {
         let name = |part: &str| format!("ratings/{i}/{part}");
         tree.put_text(name("name"), rating.name.clone());
         tree.put_text(name("method"), rating.method.clone());
-        for (part, text) in [("problem", &rating.problem), ("incomplete", &rating.incomplete)] {
+        for (part, text) in [
+            ("problem", &rating.problem),
+            ("incomplete", &rating.incomplete),
+        ] {
             tree.put_text(name(part), text.clone().unwrap_or_default());
         }
         for f in &rating.figures {

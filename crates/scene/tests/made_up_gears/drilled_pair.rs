@@ -67,14 +67,17 @@ pub fn model(teeth: usize, holes: Option<usize>) -> ReducedGear {
         ..made_up_gear(&gear.profile, WIDTH_M, 1)
     };
     if let Some(holes) = holes {
-        let weight = |tooth: usize| 1.0 + OVER_HOLES * (TAU * (holes * tooth) as f64 / teeth as f64).cos();
+        let weight =
+            |tooth: usize| 1.0 + OVER_HOLES * (TAU * (holes * tooth) as f64 / teeth as f64).cos();
         let block = model.grid.len() * model.grid.len();
         let solid = std::mem::take(&mut model.c_hub);
         for load in 0..teeth {
             for response in 0..teeth {
                 let factor = weight(load) * weight(response);
                 let apart = (response + teeth - load) % teeth;
-                model.c_hub.extend(solid[apart * block..][..block].iter().map(|c| factor * c));
+                model
+                    .c_hub
+                    .extend(solid[apart * block..][..block].iter().map(|c| factor * c));
             }
         }
         model.sectors = 1;

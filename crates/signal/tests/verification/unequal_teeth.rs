@@ -23,7 +23,8 @@ fn lines() -> [(f64, f64, f64); 6] {
 
 /// At an angle of the pinion.
 fn te(angle_rad: f64) -> f64 {
-    let of = |(amplitude, order, phase): (f64, f64, f64)| amplitude * (order * angle_rad + phase).cos();
+    let of =
+        |(amplitude, order, phase): (f64, f64, f64)| amplitude * (order * angle_rad + phase).cos();
     -30.0 + lines().into_iter().map(of).sum::<f64>()
 }
 
@@ -52,7 +53,10 @@ fn every_order_comes_out_on_either_shaft() {
             let order = order * to_pinion;
             let found = signal.spectrum.amplitude(order).unwrap();
             // 2.16/24^4 of the spline at the mesh order, more at its upper sideband: docs in rig.rs.
-            assert!((found / amplitude - 1.0).abs() < 2e-5, "order {order}: {found}");
+            assert!(
+                (found / amplitude - 1.0).abs() < 2e-5,
+                "order {order}: {found}"
+            );
             let found = signal.spectrum.phase_rad(order).unwrap();
             assert!((found - phase).abs() < 1e-6, "order {order}: phase {found}");
         }
@@ -72,12 +76,18 @@ fn every_order_comes_out_on_either_shaft() {
 fn blocks_of_one_turn_keep_what_is_locked_to_it() {
     let input = series(23, 23 * 47, 0.0);
     let settings = RigSettings::default().in_blocks(1, input.period());
-    assert_eq!((settings.revolutions_per_block, settings.revolutions), (1, 47));
+    assert_eq!(
+        (settings.revolutions_per_block, settings.revolutions),
+        (1, 47)
+    );
     let filter = OrderFilter::of_transmission_error(TEETH[0], TEETH[1]);
     let signal = process(&input, &settings, filter).unwrap();
     assert!((signal.spectrum.amplitude(23.0).unwrap() - 0.8).abs() < 2e-5);
     for order in [2.0, 3.0, 20.0, 26.0] {
-        assert!(signal.spectrum.amplitude(order).unwrap() < 1e-4, "order {order}");
+        assert!(
+            signal.spectrum.amplitude(order).unwrap() < 1e-4,
+            "order {order}"
+        );
     }
     assert!(!signal.spectrum.has(HOLES * 23.0 / 47.0));
 }

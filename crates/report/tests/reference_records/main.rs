@@ -1,5 +1,7 @@
-//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for.
+//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for; records of unequal pairs.
 #![allow(clippy::unwrap_used, reason = "a test")]
+
+mod unequal_teeth;
 
 use gearmesh_report::{
     PairOrders, Quantity, RecordKind, ReferenceRecord, RigView, Shaft, compare_with_column,
