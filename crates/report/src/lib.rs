@@ -23,6 +23,7 @@ mod record_data;
 pub mod result_series;
 pub mod scene_comparison;
 pub mod scene_page;
+pub mod system_comparison;
 mod short_number;
 mod system_page;
 
