@@ -23,8 +23,8 @@ mod record_data;
 pub mod result_series;
 pub mod scene_comparison;
 pub mod scene_page;
-pub mod system_comparison;
 mod short_number;
+pub mod system_comparison;
 mod system_page;
 
 pub use comparison::{

@@ -6,9 +6,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshRecord, SystemResult, split_unit};
-use gearmesh_signal::{
-    AngleSeries, AngleSeriesError, Resampler, SeriesError, synchronous_average,
-};
+use gearmesh_signal::{AngleSeries, AngleSeriesError, Resampler, SeriesError, synchronous_average};
 
 use crate::comparison::{ComparisonError, RigView, SeriesComparison, compare_with_column};
 use crate::pair_orders::{PairOrders, Shaft};
@@ -48,7 +46,9 @@ pub enum SystemComparisonError {
         heads: String,
     },
     /// A column that the result does not have.
-    #[error("the result has no column `{column}`; it has {all}, among them: {some} (`gearmesh signal columns` lists them)")]
+    #[error(
+        "the result has no column `{column}`; it has {all}, among them: {some} (`gearmesh signal columns` lists them)"
+    )]
     NoColumn {
         /// Asked for.
         column: String,
@@ -58,7 +58,9 @@ pub enum SystemComparisonError {
         some: String,
     },
     /// A column of another quantity.
-    #[error("column `{column}` of the result is in `{found}`; `{head}` of the record needs {needed}")]
+    #[error(
+        "column `{column}` of the result is in `{found}`; `{head}` of the record needs {needed}"
+    )]
     Unit {
         /// Column of the result.
         column: String,
@@ -70,7 +72,9 @@ pub enum SystemComparisonError {
         needed: &'static str,
     },
     /// A column that belongs to no gear mesh, so that no shaft is known.
-    #[error("column `{column}` is no channel of a gear mesh (elements/MESH/...); the meshes are: {meshes}")]
+    #[error(
+        "column `{column}` is no channel of a gear mesh (elements/MESH/...); the meshes are: {meshes}"
+    )]
     NoMesh {
         /// Column of the result.
         column: String,
@@ -86,7 +90,9 @@ pub enum SystemComparisonError {
         time_s: f64,
     },
     /// Rows too far apart, or by far too near.
-    #[error("the rows give {found:.1} samples in a turn of `{body}`; needed are {least} to {most}: change output.interval_s of the scene")]
+    #[error(
+        "the rows give {found:.1} samples in a turn of `{body}`; needed are {least} to {most}: change output.interval_s of the scene"
+    )]
     SamplesPerTurn {
         /// The body on the record's shaft.
         body: String,
@@ -268,7 +274,9 @@ fn mesh_of<'a>(
     column: &str,
 ) -> Result<&'a MeshRecord, SystemComparisonError> {
     let is_of = |mesh: &&MeshRecord| {
-        let rest = column.strip_prefix("elements/").and_then(|c| c.strip_prefix(&*mesh.name));
+        let rest = column
+            .strip_prefix("elements/")
+            .and_then(|c| c.strip_prefix(&*mesh.name));
         rest.is_some_and(|rest| rest.starts_with('/'))
     };
     result.head.meshes.iter().find(is_of).ok_or_else(|| {
@@ -374,22 +382,46 @@ mod tests {
             })
             .collect();
         let f = |a: f64| 3.0 + (6.0 * a).cos() + 0.3 * (47.0 * a + 1.0).sin();
-        let values: Vec<f64> = turns.iter().map(|a| f(*a) + 0.2 * (0.2 * a).cos()).collect();
+        let values: Vec<f64> = turns
+            .iter()
+            .map(|a| f(*a) + 0.2 * (0.2 * a).cos())
+            .collect();
         let series = run(&values, &turns).average(1).unwrap();
         for i in 0..500 {
             let a = 0.0123 * f64::from(i);
             assert!((series.value(a) - f(a)).abs() < 1e-6, "{a}");
         }
-        assert_eq!(run(&values, &turns).average(5).unwrap().period().whole_revolutions(), 5);
+        assert_eq!(
+            run(&values, &turns)
+                .average(5)
+                .unwrap()
+                .period()
+                .whole_revolutions(),
+            5
+        );
     }
 
     #[test]
     fn too_few_turns_and_rows_are_told() {
         let turns: Vec<f64> = (0..5000).map(|i| 1e-3 * f64::from(i)).collect();
-        let error = run(&vec![1.0; 5000], &turns).average(1).err().unwrap().to_string();
-        assert!(error.contains("0.78 revolutions of `wheel`") && error.contains("run.end_s"), "{error}");
+        let error = run(&vec![1.0; 5000], &turns)
+            .average(1)
+            .err()
+            .unwrap()
+            .to_string();
+        assert!(
+            error.contains("0.78 revolutions of `wheel`") && error.contains("run.end_s"),
+            "{error}"
+        );
         let coarse: Vec<f64> = turns.iter().map(|a| 1000.0 * a).collect();
-        let error = run(&vec![1.0; 5000], &coarse).average(1).err().unwrap().to_string();
-        assert!(error.contains("6.3 samples in a turn") && error.contains("interval_s"), "{error}");
+        let error = run(&vec![1.0; 5000], &coarse)
+            .average(1)
+            .err()
+            .unwrap()
+            .to_string();
+        assert!(
+            error.contains("6.3 samples in a turn") && error.contains("interval_s"),
+            "{error}"
+        );
     }
 }

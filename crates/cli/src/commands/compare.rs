@@ -46,7 +46,10 @@ pub fn run(a: &CompareArguments) -> Result<(), Failure> {
             "revolutions": record.revolutions, "comparisons": list,
         }));
     } else {
-        console::data(format!("{title} against `{}` ({})", record.title, record.kind));
+        console::data(format!(
+            "{title} against `{}` ({})",
+            record.title, record.kind
+        ));
         console::data(format!(
             "angles and orders of the shaft of {}, {} revolution(s)",
             record.shaft, record.revolutions

@@ -1,9 +1,9 @@
 //! 23 teeth drive 47 with six holes, through the whole program: what is proposed, marked, compared and drawn.
 
 use crate::common::{Desk, argument, gearmesh, number, refused, succeeds};
-use crate::drilled_pair::{scene, write_models};
+use crate::drilled_pair::{scene, scene_in_time, write_models};
 use gearmesh_scene::SceneResult;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const GAUGES: &str = "[gauges]\ngear_1 = [\"g0\"]\ngear_2 = [\"g0\"]\n";
 
@@ -31,6 +31,21 @@ impl Bench {
         let (scene, result) = (self.scene(wheel, pitches), self.desk.path("result.h5"));
         succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
         result
+    }
+
+    /// The transmission error of a result as a record of one revolution of the wheel: its folder and its record.toml.
+    fn record(&self, result: &Path) -> (PathBuf, String) {
+        let read = SceneResult::read(result).unwrap();
+        let mut csv = "angle_deg,te_um_200Nm\n".to_owned();
+        for (angle, te) in read.angle_rad.iter().zip(read.curve(&read.te_m, 0)) {
+            csv += &format!("{},{}\n", angle.to_degrees() * 23.0 / 47.0, 1e6 * te);
+        }
+        let folder = self.desk.path("record");
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(folder.join("data.csv"), csv).unwrap();
+        let toml = "title = \"at rest\"\nkind = \"computed\"\nsource = \"this program\"\nangle_origin = \"pitch point\"\nshaft = \"gear_2\"\n";
+        std::fs::write(folder.join("record.toml"), toml).unwrap();
+        (folder, toml.to_owned())
     }
 }
 
@@ -89,16 +104,7 @@ fn plan_and_run_say_what_is_covered() {
 fn compare_takes_a_record_of_the_wheels_revolution() {
     let bench = Bench::new();
     let result = bench.result("drilled", 47);
-    let read = SceneResult::read(&result).unwrap();
-    let mut csv = "angle_deg,te_um_200Nm\n".to_owned();
-    for (angle, te) in read.angle_rad.iter().zip(read.curve(&read.te_m, 0)) {
-        csv += &format!("{},{}\n", angle.to_degrees() * 23.0 / 47.0, 1e6 * te);
-    }
-    let folder = bench.desk.path("record");
-    std::fs::create_dir(&folder).unwrap();
-    std::fs::write(folder.join("data.csv"), csv).unwrap();
-    let toml = "title = \"itself\"\nkind = \"computed\"\nsource = \"this program\"\nangle_origin = \"pitch point\"\nshaft = \"gear_2\"\n";
-    std::fs::write(folder.join("record.toml"), toml).unwrap();
+    let (folder, toml) = bench.record(&result);
     let json = succeeds(&["compare", argument(&result), argument(&folder), "--json"]).json();
     let comparison = &json["comparisons"][0];
     assert!(
@@ -144,5 +150,104 @@ fn compare_takes_a_record_of_the_wheels_revolution() {
         &gearmesh(&["compare", argument(&short), argument(&folder)]),
         2,
         &["record.toml:5:9", "gear_3", "gear_1"],
+    );
+}
+
+/// A slow run in time of the same pair against its positions at rest: the angle between both is found, and with it the transmission error is the same.
+#[test]
+fn a_run_in_time_is_compared_with_positions_at_rest() {
+    let bench = Bench::new();
+    let at_rest = bench.result("drilled", 47);
+    let (folder, toml) = bench.record(&at_rest);
+    let scene = bench.desk.file("time.toml", scene_in_time(0.95));
+    let result = bench.desk.path("time.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result), "--json"]);
+    let words = ["compare", argument(&result), argument(&folder)];
+    let with = |further: &[&str]| gearmesh(&[words.as_slice(), further].concat());
+    refused(
+        &with(&[]),
+        2,
+        &[
+            "nothing says which columns",
+            "--column HEAD=COLUMN",
+            "te_um_200Nm",
+        ],
+    );
+    let column = "te_um_200Nm=elements/mesh/transmission_error_m";
+    for (further, parts) in [
+        (
+            &["--column", "te_um_200Nm=elements/mesh/te_m"][..],
+            &[
+                "no column `elements/mesh/te_m`",
+                "elements/mesh/transmission_error_m",
+            ][..],
+        ),
+        (
+            &["--column", "te_um_100Nm=elements/mesh/transmission_error_m"],
+            &["data.csv of the record has no column `te_um_100Nm`"],
+        ),
+        (
+            &["--column", "te_um_200Nm=bodies/wheel/x_m"],
+            &[
+                "`bodies/wheel/x_m` is no channel of a gear mesh",
+                "the meshes are: mesh",
+            ],
+        ),
+        (
+            &["--column", "te_um_200Nm=elements/mesh/normal_force_right_N"],
+            &["is in `N`; `te_um_200Nm` of the record needs m"],
+        ),
+        (
+            &["--column", column, "--from-s", "0.7"],
+            &["revolutions of `wheel`", "run.end_s"],
+        ),
+        (
+            &["--column", column, "--from-s", "5"],
+            &["--from-s: found 5, allowed is 0 to below 0.95"],
+        ),
+    ] {
+        refused(&with(further), 2, parts);
+    }
+    refused(
+        &gearmesh(&[
+            "compare",
+            argument(&at_rest),
+            argument(&folder),
+            "--column",
+            column,
+        ]),
+        2,
+        &["--column is for results of multibody scenes"],
+    );
+    let compared = |further: &[&str]| {
+        let answer = with(&[further, &["--json"]].concat());
+        assert_eq!(answer.code, Some(0), "{answer:#?}");
+        answer.json()["comparisons"][0].clone()
+    };
+    let as_it_is = compared(&["--column", column]);
+    let offset = number(&as_it_is["best_offset_rad"]);
+    assert!(offset.abs() > 1e-3, "{as_it_is}");
+    // The record names its column, the start is that which was reported.
+    let named = format!("{toml}[columns]\nte_um_200Nm = \"elements/mesh/transmission_error_m\"\n");
+    std::fs::write(folder.join("record.toml"), named).unwrap();
+    let shifted = compared(&["--start-angle-deg", &offset.to_degrees().to_string()]);
+    for (what, tolerance) in [("correlation", 0.02), ("best_offset_correlation", 0.02)] {
+        assert!(number(&shifted[what]) > 1.0 - tolerance, "{shifted}");
+    }
+    assert!(
+        number(&shifted["best_offset_rad"]).abs() < 1e-3,
+        "{shifted}"
+    );
+    assert!(number(&as_it_is["correlation"]) < number(&shifted["correlation"]));
+    let mean = &shifted["mean"];
+    assert!(
+        (number(&mean["ours"]) / number(&mean["reference"]) - 1.0).abs() < 0.01,
+        "{mean}"
+    );
+    let mesh = &shifted["harmonics"][0];
+    assert_eq!(number(&mesh["order"]), 47.0);
+    assert!(
+        (number(&mesh["ours"]) / number(&mesh["reference"]) - 1.0).abs() < 0.15,
+        "{mesh}"
     );
 }

@@ -108,9 +108,28 @@ centre_distance_mm = 105.0
 [mesh]
 model = "hybrid"
 local = "weber-banaschek"
+path = "line-of-action"
 [run]
 torques_Nm = [200.0]
 {run}
 {further}"#
+    )
+}
+
+/// The pinion drives the drilled wheel in time, slowly enough to be near rest; right flanks.
+pub fn scene_in_time(end_s: f64) -> String {
+    let gear = |name: &str, model: &str, x_mm: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\ngear = \"{model}.h5\"\nmass_kg = 1.0\ninertia_kg_m2 = [1e-3, 1e-3, 2e-3]\nposition_mm = [{x_mm:?}, 0, 0]\n\
+             [[joint]]\nname = \"axle of {name}\"\nkind = \"revolute\"\nbody_2 = \"{name}\"\n"
+        )
+    };
+    format!(
+        "title = \"23 and 47 in time\"\n[run]\nkind = \"transient\"\nend_s = {end_s:?}\n[solver]\nstep_s = 4e-5\nstart = \"equilibrium\"\n\
+         [output]\ninterval_s = 2e-4\n{}{}[[motion]]\njoint = \"axle of pinion\"\nspeed_rpm = -300.0\n[[load]]\nbody = \"wheel\"\ntorque_Nm = -200.0\n\
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\nflanks = \"right\"\n\
+         path = \"line-of-action\"\ndamping = {{ kind = \"stiffness-proportional\", time_s = 5e-5, full_depth_um = 1.0 }}\n",
+        gear("pinion", "pinion", 0.0),
+        gear("wheel", "drilled", 105.0)
     )
 }
