@@ -410,7 +410,7 @@ mod tests {
             .unwrap()
             .to_string();
         assert!(
-            error.contains("0.78 revolutions of `wheel`") && error.contains("run.end_s"),
+            error.contains("0.79 revolutions of `wheel`") && error.contains("run.end_s"),
             "{error}"
         );
         let coarse: Vec<f64> = turns.iter().map(|a| 1000.0 * a).collect();
