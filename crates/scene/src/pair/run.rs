@@ -5,6 +5,7 @@ use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
+use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
@@ -61,6 +62,8 @@ pub struct LoadedScene {
     pub spreads: [AxialSpread; 2],
     /// Gauges to read: gear (1 or 2) and index in the model.
     pub gauges: Vec<(usize, usize)>,
+    /// After how many pitches what repeats.
+    pub periods: PairPeriods,
     /// What is judged after the run.
     pub ratings: Vec<PairRating>,
 }
@@ -155,6 +158,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         return Err(scene.document.error("pair.axial_offset_mm", problem).into());
     }
     let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
+    let periods = PairPeriods::of([&gear_1, &gear_2]);
     let lines = ContactLines {
         pair,
         extension,
@@ -169,6 +173,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         layout,
         spreads,
         gauges,
+        periods,
         ratings,
     })
 }
@@ -190,13 +195,7 @@ impl LoadedScene {
 
     /// What will be computed.
     pub fn plan(&self) -> Plan {
-        Plan::new(
-            &self.scene,
-            &self.lines,
-            [&self.models[0], &self.models[1]],
-            &self.layout,
-            &self.ratings,
-        )
+        Plan::new(self)
     }
 
     /// Driver angles of the scene \[rad\].
@@ -340,6 +339,8 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
         pitches: scene.pitches,
+        contact_coverage: loaded.contact_coverage(),
+        proposal: loaded.proposal(&loaded.gauges),
         torque_nm: scene.torques_nm.clone(),
         te_m: flatten(|c| &c.te),
         unloaded_m: curves
@@ -491,6 +492,7 @@ pub fn strain(
                 gear,
                 name: rows.name.clone(),
                 error_estimate_relative: rows.error_estimate_relative,
+                coverage: loaded.gauge_coverage(gear, index),
                 method_1: readings.iter().map(|s| s.method_1).collect(),
                 method_2: readings.iter().map(|s| s.method_2).collect(),
             })
