@@ -149,14 +149,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     };
     let ratings = rated.ratings()?;
     let layout = SliceLayout::of_models([&models[0], &models[1]], scene.axial_offset_m);
-    if layout.reference.width_m <= 0.0 {
-        let [b1, b2] = layout.face_widths_m.map(|width| 1e3 * width);
-        let problem = format!(
-            "faces of {b1} and {b2} mm do not overlap at that offset; allowed is less than {} either way",
-            0.5 * (b1 + b2)
-        );
-        return Err(scene.document.error("pair.axial_offset_mm", problem).into());
-    }
+    (layout.check()).map_err(|e| scene.document.error("pair.axial_offset_mm", e))?;
     let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
     let periods = PairPeriods::of([&gear_1, &gear_2]);
     let lines = ContactLines {
