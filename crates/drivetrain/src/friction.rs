@@ -5,8 +5,7 @@
 //! μ runs by STEP from −μ_s at −v_s to μ_s at v_s, then to μ_d at v_d; odd in v
 //! ```
 //!
-//! The contact stands at σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis and at −(σ r_b2 w⊥ + r_b2 ξ₂ w) from gear 2's, the gap between; P is halfway.
-//! So v = k·(u̇, ω) and the load is T k with
+//! The contact of tooth k₁ stands at P = σ r_b1 w⊥ + r_b1 ξ₁ w from gear 1's axis, so that v = k·(u̇, ω) and the load is T k with
 //!
 //! ```text
 //! k = (w⊥, (P − u) × w⊥),   ∂k: dω = w⊥·dd/L,   dw⊥ = −w dω,   dP = r_b1 ξ₁ w⊥ dω
@@ -113,21 +112,17 @@ pub(crate) struct SlidingAt<'a> {
     pub plane: &'a SlicePlane,
     /// +1 for right flanks, −1 for left ones.
     pub sigma: f64,
-    /// Of gear 1 and gear 2.
-    pub base_radii_m: [f64; 2],
-    pub roll_rad: [f64; 2],
+    /// Of gear 1, on whose flank the contact is taken.
+    pub base_radius_m: f64,
+    pub roll_rad: f64,
 }
 
 impl SlidingAt<'_> {
     /// P − u.
     fn arm(&self) -> Vector3<f64> {
         let (frame, plane) = (self.frame, self.plane);
-        let [r1, r2] = self.base_radii_m;
-        let [xi_1, xi_2] = self.roll_rad;
-        let along = |r: f64, xi: f64| r * (self.sigma * plane.across + xi * plane.normal);
-        let from_1 = plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + along(r1, xi_1);
-        let from_2 = plane.axis_heights_m[1] * frame.axis_2 - along(r2, xi_2);
-        0.5 * (from_1 + from_2)
+        let along = self.sigma * plane.across + self.roll_rad * plane.normal;
+        plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + self.base_radius_m * along
     }
 
     /// The sliding at rates (u̇, ω).

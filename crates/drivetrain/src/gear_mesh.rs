@@ -297,7 +297,7 @@ impl GearMesh {
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
-        let base_radii_m = [0, 1].map(|i: usize| self.kinematics.gears()[i].base_radius_m);
+        let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
         self.kinematics.locate(pose, &mut self.at)?;
         for side in &mut self.sides {
             let rigid = side.modes.iter().all(Option::is_none);
@@ -335,7 +335,7 @@ impl GearMesh {
                 loads: &side.loads,
                 flank: side.flank,
                 kinematics: &self.kinematics,
-                base_radii_m,
+                base_radius_1_m,
                 friction: self.friction,
                 modal_rates: modal.rates,
             };
@@ -366,7 +366,7 @@ struct Assembly<'a> {
     loads: &'a TeethLoads,
     flank: FlankSide,
     kinematics: &'a MeshKinematics,
-    base_radii_m: [f64; 2],
+    base_radius_1_m: f64,
     friction: Option<Friction>,
     modal_rates: [&'a [f64]; 2],
 }
@@ -399,8 +399,8 @@ impl Assembly<'_> {
                     frame,
                     plane,
                     sigma,
-                    base_radii_m: self.base_radii_m,
-                    roll_rad: found.section(contact).touching_roll_rad,
+                    base_radius_m: self.base_radius_1_m,
+                    roll_rad: found.section(contact).touching_roll_rad[0],
                 };
                 let sliding = at.sliding(&self.rates);
                 let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);

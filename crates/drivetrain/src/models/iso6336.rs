@@ -192,19 +192,6 @@ impl MeshSpring {
         Ok(self)
     }
 
-    /// Roll angle on gear 1 at whose phase the curves are taken, and its derivatives by both roll angles: halfway between that of gear 1 and that which
-    /// gear 2's means where the flanks touch, so that neither gear is the first.
-    fn phase_rad(&self, flanks: &FlankContacts, [roll_1, roll_2]: [f64; 2]) -> (f64, [f64; 2]) {
-        let Some(frame) = &flanks.frame else {
-            return (roll_1, [1.0, 0.0]);
-        };
-        let [r1, r2] = frame.base_radii_m;
-        let middle = self.middle_roll_rad;
-        let of_2 = -0.5 * r2 / r1;
-        let phase = middle + 0.5 * (roll_1 - middle) + of_2 * (roll_2 - middle);
-        (phase, [0.5, of_2])
-    }
-
     fn at(&self, roll_1_rad: f64) -> SpringAt {
         let stiffness = self.stiffness_n_per_m.at(roll_1_rad);
         let touch_m = self.operating.as_ref().map_or((0.0, 0.0), |point| {
@@ -229,7 +216,11 @@ impl TeethModel for MeshSpring {
             let beyond = [0, 1].map(|i| section.roll_rad[i] - section.touching_roll_rad[i]);
             beyond.iter().map(|rad| rad.max(0.0)).sum()
         };
-        let from_middle = |section: &Section| (section.roll_rad[0] - self.middle_roll_rad).abs();
+        let [r1, r2] = (flanks.frame.as_ref()).map_or([1.0, 1.0], |frame| frame.base_radii_m);
+        let from_middle = |section: &Section| {
+            let [of_1, of_2] = section.roll_rad.map(|roll| roll - self.middle_roll_rad);
+            (r1 * of_1 - r2 * of_2).abs()
+        };
         let order = |a: &Section, b: &Section| {
             let ends = off_path(a).total_cmp(&off_path(b));
             ends.then(from_middle(a).total_cmp(&from_middle(b)))
@@ -244,8 +235,7 @@ impl TeethModel for MeshSpring {
             };
             let ahead = self.ahead_rad.get(slice).copied().unwrap_or(0.0);
             let section = flanks.section(contact);
-            let (phase_rad, by_roll) = self.phase_rad(flanks, section.roll_rad);
-            let spring = self.at(phase_rad - ahead);
+            let spring = self.at(section.roll_rad[0] - ahead);
             let depth = -contact.gap_m - spring.touch_m.0;
             if depth > 0.0 {
                 let (stiffness, slope) = spring.stiffness;
@@ -256,10 +246,8 @@ impl TeethModel for MeshSpring {
                 loads.normal_n[i] = force;
                 loads.stiffness_n_per_m[i * n + i] = each;
                 loads.stored_j += stored;
-                let by_phase = force * spring.touch_m.1 - 0.5 * each_slope * depth * depth;
-                for (gear, rate) in by_roll.into_iter().enumerate() {
-                    loads.energy_by_roll[contact.section][gear] += by_phase * rate;
-                }
+                loads.energy_by_roll[contact.section][0] +=
+                    force * spring.touch_m.1 - 0.5 * each_slope * depth * depth;
                 loads.energy_by_share[contact.section] -= stored / section.share;
             }
         }

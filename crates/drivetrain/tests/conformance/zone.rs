@@ -131,6 +131,10 @@ fn the_force_stands_in_the_middle_of_the_overlap() {
         let moment: Vector3<f64> = load.fixed_rows::<3>(3).into();
         let across = Vector3::new(force[0], force[1], 0.0);
         // Moment about gear 2's origin: z e_z × F + …
+        // What the shrinking overlap pushes along the axes acts at the pitch point.
+        let [r1, r2] = [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m];
+        let pitch_point = -r2 / (r1 + r2) * Vector3::new(at.displacement_m[0], at.displacement_m[1], 0.0);
+        let moment = moment - pitch_point.cross(&(force[2] * Vector3::z()));
         let about = moment - moment[2] * Vector3::z();
         let height = about.dot(&Vector3::z().cross(&across)) / across.norm_squared() + displacement;
         assert!((height - 0.5 * (low + high)).abs() < 1e-9, "{displacement}: {height}");
@@ -145,13 +149,14 @@ fn the_force_stands_in_the_middle_of_the_overlap() {
 #[test]
 fn a_revolution_of_tilted_gears_makes_no_energy() {
     for pair in pairs() {
-        for (name, tolerance) in [("iso6336", 1e-8), ("impact", 2e-3), ("analytic", 2e-3)] {
+        for (name, tolerance) in [("iso6336", 1e-6), ("impact", 5e-4), ("analytic", 5e-4)] {
             let mut mesh = mesh(name, &pair, kinematics(&pair));
-            let steps = 40 * pair.gear_1.teeth;
+            let steps = 160 * pair.gear_1.teeth;
             let tilt = Vector3::new(3.5e-4, -2e-4, 0.0);
             let pose_at = |theta: f64| {
                 let phi = angles(&pair, FlankSide::Right, theta, -15e-6);
-                pose(&pair, phi, Vector3::new(2e-6, 3e-6, 2e-4), tilt)
+                let screwed = [phi[0], phi[1] + screw_rad(&pair, 2e-4)];
+                pose(&pair, screwed, Vector3::new(2e-6, 3e-6, 2e-4), tilt)
             };
             let step = std::f64::consts::TAU / steps as f64;
             let (mut work, mut most): (f64, f64) = (0.0, 0.0);
@@ -162,13 +167,15 @@ fn a_revolution_of_tilted_gears_makes_no_energy() {
                 let (before, after) = (pose_at(theta - h), pose_at(theta + h));
                 let moved = (after.displacement_m - before.displacement_m) / (2.0 * h);
                 let turn = after.rotation * before.rotation.transpose();
-                let turned = nalgebra::Rotation3::from_matrix(&turn).scaled_axis() / (2.0 * h);
+                let twice = turn - turn.transpose();
+                let turned = Vector3::new(twice[(2, 1)], twice[(0, 2)], twice[(1, 0)]) / (4.0 * h);
                 let force: Vector3<f64> = load.load.fixed_rows::<3>(0).into();
                 let moment: Vector3<f64> = load.load.fixed_rows::<3>(3).into();
                 work += step * (force.dot(&moved) + moment.dot(&turned));
                 most = most.max(load.power.stored_j);
             }
             let a_pitch = work.abs() / pair.gear_1.teeth as f64;
+            println!("{name} {} {a_pitch:e} {most:e}", pair.is_helical());
             assert!(a_pitch < tolerance * most, "{name}: {a_pitch:e} J of {most:e} J");
         }
     }

@@ -121,14 +121,15 @@ fn the_gap_is_that_of_the_helicoids() {
             let world = about(Vector3::z(), phi[0]);
             let along = world * plane.normal;
             let transverse = contact.gap_m / cos;
-            assert!((apart - transverse * along).norm() < 1e-14, "{apart}");
+            let off = (apart - transverse * along).norm();
+            assert!(off < 1e-14, "{apart} {off:e}");
             let [x, y, z] = (pair.gear_2).flank_normal(side, section.roll_rad[1]);
             let normal = turned(1, &pair.gear_2) * Vector3::new(x, y, z);
             let force: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
             assert!((normal - world * force).norm() < 1e-12, "{normal}");
-            // The wrench of that normal through the point on gear 2.
+            // The wrench of that normal through the point halfway between the flanks.
             let moment: Vector3<f64> = contact.gradient.fixed_rows::<3>(3).into();
-            let arm = (point_2 - centre_2).cross(&normal);
+            let arm = (point_2 - 0.5 * apart - centre_2).cross(&normal);
             assert!((arm - world * moment).norm() < 1e-12, "{arm}");
         }
         assert!(points >= SLICES, "{points}");

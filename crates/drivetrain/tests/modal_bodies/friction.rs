@@ -170,7 +170,7 @@ fn modal_gears_with_friction_at_rest_are_bent_reduced_gears() {
 }
 
 /// Where the whole gear turns as one mode, φ = σ r_b and φ_t = σ r_b ξ on its flanks, friction's force on the mode is its moment about
-/// the axis, but for half the deflection over the radius: friction acts halfway between the two flanks.
+/// the axis: exactly on gear 1, on whose flank the contact lies; on gear 2 but for the deflection over the radius.
 #[test]
 fn friction_on_a_turning_mode_is_its_moment() {
     for pair in pairs() {
@@ -221,7 +221,7 @@ fn friction_on_a_turning_mode_is_its_moment() {
             };
             let (moments, modal) = of(&mut smooth);
             let (moments_rough, modal_rough) = of(&mut rough);
-            for (gear, tolerance) in [(0, 1e-3), (1, 1e-3)] {
+            for (gear, tolerance) in [(0, 1e-10), (1, 2e-3)] {
                 let moment = moments_rough[gear] - moments[gear];
                 let on_mode = modal_rough[gear] - modal[gear];
                 assert!(moment.abs() > 1e-3 * moments[gear].abs());

@@ -365,7 +365,7 @@ fn the_drive_turns_round_with_friction() {
             assert!(info.energy.largest_error_j < 3e-4 * info.energy.dissipated_j);
             (info.energy.dissipated_j, samples.last().unwrap().te_m)
         };
-        let found = [16e-6, 8e-6, 4e-6, 2e-6].map(run);
+        let found = [8e-6, 4e-6, 2e-6, 1e-6].map(run);
         converges(&format!("{name} loss"), &found.map(|f| f.0), 1e-5, 1.0);
         converges(&format!("{name} end"), &found.map(|f| f.1), 2e-4, 1.5);
     }

@@ -66,7 +66,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
     let omega = (MEAN / mass / delta).sqrt();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
-    let kinematics = MeshKinematics::new(gears, none, a, layout(1), PathEnds::Extended).unwrap();
+    let kinematics = MeshKinematics::new(gears, none, a, crate::mesh_common::layout(1), PathEnds::Extended).unwrap();
     let run = |x: f64, v: f64| {
         let scene = Scene {
             te_m: x - DEPTH,
