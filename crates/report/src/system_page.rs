@@ -59,13 +59,16 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
             .figure(
                 "energy error",
                 format!("{:.1e}", r.relative_energy_error().unwrap_or(f64::NAN)),
-                "relative",
+                "of the work done",
             );
     }
     for (name, hz) in mesh_frequencies(r)? {
         figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
     }
     let mut section = Section::new(r.head.title.clone());
+    if let Some(problem) = r.problem() {
+        section = section.push(Text::note(problem));
+    }
     if r.record.is_some() {
         section = section.push(figures);
     }

@@ -7,6 +7,7 @@
 //! | shafts | `shafts.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_effects.rs` |
 //! | speeds and angles that nobody states | `start.rs` |
+//! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
@@ -22,6 +23,8 @@ mod parts;
 mod ratings;
 mod shafts;
 mod start;
+mod stated_speeds;
+mod stiffness;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -142,6 +145,7 @@ impl LoadedSystem {
             &meshes,
             &mut parts.notes,
         );
+        stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
         // Gears have been turned: frames along their axes are the same, others follow.
         let joints = joints::place(&tables.joint, document, &bodies)?;
