@@ -1,15 +1,15 @@
-//! `gearmesh mesh`: a gear's mesh in any format that meshio writes.
+//! `gearmesh mesh`: a gear's mesh for other programs.
 
 use crate::arguments::MeshArguments;
 use crate::failure::Failure;
-use crate::{console, offline};
-use gearmesh_geometry::GearDefinition;
+use crate::{console, offline, output_name};
 use gearmesh_mesh::GearMesh;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
-    let gear = GearDefinition::read(&arguments.gear)?;
+    output_name::demand_mesh(&arguments.output)?;
+    let gear = offline::gear(&arguments.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "nodes and elements are");
     let mesh = GearMesh::new(&gear, &offline::python()?)
@@ -20,6 +20,7 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
         &gear,
         &mesh,
         offline::MeshFields::default(),
+        arguments.length_unit,
         &arguments.output,
     )?;
     let quality = mesh.quality;

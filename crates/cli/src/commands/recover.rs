@@ -1,9 +1,9 @@
 //! `gearmesh recover`: strain of all gauges of both models; the whole field on request.
 
-use crate::arguments::RecoverArguments;
+use crate::arguments::{LengthUnit, RecoverArguments};
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
-use crate::{console, console::StageBar};
+use crate::{console, console::StageBar, output_name};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
@@ -14,6 +14,10 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&a.output)?;
+    if let Some(path) = &a.field_output {
+        output_name::demand_mesh(path)?;
+    }
     let mut result = SceneResult::read(&a.result).map_err(Failure::input)?;
     let loaded = scene_of(&result, &a.result)?;
     let all: Vec<(usize, usize)> = (1..=2)
@@ -77,24 +81,24 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
             .iter()
             .map(|(s, torque, one, two)| {
                 json!({"gear": s.gear, "gauge": s.name, "torque_Nm": torque, "range_method_1": one, "range_method_2": two,
-                       "mesh_error_relative": s.error_estimate_relative})
+                       "mesh_error_relative": s.error_estimate()})
             })
             .collect();
         console::json(&json!({"rows": list, "seconds": result.seconds[1]}));
         return Ok(());
     }
     console::data(format!(
-        "{:>4} {:<18} {:>10} {:>18} {:>18} {:>12}",
-        "gear", "gauge", "torque N m", "range 1 ustrain", "range 2 ustrain", "mesh error %"
+        "{:>4} {:<18} {:>10} {:>18} {:>18} {:>14}",
+        "gear", "gauge", "torque N m", "range 1 ustrain", "range 2 ustrain", "mesh error"
     ));
     for (s, torque, one, two) in rows {
         console::data(format!(
-            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>12.2}",
+            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>14}",
             s.gear,
             s.name,
             one * 1e6,
             two * 1e6,
-            100.0 * s.error_estimate_relative
+            console::mesh_error(s.error_estimate())
         ));
     }
     console::data(format!(
@@ -170,7 +174,13 @@ fn field(
     let body = GearBody::new(&definition, &offline::python()?, &bar)?;
     bar.finish();
     let field = offline::field_of(loaded, result, &definition, &body, *case)?;
-    offline::export_mesh(&definition, &body.mesh, (&field).into(), output)?;
+    offline::export_mesh(
+        &definition,
+        &body.mesh,
+        (&field).into(),
+        LengthUnit::M,
+        output,
+    )?;
     console::note(format!(
         "{}: field of gear {} at {:.4} deg and {} N m",
         output.display(),

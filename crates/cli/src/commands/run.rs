@@ -4,6 +4,7 @@ use crate::arguments::RunArguments;
 use crate::commands::{ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
+use crate::output_name;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
 use gearmesh_scene::{SceneFile, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
@@ -11,9 +12,14 @@ use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&arguments.output)?;
     let scene = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => scene,
-        SceneFile::System(scene) => return run_system::run(scene.load()?, arguments),
+        SceneFile::System(scene) => {
+            let loaded = scene.load()?;
+            console::unit_slips(loaded.unit_slips());
+            return run_system::run(loaded, arguments);
+        }
     };
     if arguments.restart {
         return Err(Failure::input(
@@ -21,6 +27,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         ));
     }
     let loaded = load(*scene)?;
+    loaded.scene.notes.iter().for_each(console::note);
+    console::unit_slips(loaded.unit_slips());
     let result = run_scene(&loaded, &|done, total| {
         console::note(format!("torque {done} of {total} solved"))
     })?;

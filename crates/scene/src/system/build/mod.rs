@@ -5,7 +5,7 @@
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts | `shafts.rs` |
-//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_effects.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs` |
 //! | speeds and angles that nobody states | `start.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
@@ -19,6 +19,8 @@ mod joints;
 mod lump;
 mod mesh_effects;
 mod mesh_model;
+mod mesh_stiffness;
+mod pair_stiffness;
 mod parts;
 mod ratings;
 mod shafts;
@@ -92,6 +94,20 @@ impl SystemScene {
 }
 
 impl LoadedSystem {
+    /// Numbers of the scene and of its gears' files that look like those of another unit.
+    #[must_use]
+    pub fn unit_slips(&self) -> Vec<InputError> {
+        let mut slips = self.scene.document.unit_slips();
+        let mut seen = Vec::new();
+        for gear in self.gears.iter().flatten() {
+            if !seen.contains(&&gear.file) {
+                seen.push(&gear.file);
+                slips.extend(gear.unit_slips());
+            }
+        }
+        slips
+    }
+
     /// The system of the scene.
     ///
     /// # Errors

@@ -1,9 +1,17 @@
 //! `[[gear_mesh]]`: two gears, the model of their teeth and what else is computed.
 
+use std::path::PathBuf;
+
+use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::Damping;
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::flank_errors::{CrackTable, FlankErrorTable};
+use super::friction::FrictionTable;
+use super::{MM, UM};
 
 /// `[[gear_mesh]]` as it stands in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -28,13 +36,15 @@ pub struct GearMeshTable {
     pub slices: Option<usize>,
     /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
     pub stiffness_N_per_mm_e: Option<f64>,
-    /// `impact`: e, at least 1.
+    /// `impact`: e, at least 1; with `stiffness` that of the pair's curve where not given.
     pub exponent: Option<f64>,
     /// `impact`: largest damping, none where not given.
     pub damping_N_s_per_mm: Option<f64>,
     /// `impact` with damping: depth from which it acts in full.
     pub full_damping_depth_um: Option<f64>,
-    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where not given.
+    /// `impact`, `iso6336`: the stiffness of the pair itself, from its static curve at one torque, instead of a stated one.
+    pub stiffness: Option<PairStiffnessTable>,
+    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor `stiffness` is given.
     pub stiffness_N_per_mm_um: Option<f64>,
     /// `iso6336` without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
     pub line_load_N_per_mm: Option<f64>,
@@ -50,7 +60,7 @@ pub struct GearMeshTable {
     /// Friction; none where not given. Not with `kinematic`.
     pub friction: Option<FrictionTable>,
     /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336` know no flanks: with them
-    /// it must be set to false for gears that have microgeometry.
+    /// it must be set to false for gears that have microgeometry, but for `iso6336` with `stiffness`, whose curve holds it.
     pub microgeometry: Option<bool>,
     /// Errors and faults of gear 1. Not with `kinematic` and `iso6336`.
     #[serde(default)]
@@ -68,6 +78,22 @@ pub struct GearMeshTable {
     pub eccentricity_1: Option<EccentricityTable>,
     /// Place of gear 2 on its body.
     pub eccentricity_2: Option<EccentricityTable>,
+}
+
+/// `stiffness`: the pair's own static curve.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct PairStiffnessTable {
+    /// Result (.h5) of a `[pair]` scene of these gears, relative to the scene. Where not given, the curve is computed, as the models of the two
+    /// bodies' reduced gears have it.
+    pub from: Option<PathBuf>,
+    /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that scene's torques.
+    pub torque_Nm: f64,
+    /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
+    pub harmonics: Option<usize>,
+    /// Without `from`: local contact of the curve; "calibrated" where not given.
+    pub local: Option<LocalWord>,
 }
 
 /// `gear_mesh.model`, cheapest first.
@@ -124,7 +150,7 @@ pub enum PathWord {
     Extended,
 }
 
-/// Local contact of `hybrid`.
+/// Local contact of reduced gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocalWord {
@@ -135,6 +161,17 @@ pub enum LocalWord {
     /// By the model's plane-strain calibration.
     #[default]
     Calibrated,
+}
+
+impl LocalWord {
+    /// The local contact that it names.
+    pub(crate) fn local_contact(self) -> LocalContact {
+        match self {
+            Self::None => LocalContact::None,
+            Self::WeberBanaschek => LocalContact::WeberBanaschek,
+            Self::Calibrated => LocalContact::Calibrated,
+        }
+    }
 }
 
 /// `damping`.
@@ -158,21 +195,37 @@ pub enum DampingTable {
     },
 }
 
-/// `friction`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(tag = "model", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum FrictionTable {
-    /// Coulomb, regularised in the sliding velocity.
-    Coulomb {
-        /// Coefficient at `static_speed_mm_per_s`; that of sliding where not given.
-        static_coefficient: Option<f64>,
-        /// Coefficient from `dynamic_speed_mm_per_s` on.
-        dynamic_coefficient: f64,
-        /// Sliding speed of the static coefficient; 10 where not given.
-        static_speed_mm_per_s: Option<f64>,
-        /// Sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
-        dynamic_speed_mm_per_s: Option<f64>,
-    },
+impl DampingTable {
+    /// The damping in SI units; `keys` are those of the mesh.
+    ///
+    /// # Errors
+    /// [`InputError`] for a number out of its range.
+    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<Damping, InputError> {
+        let (name, value, depth) = match self {
+            Self::StiffnessProportional {
+                time_s,
+                full_depth_um,
+            } => ("time_s", *time_s, *full_depth_um),
+            Self::Viscous {
+                damping_N_s_per_mm,
+                full_depth_um,
+            } => ("damping_N_s_per_mm", *damping_N_s_per_mm, *full_depth_um),
+        };
+        let at = |name: &str| format!("damping.{name}");
+        keys.require(&at(name), value, value >= 0.0, "0 or more")?;
+        keys.require(&at("full_depth_um"), depth, depth > 0.0, "more than 0")?;
+        let full_depth_m = UM * depth;
+        Ok(match self {
+            Self::StiffnessProportional { time_s, .. } => Damping::StiffnessProportional {
+                time_s: *time_s,
+                full_depth_m,
+            },
+            Self::Viscous { .. } => Damping::Viscous {
+                coefficient_n_s_per_m: value / MM,
+                full_depth_m,
+            },
+        })
+    }
 }
 
 /// `eccentricity_1` and `eccentricity_2`.
