@@ -120,7 +120,9 @@ impl Convergence {
         }
         let allowed = match step.stated {
             Some(stated) => self.moved(step).map(|size| stated * size),
-            None => self.own_error(step).map(|error| self.share_of_error * error),
+            None => self
+                .own_error(step)
+                .map(|error| self.share_of_error * error),
         };
         let (mut ratio, mut largest, mut above_floor) = (0.0_f64, 0, 0.0_f64);
         for (kind, (correction, dof)) in most.into_iter().enumerate() {

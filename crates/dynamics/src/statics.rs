@@ -18,7 +18,7 @@ use crate::error::DynamicsError;
 use crate::rotation::skew;
 use crate::state::State;
 use crate::system::System;
-use crate::unbalanced::most_unbalanced;
+use crate::unbalanced::{most_unbalanced, pushing};
 
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;
@@ -26,8 +26,12 @@ const FREE: f64 = 1e-11;
 /// Share of the largest stiffness, scaled by the masses, that counts as rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Load along a free direction, as a share of all loads, that counts as balanced.
+/// Load along a free direction, as a share of all that pushes along it, that counts as balanced.
 const BALANCED: f64 = 1e-9;
+
+/// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small: rounding, over a stiffness that is
+/// hardly there.
+const AT_REST: f64 = 1e-12;
 
 /// Longest correction of one iteration: radians, and shares of the system's size.
 const LONGEST: f64 = 0.2;
@@ -96,7 +100,7 @@ struct Correction {
     values: Vec<f64>,
     /// Free motions, scaled to a largest entry of 1.
     free: Vec<Vec<f64>>,
-    /// Load along each over the sum of all loads' magnitudes along it.
+    /// Load along each over the sum of all that pushes along it, whatever its sign.
     share: Vec<f64>,
     /// Load along each.
     load: Vec<f64>,
@@ -208,7 +212,7 @@ fn settle(
     params: &StaticParams,
     equations: &mut Equations,
 ) -> Result<(), DynamicsError> {
-    let (n, m) = (system.degrees_of_freedom(), system.equations());
+    let n = system.degrees_of_freedom();
     let rest = vec![0.0; n];
     let size = system.size_m();
     let Equilibrium {
@@ -227,8 +231,10 @@ fn settle(
             load_factor,
         };
         system.evaluate(at, Detail::Tangents, equations)?;
+        let pushing = pushing(system, equations, lambda);
+        let at_rest = balances(system, equations, &pushing, params.tolerance * size);
         moments_in_world(system, equations);
-        let mut correction = correct(system, equations, m)?;
+        let mut correction = correct(system, equations, &pushing)?;
         let unbalanced = (0..correction.free.len())
             .filter(|&k| correction.share[k] > BALANCED)
             .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));
@@ -251,7 +257,8 @@ fn settle(
             push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
         }
         let (ratio, largest) = measure(system, &correction.values[..n], size);
-        if last && ratio > params.tolerance || !ratio.is_finite() {
+        let settled = unbalanced.is_none() && (at_rest || ratio <= params.tolerance);
+        if last && !settled || !ratio.is_finite() {
             return Err(DynamicsError::NoEquilibrium {
                 iterations: iteration,
                 load_factor,
@@ -259,6 +266,16 @@ fn settle(
                 largest: system.describe(largest),
                 unbalanced: most_unbalanced(system, equations, lambda),
             });
+        }
+        if settled {
+            *held = correction
+                .free
+                .iter()
+                .map(|motion| in_words(system, motion))
+                .collect();
+            if at_rest {
+                return Ok(());
+            }
         }
         let walk = Walk {
             from: state.clone(),
@@ -284,12 +301,7 @@ fn settle(
                 break;
             }
         }
-        if unbalanced.is_none() && ratio <= params.tolerance {
-            *held = correction
-                .free
-                .iter()
-                .map(|motion| in_words(system, motion))
-                .collect();
+        if settled {
             return Ok(());
         }
     }
@@ -306,7 +318,19 @@ fn moments_in_world(system: &System, equations: &mut Equations) {
     }
 }
 
-fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correction, DynamicsError> {
+/// Whether forces balance to rounding everywhere and joints hold.
+fn balances(system: &System, equations: &Equations, pushing: &[f64], holds: f64) -> bool {
+    let mut forces = equations.residual.iter().zip(pushing);
+    let mut kept = system.kept.iter();
+    forces.all(|(left, all)| left.abs() <= AT_REST * all)
+        && kept.all(|&equation| equations.violation[equation].abs() <= holds)
+}
+
+fn correct(
+    system: &System,
+    equations: &Equations,
+    pushing: &[f64],
+) -> Result<Correction, DynamicsError> {
     let n = equations.residual.len();
     let kept = &system.kept;
     let total = n + kept.len();
@@ -330,7 +354,6 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
         (false, true) => equations.gradient.get(j, kept[i - n]),
         (false, false) => 0.0,
     };
-    debug_assert!(kept.len() <= m);
     // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
     let mut scale = mass.clone();
     scale.resize(total, 1.0);
@@ -391,10 +414,11 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
             .zip(&equations.residual)
             .map(|(x, r)| x * r)
             .sum();
-        let all: f64 = (0..total).map(|i| right(i).abs()).sum();
+        let pushes = motion.iter().zip(pushing);
+        let all: f64 = pushes.map(|(x, push)| (x * push).abs()).sum();
         correction
             .share
-            .push(if all > 0.0 { along.abs() / all } else { 0.0 });
+            .push(if all > 0.0 { load.abs() / all } else { 0.0 });
         correction.load.push(load);
         correction.free.push(motion);
     }

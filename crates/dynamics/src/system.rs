@@ -49,6 +49,16 @@ impl Slot {
         })
     }
 
+    /// Adds the magnitudes of its last forces to those of the system.
+    pub(crate) fn add_magnitudes(&self, sums: &mut [f64]) {
+        for place in &self.places {
+            let own = &self.loads.force[place.local..][..place.count];
+            for (sum, force) in sums[place.system..].iter_mut().zip(own) {
+                *sum += force.abs();
+            }
+        }
+    }
+
     pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
         let (mut places, mut local) = (Vec::new(), 0);
         for &body in element.bodies() {
@@ -297,7 +307,9 @@ impl System {
             rate += (lambda * motion.rate).abs();
         }
         let moves = point.acceleration.iter().zip(&point.state.velocity);
-        let of_each = moves.zip(inverse_mass).map(|((a, v), inverse)| (a * v).abs() / inverse);
+        let of_each = moves
+            .zip(inverse_mass)
+            .map(|((a, v), inverse)| (a * v).abs() / inverse);
         rate + of_each.sum::<f64>()
     }
 

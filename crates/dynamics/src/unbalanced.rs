@@ -1,10 +1,26 @@
-//! Where the forces of a motion balance least, and who pushes there, in words.
+//! How much pushes on each degree of freedom, where forces balance least, and who pushes there, in words.
 
 use crate::equations::Equations;
 use crate::system::System;
 
 /// Joints and elements that are named.
 const NAMED: usize = 3;
+
+/// Sum of the magnitudes of all forces of elements and joints, and of what is left over, on each degree of freedom. The equations are those of the last evaluation, with
+/// tangents.
+pub(crate) fn pushing(system: &System, equations: &Equations, lambda: &[f64]) -> Vec<f64> {
+    let mut sums: Vec<f64> = equations.residual.iter().map(|r| r.abs()).collect();
+    for slot in &system.slots {
+        slot.add_magnitudes(&mut sums);
+    }
+    for (equation, lambda) in lambda.iter().enumerate() {
+        let column = equations.gradient.column(equation);
+        for (sum, b) in sums.iter_mut().zip(column) {
+            *sum += (lambda * b).abs();
+        }
+    }
+    sums
+}
 
 /// The degree of freedom with the largest unbalanced force in the measure of the masses (rᵢ²/mᵢ), and the joints and force elements with the
 /// largest forces on it. The equations are those of the last evaluation, with tangents.

@@ -57,7 +57,10 @@ fn angles_rates_and_reactions_converge_with_the_second_order() {
                 ..params(steps, rho_infinity)
             }));
             for (error, iterated) in found.iter().zip(iterated) {
-                assert!((error / iterated - 1.0).abs() < 0.1, "{found:?} {iterated:?}");
+                assert!(
+                    (error / iterated - 1.0).abs() < 0.1,
+                    "{found:?} {iterated:?}"
+                );
             }
             found
         });

@@ -86,7 +86,14 @@ fn finish(params: Params) -> (Vector3<f64>, RunInfo) {
 /// Second order with the defaults, and an iteration error ten times below the step's own.
 #[test]
 fn five_bars_pass_their_straight_position_with_the_second_order() {
-    assert_eq!(mechanism().redundant().iter().map(|r| r.equations).sum::<usize>(), 6);
+    assert_eq!(
+        mechanism()
+            .redundant()
+            .iter()
+            .map(|r| r.equations)
+            .sum::<usize>(),
+        6
+    );
     let angle = angle_at_end();
     let exact = Vector3::new(angle.cos(), angle.sin(), 0.0);
     let mut errors = Vec::new();
@@ -98,7 +105,9 @@ fn five_bars_pass_their_straight_position_with_the_second_order() {
         });
         let [error, of_iteration] = [found - exact, found - iterated].map(|x| x.norm());
         let iterations = [info, of_exact].map(|info| info.iterations as f64 / info.steps as f64);
-        println!("h {step_s}: {error:.3e} m, iteration {of_iteration:.3e} m, {iterations:?} corrections");
+        println!(
+            "h {step_s}: {error:.3e} m, iteration {of_iteration:.3e} m, {iterations:?} corrections"
+        );
         errors.push((error, of_iteration));
     }
     for (error, of_iteration) in &errors {

@@ -49,7 +49,10 @@ fn a_speed_across_its_joints_axis_is_refused() {
     let complaint = |kind, axis, cardan| {
         let text = scene(kind, axis, cardan);
         let found = build(&text).err().map(|error| error.to_string());
-        let place = format!("scene.toml:{}: body.0.speed_rpm: ", line_of(&text, "speed_rpm"));
+        let place = format!(
+            "scene.toml:{}: body.0.speed_rpm: ",
+            line_of(&text, "speed_rpm")
+        );
         if let Some(found) = &found {
             assert!(found.starts_with(&place), "{found}");
         }
@@ -59,7 +62,12 @@ fn a_speed_across_its_joints_axis_is_refused() {
     let z = "axis = [0.0, 0.0, 1.0]\n";
     for (kind, axis, cardan, part) in [
         ("revolute", z, "[90.0, 0.0, 0.0]", "turns by 300.000000 rpm"),
-        ("cylindrical", "axis = [1.0, 0.0, 0.0]\n", upright, "joint `hinge` (cylindrical)"),
+        (
+            "cylindrical",
+            "axis = [1.0, 0.0, 0.0]\n",
+            upright,
+            "joint `hinge` (cylindrical)",
+        ),
         ("revolute", z, "[1.0, 0.0, 0.0]", "turns by 5.235722 rpm"),
         ("fixed", "", upright, "does not let it turn"),
         ("prismatic", "", upright, "does not let it turn"),
@@ -74,7 +82,11 @@ fn a_speed_across_its_joints_axis_is_refused() {
         ("revolute", z, "[0.05, 0.0, 0.0]"),
         ("spherical", "", "[90.0, 0.0, 0.0]"),
     ] {
-        assert_eq!(complaint(kind, axis, cardan), None, "{kind} {axis} {cardan}");
+        assert_eq!(
+            complaint(kind, axis, cardan),
+            None,
+            "{kind} {axis} {cardan}"
+        );
     }
 }
 

@@ -93,7 +93,11 @@ pub(super) fn add(
                 &[
                     ("radial_stiffness_N_per_mm", radial, PER_MM),
                     ("axial_stiffness_N_per_mm", axial, PER_MM),
-                    ("tilt_stiffness_Nm_per_rad", table.tilt_stiffness_Nm_per_rad, 1.0),
+                    (
+                        "tilt_stiffness_Nm_per_rad",
+                        table.tilt_stiffness_Nm_per_rad,
+                        1.0,
+                    ),
                 ],
             )?;
             Ok(bearing(table).between(&table.name, pair(bodies, ends, &frame)))
