@@ -5,6 +5,7 @@
 //! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
+//! | teeth that are apart, or stand in each other | `nearest_flanks.rs`, `tooth_overlap.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
@@ -31,6 +32,7 @@ pub mod mesh_element;
 pub mod mesh_kinematics;
 pub mod modal_loads;
 pub mod models;
+mod nearest_flanks;
 pub mod path_ends;
 pub mod pose;
 pub mod slice_plane;
@@ -38,6 +40,7 @@ pub mod step;
 pub mod strain_gauges;
 pub mod teeth_model;
 pub mod tooth_compliance;
+pub mod tooth_overlap;
 mod tooth_zero;
 
 pub use damping::{Damped, Damping};

@@ -3,9 +3,13 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod epicyclic;
+mod lost_meshes;
 mod shafts;
 mod shipped;
 mod start;
+#[path = "../system_runs/mod.rs"]
+mod system_runs;
 mod tables;
 
 use gearmesh_scene::system::BuiltSystem;
