@@ -45,16 +45,16 @@ def test_write_and_read_mesh(mesh_file):
     assert np.array_equal(mesh["point_fields"]["displacement"], np.sin(points) * 1e-6)
 
 
-# Relative to the size of the body. Nastran's 16-column fields hold 11 digits and more; the others write doubles whole.
+# Relative to the size of the body. Nastran's fields have 16 columns, CalculiX reads 20 of a number; the others write doubles whole.
 @pytest.mark.parametrize(
     ("extension", "tolerance", "left_out"),
     [
         (".vtu", 0.0, set()),
         (".vtk", 0.0, set()),
         (".msh", 0.0, set()),
-        (".inp", 0.0, {"displacement", "temperature"}),
-        (".bdf", 1e-10, {"bore", "last", "displacement", "temperature"}),
-        (".nas", 1e-10, {"bore", "last", "displacement", "temperature"}),
+        (".inp", 1e-13, {"displacement", "temperature"}),
+        (".bdf", 1e-10, {"displacement", "temperature"}),
+        (".nas", 1e-10, {"displacement", "temperature"}),
     ],
 )
 def test_roundtrip_through_format(mesh_file, tmp_path, extension, tolerance, left_out):
@@ -65,7 +65,8 @@ def test_roundtrip_through_format(mesh_file, tmp_path, extension, tolerance, lef
     mesh, back = gearmesh.read_mesh(mesh_file), gearmesh.read_mesh(back_file)
     assert np.array_equal(back["cells"]["hex8"], mesh["cells"]["hex8"])
     assert np.abs(back["points"] - mesh["points"]).max() <= tolerance * np.abs(mesh["points"]).max()
-    for name in set(mesh["point_sets"]) - left_out:
+    # Nastran's sets are looked at in test_exports.py; meshio does not read them.
+    for name in set() if extension in (".bdf", ".nas") else set(mesh["point_sets"]) - left_out:
         assert np.array_equal(back["point_sets"][name], mesh["point_sets"][name]), name
     for name in set(mesh["point_fields"]) - left_out:
         assert np.array_equal(back["point_fields"][name], mesh["point_fields"][name]), name
@@ -75,10 +76,14 @@ def test_roundtrip_through_format(mesh_file, tmp_path, extension, tolerance, lef
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(["block.h5", "back.h5", out.name])
 
 
-def test_two_files_of_one_format_arrive_together(mesh_file, tmp_path):
+def test_an_xdmf_file_stands_alone(mesh_file, tmp_path):
+    """Not with its numbers in out.h5, which may be a model's name and stays behind when the page is moved."""
+    (tmp_path / "out.h5").write_text("a model")
     assert gearmesh.export_mesh(mesh_file, tmp_path / "out.xdmf") == []
-    assert (tmp_path / "out.h5").exists()
-    gearmesh.import_mesh(tmp_path / "out.xdmf", tmp_path / "back.h5")
+    assert (tmp_path / "out.h5").read_text() == "a model"
+    (tmp_path / "moved").mkdir()
+    (tmp_path / "out.xdmf").rename(tmp_path / "moved/other.xdmf")
+    gearmesh.import_mesh(tmp_path / "moved/other.xdmf", tmp_path / "back.h5")
     assert np.array_equal(gearmesh.read_mesh(tmp_path / "back.h5")["points"], block()[0])
 
 
@@ -201,7 +206,7 @@ def test_hexahedra_and_wedges_go_through_formats(tmp_path, extension, quadratic)
     gearmesh.export_mesh(tmp_path / "in.h5", tmp_path / f"out{extension}")
     gearmesh.import_mesh(tmp_path / f"out{extension}", tmp_path / "back.h5")
     back = gearmesh.read_mesh(tmp_path / "back.h5")
-    assert np.array_equal(back["points"], mesh["points"])
+    assert np.allclose(back["points"], mesh["points"], rtol=1e-13, atol=0.0)
     for kind in kinds:
         assert np.array_equal(back["cells"][kind], mesh["cells"][kind])
     # Wedges numbered as VTK's own program does it, the lower triangle the other way round.

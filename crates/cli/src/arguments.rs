@@ -15,7 +15,7 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf, msh, ...)
+    /// Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus, CalculiX, Nastran
     Mesh(MeshArguments),
     /// Reduce a gear to its compliance at the flanks (the offline stage)
     Reduce(ReduceArguments),
@@ -50,12 +50,35 @@ pub enum Command {
 pub struct MeshArguments {
     /// Gear file
     pub gear: PathBuf,
-    /// Mesh file; its extension names the format
+    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu .xdmf .xmf
+    /// (ParaView)
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Unit of the coordinates in the file
+    #[arg(long, value_enum, default_value = "m")]
+    pub length_unit: LengthUnit,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// Unit of lengths in a mesh file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LengthUnit {
+    /// Metres.
+    M,
+    /// Millimetres.
+    Mm,
+}
+
+impl LengthUnit {
+    /// As the Python module calls it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::M => "m",
+            Self::Mm => "mm",
+        }
+    }
 }
 
 /// `gearmesh reduce`.
@@ -86,7 +109,7 @@ pub struct ModesArguments {
     /// All modes up to this frequency; instead of what the gear file says
     #[arg(long = "up-to-Hz")]
     pub up_to_Hz: Option<f64>,
-    /// Mesh file for the shapes, one point field a mode (vtu, ...)
+    /// Mesh file for the shapes, one point field a mode (.vtu, .msh, ...)
     #[arg(long)]
     pub shapes: Option<PathBuf>,
     /// Print figures as JSON

@@ -7,6 +7,7 @@ mod console;
 mod failure;
 mod interrupt;
 mod offline;
+mod output_name;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

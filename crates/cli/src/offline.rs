@@ -1,9 +1,10 @@
 //! The offline side as the commands use it: reading a gear, meshing, reducing, writing meshes, making fields.
 
+use crate::arguments::LengthUnit;
 use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
-use gearmesh_geometry::{GearDefinition, MeshedBody};
+use gearmesh_geometry::{ElementKind, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
@@ -87,11 +88,26 @@ impl From<&Field> for MeshFields {
     }
 }
 
-/// Writes a mesh with its sets and fields in the format that the extension names.
+/// Calls the Python module: mesh file, output, unit, whether hexahedra have incompatible modes. Prints what the format does not hold.
+const EXPORT: &str = "
+import sys, gearmesh
+try:
+    left_out = gearmesh.export_mesh(*sys.argv[1:4], incompatible_modes=sys.argv[4] == 'yes')
+    print(*left_out, sep='\\n')
+except (ValueError, OSError) as error:
+    print(error, file=sys.stderr)
+    sys.exit(2 if isinstance(error, ValueError) else 1)
+";
+
+/// Names that a note about what a format does not hold lists.
+const MOST_NAMES: usize = 3;
+
+/// Writes a mesh with its sets and fields in the format that the extension names; says what that does not hold.
 pub fn export_mesh(
     gear: &GearDefinition,
     mesh: &GearMesh,
     fields: MeshFields,
+    unit: LengthUnit,
     output: &Path,
 ) -> Result<(), Failure> {
     let mut data = MeshData {
@@ -122,15 +138,39 @@ pub fn export_mesh(
     let beside = part.path();
     let written = python()?.run(
         &format!("writing {}", output.display()),
-        "import sys, gearmesh\ntry:\n    gearmesh.export_mesh(sys.argv[1], sys.argv[2])\nexcept (ValueError, OSError) as error:\n    print(error, file=sys.stderr)\n    sys.exit(2 if isinstance(error, ValueError) else 1)\n",
-        &[&exchange.display().to_string(), &beside.display().to_string()],
+        EXPORT,
+        &[
+            &exchange.display().to_string(),
+            &beside.display().to_string(),
+            unit.name(),
+            if gear.mesh.element == ElementKind::Hex8Incompatible {
+                "yes"
+            } else {
+                "no"
+            },
+        ],
         b"",
     );
     let blame = |error: PythonError| match error {
         PythonError::Failed { code: Some(2), .. } => Failure::input(error),
         _ => Failure::work(error),
     };
-    written.map_err(blame)?;
+    let left_out = written.map_err(blame)?;
+    let left_out = String::from_utf8_lossy(&left_out);
+    let names: Vec<&str> = left_out.split_whitespace().collect();
+    if !names.is_empty() {
+        let more = if names.len() > MOST_NAMES {
+            ", ..."
+        } else {
+            ""
+        };
+        console::note(format!(
+            "{} does not hold {} node sets or fields of the mesh ({}{more})",
+            output.display(),
+            names.len(),
+            names[..names.len().min(MOST_NAMES)].join(", ")
+        ));
+    }
     std::fs::rename(beside, output).map_err(|e| Failure::work(format!("{}: {e}", output.display())))
 }
 

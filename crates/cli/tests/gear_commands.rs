@@ -22,8 +22,7 @@ fn help_names_all_commands() {
     Usage: gearmesh <COMMAND>
     
     Commands:
-      mesh        Mesh a gear and write it in any format that meshio knows (by extension: vtu, inp, bdf,
-                  msh, ...)
+      mesh        Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus, CalculiX, Nastran
       reduce      Reduce a gear to its compliance at the flanks (the offline stage)
       modes       Find the natural frequencies and mode shapes of a gear, held at its bore
       compliance  Print the deflection along a flank under a line load
@@ -136,8 +135,29 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0], fillet_radius_mm = 2.0 }, { dia
     let desk = Desk::new();
     let text = SOLID.replace("kind = \"solid\"", CONTOUR);
     let gear = desk.file("gear.toml", text);
-    let output = desk.path("gear.vtu");
-    let answer = succeeds(&["mesh", argument(&gear), "-o", argument(&output)]);
+    let output = desk.path("gear.bdf");
+    let unit = ["--length-unit", "mm"];
+    let answer = succeeds(
+        &[
+            &["mesh", argument(&gear), "-o", argument(&output)],
+            &unit[..],
+        ]
+        .concat(),
+    );
+    let deck = std::fs::read_to_string(&output).unwrap();
+    assert!(
+        deck.starts_with("$ gearmesh mesh, lengths in mm;"),
+        "{}",
+        &deck[..80]
+    );
+    // The largest x is the tip's: 3 (18 + 0.2 + 2)/2 mm.
+    let x_mm = deck.lines().filter(|line| line.starts_with("GRID*"));
+    let x_mm = x_mm.map(|line| line[40..56].trim().parse::<f64>().unwrap());
+    let largest_mm = x_mm.fold(0.0, f64::max);
+    assert!(
+        largest_mm < 30.3 + 1e-9 && largest_mm > 30.0,
+        "{largest_mm}"
+    );
     assert!(
         answer.stderr.contains(
             "tetrahedra of ten nodes (mesh.element = \"tet10\"): the contour has fillets"
@@ -235,8 +255,42 @@ fn an_unknown_mesh_format_is_refused() {
         (Some(2), ""),
         "{answer:#?}"
     );
-    assert!(answer.stderr.contains("mesch"), "{answer:#?}");
+    assert!(
+        answer.stderr.contains("gear.mesch: this writes a mesh for other programs; allowed are names that end in .bdf .inp .msh"),
+        "{answer:#?}"
+    );
     assert_eq!(desk.names(), ["gear.toml"]);
+}
+
+/// `run -o pair.csv` once wrote HDF5 into it.
+#[test]
+fn a_name_must_end_in_what_is_written() {
+    let desk = Desk::new();
+    let file = desk.file("file.toml", "nothing");
+    for (command, name, needle) in [
+        (
+            "run",
+            "pair.csv",
+            "this writes HDF5; allowed are names that end in .h5 .hdf5; `gearmesh export` makes .csv",
+        ),
+        ("reduce", "model.vtu", "this writes HDF5"),
+        ("recover", "strain.csv", "this writes HDF5"),
+        (
+            "report",
+            "page.pdf",
+            "this writes an HTML page; allowed are names that end in .html .htm",
+        ),
+    ] {
+        let output = desk.path(name);
+        let answer = gearmesh(&[command, argument(&file), "-o", argument(&output)]);
+        assert_eq!(
+            (answer.code, answer.stdout.as_str()),
+            (Some(2), ""),
+            "{answer:#?}"
+        );
+        assert!(answer.stderr.contains(needle), "{answer:#?}");
+    }
+    assert_eq!(desk.names(), ["file.toml"]);
 }
 
 /// The compliance is symmetric (reciprocity) and ΨᵀKΨ = C_hub − C_tooth.

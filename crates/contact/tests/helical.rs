@@ -107,6 +107,18 @@ fn a_vanishing_helix_is_a_spur_pair() {
     }
 }
 
+/// One sign of the transmission error: driven on the left flanks a spur pair has the same curve, backlash or not.
+#[test]
+fn left_flanks_of_a_spur_pair_have_the_curve_of_the_right_ones() {
+    let [right, left] = [FlankSide::Right, FlankSide::Left].map(|flank| lines(0.0, flank));
+    assert!(right.pair.backlash_m() > 1e-5);
+    let of_right = curve(&right, 200.0, 5, 23);
+    let of_left = curve(&left, 200.0, 5, 23);
+    for (a, b) in of_right.iter().zip(&of_left) {
+        assert!(*a < -1e-6 && (a - b).abs() < 1e-12 * a.abs(), "{a:e} {b:e}");
+    }
+}
+
 /// Turning the gears over (z to −z) turns the hand; looking from the other side of the plane of the axes turns hand and
 /// flanks. The bodies here are their own mirror images.
 #[test]

@@ -193,13 +193,16 @@ impl GearMesh {
         self.sides.iter().map(|side| side.flank)
     }
 
-    /// Transmission error along the transverse line of action \[m\] of the last pose on the first side: the gap that ideal flanks would have,
-    /// r_b2 θ₂ − r_b1 θ₁ at the nominal centre distance and without axial displacement. None where no teeth face each other.
+    /// Transmission error along the transverse line of action \[m\] of the last pose: the gap that ideal flanks would have on the side that
+    /// touches, or that is nearer where none does. Zero at first touch, negative under load, on right and left flanks alike; at the nominal
+    /// centre distance and without axial displacement r_b2 θ₂ − r_b1 θ₁. None where no teeth face each other.
     #[must_use]
     pub fn transmission_error_m(&self) -> Option<f64> {
-        let found = &self.sides.first()?.found;
-        let line = found.lines.first().map(|line| line.ideal_gap_m);
-        line.or(found.open_gap_m)
+        let gap_m = |side: &Side| {
+            let line = side.found.lines.first().map(|line| line.ideal_gap_m);
+            line.or(side.found.open_gap_m)
+        };
+        self.sides.iter().filter_map(gap_m).min_by(f64::total_cmp)
     }
 
     /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.

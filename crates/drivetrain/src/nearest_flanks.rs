@@ -72,11 +72,13 @@ impl MeshKinematics {
 }
 
 impl GearMesh {
-    /// Transverse gap \[m\] of the nearest ideal flanks of the first side at the last pose, continued beyond the ends of the teeth.
+    /// Transverse gap \[m\] of the nearest ideal flanks at the last pose, continued beyond the ends of the teeth: of two sides that of the one
+    /// which is nearer, as the transmission error.
     #[must_use]
     pub fn nearest_gap_m(&self, pose: &Pose) -> Option<f64> {
-        let flank = self.flanks().next()?;
-        self.kinematics().nearest_gap_m(pose, &self.at, flank)
+        let gaps = self.flanks();
+        let gaps = gaps.filter_map(|flank| self.kinematics().nearest_gap_m(pose, &self.at, flank));
+        gaps.min_by(f64::total_cmp)
     }
 
     /// Whether the tip circles cleared each other at the last pose: no tooth reaches the mate.

@@ -6,6 +6,13 @@ use thiserror::Error;
 
 use crate::cell_kind::CellKind;
 
+/// Endings of the formats of other programs in which meshes are written: those whose files such programs were seen to read
+/// (tests/python/test_exports.py). Not .med: meshio writes its elements inside out for Salome and gmsh; not .cgns, .ugrid and others that
+/// meshio itself cannot read back.
+pub const EXPORT_ENDINGS: [&str; 8] = [
+    ".bdf", ".inp", ".msh", ".nas", ".vtk", ".vtu", ".xdmf", ".xmf",
+];
+
 /// A mesh of volume elements with node sets and fields.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshData {

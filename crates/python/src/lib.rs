@@ -2,7 +2,7 @@
 //!
 //! | to | call |
 //! | --- | --- |
-//! | turn a mesh file into any format that meshio writes, and back | `export_mesh`, `import_mesh` |
+//! | turn a mesh file into a format of other programs, and back | `export_mesh`, `import_mesh` |
 //! | read and write a mesh file with NumPy arrays | `read_mesh`, `write_mesh` |
 //! | look into a reduced gear with NumPy arrays | `read_reduced` |
 //! | compute stiffness, displacements and strains of the body in a mesh file | `stiffness`, `solve`, `strain` |
@@ -16,6 +16,7 @@ mod mesh_arrays;
 mod meshio_exchange;
 mod meshio_format;
 mod reduced;
+mod solver_decks;
 
 /// Gear mesh stiffness: reduced gears and meshes as NumPy arrays.
 #[pyo3::pymodule]

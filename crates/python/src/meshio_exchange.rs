@@ -1,6 +1,8 @@
 //! Mesh files to and from the formats of other programs.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use gearmesh_model::{CellKind, MeshData};
@@ -12,30 +14,36 @@ use pyo3::types::{PyDict, PyList, PySlice};
 use crate::errors::file_error;
 use crate::mesh_arrays::{cell_rows, field, mesh_error, point_rows};
 use crate::meshio_format::MeshioFormat;
+use crate::solver_decks::{DeckOptions, write_abaqus, write_nastran};
 
-/// A node set becomes a field of this name and the set's where the format has no sets.
+/// A node set becomes a field of this name and the set's.
 const SET_PREFIX: &str = "set:";
 
-/// Writes a mesh file in any format that meshio writes, chosen by the extension of out_path.
+/// Writes a mesh file in a format of other programs, chosen by the extension of out_path: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh
+/// (gmsh), .vtk .vtu .xdmf .xmf (ParaView).
 ///
-/// length_unit is the unit of the coordinates in the written file, "m" or "mm". The file is read back before it gets its
-/// name; returned are the names of sets and fields that the format could not hold.
+/// length_unit is the unit of the coordinates in the written file, "m" or "mm"; incompatible_modes makes hexahedra of an .inp file C3D8I in
+/// place of C3D8. The file is read back before it gets its name; returned are the names of sets and fields that the format does not hold.
 #[pyfunction]
-#[pyo3(signature = (mesh_h5, out_path, length_unit = "m"))]
+#[pyo3(signature = (mesh_h5, out_path, length_unit = "m", incompatible_modes = false))]
 pub(crate) fn export_mesh(
     py: Python<'_>,
     mesh_h5: PathBuf,
     out_path: PathBuf,
     length_unit: &str,
+    incompatible_modes: bool,
 ) -> PyResult<Vec<String>> {
-    let metres_per_unit = metres_per(length_unit)?;
-    let format = MeshioFormat::of(py, &out_path)?;
+    let options = DeckOptions {
+        length_unit,
+        metres_per_unit: metres_per(length_unit)?,
+        incompatible_modes,
+    };
+    let format = MeshioFormat::to_write(py, &out_path)?;
     let mesh = py
         .detach(|| gearmesh_model::read_mesh(&mesh_h5))
         .map_err(file_error)?;
-    let (outgoing, names) = to_meshio(py, &mesh, &format, metres_per_unit)?;
 
-    // Some formats write a second file beside: all are made in a folder of their own and moved together.
+    // meshio looks at the ending of the name: the file gets its whole name in a folder of its own.
     let file_name = out_path.file_name().unwrap_or_default();
     let folder = match out_path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -49,19 +57,25 @@ pub(crate) fn export_mesh(
         .tempdir_in(folder)
         .map_err(disk)?;
     let temporary_path = temporary.path().join(file_name);
-    let options = PyDict::new(py);
-    options.set_item("file_format", &format.name)?;
-    let text = temporary_path.to_string_lossy().into_owned();
-    let written = py
-        .import("meshio")?
-        .call_method("write", (text, outgoing), Some(&options));
-    written.map_err(|error| format.explain(py, "write", &out_path, error))?;
+    match &format.name[..] {
+        "abaqus" | "nastran" => {
+            write_deck(&temporary_path, &mesh, &format, options).map_err(disk)?;
+        }
+        _ => {
+            let outgoing = to_meshio(py, &mesh, &format, options.metres_per_unit)?;
+            let text = temporary_path.to_string_lossy().into_owned();
+            let meshio = py.import("meshio")?;
+            let keywords = format.write_options(py)?;
+            let written = meshio.call_method("write", (text, outgoing), Some(&keywords));
+            written.map_err(|error| format.explain(py, "write", &out_path, error))?;
+        }
+    }
 
     let stored = from_meshio(
         py,
         &format.read(py, &temporary_path)?,
         &format,
-        metres_per_unit,
+        options.metres_per_unit,
     );
     let stored = stored
         .map_err(|error| format.explain(py, "read back", &out_path, error))?
@@ -75,16 +89,34 @@ pub(crate) fn export_mesh(
             mesh.cell_count()
         )));
     }
-    for entry in std::fs::read_dir(temporary.path()).map_err(disk)? {
-        let entry = entry.map_err(disk)?;
-        std::fs::rename(entry.path(), folder.join(entry.file_name())).map_err(disk)?;
-    }
-    let kept = |name: &String| {
-        stored.point_sets.contains_key(name)
-            || stored.point_fields.contains_key(name)
-            || stored.cell_fields.contains_key(name)
+    std::fs::rename(&temporary_path, &out_path).map_err(disk)?;
+    let set_kept = |name: &&String| {
+        // Nastran's SET1 is written, but meshio does not read it.
+        format.name == "nastran" || stored.point_sets.contains_key(*name)
     };
-    Ok(names.into_iter().filter(|name| !kept(name)).collect())
+    let field_kept = |name: &&String| {
+        stored.point_fields.contains_key(*name) || stored.cell_fields.contains_key(*name)
+    };
+    let sets = mesh.point_sets.keys().filter(|name| !set_kept(name));
+    let fields = mesh.point_fields.keys().chain(mesh.cell_fields.keys());
+    let fields = fields.filter(|name| !field_kept(name));
+    Ok(sets.chain(fields).cloned().collect())
+}
+
+/// Writes a mesh as input of a finite element program.
+fn write_deck(
+    path: &Path,
+    mesh: &MeshData,
+    format: &MeshioFormat,
+    options: DeckOptions<'_>,
+) -> std::io::Result<()> {
+    let mut out = BufWriter::new(File::create(path)?);
+    if format.name == "nastran" {
+        write_nastran(&mut out, mesh, options)?;
+    } else {
+        write_abaqus(&mut out, mesh, options)?;
+    }
+    out.flush()
 }
 
 /// Reads any format that meshio reads into a mesh file: volume elements, node sets and fields.
@@ -133,13 +165,13 @@ fn metres_per(length_unit: &str) -> PyResult<f64> {
     }
 }
 
-/// A `meshio.Mesh`, and the names of all sets and fields.
+/// A `meshio.Mesh`; sets become fields.
 fn to_meshio<'py>(
     py: Python<'py>,
     mesh: &MeshData,
     format: &MeshioFormat,
     metres_per_unit: f64,
-) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
+) -> PyResult<Bound<'py, PyAny>> {
     let points = mesh
         .points
         .as_flattened()
@@ -147,19 +179,12 @@ fn to_meshio<'py>(
         .map(|x| x / metres_per_unit)
         .collect();
     let points = PyArray1::<f64>::from_vec(py, points).reshape([mesh.points.len(), 3])?;
-    let (point_data, cell_data, point_sets) = (PyDict::new(py), PyDict::new(py), PyDict::new(py));
+    let (point_data, cell_data) = (PyDict::new(py), PyDict::new(py));
     for (name, set) in &mesh.point_sets {
-        if format.has_point_sets() {
-            let members = set.iter().map(|&node| i64::from(node)).collect();
-            point_sets.set_item(name, PyArray1::<i64>::from_vec(py, members))?;
-        } else {
-            let mut member = vec![0.0; mesh.points.len()];
-            set.iter().for_each(|&node| member[node as usize] = 1.0);
-            point_data.set_item(
-                format!("{SET_PREFIX}{name}"),
-                PyArray1::from_vec(py, member),
-            )?;
-        }
+        let mut member = vec![0.0; mesh.points.len()];
+        set.iter().for_each(|&node| member[node as usize] = 1.0);
+        let name = format!("{SET_PREFIX}{name}");
+        point_data.set_item(name, PyArray1::from_vec(py, member))?;
     }
     for (data, fields) in [
         (&point_data, &mesh.point_fields),
@@ -198,7 +223,6 @@ fn to_meshio<'py>(
     let options = PyDict::new(py);
     options.set_item("point_data", point_data)?;
     options.set_item("cell_data", cell_data)?;
-    options.set_item("point_sets", point_sets)?;
     let cells = PyList::empty(py);
     for (kind, nodes) in &mesh.cells {
         let rows = nodes.iter().map(|&node| i64::from(node)).collect();
@@ -206,16 +230,9 @@ fn to_meshio<'py>(
         let rows = PyArray1::<i64>::from_vec(py, rows).reshape(shape)?;
         cells.append((meshio_name(*kind), rows))?;
     }
-    let outgoing = py
-        .import("meshio")?
+    py.import("meshio")?
         .getattr("Mesh")?
-        .call((points, cells), Some(&options))?;
-    let names = mesh
-        .point_sets
-        .keys()
-        .chain(mesh.point_fields.keys())
-        .chain(mesh.cell_fields.keys());
-    Ok((outgoing, names.cloned().collect()))
+        .call((points, cells), Some(&options))
 }
 
 /// What meshio calls a kind of element. It numbers the nodes of all of them as [`CellKind`] says, whatever the format.

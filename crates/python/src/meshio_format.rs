@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use gearmesh_model::EXPORT_ENDINGS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// A format of meshio by its own name, for example `"gmsh"`.
 pub(crate) struct MeshioFormat {
@@ -52,6 +54,39 @@ impl MeshioFormat {
         Ok(Self { name })
     }
 
+    /// The format in which a path is to be written.
+    ///
+    /// # Errors
+    /// `ValueError` that lists the endings of all that are.
+    pub fn to_write(py: Python<'_>, path: &Path) -> PyResult<Self> {
+        let name = path.to_string_lossy().to_lowercase();
+        if EXPORT_ENDINGS.iter().any(|ending| name.ends_with(ending)) {
+            return Self::of(py, path);
+        }
+        let message = format!(
+            "{}: meshes are not written in this format; allowed are {}",
+            path.display(),
+            EXPORT_ENDINGS.join(" ")
+        );
+        Err(PyValueError::new_err(message))
+    }
+
+    /// What meshio's writer is told beside the mesh. Older programs do not read VTK 5.1; an .xdmf file that has its numbers in it needs
+    /// no second file, which would be `gear.h5` and might be somebody's model.
+    pub fn write_options<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let options = PyDict::new(py);
+        let name = if self.name == "vtk" {
+            "vtk42"
+        } else {
+            &self.name
+        };
+        options.set_item("file_format", name)?;
+        if self.name == "xdmf" {
+            options.set_item("data_format", "XML")?;
+        }
+        Ok(options)
+    }
+
     /// Reads a file with meshio. Its own `read` prints and ends the process where a file is wrong, so the reader of
     /// the format is called.
     ///
@@ -71,11 +106,6 @@ impl MeshioFormat {
             .get_item(&self.name)?
             .call1((text,))
             .map_err(|error| self.explain(py, "read", path, error))
-    }
-
-    /// Whether the format has node sets of its own in meshio; elsewhere a set is a field that is 1 on its nodes.
-    pub fn has_point_sets(&self) -> bool {
-        self.name == "abaqus"
     }
 
     /// Whether a field of that many components can be written; gmsh knows scalars, vectors and 3 x 3 tensors only.

@@ -1,14 +1,15 @@
-//! `gearmesh mesh`: a gear's mesh in any format that meshio writes.
+//! `gearmesh mesh`: a gear's mesh for other programs.
 
 use crate::arguments::MeshArguments;
 use crate::failure::Failure;
-use crate::{console, offline};
+use crate::{console, offline, output_name};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::GearMesh;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
+    output_name::demand_mesh(&arguments.output)?;
     let gear = GearDefinition::read(&arguments.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "nodes and elements are");
@@ -20,6 +21,7 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
         &gear,
         &mesh,
         offline::MeshFields::default(),
+        arguments.length_unit,
         &arguments.output,
     )?;
     let quality = mesh.quality;

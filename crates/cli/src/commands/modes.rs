@@ -1,10 +1,10 @@
 //! `gearmesh modes`: natural frequencies and shapes with the bore held.
 
-use crate::arguments::ModesArguments;
+use crate::arguments::{LengthUnit, ModesArguments};
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::offline::MeshFields;
-use crate::{console, offline};
+use crate::{console, offline, output_name};
 use gearmesh_geometry::{GearDefinition, ModeRange};
 use gearmesh_model::{Field, RigidBody};
 use gearmesh_reduction::{GearBody, GearMode, GearModes, ReductionError};
@@ -12,6 +12,9 @@ use serde_json::json;
 
 /// Runs the command.
 pub fn run(a: &ModesArguments) -> Result<(), Failure> {
+    if let Some(path) = &a.shapes {
+        output_name::demand_mesh(path)?;
+    }
     let gear = GearDefinition::read(&a.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "natural modes are");
@@ -30,7 +33,7 @@ pub fn run(a: &ModesArguments) -> Result<(), Failure> {
     bar.finish();
     let modes = modes?;
     if let Some(path) = &a.shapes {
-        offline::export_mesh(&gear, &body.mesh, shapes, path)?;
+        offline::export_mesh(&gear, &body.mesh, shapes, LengthUnit::M, path)?;
     }
     if a.json {
         console::json(&figures(&gear, &modes, &rigid.body));

@@ -1,9 +1,9 @@
 //! `gearmesh recover`: strain of all gauges of both models; the whole field on request.
 
-use crate::arguments::RecoverArguments;
+use crate::arguments::{LengthUnit, RecoverArguments};
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
-use crate::{console, console::StageBar};
+use crate::{console, console::StageBar, output_name};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
@@ -14,6 +14,10 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&a.output)?;
+    if let Some(path) = &a.field_output {
+        output_name::demand_mesh(path)?;
+    }
     let mut result = SceneResult::read(&a.result).map_err(Failure::input)?;
     let loaded = scene_of(&result, &a.result)?;
     let all: Vec<(usize, usize)> = (1..=2)
@@ -170,7 +174,13 @@ fn field(
     let body = GearBody::new(&definition, &offline::python()?, &bar)?;
     bar.finish();
     let field = offline::field_of(loaded, result, &definition, &body, *case)?;
-    offline::export_mesh(&definition, &body.mesh, (&field).into(), output)?;
+    offline::export_mesh(
+        &definition,
+        &body.mesh,
+        (&field).into(),
+        LengthUnit::M,
+        output,
+    )?;
     console::note(format!(
         "{}: field of gear {} at {:.4} deg and {} N m",
         output.display(),

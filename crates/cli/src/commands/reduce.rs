@@ -2,13 +2,14 @@
 
 use crate::arguments::ReduceArguments;
 use crate::failure::Failure;
-use crate::{console, offline};
+use crate::{console, offline, output_name};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_model::{ReducedGear, write_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&arguments.output)?;
     let gear = GearDefinition::read(&arguments.gear)?;
     let model = match &gear.blank.meshed {
         Some(body) => {

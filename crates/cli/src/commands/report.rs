@@ -3,6 +3,7 @@
 use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
+use crate::output_name;
 use gearmesh_model::{FileError, write_text};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
@@ -12,6 +13,7 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &ReportArguments) -> Result<(), Failure> {
+    output_name::demand_page(&a.output)?;
     if !a.reference.is_empty() && a.reference.len() != a.results.len() {
         return Err(Failure::input(format!(
             "--reference: found {} folders for {} results; give one for each result, or none",

@@ -4,6 +4,7 @@ use crate::arguments::RunArguments;
 use crate::commands::{ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
+use crate::output_name;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
 use gearmesh_scene::{SceneFile, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
@@ -11,6 +12,7 @@ use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    output_name::demand_hdf5(&arguments.output)?;
     let scene = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => scene,
         SceneFile::System(scene) => return run_system::run(scene.load()?, arguments),

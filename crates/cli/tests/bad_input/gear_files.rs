@@ -15,8 +15,8 @@ pub fn gear_refused(text: &str, (from, to): (&str, &str), at: &str, parts: &[&st
         "`{place}` is not in {answer:#?}"
     );
     // The commands that work with a gear refuse it before anything is written.
-    for command in ["mesh", "reduce"] {
-        let output = desk.path("output.vtu");
+    for (command, output) in [("mesh", "output.vtu"), ("reduce", "output.h5")] {
+        let output = desk.path(output);
         let same = gearmesh(&[command, argument(&file), "-o", argument(&output)]);
         refused(&same, 2, &[&place]);
         assert_eq!(desk.names(), ["gear.toml"]);

@@ -8,8 +8,15 @@ use crate::common::{Answer, Desk, argument, changed, gearmesh, refused, workshop
 fn a_missing_file_is_named() {
     let desk = Desk::new();
     let missing = desk.path("missing");
-    let (name, output) = (argument(&missing), desk.path("output.h5"));
-    for command in ["mesh", "reduce", "run", "recover", "report"] {
+    let name = argument(&missing);
+    for (command, output) in [
+        ("mesh", "output.vtu"),
+        ("reduce", "output.h5"),
+        ("run", "output.h5"),
+        ("recover", "output.h5"),
+        ("report", "output.html"),
+    ] {
+        let output = desk.path(output);
         refused(
             &gearmesh(&[command, name, "-o", argument(&output)]),
             2,

@@ -51,3 +51,24 @@ fn backlash_is_what_the_tooth_thickness_leaves() {
         }
     }
 }
+
+/// The transmission error of the flanks in contact, right or left; between both of the nearer ones.
+#[test]
+fn transmission_error_is_that_of_the_flanks_in_contact() {
+    for pair in pairs() {
+        let backlash = pair.backlash_m() * pair.working_pressure_angle_rad.cos();
+        for name in CONFORMING {
+            let mut mesh = mesh(name, &pair, kinematics(&pair));
+            for side in [FlankSide::Right, FlankSide::Left] {
+                for te in [-10e-6, 0.0, 3e-6, 0.4 * backlash, 0.6 * backlash] {
+                    let phi = angles(&pair, side, 0.17, te);
+                    let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+                    mesh.evaluate(&at, false).unwrap();
+                    let found = mesh.transmission_error_m().unwrap();
+                    let expected = te.min(backlash - te);
+                    assert!((found - expected).abs() < 1e-14, "{name} {side:?} {te:e}");
+                }
+            }
+        }
+    }
+}

@@ -5,6 +5,9 @@
 mod common;
 mod epicyclic;
 mod lost_meshes;
+#[path = "../made_up_gears/mod.rs"]
+mod made_up_gears;
+mod pair_stiffness;
 mod shafts;
 mod shipped;
 mod start;

@@ -92,13 +92,15 @@ impl PreparedMesh {
             },
             key: key.clone(),
         };
-        let scene = SceneMesh {
+        let mut scene = SceneMesh {
             table,
             keys,
             folder,
             gears,
             pair: &pair,
+            curve: None,
         };
+        scene.curve = scene.static_curve(prepared.sides[0])?;
         scene.refuse_unfelt_cracks()?;
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
@@ -109,6 +111,7 @@ impl PreparedMesh {
             )?);
         }
         scene.effects(parts);
+        parts.notes.extend(scene.stiffness_note()?);
         Ok(prepared)
     }
 

@@ -5,7 +5,7 @@
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts | `shafts.rs` |
-//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_effects.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
@@ -22,6 +22,8 @@ mod lump;
 mod mesh_effects;
 mod mesh_frequency;
 mod mesh_model;
+mod mesh_stiffness;
+mod pair_stiffness;
 mod parts;
 mod ratings;
 mod shafts;
