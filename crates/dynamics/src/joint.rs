@@ -180,16 +180,16 @@ impl Joint {
         Self::assembled(name, vec![first.0, second.0], vec![equation])
     }
 
-    /// Lets B roll on A as pitch circles of gears do, wherever their axes go: with φ the turns about parallel z axes and β the polar
-    /// angle of the line of centres,
+    /// Lets B roll on the outside of A without slip, wherever their parallel z axes go: with φ their turns, β the polar angle of the line of
+    /// centres and radii in the ratio r_A : r_B,
     ///
     /// ```text
-    /// z₁ (φ₁ − β) + z₂ (φ₂ − β) = z₂ γ − (z₁ + z₂) β_A = what it is at the start
+    /// r_A (φ_A − β) + r_B (φ_B − β) = r_B γ − (r_A + r_B) β_A = what it is at the start
     /// ```
     ///
-    /// γ: turn of B against A, β_A: β seen in A. The reaction is the tangential force in the pitch point, which bearings feel.
+    /// γ: turn of B against A, β_A: β seen in A. The reaction is the tangential force where the circles touch, which bearings feel.
     #[must_use]
-    pub fn rolling(name: &str, pair: MarkerPair, [teeth_a, teeth_b]: [f64; 2]) -> Self {
+    pub fn rolling(name: &str, pair: MarkerPair, [radius_a, radius_b]: [f64; 2]) -> Self {
         let term = |coordinate, factor| Term {
             pair: 0,
             coordinate,
@@ -197,8 +197,8 @@ impl Joint {
         };
         let equation = Equation {
             terms: vec![
-                term(Coordinate::Angle, teeth_b),
-                term(Coordinate::Polar, -teeth_a - teeth_b),
+                term(Coordinate::Angle, radius_b),
+                term(Coordinate::Polar, -radius_a - radius_b),
             ],
             offset: 0.0,
             starts_here: true,

@@ -211,7 +211,7 @@ fn sweeps_whose_windows_hold_no_samples_are_refused() {
     let transient = "kind = \"transient\"\nend_s = 0.05";
     let of = |times: &str| sweep("to_rpm = -700.0", times);
     let samples = "two samples of output.interval_s = 0.00002";
-    for (measure, found) in [("1e-5", "0.00001"), ("1e-300", "1e-300")] {
+    for (measure, found) in [("1e-5", "0.00001"), ("1e-29", "1e-29")] {
         refused(
             (
                 transient,
@@ -224,9 +224,9 @@ fn sweeps_whose_windows_hold_no_samples_are_refused() {
         );
     }
     refused(
-        (transient, &of("settle_s = 1e-300\nmeasure_s = 0.01")),
+        (transient, &of("settle_s = 1e-29\nmeasure_s = 0.01")),
         "settle_s",
-        &["run.settle_s: found 1e-300, allowed is at least"],
+        &["run.settle_s: found 1e-29, allowed is at least"],
     );
     refused(
         (transient, &of("ramp_s = 1e-3").replace("speeds = 3\n", "")),
@@ -237,8 +237,8 @@ fn sweeps_whose_windows_hold_no_samples_are_refused() {
         ],
     );
     refused(
-        ("interval_s = 2e-5", "interval_s = 1e-300"),
+        ("interval_s = 2e-5", "interval_s = 1e-29"),
         "interval_s",
-        &["output.interval_s: found 1e-300, allowed is at least"],
+        &["output.interval_s: found 1e-29, allowed is at least"],
     );
 }
