@@ -330,7 +330,7 @@ impl Simulation {
             .max(most(&equations.violation_rate));
         watch_dropped(&mut self.system, &self.other.state, &equations.violation)?;
         std::mem::swap(&mut self.now, &mut self.other);
-        self.system.commit(&self.now.state);
+        self.system.commit(&self.now.state)?;
         let energy = self.system.energy(&self.now.state, &self.now.lambda);
         let inverse_mass = &self.integrator.convergence.inverse_mass;
         let work_rate_w = self.system.work_rate_w(&self.now, inverse_mass);

@@ -176,7 +176,7 @@ fn follow(
         };
         match settle(system, &mut trial, load_factor, params, &mut equations) {
             Ok(()) => {
-                system.commit(&trial.state);
+                system.commit(&trial.state)?;
                 found = trial;
                 done = target;
                 stride = (2.0 * stride).min(whole);

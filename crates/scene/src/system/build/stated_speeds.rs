@@ -14,7 +14,7 @@ use crate::system::tables::joint::JointWord;
 /// Share of a speed that may point across the joint's axis: a milliradian, whose loss changes the speed by 5e-7.
 const ACROSS: f64 = 1e-3;
 
-/// Refuses a stated speed that turns a body in a way that one of its joints does not let it.
+/// Refuses a stated `speed_rpm`, about the body's z, that turns a body in a way that one of its joints does not let it.
 pub(super) fn check(
     tables: &[BodyTable],
     bodies: &Bodies,
@@ -49,10 +49,14 @@ pub(super) fn check(
         if across.norm() <= ACROSS * first.norm().max(second.norm()) {
             continue;
         }
-        let Some((place, key)) = [joint.ends[1], joint.ends[0]]
+        let Some(place) = [joint.ends[1], joint.ends[0]]
             .into_iter()
             .flatten()
-            .find_map(|body| Some((body, stated_key(tables.get(body)?)?)))
+            .find(|&body| {
+                tables
+                    .get(body)
+                    .is_some_and(|table| table.speed_rpm.is_some())
+            })
         else {
             continue;
         };
@@ -68,7 +72,7 @@ pub(super) fn check(
         let axis = bodies.list[place].axis();
         let body_key = format!("body.{place}");
         return Err(TableKeys::new(document, &body_key).error(
-            key,
+            "speed_rpm",
             format!(
                 "`{}` turns by {:.6} rpm in a way that joint `{name}` ({kind}) does not allow: the body's z axis is [{:.4}, {:.4}, {:.4}], and the \
                  joint {allowed}; turn the body (cardan_deg) or the joint (axis) so that they fit, or leave the speed out",
@@ -81,12 +85,4 @@ pub(super) fn check(
         ));
     }
     Ok(())
-}
-
-fn stated_key(table: &BodyTable) -> Option<&'static str> {
-    match (table.speed_rpm, table.angular_velocity_rad_per_s) {
-        (Some(_), _) => Some("speed_rpm"),
-        (None, Some(_)) => Some("angular_velocity_rad_per_s"),
-        (None, None) => None,
-    }
 }
