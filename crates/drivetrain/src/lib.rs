@@ -27,6 +27,7 @@ pub mod friction;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
+mod mesh_channels;
 pub mod mesh_element;
 pub mod mesh_kinematics;
 pub mod modal_loads;

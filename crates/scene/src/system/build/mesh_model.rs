@@ -105,7 +105,7 @@ impl SceneMesh<'_> {
     }
 
     /// Face width that both gears have \[m\].
-    fn face_width_m(&self) -> f64 {
+    pub(super) fn face_width_m(&self) -> f64 {
         let [a, b] = self.gears.map(|gear| gear.definition.tooth.face_width_m);
         a.min(b)
     }
