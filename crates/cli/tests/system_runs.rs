@@ -131,19 +131,27 @@ fn an_interrupted_run_says_so_and_goes_on() {
     assert!(part.join("checkpoint.h5").exists());
     // Another scene must not go on from it, unless told to begin anew.
     let other = desk.file("other.toml", changed(PENDULUM, "12.0", "0.1"));
-    let run = ["run", argument(&other), "-o", argument(&output)];
+    let other_run = ["run", argument(&other), "-o", argument(&output)];
     refused(
-        &gearmesh(&run),
+        &gearmesh(&other_run),
         2,
         &["result.h5.part", "another scene", "--restart"],
     );
-    let first = succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+    // Rows that are not those of the run must not end in a result.
+    let rows = std::fs::read(part.join("rows.log")).unwrap();
+    let mut flipped = rows.clone();
+    flipped[1000] ^= 4;
+    std::fs::write(part.join("rows.log"), flipped).unwrap();
+    let run = ["run", argument(&scene), "-o", argument(&output)];
+    refused(&gearmesh(&run), 1, &["rows.log", "altered", "--restart"]);
+    std::fs::write(part.join("rows.log"), rows).unwrap();
+    let first = succeeds(&run);
     assert!(
         first.stderr.contains("goes on from the checkpoint"),
         "{first:#?}"
     );
     assert_eq!(desk.names(), ["other.toml", "result.h5", "scene.toml"]);
-    succeeds(&[&run[..], &["--restart"]].concat());
+    succeeds(&[&other_run[..], &["--restart"]].concat());
 }
 
 /// Two processes cannot write one result.

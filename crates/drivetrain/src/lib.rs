@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
+//! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
@@ -32,8 +33,10 @@ pub mod mesh_element;
 pub mod mesh_kinematics;
 pub mod modal_loads;
 pub mod models;
+pub mod pair_curve;
 pub mod path_ends;
 pub mod pose;
+pub mod roll_harmonics;
 pub mod slice_plane;
 pub mod step;
 pub mod strain_gauges;
@@ -57,6 +60,7 @@ pub use models::hybrid::ReducedTeeth;
 pub use models::impact::{Impact, PowerStiffness};
 pub use models::iso6336::{MeshSpring, SingleStiffness};
 pub use models::kinematic::kinematic_mesh;
+pub use pair_curve::{PairCurve, PairSamples};
 pub use path_ends::PathEnds;
 pub use pose::Pose;
 pub use strain_gauges::{ModalPart, StrainGauges};

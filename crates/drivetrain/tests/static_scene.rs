@@ -62,6 +62,25 @@ fn transmission_error_is_that_of_the_static_scene() {
     assert!(hundredth < 1e-12, "{hundredth:e}");
 }
 
+/// One spring on the pair's own curve is at rest where the pair is, but for the harmonics that are left out; spur and helical, and from gear 2's
+/// torque alone, as what the walking of the contact adds is a load on gear 1.
+#[test]
+fn a_spring_on_the_own_curve_has_the_pairs_transmission_error() {
+    for pair in pairs() {
+        let (curve, te_m) = own_curve(&pair, 200.0, 24);
+        assert!(curve.remainder_m() < 0.6e-6, "{:e}", curve.remainder_m());
+        let spring = own_spring(&pair, FlankSide::Right);
+        let kinematics = kinematics_with(&pair, [Vec::new(), Vec::new()], PathEnds::LineOfAction);
+        let mut mesh = GearMesh::new(kinematics, FlankSide::Right, spring).unwrap();
+        for (k, expected) in te_m.iter().enumerate() {
+            let theta = pair.pitch_1_rad() * (k as f64 / te_m.len() as f64);
+            let found = equilibrium(&mut mesh, &pair, theta, 200.0);
+            let off = (found - expected).abs();
+            assert!(off < curve.remainder_m() + 1e-12, "{k} {off:e}");
+        }
+    }
+}
+
 /// A flank that stands back by f carries when its neighbours have given way by f: the unloaded transmission error shows the errors.
 #[test]
 fn pitch_errors_are_the_unloaded_transmission_error() {

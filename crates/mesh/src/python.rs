@@ -12,7 +12,7 @@ pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
 pub enum PythonError {
     /// No interpreter found.
     #[error(
-        "no Python environment: `.venv/bin/python` is neither in {searched} nor above; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
+        "no Python environment: no folder above the program {searched} has `.venv/bin/python`; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
     )]
     NotFound {
         /// Where the search began.
@@ -45,8 +45,9 @@ pub struct PythonEnvironment {
 }
 
 impl PythonEnvironment {
-    /// Finds the interpreter: `GEARMESH_PYTHON`, else `.venv/bin/python` in the working directory, above it, or
-    /// above the program's own file.
+    /// Finds the interpreter: `GEARMESH_PYTHON`, else the `.venv/bin/python` nearest above the program's own file.
+    ///
+    /// Never one in or above the working directory: work in a downloaded folder must not run what that folder brings.
     ///
     /// # Errors
     /// [`PythonError::NotFound`] with the way to make one.
@@ -56,15 +57,14 @@ impl PythonEnvironment {
                 interpreter: path.into(),
             });
         }
-        let here = std::env::current_dir().unwrap_or_default();
         let program = std::env::current_exe().unwrap_or_default();
-        here.ancestors()
-            .chain(program.ancestors())
+        program
+            .ancestors()
             .map(|dir| dir.join(".venv/bin/python"))
             .find(|path| path.exists())
             .map(|interpreter| Self { interpreter })
             .ok_or_else(|| PythonError::NotFound {
-                searched: here.display().to_string(),
+                searched: program.display().to_string(),
             })
     }
 

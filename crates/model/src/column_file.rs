@@ -41,7 +41,7 @@ pub struct Column {
 /// process killed meanwhile leaves its half file where the log is, and nothing beside `path`.
 ///
 /// # Errors
-/// As [`DataTree::write`], and those of reading the log.
+/// As [`DataTree::write`], and those of reading the log; [`FileError::Altered`] if its rows are not those that were appended.
 ///
 /// # Panics
 /// If there are not as many columns as the log has.
@@ -53,6 +53,7 @@ pub fn write_columns(
     log: &mut RowLog,
 ) -> Result<(), FileError> {
     assert_eq!(columns.len(), log.columns(), "number of columns");
+    log.verify()?;
     let rows = log.rows() as usize;
     let mut tree = tree.clone();
     let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
@@ -112,7 +113,6 @@ fn fill_columns(path: &Path, datasets: &[Dataset], log: &mut RowLog) -> Result<(
 pub struct ColumnFile {
     path: PathBuf,
     file: File,
-    file_bytes: u64,
     columns: Vec<Column>,
     rows: usize,
 }
@@ -123,14 +123,13 @@ impl ColumnFile {
     /// # Errors
     /// As [`DataTree::read`].
     pub fn open(path: &Path, format: &FileFormat) -> Result<(Self, DataTree), FileError> {
-        let (file, file_bytes) = open_tree(path, format)?;
-        let reader = Reader { path, file_bytes };
+        let file = open_tree(path, format)?;
+        let reader = Reader { path };
         let mut tree = reader.tree(&file, Some(GROUP))?;
         let order = tree.texts.remove(ORDER).unwrap_or_default();
         let mut opened = Self {
             path: path.to_owned(),
             file,
-            file_bytes,
             columns: Vec::new(),
             rows: 0,
         };
@@ -173,10 +172,7 @@ impl ColumnFile {
     /// [`FileError::Missing`], [`FileError::WrongType`], [`FileError::TooLarge`], [`FileError::Hdf5`].
     pub fn read(&self, name: &str) -> Result<Vec<f64>, FileError> {
         let mut tree = DataTree::default();
-        let reader = Reader {
-            path: &self.path,
-            file_bytes: self.file_bytes,
-        };
+        let reader = Reader { path: &self.path };
         reader.dataset(&self.dataset(name)?, name.to_owned(), &mut tree)?;
         tree.take_f64(&self.path, name, &[self.rows])
     }

@@ -6,8 +6,9 @@ use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{File, Group, H5Type, Location};
 
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
-use crate::data_tree_file::{DEEPEST_GROUP, OWN_ATTRIBUTES, hdf5_error, missing, wrong_type};
+use crate::data_tree_file::{OWN_ATTRIBUTES, hdf5_error, missing, wrong_type};
 use crate::file_error::FileError;
+use crate::own_storage::check_own_storage;
 use crate::seal::verify_seal;
 
 impl DataTree {
@@ -16,15 +17,15 @@ impl DataTree {
     /// # Errors
     /// Every kind of [`FileError`] except those about the contents of reduced gears and meshes.
     pub fn read(path: &Path, format: &FileFormat) -> Result<Self, FileError> {
-        let (file, file_bytes) = open_tree(path, format)?;
-        Reader { path, file_bytes }.tree(&file, None)
+        let file = open_tree(path, format)?;
+        Reader { path }.tree(&file, None)
     }
 }
 
-/// Checks seal, format and version; returns the open file and its length.
-pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<(File, u64), FileError> {
+/// Checks seal, format, version and where the arrays are; returns the open file.
+pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileError> {
     let file_bytes = verify_seal(path)?;
-    let reader = Reader { path, file_bytes };
+    let reader = Reader { path };
     let file = File::with_options()
         .with_fapl(|access| access.file_locking(false))
         .open(path)
@@ -46,12 +47,12 @@ pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<(File, u64),
             newest: format.version,
         });
     }
-    Ok((file, file_bytes))
+    check_own_storage(path, &file, file_bytes)?;
+    Ok(file)
 }
 
 pub(crate) struct Reader<'a> {
     pub path: &'a Path,
-    pub file_bytes: u64,
 }
 
 impl Reader<'_> {
@@ -78,14 +79,6 @@ impl Reader<'_> {
         skip: Option<&str>,
         tree: &mut DataTree,
     ) -> Result<(), FileError> {
-        if prefix.matches('/').count() > DEEPEST_GROUP {
-            return Err(FileError::InvalidName {
-                path: self.path.to_owned(),
-                item: "a group",
-                name: prefix.to_owned(),
-                allowed: "at most eight levels of groups are allowed",
-            });
-        }
         let local_name = |location: &Location| {
             location
                 .name()
@@ -125,27 +118,14 @@ impl Reader<'_> {
             .and_then(|stored| stored.to_descriptor())
             .map_err(failed)?;
         let shape = dataset.shape();
-        let bytes = shape
-            .iter()
-            .try_fold(stored_type.size() as u64, |bytes, &length| {
-                bytes.checked_mul(length as u64)
-            });
-        if bytes.is_none_or(|bytes| bytes > self.file_bytes) {
-            let (path, file_bytes) = (self.path.to_owned(), self.file_bytes);
-            return Err(FileError::TooLarge {
-                path,
-                item: format!("array \"{name}\""),
-                shape,
-                file_bytes,
-            });
-        }
         let values = if stored_type == f64::type_descriptor() {
             Values::F64(dataset.read_raw().map_err(failed)?)
         } else if stored_type == u32::type_descriptor() {
             Values::U32(dataset.read_raw().map_err(failed)?)
         } else if stored_type == TypeDescriptor::VarLenUnicode && shape.is_empty() {
             let text = dataset.read_scalar::<VarLenUnicode>().map_err(failed)?;
-            tree.texts.insert(name, text.as_str().to_owned());
+            let text = self.utf8(&text, || format!("text \"{name}\""))?;
+            tree.texts.insert(name, text);
             return Ok(());
         } else {
             let expected = "64-bit floating point, 32-bit counts or one text";
@@ -177,10 +157,10 @@ impl Reader<'_> {
             .attr("axisLabels")
             .and_then(|attribute| attribute.read_raw::<VarLenUnicode>());
         let labels = labels.map_err(|_| self.bad_attribute(dataset, "axisLabels"))?;
-        Ok(labels
+        labels
             .iter()
-            .map(|label| label.as_str().to_owned())
-            .collect())
+            .map(|label| self.utf8(label, || format!("axisLabels of \"{}\"", dataset.name())))
+            .collect()
     }
 
     pub(crate) fn text_attribute(
@@ -188,8 +168,8 @@ impl Reader<'_> {
         object: &Location,
         name: &str,
     ) -> Result<String, FileError> {
-        self.number_attribute::<VarLenUnicode>(object, name)
-            .map(|text| text.as_str().to_owned())
+        let text = self.number_attribute::<VarLenUnicode>(object, name)?;
+        self.utf8(&text, || format!("{name} of \"{}\"", object.name()))
     }
 
     fn number_attribute<T: H5Type>(&self, object: &Location, name: &str) -> Result<T, FileError> {
@@ -197,6 +177,22 @@ impl Reader<'_> {
             .attr(name)
             .and_then(|attribute| attribute.read_scalar::<T>());
         value.map_err(|_| self.bad_attribute(object, name))
+    }
+
+    /// A text of the file. libhdf5 does not check what a file calls UTF-8, and `VarLenUnicode::as_str` relies on it.
+    fn utf8(
+        &self,
+        text: &VarLenUnicode,
+        item: impl FnOnce() -> String,
+    ) -> Result<String, FileError> {
+        match std::str::from_utf8(text.as_bytes()) {
+            Ok(text) => Ok(text.to_owned()),
+            Err(error) => Err(FileError::NotUtf8 {
+                path: self.path.to_owned(),
+                item: item(),
+                byte: error.valid_up_to(),
+            }),
+        }
     }
 
     fn bad_attribute(&self, object: &Location, name: &str) -> FileError {
@@ -220,6 +216,9 @@ mod tests {
         version: 1,
     };
 
+    /// A text of the file, and what stands there when it is sealed.
+    const NOT_UTF8: (&str, &[u8; 8]) = ("damaged.", b"damage\xff.");
+
     fn read_back(make: impl FnOnce(&File)) -> FileError {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tree.h5");
@@ -232,6 +231,13 @@ mod tests {
             .unwrap();
         make(&file);
         file.close().unwrap();
+        let mut bytes = std::fs::read(&path).unwrap();
+        for place in 0..bytes.len() {
+            if bytes[place..].starts_with(NOT_UTF8.0.as_bytes()) {
+                bytes[place..place + NOT_UTF8.1.len()].copy_from_slice(NOT_UTF8.1);
+            }
+        }
+        std::fs::write(&path, bytes).unwrap();
         let mut handle = std::fs::OpenOptions::new()
             .read(true)
             .write(true)
@@ -270,6 +276,74 @@ mod tests {
             read_back(|file| drop(file.new_dataset::<f64>().shape(3).create("bare").unwrap()));
         assert!(
             matches!(&error, FileError::Missing { item, .. } if item.contains("axisLabels")),
+            "{error}"
+        );
+    }
+
+    /// An array as the writer makes it, under other properties.
+    fn array_in(file: &File, name: &str, length: usize) {
+        let dataset = file.new_dataset::<f64>().shape(length).create(name);
+        dataset.unwrap().write(&vec![1.0; length]).unwrap();
+    }
+
+    #[test]
+    fn arrays_and_links_that_lie_elsewhere_are_refused() {
+        let refused = |error: FileError, name: &str, how: &str| {
+            assert!(
+                matches!(&error, FileError::StoredElsewhere { name: found, how: said, .. }
+                    if found == name && said.contains(how)),
+                "{error}"
+            );
+        };
+        let error = read_back(|file| {
+            let builder = file.new_dataset_builder();
+            let builder = builder.with_dcpl(|create| create.external("/etc/hostname", 0, 8));
+            drop(builder.empty::<f64>().shape(1).create("outside").unwrap());
+        });
+        refused(error, "outside", "another file");
+        let error = read_back(|file| {
+            let builder = file.new_dataset_builder();
+            let builder = builder
+                .with_dcpl(|create| create.virtual_map("other.h5", "c_hub", 8, 0..8, 8, 0..8));
+            drop(builder.empty::<f64>().shape(8).create("seen").unwrap());
+        });
+        refused(error, "seen", "view");
+        let error = read_back(|file| {
+            file.link_external("/tmp/other.h5", "/c_hub", "a").unwrap();
+        });
+        refused(error, "a", "link");
+        let error = read_back(|file| {
+            array_in(file, "real", 1);
+            file.create_group("columns").unwrap();
+            file.link_soft("/real", "columns/again").unwrap();
+        });
+        refused(error, "columns/again", "link");
+    }
+
+    #[test]
+    fn many_names_of_one_array_count_as_often() {
+        let error = read_back(|file| {
+            array_in(file, "first", 4096);
+            for number in 0..64 {
+                file.link_hard("first", &format!("again{number:02}"))
+                    .unwrap();
+            }
+        });
+        assert!(
+            matches!(&error, FileError::TooLarge { before_bytes, .. } if *before_bytes >= 4096 * 8),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn text_that_is_no_utf8_is_named() {
+        let error = read_back(|file| {
+            let text: VarLenUnicode = NOT_UTF8.0.parse().unwrap();
+            let dataset = file.new_dataset::<VarLenUnicode>().create("title").unwrap();
+            dataset.write_scalar(&text).unwrap();
+        });
+        assert!(
+            matches!(&error, FileError::NotUtf8 { item, byte: 6, .. } if item.contains("title")),
             "{error}"
         );
     }

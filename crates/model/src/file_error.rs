@@ -118,9 +118,9 @@ pub enum FileError {
         /// The needed shape.
         expected: Vec<usize>,
     },
-    /// An array claims more data than the file holds; nothing was allocated.
-    #[error("{item} of {} claims shape {shape:?}, more than the {file_bytes} bytes of the file; make the file again",
-        path.display())]
+    /// The arrays claim more data than the file holds; nothing was allocated.
+    #[error("{item} of {} claims shape {shape:?}, with {before_bytes} bytes claimed before it more than the {file_bytes} bytes \
+        of the file; make the file again", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -128,8 +128,31 @@ pub enum FileError {
         item: String,
         /// Its shape.
         shape: Vec<usize>,
+        /// What the arrays before it claim.
+        before_bytes: u64,
         /// The length of the file.
         file_bytes: u64,
+    },
+    /// A link, or an array whose numbers are not in the file itself.
+    #[error("\"{name}\" of {} {how}; gearmesh reads only what is in the file itself: make the file again, or write a copy \
+        without links", path.display())]
+    StoredElsewhere {
+        /// The file.
+        path: PathBuf,
+        /// The dataset or link.
+        name: String,
+        /// What it is, as a verb phrase.
+        how: &'static str,
+    },
+    /// A text that says it is UTF-8 and is not.
+    #[error("{item} of {} is no UTF-8 text from its byte {byte} on; make the file again", path.display())]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// The text or attribute.
+        item: String,
+        /// The first byte that is wrong, counted from 0.
+        byte: usize,
     },
     /// A name that HDF5 or this format cannot hold.
     #[error("\"{name}\" cannot be stored as the name of {item} in {}: {allowed}", path.display())]

@@ -30,6 +30,7 @@ mod mesh_data;
 mod mesh_file;
 mod modal_basis;
 mod near_field;
+mod own_storage;
 mod reduced_gear;
 mod reduced_gear_check;
 mod reduced_gear_error;

@@ -1,7 +1,8 @@
 //! Rows of numbers appended to a plain file while a run goes on.
 //!
 //! 64-bit floats, little-endian, row after row, nothing else: a file that is cut in the midst of a row by a crash loses that row only,
-//! and a run that resumes cuts it to the rows that its checkpoint counts. HDF5 comes at the end
+//! and a run that resumes cuts it to the rows that its checkpoint counts. The log has no seal of its own: its digest so far stands in the
+//! checkpoint ([`RowLog::digest`]), and rows are compared with it when a run resumes and when they become columns. HDF5 comes at the end
 //! ([`write_columns`](crate::write_columns)): libhdf5 may leave a file unreadable that it had open when the process was killed.
 
 use std::fs::{File, OpenOptions, TryLockError};
@@ -24,6 +25,8 @@ pub struct RowLog {
     columns: usize,
     rows: u64,
     buffer: Vec<u8>,
+    /// Digest of what was handed to the system.
+    hasher: blake3::Hasher,
 }
 
 impl RowLog {
@@ -35,12 +38,16 @@ impl RowLog {
         Self::open(path, columns, 0)
     }
 
-    /// Goes on after `rows` rows; what was written later is cut off.
+    /// Goes on after `rows` rows, whose [`RowLog::digest`] must be `digest`; what was written later is cut off.
     ///
     /// # Errors
-    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Io`].
-    pub fn resume(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
-        Self::open(path, columns, rows)
+    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Altered`] if they are not those
+    /// that were written, [`FileError::Io`].
+    pub fn resume(path: &Path, columns: usize, rows: u64, digest: &str) -> Result<Self, FileError> {
+        let mut log = Self::open(path, columns, rows)?;
+        log.hasher = log.hash_rows()?;
+        log.must_have(digest, &log.hasher)?;
+        Ok(log)
     }
 
     fn open(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
@@ -77,6 +84,7 @@ impl RowLog {
             columns,
             rows,
             buffer: Vec::with_capacity(BUFFER_BYTES + columns * NUMBER_BYTES),
+            hasher: blake3::Hasher::new(),
         };
         log.seek(needed)?;
         Ok(log)
@@ -141,10 +149,63 @@ impl RowLog {
         self.seek(self.rows * row_bytes as u64)
     }
 
+    /// BLAKE3 digest of all rows so far as they were appended, 64 hexadecimal digits.
+    ///
+    /// # Errors
+    /// [`FileError::Io`].
+    pub fn digest(&mut self) -> Result<String, FileError> {
+        self.flush()?;
+        Ok(self.hasher.finalize().to_hex().to_string())
+    }
+
+    /// Reads all rows again and compares them with those that were appended.
+    ///
+    /// # Errors
+    /// [`FileError::Altered`], [`FileError::Io`].
+    pub(crate) fn verify(&mut self) -> Result<(), FileError> {
+        let written = self.digest()?;
+        let found = self.hash_rows()?;
+        self.must_have(&written, &found)
+    }
+
+    /// Digest of the file's first rows as they are on the disk.
+    fn hash_rows(&mut self) -> Result<blake3::Hasher, FileError> {
+        let length = self.rows * (self.columns * NUMBER_BYTES) as u64;
+        self.seek(0)?;
+        let mut hasher = blake3::Hasher::new();
+        let mut rest = length;
+        let mut block = vec![0; 1 << 20];
+        while rest > 0 {
+            let count = rest.min(block.len() as u64) as usize;
+            self.file
+                .read_exact(&mut block[..count])
+                .map_err(Self::io(&self.path, "read"))?;
+            hasher.update(&block[..count]);
+            rest -= count as u64;
+        }
+        self.seek(length)?;
+        Ok(hasher)
+    }
+
+    fn must_have(&self, digest: &str, found: &blake3::Hasher) -> Result<(), FileError> {
+        let found = found.finalize().to_hex();
+        if found.as_str() == digest {
+            return Ok(());
+        }
+        Err(FileError::Altered {
+            path: self.path.clone(),
+            difference: format!(
+                "the digest of its {} rows is {found}, was {digest}",
+                self.rows
+            ),
+        })
+    }
+
     fn flush(&mut self) -> Result<(), FileError> {
         self.file
             .write_all(&self.buffer)
             .map_err(Self::io(&self.path, "write"))?;
+        self.hasher.update(&self.buffer);
         self.buffer.clear();
         Ok(())
     }
@@ -186,11 +247,16 @@ mod tests {
         }
         log.sync().unwrap();
         drop(log);
+        let mut first = RowLog::create(&folder.path().join("first.log"), 3).unwrap();
+        for i in 0..9_000 {
+            first.append(&[f64::from(i), -0.0, f64::NAN]).unwrap();
+        }
+        let digest = first.digest().unwrap();
         // Half a row more, as a crash may leave it.
         let mut file = OpenOptions::new().append(true).open(&path).unwrap();
         file.write_all(&[1; 13]).unwrap();
         drop(file);
-        let mut log = RowLog::resume(&path, 3, 9_000).unwrap();
+        let mut log = RowLog::resume(&path, 3, 9_000, &digest).unwrap();
         log.append(&[7.0, 8.0, 9.0]).unwrap();
         let mut rows = Vec::new();
         log.read(8_999, 100, &mut rows).unwrap();
@@ -201,6 +267,43 @@ mod tests {
         log.append(&[1.0, 2.0, 3.0]).unwrap();
         log.sync().unwrap();
         assert_eq!(std::fs::metadata(&path).unwrap().len(), 9_002 * 24);
+        log.verify().unwrap();
+    }
+
+    #[test]
+    fn a_flipped_bit_is_found_when_the_log_is_resumed_and_when_it_is_read_to_the_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.log");
+        let flip = |place: u64| {
+            let mut file = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .open(&path)
+                .unwrap();
+            let mut byte = [0];
+            file.seek(SeekFrom::Start(place)).unwrap();
+            file.read_exact(&mut byte).unwrap();
+            file.seek(SeekFrom::Start(place)).unwrap();
+            file.write_all(&[byte[0] ^ 4]).unwrap();
+        };
+        let mut log = RowLog::create(&path, 2).unwrap();
+        for i in 0..100 {
+            log.append(&[f64::from(i), 1.0]).unwrap();
+        }
+        log.sync().unwrap();
+        let digest = log.digest().unwrap();
+        flip(800);
+        assert!(matches!(log.verify(), Err(FileError::Altered { .. })));
+        drop(log);
+        assert!(matches!(
+            RowLog::resume(&path, 2, 100, &digest),
+            Err(FileError::Altered { .. })
+        ));
+        flip(800);
+        RowLog::resume(&path, 2, 100, &digest)
+            .unwrap()
+            .verify()
+            .unwrap();
     }
 
     #[test]
@@ -215,7 +318,7 @@ mod tests {
             Err(FileError::InUse { .. })
         ));
         drop(log);
-        let error = RowLog::resume(&path, 1, 2).unwrap_err().to_string();
+        let error = RowLog::resume(&path, 1, 2, "").unwrap_err().to_string();
         assert!(error.contains("8 bytes") && error.contains("16"), "{error}");
     }
 }

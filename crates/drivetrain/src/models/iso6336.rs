@@ -1,4 +1,5 @@
-//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B; constant or with a sine over the mesh cycle.
+//! `iso6336`: one spring for the whole mesh, c_γ b, after ISO 6336-1 method B, constant or with a sine over the mesh cycle; or the tangent to
+//! the static curve of the pair itself (pair_curve.rs).
 //!
 //! ```text
 //! q′ = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 − 0.00635 x₁ − 0.11654 x₁/z_n1 − 0.00193 x₂ − 0.24188 x₂/z_n2 + 0.00529 x₁² + 0.00182 x₂²
@@ -10,10 +11,10 @@
 //! are refused with it. In each slice it stands on the pair that is on the path there; on helical teeth each slice has its own phase of the
 //! sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.
 
-use std::f64::consts::TAU;
-
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::{FlankContacts, Section};
+use crate::pair_curve::PairCurve;
+use crate::roll_harmonics::RollHarmonics;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
 /// What the single stiffness of ISO 6336-1 depends on. Gear 1 is the pinion.
@@ -81,14 +82,31 @@ pub fn blank_factor(web_over_face: f64, rim_over_module: f64) -> f64 {
     1.0 + web.ln() / (5.0 * (rim_over_module.max(1.0) / 5.0).exp())
 }
 
+/// The load at which a pair's static curve was taken: there the spring has the pair's deflection.
+#[derive(Debug, Clone, PartialEq)]
+struct OperatingPoint {
+    force_n: f64,
+    deflection_m: RollHarmonics,
+}
+
 /// The spring of the whole mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MeshSpring {
-    mean_n_per_m: f64,
-    /// Amplitude over the mean, roll angle of the maximum, pitch \[rad\].
-    sine: Option<[f64; 3]>,
+    stiffness_n_per_m: RollHarmonics,
+    operating: Option<OperatingPoint>,
     slices: f64,
     middle_roll_rad: f64,
+    /// Roll angle of each slice's section less that at whose phase the curves are taken \[rad\]; none where that is its own.
+    ahead_rad: Vec<f64>,
+}
+
+/// A spring at one roll angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SpringAt {
+    /// k and dk/dξ.
+    stiffness: (f64, f64),
+    /// Depth at which the force begins, and its derivative by ξ.
+    touch_m: (f64, f64),
 }
 
 impl MeshSpring {
@@ -101,18 +119,48 @@ impl MeshSpring {
         slices: usize,
         middle_roll_rad: f64,
     ) -> Result<Self, DrivetrainError> {
+        let mean = positive("iso6336 mesh", "the stiffness in N/m", stiffness_n_per_m)?;
         Ok(Self {
-            mean_n_per_m: positive("iso6336 mesh", "the stiffness in N/m", stiffness_n_per_m)?,
-            sine: None,
+            stiffness_n_per_m: RollHarmonics::constant(mean),
+            operating: None,
             slices: slices as f64,
             middle_roll_rad,
+            ahead_rad: Vec::new(),
         })
+    }
+
+    /// The tangent to a pair's static curve, F = F₀ + k(ξ) (δ − δ₀(ξ)) where that is positive, shared by `slices`.
+    #[must_use]
+    pub fn on_curve(curve: &PairCurve, slices: usize, middle_roll_rad: f64) -> Self {
+        Self {
+            stiffness_n_per_m: curve.tangent_n_per_m().clone(),
+            operating: Some(OperatingPoint {
+                force_n: curve.force_n(),
+                deflection_m: curve.deflection_m().clone(),
+            }),
+            slices: slices as f64,
+            middle_roll_rad,
+            ahead_rad: Vec::new(),
+        }
+    }
+
+    /// Takes the curves of all slices at one phase, that at mid-face: for curves of the mesh as a whole on helical teeth. `ahead_rad`: roll
+    /// angle of each slice's section on gear 1 less that at mid-face.
+    #[must_use]
+    pub fn with_phase_of_mid_face(mut self, ahead_rad: Vec<f64>) -> Self {
+        self.ahead_rad = ahead_rad;
+        self
     }
 
     /// Turns a stiffness in the transverse plane, as ISO 6336-1 states it, into that along the normal of helical flanks: over cos²β_b.
     #[must_use]
     pub fn on_base_helix(mut self, base_helix_angle_rad: f64) -> Self {
-        self.mean_n_per_m /= base_helix_angle_rad.cos().powi(2);
+        let cos = base_helix_angle_rad.cos();
+        self.stiffness_n_per_m = self.stiffness_n_per_m.scaled(1.0 / (cos * cos));
+        self.operating = self.operating.map(|point| OperatingPoint {
+            force_n: point.force_n / cos,
+            deflection_m: point.deflection_m.scaled(cos),
+        });
         self
     }
 
@@ -136,22 +184,21 @@ impl MeshSpring {
                 allowed: "below 1",
             });
         }
-        let pitch = TAU / teeth_1 as f64;
-        self.sine = Some([relative_amplitude, roll_of_maximum_rad, pitch]);
+        let mean = self.stiffness_n_per_m.mean();
+        let sine = [(relative_amplitude * mean, 0.0)];
+        self.stiffness_n_per_m = RollHarmonics::new(mean, &sine, teeth_1, roll_of_maximum_rad);
         Ok(self)
     }
 
-    /// Stiffness \[N/m\] and its derivative by the roll angle on gear 1.
-    #[must_use]
-    pub fn stiffness(&self, roll_1_rad: f64) -> (f64, f64) {
-        let Some([amplitude, maximum, pitch]) = self.sine else {
-            return (self.mean_n_per_m, 0.0);
-        };
-        let (sin, cos) = (TAU * (roll_1_rad - maximum) / pitch).sin_cos();
-        (
-            self.mean_n_per_m * (1.0 + amplitude * cos),
-            -self.mean_n_per_m * amplitude * sin * TAU / pitch,
-        )
+    fn at(&self, roll_1_rad: f64) -> SpringAt {
+        let stiffness = self.stiffness_n_per_m.at(roll_1_rad);
+        let touch_m = self.operating.as_ref().map_or((0.0, 0.0), |point| {
+            let (k, k_slope) = stiffness;
+            let (deflection, slope) = point.deflection_m.at(roll_1_rad);
+            let taken_up = point.force_n / k;
+            (deflection - taken_up, slope + taken_up * k_slope / k)
+        });
+        SpringAt { stiffness, touch_m }
     }
 }
 
@@ -181,14 +228,18 @@ impl TeethModel for MeshSpring {
             let Some((i, contact)) = nearest else {
                 continue;
             };
-            let depth = -contact.gap_m;
+            let ahead = self.ahead_rad.get(slice).copied().unwrap_or(0.0);
+            let spring = self.at(flanks.section(contact).roll_rad[0] - ahead);
+            let depth = -contact.gap_m - spring.touch_m.0;
             if depth > 0.0 {
-                let (stiffness, slope) = self.stiffness(flanks.section(contact).roll_rad[0]);
+                let (stiffness, slope) = spring.stiffness;
                 let (each, each_slope) = (stiffness / self.slices, slope / self.slices);
-                loads.normal_n[i] = each * depth;
+                let force = each * depth;
+                loads.normal_n[i] = force;
                 loads.stiffness_n_per_m[i * n + i] = each;
-                loads.stored_j += 0.5 * each * depth * depth;
-                loads.energy_by_roll[contact.section][0] -= 0.5 * each_slope * depth * depth;
+                loads.stored_j += 0.5 * force * depth;
+                loads.energy_by_roll[contact.section][0] +=
+                    force * spring.touch_m.1 - 0.5 * each_slope * depth * depth;
             }
         }
         Ok(())

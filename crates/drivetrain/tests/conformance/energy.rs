@@ -11,6 +11,7 @@ fn undamped_loads_follow_from_the_energy() {
     for pair in pairs() {
         for name in [
             "iso6336",
+            "own curve",
             "analytic",
             "hybrid",
             "cracked hybrid",

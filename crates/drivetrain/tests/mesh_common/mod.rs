@@ -121,6 +121,51 @@ pub fn mesh_spring(pair: &GearPair) -> MeshSpring {
         .unwrap()
 }
 
+/// The pair of the made-up gears at rest, over one pitch at `points` positions.
+pub fn own_curve(pair: &GearPair, torque_nm: f64, points: usize) -> (PairCurve, Vec<f64>) {
+    use gearmesh_contact::mesh_stiffness::MeshStiffness;
+    use gearmesh_contact::{ContactLines, StaticContact, static_contact::Drive};
+    let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
+    let lines = ContactLines {
+        pair: pair.clone(),
+        microgeometry_1: Default::default(),
+        microgeometry_2: Default::default(),
+        extension: None,
+        face_width_m: WIDTH,
+    };
+    let options = pair_common::FRICTIONLESS;
+    let mut contact = StaticContact::new(lines, &models[0], &models[1], options).unwrap();
+    let (mut te_m, mut unloaded_m, mut tangent_n_per_m) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..points {
+        let theta = pair.pitch_1_rad() * k as f64 / points as f64;
+        let state = contact.solve(theta, Drive::Torque(torque_nm)).unwrap();
+        let stiffness = MeshStiffness::of(&state, pair.gear_2.base_radius_m);
+        te_m.push(state.transmission_error_m);
+        unloaded_m.push(state.unloaded_m);
+        tangent_n_per_m.push(stiffness.tangent_n_per_m);
+    }
+    let samples = PairSamples {
+        start_roll_rad: pair.working_pressure_angle_rad.tan(),
+        pitches: 1,
+        teeth_1: pair.gear_1.teeth,
+        force_n: torque_nm / pair.gear_2.base_radius_m,
+        te_m: &te_m,
+        unloaded_m: &unloaded_m,
+        tangent_n_per_m: &tangent_n_per_m,
+    };
+    (PairCurve::new(samples, 8).unwrap(), te_m)
+}
+
+/// The one spring of the mesh as the tangent to the pair's own curve.
+pub fn own_spring(pair: &GearPair, side: FlankSide) -> MeshSpring {
+    let (curve, _) = own_curve(pair, 200.0, 24);
+    let slope = pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
+    let ahead = slice_planes().iter().map(|z| slope * z).collect();
+    MeshSpring::on_curve(&curve, SLICES, pair.working_pressure_angle_rad.tan())
+        .with_phase_of_mid_face(ahead)
+        .on_base_helix(pair.base_helix_angle_rad())
+}
+
 pub fn beam_teeth(pair: &GearPair) -> BeamTeeth {
     let gears = [beam_tooth(1, &pair.gear_1), beam_tooth(2, &pair.gear_2)];
     BeamTeeth::new(gears, SLICES, [&[], &[]]).unwrap()
@@ -178,6 +223,7 @@ pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel
     match name {
         "impact" => Box::new(impact()),
         "iso6336" => Box::new(mesh_spring(pair)),
+        "own curve" => Box::new(own_spring(pair, side)),
         "analytic" => Box::new(beam_teeth(pair)),
         "cracked hybrid" => Box::new(cracked_teeth(pair, side)),
         "vibrating hybrid" => Box::new(vibrating_teeth(pair, side)),

@@ -25,6 +25,9 @@ const FORMAT: FileFormat = FileFormat {
 const IDENTITY: &str = "run";
 const ROWS: &str = "rows";
 
+/// Digest of these rows.
+const DIGEST: &str = "rows_digest";
+
 /// The folder, opened.
 pub struct PartFolder {
     folder: PathBuf,
@@ -76,7 +79,8 @@ impl PartFolder {
             return Err(SystemRunError::OtherRun { path: folder });
         }
         let count = tree.take_scalar(&checkpoint, ROWS).map_err(damaged)? as u64;
-        let log = RowLog::resume(&rows, columns, count).map_err(|error| match error {
+        let digest = tree.attributes.remove(DIGEST).unwrap_or_default();
+        let log = RowLog::resume(&rows, columns, count, &digest).map_err(|error| match error {
             FileError::InUse { .. } => error.into(),
             _ => damaged(error),
         })?;
@@ -100,6 +104,8 @@ impl PartFolder {
             "rows that belong to this state",
         );
         tree.put(ROWS, rows);
+        tree.attributes
+            .insert(DIGEST.to_owned(), self.log.digest()?);
         tree.attributes
             .insert(IDENTITY.to_owned(), self.identity.clone());
         tree.write(&self.folder.join("checkpoint.h5"), &FORMAT)

@@ -3,9 +3,14 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../made_up_gears/mod.rs"]
+mod made_up_gears;
+mod pair_stiffness;
 mod shafts;
 mod shipped;
 mod start;
+#[path = "../system_runs/mod.rs"]
+mod system_runs;
 mod tables;
 
 use gearmesh_scene::system::BuiltSystem;

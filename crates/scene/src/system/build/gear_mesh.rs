@@ -95,13 +95,15 @@ impl PreparedMesh {
             slice_width_m: 0.0,
             key: key.clone(),
         };
-        let scene = SceneMesh {
+        let mut scene = SceneMesh {
             table,
             keys,
             folder,
             gears,
             pair: &pair,
+            curve: None,
         };
+        scene.curve = scene.static_curve(prepared.sides[0])?;
         scene.refuse_unfelt_cracks()?;
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
@@ -113,6 +115,7 @@ impl PreparedMesh {
             prepared.mesh = Some(scene.modal(mesh, modes)?);
         }
         scene.effects(parts);
+        parts.notes.extend(scene.stiffness_note()?);
         Ok(prepared)
     }
 

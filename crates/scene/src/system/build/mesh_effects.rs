@@ -39,10 +39,13 @@ impl SceneMesh<'_> {
         );
         let on = table.microgeometry.unwrap_or(true)
             && self.gears.iter().any(|gear| gear.has_microgeometry());
-        parts.effect(
-            name("microgeometry"),
-            on.then(|| "of the gear files".to_string()),
-        );
+        let from_curve = table.model == MeshModel::Iso6336 && self.curve.is_some();
+        let microgeometry = match (on, from_curve) {
+            (true, true) => Some("in the pair's static curve".to_string()),
+            (true, false) => Some("of the gear files".to_string()),
+            (false, _) => None,
+        };
+        parts.effect(name("microgeometry"), microgeometry);
         let kinds: Vec<&str> = table
             .errors_1
             .iter()

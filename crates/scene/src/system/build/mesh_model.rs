@@ -1,15 +1,13 @@
-//! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: stiffness, damping, friction, errors.
+//! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: damping, friction, errors; the stiffness of the simple models is in
+//! `mesh_stiffness.rs`.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
-use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{
-    BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh, Impact,
-    MeshKinematics, MeshSpring, PathEnds, PowerStiffness, ReducedTeeth, SingleStiffness,
-    TeethModel,
+    BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh,
+    MeshKinematics, PairCurve, PathEnds, ReducedTeeth, TeethModel,
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{FlankSide, GearPair, InputError};
@@ -17,12 +15,12 @@ use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
 use crate::system::tables::gear_mesh::{
-    DampingTable, FlanksWord, FrictionTable, GearMeshTable, LocalWord, MeshModel, PathWord,
+    DampingTable, FlanksWord, FrictionTable, GearMeshTable, MeshModel, PathWord,
 };
 use crate::system::tables::{MM, UM};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene does not state.
-const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
+pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
 /// Sliding speed of the static coefficient of friction where a scene states none \[m/s\]: small against the sliding of gears that run at some rpm,
 /// large enough for steps of some microseconds.
 const DEFAULT_STATIC_SPEED_M_PER_S: f64 = 10e-3;
@@ -47,6 +45,11 @@ pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Resu
                 &["impact"],
             ),
             ("exponent", table.exponent.is_some(), &["impact"]),
+            (
+                "stiffness",
+                table.stiffness.is_some(),
+                &["impact", "iso6336"],
+            ),
             (
                 "damping_N_s_per_mm",
                 table.damping_N_s_per_mm.is_some(),
@@ -97,10 +100,12 @@ pub(super) struct SceneMesh<'a> {
     pub folder: &'a Path,
     pub gears: [&'a Arc<Gear>; 2],
     pub pair: &'a GearPair,
+    /// The static curve of the pair where the stiffness comes from it.
+    pub curve: Option<PairCurve>,
 }
 
 impl SceneMesh<'_> {
-    fn fault(&self) -> impl Fn(DrivetrainError) -> InputError + '_ {
+    pub(super) fn fault(&self) -> impl Fn(DrivetrainError) -> InputError + '_ {
         |error| self.keys.error("", error)
     }
 
@@ -132,7 +137,9 @@ impl SceneMesh<'_> {
         let blind = matches!(self.table.model, MeshModel::Kinematic | MeshModel::Iso6336);
         let mut errors: [FlankErrors; 2] = [Vec::new(), Vec::new()];
         for (gear, list) in self.gears.iter().zip(&mut errors) {
-            if !on || !gear.has_microgeometry() {
+            // A curve of the pair holds it already.
+            let in_curve = blind && self.curve.is_some();
+            if !on || !gear.has_microgeometry() || in_curve {
                 continue;
             }
             if blind {
@@ -221,8 +228,8 @@ impl SceneMesh<'_> {
                 );
             }
             MeshModel::Iso6336 => {
-                let spring = self.spring(slices.len())?;
                 for side in sides {
+                    let spring = self.spring(*side, &slices)?;
                     teeth.push((*side, self.damped(spring, slices.len())?));
                 }
             }
@@ -287,120 +294,6 @@ impl SceneMesh<'_> {
         Ok(mesh)
     }
 
-    fn impact(&self, slices: usize) -> Result<Impact, InputError> {
-        let needed_by = "model = \"impact\"";
-        let table = self.table;
-        let k = self.keys.needed(
-            "stiffness_N_per_mm_e",
-            table.stiffness_N_per_mm_e,
-            needed_by,
-        )?;
-        let e = self.keys.needed(
-            "exponent",
-            table.exponent,
-            "the unit of stiffness_N_per_mm_e, N/mm^e,",
-        )?;
-        self.keys
-            .require("stiffness_N_per_mm_e", k, k > 0.0, "more than 0")?;
-        self.keys
-            .require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
-        let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(self.fault())?;
-        let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
-            // Without damping the depth has no meaning.
-            (None, None) => (0.0, UM),
-            (damping, depth) => {
-                let damping =
-                    self.keys
-                        .needed("damping_N_s_per_mm", damping, "full_damping_depth_um")?;
-                let depth =
-                    self.keys
-                        .needed("full_damping_depth_um", depth, "damping_N_s_per_mm")?;
-                self.keys
-                    .require("damping_N_s_per_mm", damping, damping >= 0.0, "0 or more")?;
-                self.keys
-                    .require("full_damping_depth_um", depth, depth > 0.0, "more than 0")?;
-                (damping / MM, UM * depth)
-            }
-        };
-        Impact::new(stiffness, damping, depth_m, slices).map_err(self.fault())
-    }
-
-    fn spring(&self, slices: usize) -> Result<MeshSpring, InputError> {
-        let table = self.table;
-        let per_width = match (table.stiffness_N_per_mm_um, table.line_load_N_per_mm) {
-            (Some(_), Some(_)) => {
-                return Err(self.keys.error(
-                    "line_load_N_per_mm",
-                    "is not used where stiffness_N_per_mm_um is stated; remove one of the two",
-                ));
-            }
-            (Some(stiffness), None) => {
-                self.keys.require(
-                    "stiffness_N_per_mm_um",
-                    stiffness,
-                    stiffness > 0.0,
-                    "more than 0",
-                )?;
-                1e9 * stiffness
-            }
-            (None, line_load) => {
-                let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| q / MM);
-                self.keys.require(
-                    "line_load_N_per_mm",
-                    line_load * MM,
-                    line_load > 0.0,
-                    "more than 0",
-                )?;
-                self.iso_stiffness(line_load)
-                    .mesh_n_per_m2(self.pair.contact_ratio())
-            }
-        };
-        let middle = self.pair.working_pressure_angle_rad.tan();
-        let spring = MeshSpring::new(per_width * self.face_width_m(), slices, middle)
-            .map_err(self.fault())?
-            .on_base_helix(self.pair.base_helix_angle_rad());
-        match table.stiffness_amplitude {
-            None => Ok(spring),
-            Some(amplitude) => {
-                self.keys.require(
-                    "stiffness_amplitude",
-                    amplitude,
-                    (0.0..1.0).contains(&amplitude),
-                    "0 to below 1",
-                )?;
-                spring
-                    .with_sine(amplitude, middle, self.pair.gear_1.teeth)
-                    .map_err(self.fault())
-            }
-        }
-    }
-
-    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank counts.
-    fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
-        let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
-        if pinion.profile.teeth > wheel.profile.teeth {
-            std::mem::swap(&mut pinion, &mut wheel);
-        }
-        let blanks = [pinion, wheel].map(|gear| {
-            gear.blank.web.map_or(1.0, |web| {
-                let rim =
-                    (gear.profile.root_radius_m - web.rim_inner_radius_m) / gear.tooth.module_m;
-                blank_factor(web.thickness_m / gear.tooth.face_width_m, rim)
-            })
-        });
-        let [e1, e2] = [pinion.material.young_pa, wheel.material.young_pa];
-        SingleStiffness {
-            virtual_teeth: [pinion, wheel].map(|gear| gear.profile.virtual_teeth()),
-            profile_shifts: [pinion, wheel].map(|gear| gear.tooth.profile_shift),
-            helix_angle_rad: pinion.tooth.helix_angle_rad.abs(),
-            rack_dedendum: 0.5 * (pinion.tooth.dedendum + wheel.tooth.dedendum),
-            rack_pressure_angle_rad: pinion.tooth.pressure_angle_rad,
-            blank_factor: blanks[0].min(blanks[1]),
-            young_pa: 2.0 * e1 * e2 / (e1 + e2),
-            line_load_n_per_m,
-        }
-    }
-
     fn beams(&self, slices: usize) -> Result<BeamTeeth, InputError> {
         let tooth = |i: usize| {
             let gear = &self.gears[i].definition;
@@ -424,11 +317,7 @@ impl SceneMesh<'_> {
         let nominal = self.table.nominal_force_N.unwrap_or(reference);
         self.keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let local = match self.table.local.unwrap_or_default() {
-            LocalWord::None => LocalContact::None,
-            LocalWord::WeberBanaschek => LocalContact::WeberBanaschek,
-            LocalWord::Calibrated => LocalContact::Calibrated,
-        };
+        let local = self.table.local.unwrap_or_default().local_contact();
         ReducedTeeth::new(self.pair, side, models, local, nominal).map_err(|error| {
             let hint = match self.table.flanks.unwrap_or_default() {
                 FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",

@@ -5,7 +5,7 @@
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts | `shafts.rs` |
-//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_effects.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs` |
 //! | speeds and angles that nobody states | `start.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
@@ -18,6 +18,8 @@ mod joints;
 mod lump;
 mod mesh_effects;
 mod mesh_model;
+mod mesh_stiffness;
+mod pair_stiffness;
 mod parts;
 mod ratings;
 mod shafts;

@@ -1,5 +1,8 @@
 //! `[[gear_mesh]]`: two gears, the model of their teeth and what else is computed.
 
+use std::path::PathBuf;
+
+use gearmesh_contact::LocalContact;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -28,13 +31,15 @@ pub struct GearMeshTable {
     pub slices: Option<usize>,
     /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
     pub stiffness_N_per_mm_e: Option<f64>,
-    /// `impact`: e, at least 1.
+    /// `impact`: e, at least 1; with `stiffness` that of the pair's curve where not given.
     pub exponent: Option<f64>,
     /// `impact`: largest damping, none where not given.
     pub damping_N_s_per_mm: Option<f64>,
     /// `impact` with damping: depth from which it acts in full.
     pub full_damping_depth_um: Option<f64>,
-    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where not given.
+    /// `impact`, `iso6336`: the stiffness of the pair itself, from its static curve at one torque, instead of a stated one.
+    pub stiffness: Option<PairStiffnessTable>,
+    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor `stiffness` is given.
     pub stiffness_N_per_mm_um: Option<f64>,
     /// `iso6336` without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
     pub line_load_N_per_mm: Option<f64>,
@@ -50,7 +55,7 @@ pub struct GearMeshTable {
     /// Friction; none where not given. Not with `kinematic`.
     pub friction: Option<FrictionTable>,
     /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336` know no flanks: with them
-    /// it must be set to false for gears that have microgeometry.
+    /// it must be set to false for gears that have microgeometry, but for `iso6336` with `stiffness`, whose curve holds it.
     pub microgeometry: Option<bool>,
     /// Errors and faults of gear 1. Not with `kinematic` and `iso6336`.
     #[serde(default)]
@@ -68,6 +73,22 @@ pub struct GearMeshTable {
     pub eccentricity_1: Option<EccentricityTable>,
     /// Place of gear 2 on its body.
     pub eccentricity_2: Option<EccentricityTable>,
+}
+
+/// `stiffness`: the pair's own static curve.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct PairStiffnessTable {
+    /// Result (.h5) of a `[pair]` scene of these gears, relative to the scene. Where not given, the curve is computed, as the models of the two
+    /// bodies' reduced gears have it.
+    pub from: Option<PathBuf>,
+    /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that scene's torques.
+    pub torque_Nm: f64,
+    /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
+    pub harmonics: Option<usize>,
+    /// Without `from`: local contact of the curve; "calibrated" where not given.
+    pub local: Option<LocalWord>,
 }
 
 /// `gear_mesh.model`, cheapest first.
@@ -124,7 +145,7 @@ pub enum PathWord {
     Extended,
 }
 
-/// Local contact of `hybrid`.
+/// Local contact of reduced gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocalWord {
@@ -135,6 +156,17 @@ pub enum LocalWord {
     /// By the model's plane-strain calibration.
     #[default]
     Calibrated,
+}
+
+impl LocalWord {
+    /// The local contact that it names.
+    pub(crate) fn local_contact(self) -> LocalContact {
+        match self {
+            Self::None => LocalContact::None,
+            Self::WeberBanaschek => LocalContact::WeberBanaschek,
+            Self::Calibrated => LocalContact::Calibrated,
+        }
+    }
 }
 
 /// `damping`.

@@ -1,0 +1,225 @@
+//! Stiffness of `impact` and `iso6336` meshes: stated, after ISO 6336-1, or from the pair's own static curve; and what it is, in words.
+
+use std::path::Path;
+
+use gearmesh_drivetrain::models::iso6336::blank_factor;
+use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
+use gearmesh_geometry::{FlankSide, InputError};
+
+use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
+use crate::system::tables::gear_mesh::MeshModel;
+use crate::system::tables::{MM, UM};
+
+/// N/(mm·µm) in SI, N/m².
+const N_PER_MM_UM: f64 = 1e9;
+
+impl SceneMesh<'_> {
+    /// K in N/mm^e and e of `impact`.
+    fn impact_stiffness(&self) -> Result<(f64, f64), InputError> {
+        let (table, keys) = (self.table, &self.keys);
+        if let Some(e) = table.exponent {
+            keys.require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
+        }
+        if let Some(curve) = &self.curve {
+            if table.stiffness_N_per_mm_e.is_some() {
+                return Err(keys.error(
+                    "stiffness_N_per_mm_e",
+                    "is not used where `stiffness` takes it from the pair's curve; remove one of the two",
+                ));
+            }
+            return Ok(curve.pair_law(self.pair, self.face_width_m(), table.exponent));
+        }
+        let needed_by = "model = \"impact\" without `stiffness`";
+        let k = keys.needed(
+            "stiffness_N_per_mm_e",
+            table.stiffness_N_per_mm_e,
+            needed_by,
+        )?;
+        let unit = "the unit of stiffness_N_per_mm_e, N/mm^e,";
+        let e = keys.needed("exponent", table.exponent, unit)?;
+        keys.require("stiffness_N_per_mm_e", k, k > 0.0, "more than 0")?;
+        Ok((k, e))
+    }
+
+    /// The law of `impact`.
+    pub(super) fn impact(&self, slices: usize) -> Result<Impact, InputError> {
+        let table = self.table;
+        let (k, e) = self.impact_stiffness()?;
+        let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(self.fault())?;
+        let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
+            // Without damping the depth has no meaning.
+            (None, None) => (0.0, UM),
+            (damping, depth) => {
+                let damping =
+                    self.keys
+                        .needed("damping_N_s_per_mm", damping, "full_damping_depth_um")?;
+                let depth =
+                    self.keys
+                        .needed("full_damping_depth_um", depth, "damping_N_s_per_mm")?;
+                self.keys
+                    .require("damping_N_s_per_mm", damping, damping >= 0.0, "0 or more")?;
+                self.keys
+                    .require("full_damping_depth_um", depth, depth > 0.0, "more than 0")?;
+                (damping / MM, UM * depth)
+            }
+        };
+        Impact::new(stiffness, damping, depth_m, slices).map_err(self.fault())
+    }
+
+    /// c_γα of `iso6336` \[N/m²\] where no curve gives it, and how it was found.
+    fn mesh_stiffness_n_per_m2(&self) -> Result<(f64, &'static str), InputError> {
+        let (table, keys) = (self.table, &self.keys);
+        match (table.stiffness_N_per_mm_um, table.line_load_N_per_mm) {
+            (Some(_), Some(_)) => Err(keys.error(
+                "line_load_N_per_mm",
+                "is not used where stiffness_N_per_mm_um is stated; remove one of the two",
+            )),
+            (Some(stiffness), None) => {
+                let ok = stiffness > 0.0;
+                keys.require("stiffness_N_per_mm_um", stiffness, ok, "more than 0")?;
+                Ok((N_PER_MM_UM * stiffness, "as stated"))
+            }
+            (None, line_load) => {
+                let line_load = line_load.map_or(REFERENCE_LINE_LOAD_N_PER_M, |q| q / MM);
+                let ok = line_load > 0.0;
+                keys.require("line_load_N_per_mm", line_load * MM, ok, "more than 0")?;
+                let single = self.iso_stiffness(line_load);
+                let mesh = single.mesh_n_per_m2(self.pair.contact_ratio());
+                Ok((mesh, "after ISO 6336-1 method B"))
+            }
+        }
+    }
+
+    /// The spring of `iso6336` on one side of the teeth.
+    pub(super) fn spring(
+        &self,
+        side: FlankSide,
+        slices_m: &[f64],
+    ) -> Result<MeshSpring, InputError> {
+        let (table, slices) = (self.table, slices_m.len());
+        let middle = self.pair.working_pressure_angle_rad.tan();
+        let helix = self.pair.base_helix_angle_rad();
+        if let Some(curve) = &self.curve {
+            for (key, given) in [
+                (
+                    "stiffness_N_per_mm_um",
+                    table.stiffness_N_per_mm_um.is_some(),
+                ),
+                ("line_load_N_per_mm", table.line_load_N_per_mm.is_some()),
+                ("stiffness_amplitude", table.stiffness_amplitude.is_some()),
+            ] {
+                if given {
+                    let problem = "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
+                    return Err(self.keys.error(key, problem));
+                }
+            }
+            let slope = self.pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
+            let ahead = slices_m.iter().map(|z| slope * z).collect();
+            return Ok(MeshSpring::on_curve(curve, slices, middle)
+                .with_phase_of_mid_face(ahead)
+                .on_base_helix(helix));
+        }
+        let (per_width, _) = self.mesh_stiffness_n_per_m2()?;
+        let spring = MeshSpring::new(per_width * self.face_width_m(), slices, middle)
+            .map_err(self.fault())?
+            .on_base_helix(helix);
+        match table.stiffness_amplitude {
+            None => Ok(spring),
+            Some(amplitude) => {
+                let ok = (0.0..1.0).contains(&amplitude);
+                (self.keys).require("stiffness_amplitude", amplitude, ok, "0 to below 1")?;
+                spring
+                    .with_sine(amplitude, middle, self.pair.gear_1.teeth)
+                    .map_err(self.fault())
+            }
+        }
+    }
+
+    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank counts.
+    fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
+        let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
+        if pinion.profile.teeth > wheel.profile.teeth {
+            std::mem::swap(&mut pinion, &mut wheel);
+        }
+        let blanks = [pinion, wheel].map(|gear| {
+            gear.blank.web.map_or(1.0, |web| {
+                let rim =
+                    (gear.profile.root_radius_m - web.rim_inner_radius_m) / gear.tooth.module_m;
+                blank_factor(web.thickness_m / gear.tooth.face_width_m, rim)
+            })
+        });
+        let [e1, e2] = [pinion.material.young_pa, wheel.material.young_pa];
+        SingleStiffness {
+            virtual_teeth: [pinion, wheel].map(|gear| gear.profile.virtual_teeth()),
+            profile_shifts: [pinion, wheel].map(|gear| gear.tooth.profile_shift),
+            helix_angle_rad: pinion.tooth.helix_angle_rad.abs(),
+            rack_dedendum: 0.5 * (pinion.tooth.dedendum + wheel.tooth.dedendum),
+            rack_pressure_angle_rad: pinion.tooth.pressure_angle_rad,
+            blank_factor: blanks[0].min(blanks[1]),
+            young_pa: 2.0 * e1 * e2 / (e1 + e2),
+            line_load_n_per_m,
+        }
+    }
+
+    /// What stiffness the mesh has, for plan and result; nothing for models that have none of their own.
+    pub(super) fn stiffness_note(&self) -> Result<Option<String>, InputError> {
+        let table = self.table;
+        let c_gamma =
+            |stiffness_n_per_m: f64| stiffness_n_per_m / self.face_width_m() / N_PER_MM_UM;
+        let words = match (table.model, &self.curve, &table.stiffness) {
+            (MeshModel::Impact, Some(curve), Some(source)) => {
+                let (k, e) = self.impact_stiffness()?;
+                format!(
+                    "K {k:.5e} N/mm^e of each pair of teeth, e {e:.4}, from {} at {} N m: its mean deflection and mean tangent; secant c_gamma {:.3} N/(mm um)",
+                    curve_name(source.from.as_deref()),
+                    source.torque_Nm,
+                    c_gamma(curve.mean_secant_n_per_m())
+                )
+            }
+            (MeshModel::Iso6336, Some(curve), Some(source)) => {
+                let tangent = curve.tangent_n_per_m();
+                let shares: Vec<String> = (tangent.amplitudes().take(3))
+                    .map(|a| format!("{:.2}", 100.0 * a / tangent.mean()))
+                    .collect();
+                let harmonics = match shares.as_slice() {
+                    [] => "no harmonics: it excites nothing".to_owned(),
+                    some => format!(
+                        "{} harmonics, the first {} % of it",
+                        tangent.amplitudes().count(),
+                        some.join(", ")
+                    ),
+                };
+                format!(
+                    "c_gamma {:.3} N/(mm um), the tangent at {} N m of {} (secant {:.3}), {harmonics}; its static transmission error is kept within {:.3} um",
+                    c_gamma(tangent.mean()),
+                    source.torque_Nm,
+                    curve_name(source.from.as_deref()),
+                    c_gamma(curve.mean_secant_n_per_m()),
+                    curve.remainder_m() / UM
+                )
+            }
+            (MeshModel::Iso6336, ..) => {
+                let (stiffness, how) = self.mesh_stiffness_n_per_m2()?;
+                let cycle = match table.stiffness_amplitude {
+                    Some(a) if a > 0.0 => {
+                        format!("a sine of {:.2} % over the mesh cycle", 100.0 * a)
+                    }
+                    _ => "constant over the mesh cycle: it excites no vibration and has no transmission error that varies \
+                          (stiffness_amplitude or `stiffness` give it a cycle)"
+                        .to_owned(),
+                };
+                let c_gamma = stiffness / N_PER_MM_UM;
+                format!("c_gamma {c_gamma:.3} N/(mm um) {how}, {cycle}")
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(format!("mesh `{}`: {words}", table.name)))
+    }
+}
+
+/// Where a curve comes from, in words.
+fn curve_name(from: Option<&Path>) -> String {
+    from.map_or("the static curve of the reduced gears".to_owned(), |path| {
+        path.display().to_string()
+    })
+}
