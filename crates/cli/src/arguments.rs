@@ -33,6 +33,8 @@ pub enum Command {
     Compare(CompareArguments),
     /// Write a report page
     Report(ReportArguments),
+    /// Export a result as a table: CSV, Parquet or MATLAB
+    Export(ExportArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, scene, model or result
@@ -260,6 +262,19 @@ pub struct ReportArguments {
     pub reference: Vec<PathBuf>,
 }
 
+/// `gearmesh export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Result file, or folder of a study
+    pub result: PathBuf,
+    /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows, windows, modes and shapes; of both: ratings
+    #[arg(long)]
+    pub table: Option<String>,
+}
+
 /// `gearmesh signal`.
 #[derive(Debug, Args)]
 pub struct SignalArguments {
@@ -439,6 +454,9 @@ pub struct StudyArguments {
 pub struct SchemaArguments {
     /// Kind of file
     pub kind: SchemaKind,
+    /// Print a page of all keys (Markdown) instead
+    #[arg(long)]
+    pub markdown: bool,
 }
 
 /// A kind of file that has a schema.

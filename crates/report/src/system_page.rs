@@ -70,7 +70,11 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
         section = section.push(figures);
     }
     if r.kind == "transient" {
-        section = section.push(transient::columns_table(r)?);
+        for table in transient::columns_tables(r)? {
+            if !table.is_empty() {
+                section = section.push(table);
+            }
+        }
     }
     if !r.head.notes.is_empty() {
         section = section.push(Text::preformatted(r.head.notes.join("\n")));

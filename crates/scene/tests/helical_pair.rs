@@ -49,8 +49,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
         let axial = value("bearing 2", "force_shaft_z_N").abs() / (tangential_n * helix.tan());
         let normal = value("mesh", "normal_force_right_N") * helix.cos() / tangential_n;
         // F_t, F_r and F_a on gear 1: those of the normal force with the working pressure angle and β_b, and what the bearing of gear 2 bears.
-        let [tangential, radial, axial_1] =
-            ["tangential", "radial", "axial"].map(|part| value("mesh", &format!("{part}_force_1_N")));
+        let [tangential, radial, axial_1] = ["tangential", "radial", "axial"]
+            .map(|part| value("mesh", &format!("{part}_force_1_N")));
         let transverse_n = value("mesh", "normal_force_right_N") * helix.cos();
         let sum_m: f64 = gears.iter().map(|gear| gear.profile.base_radius_m).sum();
         let pressure_rad = (sum_m / 0.1136).acos();
@@ -59,13 +59,28 @@ fn bearings_carry_the_axial_force_of_every_model() {
             (radial, transverse_n * pressure_rad.sin()),
             (axial_1, -transverse_n * helix.tan()),
         ] {
-            assert!((found / expected - 1.0).abs() < 5e-3, "{model} {found} {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < 5e-3,
+                "{model} {found} {expected}"
+            );
         }
         let bears = |channel: &str| value("bearing 2", channel);
-        assert!((bears("force_radial_N") / tangential.hypot(radial) - 1.0).abs() < 1e-6, "{model}");
-        assert!((bears("force_world_z_N") / axial_1 - 1.0).abs() < 1e-6, "{model}");
-        assert!((bears("force_world_y_N") / tangential - 1.0).abs() < 1e-3, "{model}");
-        assert!((bears("force_world_x_N") / -radial - 1.0).abs() < 3e-3, "{model}");
+        assert!(
+            (bears("force_radial_N") / tangential.hypot(radial) - 1.0).abs() < 1e-6,
+            "{model}"
+        );
+        assert!(
+            (bears("force_world_z_N") / axial_1 - 1.0).abs() < 1e-6,
+            "{model}"
+        );
+        assert!(
+            (bears("force_world_y_N") / tangential - 1.0).abs() < 1e-3,
+            "{model}"
+        );
+        assert!(
+            (bears("force_world_x_N") / -radial - 1.0).abs() < 3e-3,
+            "{model}"
+        );
         // Each slice's line load is that of its most loaded pair of teeth: no more than all pairs together, no less than their mean.
         let slices =
             (1..10).map_while(|k| outputs.get("mesh", &format!("line_load_slice_{k}_N_per_m")));

@@ -1,6 +1,7 @@
 //! Ratings of a run as warnings, lines and JSON.
 
 use crate::console;
+use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
 use serde_json::{Value, json};
 
@@ -21,8 +22,15 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
         let problem = rated.problem.iter();
         lines.extend(problem.map(|problem| format!("  not rated: {problem}")));
         lines.extend(rated.figures.iter().map(|figure| {
-            let (name, value) = (figure.name, figure.value);
-            format!("  {name:<28} {value:>13.6e}  {}", figure.description)
+            let (factor, unit) = usual_unit(figure.unit, figure.value.abs());
+            let unit = if unit == "1" { "" } else { unit };
+            let value = match figure.value {
+                f64::INFINITY => "no damage".to_owned(),
+                value => short(factor * value),
+            };
+            format!("  {:<60} {value:>10} {unit}", figure.description)
+                .trim_end()
+                .to_owned()
         }));
     }
     lines

@@ -8,6 +8,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod export;
 mod plan;
 mod recover;
 mod report;

@@ -1,7 +1,7 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, split_unit};
+use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, rank, split_unit};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
@@ -9,7 +9,7 @@ use super::columns::{
 };
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
-use crate::short_number::short;
+use crate::short_number::{short, usual_unit};
 
 /// Lines of a series that are transformed: the last so many.
 const LONGEST: usize = 1 << 20;
@@ -23,31 +23,46 @@ const HARMONICS: usize = 5;
 /// Highest frequency of a spectrum over the mesh frequency.
 const SPECTRUM_END: f64 = 12.0;
 
-pub(super) fn columns_table(r: &SystemResult) -> Result<Table, FileError> {
-    let mut table = Table::new("Channels of force elements and speeds over the whole run")
-        .column("column", Align::Left)
-        .column("unit", Align::Left)
-        .column("mean", Align::Right)
-        .column("RMS about the mean", Align::Right)
-        .column("least", Align::Right)
-        .column("largest", Align::Right)
-        .column("peak to peak", Align::Right)
-        .column("dominant Hz", Align::Right);
-    for column in r.summaries(is_prominent)? {
+/// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
+const LAST_RANK: u8 = 5;
+
+/// Meshes, bearings and speeds at a glance, and folded all other force elements.
+pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> {
+    let mut tables = [
+        Table::new("Meshes, bearings and speeds over the whole run"),
+        Table::new("Springs, couplings and beams over the whole run").folded(),
+    ]
+    .map(|table| {
+        table
+            .column("column", Align::Left)
+            .column("unit", Align::Left)
+            .column("mean", Align::Right)
+            .column("RMS about the mean", Align::Right)
+            .column("least", Align::Right)
+            .column("largest", Align::Right)
+            .column("peak to peak", Align::Right)
+            .column("dominant Hz", Align::Right)
+    });
+    let mut found = r.summaries(is_prominent)?;
+    found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
+    found.sort_by_key(|column| rank(&column.name));
+    for column in found {
         let (name, unit) = split_unit(&column.name);
         let f = column.figures;
-        table = table.row([
+        let (factor, unit) = usual_unit(unit, f.least.abs().max(f.largest.abs()));
+        let place = usize::from(rank(&column.name) > LAST_RANK);
+        tables[place].push_row([
             readable(name),
             unit.to_owned(),
-            short(f.mean),
-            short(f.deviation),
-            short(f.least),
-            short(f.largest),
-            short(f.peak_to_peak()),
+            short(factor * f.mean),
+            short(factor * f.deviation),
+            short(factor * f.least),
+            short(factor * f.largest),
+            short(factor * f.peak_to_peak()),
             column.dominant_hz.map_or("-".to_owned(), short),
         ]);
     }
-    Ok(table)
+    Ok(tables)
 }
 
 pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
