@@ -257,6 +257,9 @@ pub struct ReportArguments {
     /// HTML file
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position; meshes the gears again
+    #[arg(long)]
+    pub stress: bool,
     /// Folder of a reference record for each result, in the same order
     #[arg(long)]
     pub reference: Vec<PathBuf>,

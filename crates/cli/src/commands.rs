@@ -17,4 +17,5 @@ pub mod run_system;
 pub mod schema;
 mod schema_page;
 pub mod signal;
+pub mod stress_picture;
 pub mod study;

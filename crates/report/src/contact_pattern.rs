@@ -67,8 +67,8 @@ struct Flank {
     slices: usize,
     /// Edges of the strips, roll angles \[rad\].
     edges_rad: Vec<f64>,
-    /// Front and back of each slice \[mm\].
-    sides_mm: Vec<[f64; 2]>,
+    /// Sides of the slices, one more than there are \[mm\].
+    sides_mm: Vec<f64>,
 }
 
 impl Flank {
@@ -93,7 +93,10 @@ impl Flank {
             // A slice that is partly on the path touches beside its own middle.
             let whole = own.max_by(|a, b| places.width_m[*a].total_cmp(&places.width_m[*b]))?;
             let middle = places.z_m[whole];
-            sides_mm.push([middle - 0.5 * width, middle + 0.5 * width].map(|z| 1e3 * z));
+            if slice == 0 {
+                sides_mm.push(1e3 * (middle - 0.5 * width));
+            }
+            sides_mm.push(1e3 * (middle + 0.5 * width));
         }
         Some(Self {
             base_radius_m,
@@ -123,24 +126,25 @@ impl Flank {
             }
         }
         let radius_mm = |roll: f64| 1e3 * self.base_radius_m * (1.0 + roll * roll).sqrt();
-        let (mut nodes, mut quads, mut shown) = (Vec::new(), Vec::new(), Vec::new());
+        let across = self.sides_mm.len();
+        let along = self.edges_rad.iter().map(|roll| radius_mm(*roll));
+        let nodes = along.flat_map(|r| self.sides_mm.iter().map(move |z| [*z, r]));
+        let (mut quads, mut shown) = (Vec::new(), Vec::new());
         for (cell, value) in largest
             .iter()
             .enumerate()
             .filter(|(_, value)| **value > 0.0)
         {
             let (strip, slice) = (cell / self.slices, cell % self.slices);
-            let [back, front] = self.sides_mm[slice];
-            let [below, above] = [strip, strip + 1].map(|k| radius_mm(self.edges_rad[k]));
-            let first = nodes.len() as u32;
-            nodes.extend([[back, below], [front, below], [front, above], [back, above]]);
-            quads.push([first, first + 1, first + 2, first + 3]);
+            let first = (strip * across + slice) as u32;
+            let above = first + across as u32;
+            quads.push([first, first + 1, above + 1, above]);
             shown.push(factor * value);
         }
         let most = shown.iter().copied().fold(0.0, f64::max);
         (!quads.is_empty()).then(|| {
             FieldPicture::new(title, quantity, unit)
-                .mesh(nodes, quads)
+                .mesh(nodes.collect(), quads)
                 .values(FieldValues::PerElement(shown))
                 .colour_range(0.0, most)
         })

@@ -92,9 +92,11 @@ fn bearings_carry_the_axial_force_of_every_model() {
             / slices.len() as f64;
         let sum_n: f64 = slices.iter().map(|q| q * width_m).sum();
         let normal_n = value("mesh", "normal_force_right_N");
+        // The one slice of a whole face may touch over a part of its width.
+        let whole = slices.len() == 1;
         let pairs = value("mesh", "loaded_pairs");
         assert!(
-            sum_n > normal_n / pairs && slices.iter().all(|q| q * width_m <= normal_n),
+            sum_n > normal_n / pairs && (whole || slices.iter().all(|q| q * width_m <= normal_n)),
             "{model} {slices:?}"
         );
         assert!((axial - 1.0).abs() < 5e-3, "{model} {axial}");

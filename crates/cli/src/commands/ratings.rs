@@ -3,6 +3,7 @@
 use crate::console;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
+use gearmesh_scene::system_run::split_unit;
 use serde_json::{Value, json};
 
 /// Tells what could not be judged.
@@ -28,9 +29,8 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
                 f64::INFINITY => "no damage".to_owned(),
                 value => short(factor * value),
             };
-            format!("  {:<60} {value:>10} {unit}", figure.description)
-                .trim_end()
-                .to_owned()
+            let (stem, _) = split_unit(figure.name);
+            format!("  {stem:<28} {value:>10} {unit:<4} {}", figure.description)
         }));
     }
     lines

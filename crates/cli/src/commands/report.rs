@@ -1,5 +1,7 @@
 //! `gearmesh report`: one HTML page for one or more results.
 
+use super::recover::scene_of;
+use super::stress_picture::pictures;
 use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
@@ -49,10 +51,17 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
             None => None,
         };
         names[0].push(files[k].clone());
+        let pictures = if a.stress {
+            let (pictures, left_out) = pictures(&scene_of(&result, path)?, &result)?;
+            left_out.iter().for_each(console::note);
+            pictures
+        } else {
+            Vec::new()
+        };
         chapters.push(SceneChapter {
             result,
             record,
-            pictures: Vec::new(),
+            pictures,
         });
     }
     let page = scene_page(&chapters, &systems).map_err(Failure::work)?;

@@ -82,6 +82,12 @@ impl<'a> Page<'a> {
                     text if text.is_empty() => words_of(target),
                     text => text,
                 };
+                // The word that tells one kind of table from the others means that kind.
+                let meaning = if meaning.is_empty() {
+                    words_of(variant)
+                } else {
+                    meaning
+                };
                 let kind = self.kind(value);
                 let _ = writeln!(self.text, "| {shown} | {kind} | {} |", cell(&meaning));
                 let element = match target["items"] {

@@ -183,8 +183,14 @@ fn every_kind_of_multibody_result() {
 
     let sprung = |kind: &str| {
         let start = WHEEL.find("[[body]]").unwrap();
+        let spring = |name: &str, stiffness: f64| {
+            format!(
+                "[[torsion_spring]]\nname = \"{name}\"\nbody_2 = \"wheel\"\nstiffness_Nm_per_rad = {stiffness:?}\n"
+            )
+        };
+        let springs = spring("hard", 150.0) + &spring("soft", 50.0);
         format!(
-            "title = \"wheel\"\n[run]\n{kind}\n{}\n[[torsion_spring]]\nname = \"spring\"\nbody_2 = \"wheel\"\nstiffness_Nm_per_rad = 200.0\n",
+            "title = \"wheel\"\n[run]\n{kind}\n{}\n{springs}",
             &WHEEL[start..]
         )
     };
@@ -196,6 +202,18 @@ fn every_kind_of_multibody_result() {
         "{modes:?}"
     );
     assert!((modes["participation wheel"][0] - 1.0).abs() < 1e-9);
+    assert!((modes["strain energy hard"][0] - 0.75).abs() < 1e-9);
+    assert!((modes["strain energy soft"][0] - 0.25).abs() < 1e-9);
+    let told = succeeds(&[
+        "run",
+        argument(&desk.path("eigen.toml")),
+        "-o",
+        argument(&desk.path("eigen.h5")),
+    ]);
+    assert!(
+        told.stdout.contains("wheel 100.0 %") && told.stdout.contains("hard 75.0 %, soft 25.0 %"),
+        "{told:#?}"
+    );
     let shapes = in_every_format(&desk, &desk.path("eigen.h5"), "shapes");
     assert_eq!(shapes["real"].len(), 6);
     let rest = run("static", &sprung("kind = \"static\""));

@@ -8,7 +8,9 @@ use super::columns::{
     MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, varies,
 };
 use crate::min_max;
-use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
+use crate::page::{
+    Align, Axis, AxisScale, KeyFigures, LineChart, LineSeries, Section, Table, Text,
+};
 use crate::short_number::{short, usual_unit};
 
 /// Lines of a series that are transformed: the last so many.
@@ -22,6 +24,40 @@ const HARMONICS: usize = 5;
 
 /// Highest frequency of a spectrum over the mesh frequency.
 const SPECTRUM_END: f64 = 12.0;
+
+/// Meshes whose figures head a page.
+const MOST_MESHES: usize = 4;
+
+/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other kinds of results none.
+pub(super) fn key_figures(r: &SystemResult) -> KeyFigures {
+    let mut figures = KeyFigures::new();
+    let columns = || r.rows.columns().iter().map(|c| &*c.name).zip(&r.statistics);
+    for mesh in r.head.meshes.iter().take(MOST_MESHES) {
+        let of_mesh = format!("elements/{}/", mesh.name);
+        let find = |channel: &str| {
+            let mut found =
+                columns().filter_map(|(name, f)| Some((name.strip_prefix(&of_mesh)?, f)));
+            found.find(|(name, _)| *name == channel).map(|(_, f)| f)
+        };
+        if let Some(te) = find("transmission_error_m") {
+            let label = format!("{}: TE peak to peak", mesh.name);
+            figures = figures.figure(label, short(1e6 * te.peak_to_peak()), "µm");
+        }
+        let sides = ["normal_force_right_N", "normal_force_left_N"];
+        let forces = sides.iter().filter_map(|side| find(side)).map(|f| f.mean);
+        if let Some(force) = forces.reduce(f64::max) {
+            let label = format!("{}: mean normal force", mesh.name);
+            figures = figures.figure(label, short(force), "N");
+        }
+    }
+    let radial = columns().filter(|(name, _)| name.ends_with("/force_radial_N"));
+    if let Some((name, f)) = radial.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest)) {
+        let bearing = name.split('/').nth(1).unwrap_or_default();
+        let label = format!("largest bearing force: {bearing}");
+        figures = figures.figure(label, short(f.largest), "N");
+    }
+    figures
+}
 
 /// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
 const LAST_RANK: u8 = 5;

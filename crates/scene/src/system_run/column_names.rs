@@ -32,7 +32,7 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     found.unwrap_or((name, ""))
 }
 
-/// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, forces of bearings, root strain, line loads, speeds,
+/// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, radial and axial forces of bearings, root strain, line loads, speeds,
 /// other force elements and joints, beams of shafts, all else.
 pub fn rank(name: &str) -> u8 {
     let parts: Vec<&str> = name.split('/').collect();
@@ -44,12 +44,7 @@ pub fn rank(name: &str) -> u8 {
             "transmission_error_m" => 0,
             "loaded_pairs" | "apart" => 1,
             mesh if mesh.starts_with("normal_force_") || mesh.ends_with("_force_1_N") => 1,
-            "force_radial_N" => 2,
-            bearing
-                if bearing.starts_with("force_shaft_") || bearing.starts_with("moment_shaft_") =>
-            {
-                2
-            }
+            "force_radial_N" | "force_shaft_z_N" => 2,
             strain if strain.starts_with("strain_") => 3,
             slice if slice.starts_with("line_load_slice_") => 4,
             _ if owners.first().is_some_and(|owner| is_beam(owner)) => 8,
