@@ -7,6 +7,7 @@ pub mod demo;
 pub mod export;
 pub mod mesh;
 pub mod modes;
+pub mod periods;
 pub mod plan;
 pub mod ratings;
 pub mod recover;
