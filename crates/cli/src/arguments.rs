@@ -1,5 +1,6 @@
 //! The command line. Each argument is described once, here; help follows from it.
 
+use crate::length_unit::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -62,25 +63,6 @@ pub struct MeshArguments {
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
-}
-
-/// Unit of lengths in a mesh file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LengthUnit {
-    /// Metres.
-    M,
-    /// Millimetres.
-    Mm,
-}
-
-impl LengthUnit {
-    /// As the Python module calls it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::M => "m",
-            Self::Mm => "mm",
-        }
-    }
 }
 
 /// `gearmesh reduce`.

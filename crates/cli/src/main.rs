@@ -6,6 +6,7 @@ mod commands;
 mod console;
 mod failure;
 mod interrupt;
+mod length_unit;
 mod offline;
 mod output_name;
 
