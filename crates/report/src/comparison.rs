@@ -112,13 +112,13 @@ pub struct SeriesComparison {
     pub largest_deviation_angle_rad: f64,
     /// RMS of ours − reference.
     pub rms_deviation: f64,
-    /// By how much the reference's angles would have to be less for the best correlation, rad of the record's shaft; applied to nothing.
-    /// `None` where a signal is constant.
+    /// By how much the reference's angles would have to be less for the best correlation, rad of the record's shaft;
+    /// applied to nothing. `None` where a signal is constant.
     pub best_offset_rad: Option<f64>,
     /// The correlation that it would give.
     pub best_offset_correlation: Option<f64>,
-    /// Whether the record holds whole periods of ours. Where it does not, what is not locked to the record's revolutions has been averaged out
-    /// of ours, as a rig's averaging does.
+    /// Whether the record holds whole periods of ours. Where it does not, what is not locked to the record's
+    /// revolutions has been averaged out of ours, as a rig's averaging does.
     pub is_locked: bool,
     /// Our signal as compared: filtered, one block of revolutions, uniform in the angle from 0.
     #[serde(skip)]
@@ -183,9 +183,9 @@ pub fn compare_with_column(
 
 /// Compares two series of a quantity, SI units, each over the angle of the same shaft from the same origin.
 ///
-/// Both go through [`gearmesh_signal::rig::process`] with the same settings; of the transmission error the mean and eccentricity are
-/// removed, of strain nothing. The signals are never shifted against each other. `torque_nm` is left at 0 and no uncertainty is
-/// stated; [`compare_with_column`] knows both.
+/// Both go through [`gearmesh_signal::rig::process`] with the same settings; of the transmission error the mean and
+/// eccentricity are removed, of strain nothing. The signals are never shifted against each other. `torque_nm` is left
+/// at 0 and no uncertainty is stated; [`compare_with_column`] knows both.
 ///
 /// # Errors
 /// [`ComparisonError`].

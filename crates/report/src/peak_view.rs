@@ -2,8 +2,8 @@
 
 use gearmesh_scene::{SceneResult, StrainSeries};
 
-/// How a strain with one peak is shown: one period of its own begins half a period before the peak, so that the peak is never cut in two;
-/// angles before the run's first one count as negative. Less than a period is shown as it is.
+/// How a strain with one peak is shown: one period of its own begins half a period before the peak, so that the peak is
+/// never cut in two; angles before the run's first one count as negative. Less than a period is shown as it is.
 pub(crate) struct PeakView {
     /// Positions shown: one period, or all.
     shown: usize,

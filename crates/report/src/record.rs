@@ -1,9 +1,11 @@
-//! A reference record: a folder with `record.toml` (what it is) and `data.csv` (the columns). For users: docs/records.md.
+//! A reference record: a folder with `record.toml` (what it is) and `data.csv` (the columns). For users:
+//! docs/records.md.
 //!
 //! `record.toml` needs `title`, `kind` ("computed" or "measured"), `source` and `angle_origin`; it may have `method`,
-//! `command`, `date`, `shaft` ("gear_1" or "gear_2": of which shaft the angle is), `revolutions`, `[columns]` (column of `data.csv` = column
-//! of a multibody result) and a table `[uncertainty]` with `te_mean_um`, `te_peak_to_peak_um` and `strain_range_ustrain`. Further keys
-//! describe the record for people and are not read. `data.csv` is described at [`crate::record::ReferenceRecord`].
+//! `command`, `date`, `shaft` ("gear_1" or "gear_2": of which shaft the angle is), `revolutions`, `[columns]` (column
+//! of `data.csv` = column of a multibody result) and a table `[uncertainty]` with `te_mean_um`, `te_peak_to_peak_um`
+//! and `strain_range_ustrain`. Further keys describe the record for people and are not read. `data.csv` is described at
+//! [`crate::record::ReferenceRecord`].
 
 use crate::pair_orders::Shaft;
 use crate::quantity::{Quantity, Unit};
@@ -124,9 +126,10 @@ pub struct RecordColumn {
 
 /// A reference record.
 ///
-/// `data.csv`: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank lines
-/// are skipped. First column `angle_deg`, the angle of the record's shaft, increasing, over its revolutions. The others are `te_um_<T>Nm` and
-/// `strain_<gauge>_ustrain_<T>Nm` in any order, T the torque on the driven gear as a decimal number.
+/// `data.csv`: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank
+/// lines are skipped. First column `angle_deg`, the angle of the record's shaft, increasing, over its revolutions. The
+/// others are `te_um_<T>Nm` and `strain_<gauge>_ustrain_<T>Nm` in any order, T the torque on the driven gear as a
+/// decimal number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceRecord {
     /// The folder it was read from.

@@ -1,4 +1,5 @@
-//! A whole result of a pair against a reference record: every quantity and torque that both have, as a rig on the record's shaft would show it.
+//! A whole result of a pair against a reference record: every quantity and torque that both have, as a rig on the
+//! record's shaft would show it.
 
 use crate::comparison::{ComparisonError, RigView, SeriesComparison, compare_with_column};
 use crate::pair_orders::{PairOrders, Shaft};
@@ -51,8 +52,9 @@ pub enum SceneComparisonError {
     },
 }
 
-/// Orders of a record's shaft whose amplitudes of the transmission error are compared: mesh and openings, each with its double. Those between the
-/// lines of a spectrum over the record's revolutions are left out: a record of so few turns does not have them.
+/// Orders of a record's shaft whose amplitudes of the transmission error are compared: mesh and openings, each with its
+/// double. Those between the lines of a spectrum over the record's revolutions are left out: a record of so few turns
+/// does not have them.
 pub fn compared_orders(pair: &PairOrders, shaft: Shaft, revolutions: usize) -> Vec<f64> {
     let mut orders = pair.of_openings(shaft);
     orders.push(pair.teeth_on(shaft) as f64);

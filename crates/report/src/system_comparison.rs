@@ -1,5 +1,5 @@
-//! Columns of a multibody run in time against a reference record: brought to the angle of the record's shaft, averaged over as many of the record's
-//! lengths as the run has, then as a rig would show it.
+//! Columns of a multibody run in time against a reference record: brought to the angle of the record's shaft, averaged
+//! over as many of the record's lengths as the run has, then as a rig would show it.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! After how many mesh pitches a quantity of a gear pair repeats, and whether a run has seen that much of it.
 //!
-//! All periods are whole numbers of pitches. Gear i has z_i teeth, and its body looks the same after every z_i/N_i of them (N_i sectors;
-//! one where a tooth differs from the others):
+//! All periods are whole numbers of pitches. Gear i has z_i teeth, and its body looks the same after every z_i/N_i of
+//! them (N_i sectors; one where a tooth differs from the others):
 //!
 //! | what | repeats after |
 //! | --- | --- |
@@ -18,7 +18,8 @@ use std::fmt;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::definition::greatest_common_divisor;
 
-/// Pitches that neighbouring teeth are in mesh longer than the tooth itself, at each end: what loads them is felt in its root.
+/// Pitches that neighbouring teeth are in mesh longer than the tooth itself, at each end: what loads them is felt in
+/// its root.
 const NEIGHBOURS: f64 = 1.0;
 
 /// Share of a pitch by which rounding may miss the end of a passage.
@@ -134,7 +135,8 @@ impl RunStretch {
 pub enum Extent {
     /// At least one period.
     Whole,
-    /// Less, but the one passage of the gauged tooth, with both neighbours: peak and range are right, mean and spectrum are not.
+    /// Less, but the one passage of the gauged tooth, with both neighbours: peak and range are right, mean and spectrum
+    /// are not.
     Passage,
     /// Less: any figure may change with a longer run.
     Part,
@@ -187,7 +189,8 @@ impl Coverage {
         }
     }
 
-    /// Of the strain at a tooth that makes one passage a period; where it makes several, which differ, only the period counts.
+    /// Of the strain at a tooth that makes one passage a period; where it makes several, which differ, only the period
+    /// counts.
     pub fn of_tooth(period_pitches: usize, run: RunStretch, passage: &Passage) -> Self {
         let whole = Self::of_contact(period_pitches, run.pitches);
         let once = period_pitches == passage.teeth && run.holds(passage);
@@ -218,8 +221,8 @@ impl Coverage {
         }
     }
 
-    /// Pitches that a periodic function is made of: whole revolutions of a shaft with `teeth` where the run has them, or one period.
-    /// None where the run has less.
+    /// Pitches that a periodic function is made of: whole revolutions of a shaft with `teeth` where the run has them,
+    /// or one period. None where the run has less.
     pub fn periodic_pitches(&self, teeth: usize) -> Option<usize> {
         let turns = least_common_multiple(self.period_pitches, teeth);
         [turns, self.period_pitches]
@@ -286,8 +289,8 @@ pub fn whole_run(contact_period: usize, gauge_periods: &[usize]) -> ProposedRun 
     }
 }
 
-/// The shortest run that sees the whole passage of every gauged tooth, and a period of the mesh: right for peak and range. None without
-/// gauges, where a tooth has passages that differ, and where it would be no shorter than `whole`.
+/// The shortest run that sees the whole passage of every gauged tooth, and a period of the mesh: right for peak and
+/// range. None without gauges, where a tooth has passages that differ, and where it would be no shorter than `whole`.
 pub fn passage_run(
     periods: &PairPeriods,
     gauges: &[(usize, Passage)],
@@ -355,7 +358,8 @@ mod tests {
         );
     }
 
-    /// The definition itself: teeth of pair p, and the place of each body under them, are those of pair p + period, and of no earlier one.
+    /// The definition itself: teeth of pair p, and the place of each body under them, are those of pair p + period, and
+    /// of no earlier one.
     #[test]
     fn nothing_repeats_earlier() {
         for (teeth, sectors) in [

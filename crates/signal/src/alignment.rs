@@ -1,4 +1,5 @@
-//! How far one signal would have to be turned against another for the best correlation. Reported, never applied by itself.
+//! How far one signal would have to be turned against another for the best correlation. Reported, never applied by
+//! itself.
 
 use std::f64::consts::TAU;
 
@@ -11,16 +12,19 @@ const EQUAL_CORRELATIONS: f64 = 1e-6;
 /// The offset with the best correlation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BestOffset {
-    /// Share of the period by which the second signal comes later than the first, −½ to ½: x(t) is most like y(t + share).
+    /// Share of the period by which the second signal comes later than the first, −½ to ½: x(t) is most like y(t +
+    /// share).
     pub share: f64,
     /// Pearson's correlation that it would give.
     pub correlation: f64,
 }
 
-/// The circular offset between two signals of one period at which Pearson's correlation is largest; none where one is constant.
+/// The circular offset between two signals of one period at which Pearson's correlation is largest; none where one is
+/// constant.
 ///
-/// r(s) = Σ_j x_j y_{j+s} / √(Σ x² Σ y²) about the means, for all s at once by the transforms, conj(X) Y; between samples by the parabola
-/// through the largest and its neighbours. Where several offsets are as good (signals that repeat within the period), the smallest is given.
+/// r(s) = Σ_j x_j y_{j+s} / √(Σ x² Σ y²) about the means, for all s at once by the transforms, conj(X) Y; between
+/// samples by the parabola through the largest and its neighbours. Where several offsets are as good (signals that
+/// repeat within the period), the smallest is given.
 ///
 /// # Errors
 /// [`SeriesError::Lengths`], and those of the transform.

@@ -95,10 +95,11 @@ pub enum AngleSeriesError {
 /// # Why this interpolation
 /// It works on any increasing grid and damps least among the local choices. For a pure order with p points per period,
 /// on a uniform grid, the amplitude that comes out is 1/(1 + Σ_{k≠0} (1 + kp)⁻⁴) of the true one (M. Unser, Splines: a
-/// perfect fit, IEEE Signal Processing Magazine 1999), that is short by about 2.16/p⁴: 7e-6 at p = 24, 1.1e-4 at 12, 6e-4
-/// at 8, 1.4 % at 4. Linear interpolation would lose π²/(3p²), 0.6 % at p = 24. The images at k·N ± m (N points a turn) that
-/// sampling adds are weaker than the order m by (m/(kN ± m))⁴: 4e-6 for the mesh order with 24 points a pitch. A
-/// kink of the signal is rounded over about one step; two series that are compared should have similar steps there.
+/// perfect fit, IEEE Signal Processing Magazine 1999), that is short by about 2.16/p⁴: 7e-6 at p = 24, 1.1e-4 at 12,
+/// 6e-4 at 8, 1.4 % at 4. Linear interpolation would lose π²/(3p²), 0.6 % at p = 24. The images at k·N ± m (N points a
+/// turn) that sampling adds are weaker than the order m by (m/(kN ± m))⁴: 4e-6 for the mesh order with 24 points a
+/// pitch. A kink of the signal is rounded over about one step; two series that are compared should have similar steps
+/// there.
 #[derive(Debug, Clone)]
 pub struct AngleSeries {
     spline: PeriodicSpline,

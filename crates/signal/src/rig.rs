@@ -1,18 +1,20 @@
 //! What a gear test rig does to a signal, done to a computed one.
 //!
-//! Seed 004, section 4.2: the signal is sampled in time at 51.2 kHz while the gears turn slowly (10 rpm, 60 s); encoders
-//! of 5000 pulses a turn bring it to the angle domain; a tacho cuts it into blocks of whole revolutions (of one, there); the order spectra of the
-//! blocks are averaged (as complex numbers); for the transmission error the mean and once per revolution of either shaft (eccentricity; orders 0 and 1,
-//! there, with equal teeth) are removed; the spectrum is brought back to the angle domain. Both sides of a comparison go through [`process`], so whatever the
+//! Seed 004, section 4.2: the signal is sampled in time at 51.2 kHz while the gears turn slowly (10 rpm, 60 s);
+//! encoders of 5000 pulses a turn bring it to the angle domain; a tacho cuts it into blocks of whole revolutions (of
+//! one, there); the order spectra of the blocks are averaged (as complex numbers); for the transmission error the mean
+//! and once per revolution of either shaft (eccentricity; orders 0 and 1, there, with equal teeth) are removed; the
+//! spectrum is brought back to the angle domain. Both sides of a comparison go through [`process`], so whatever the
 //! pipeline does to a signal it does to both.
 //!
 //! # What the pipeline does to a signal
-//! - Series to time: the periodic spline of [`AngleSeries`]; an order with p points per period loses 2.16/p⁴ of its amplitude.
+//! - Series to time: the periodic spline of [`AngleSeries`]; an order with p points per period loses 2.16/p⁴ of its
+//!   amplitude.
 //! - Time to angle: four-point Lagrange interpolation between the samples. With h the angle of one sampling interval an
 //!   order m loses at most (3/128)(m h)⁴. At 10 rpm one turn has 307 200 samples: 4e-14 at order 57.
-//! - Aliasing: orders above half the pulses (2500) fold back. The spline's images of order m that lie there are weaker than
-//!   m by (m/5000)⁴ or more for a series of up to 2500 points a turn (order 57: 2e-8); content of
-//!   denser series above order 2500 folds as it does on the rig.
+//! - Aliasing: orders above half the pulses (2500) fold back. The spline's images of order m that lie there are weaker
+//!   than m by (m/5000)⁴ or more for a series of up to 2500 points a turn (order 57: 2e-8); content of denser series
+//!   above order 2500 folds as it does on the rig.
 
 use crate::angle_series::AngleSeries;
 use crate::orders::{OrderError, OrderSpectrum};
@@ -54,8 +56,8 @@ impl Default for RigSettings {
 }
 
 impl RigSettings {
-    /// The same rig with blocks of so many revolutions, recording at least as long as before and whole periods of a series, each part of it
-    /// equally often.
+    /// The same rig with blocks of so many revolutions, recording at least as long as before and whole periods of a
+    /// series, each part of it equally often.
     #[must_use]
     pub fn in_blocks(self, revolutions_per_block: usize, period: ShaftPeriod) -> Self {
         let common =
@@ -75,13 +77,15 @@ pub enum OrderFilter {
     KeepAll,
     /// Order 0 (mean) and once per revolution of either shaft (eccentricity): for the transmission error.
     RemoveMeanAndEccentricity {
-        /// Revolutions of the other shaft in one of the shaft whose angle counts: teeth of this one over those of the other.
+        /// Revolutions of the other shaft in one of the shaft whose angle counts: teeth of this one over those of the
+        /// other.
         other_shaft: f64,
     },
 }
 
 impl OrderFilter {
-    /// What is taken out of the transmission error of a pair, over the angle of the gear with `teeth` teeth that runs with one of `mate` teeth.
+    /// What is taken out of the transmission error of a pair, over the angle of the gear with `teeth` teeth that runs
+    /// with one of `mate` teeth.
     pub fn of_transmission_error(teeth: usize, mate: usize) -> Self {
         Self::RemoveMeanAndEccentricity {
             other_shaft: teeth as f64 / mate.max(1) as f64,
@@ -162,7 +166,8 @@ impl RigSignal {
     }
 }
 
-/// Sends a series through the rig: time samples, encoder pulses, blocks of revolutions, averaged spectrum, filter, angle.
+/// Sends a series through the rig: time samples, encoder pulses, blocks of revolutions, averaged spectrum, filter,
+/// angle.
 ///
 /// The shaft passes angle 0 at time 0 and turns at constant speed in its positive sense. Amplitudes and phases refer to
 /// the angle of the series: nothing is shifted.
@@ -365,7 +370,8 @@ mod tests {
 
     #[test]
     fn what_is_not_locked_to_the_turn_averages_out() {
-        // Three revolutions in which order 2/3 is present: its average over the revolutions is zero, the mesh order stays.
+        // Three revolutions in which order 2/3 is present: its average over the revolutions is zero, the mesh order
+        // stays.
         let values: Vec<f64> = (0..4200)
             .map(|i| {
                 let a = 3.0 * TAU * f64::from(i) / 4200.0;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// `turns`/`parts` revolutions of a shaft, in lowest terms: one pitch of 57 teeth is 1/57, one revolution of a wheel of 47 teeth
-/// is 47/23 revolutions of the pinion of 23 that drives it.
+/// `turns`/`parts` revolutions of a shaft, in lowest terms: one pitch of 57 teeth is 1/57, one revolution of a wheel of
+/// 47 teeth is 47/23 revolutions of the pinion of 23 that drives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ShaftPeriod {
     turns: usize,
@@ -39,7 +39,8 @@ impl ShaftPeriod {
         TAU * self.turns as f64 / self.parts as f64
     }
 
-    /// Revolutions after which both the shaft and what has this period are where they were: the fewest that hold whole periods.
+    /// Revolutions after which both the shaft and what has this period are where they were: the fewest that hold whole
+    /// periods.
     pub fn whole_revolutions(&self) -> usize {
         self.turns
     }

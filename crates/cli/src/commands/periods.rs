@@ -26,7 +26,8 @@ pub fn lines(result: &SceneResult) -> Vec<String> {
     lines
 }
 
-/// Each quantity with its period; `extent` is "whole", "passage" (one passage of the gauged tooth: peak and range) or "part".
+/// Each quantity with its period; `extent` is "whole", "passage" (one passage of the gauged tooth: peak and range) or
+/// "part".
 pub fn json(result: &SceneResult) -> Value {
     let quantities = result.coverages().into_iter().map(|(name, c)| {
         json!({"quantity": name, "period_pitches": c.period_pitches, "run_pitches": c.run_pitches, "extent": c.extent.name()})

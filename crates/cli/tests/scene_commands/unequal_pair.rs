@@ -99,7 +99,8 @@ fn plan_and_run_say_what_is_covered() {
     );
 }
 
-/// A record made of the result itself, of one revolution of the wheel: both sides agree, and the holes are among the orders.
+/// A record made of the result itself, of one revolution of the wheel: both sides agree, and the holes are among the
+/// orders.
 #[test]
 fn compare_takes_a_record_of_the_wheels_revolution() {
     let bench = Bench::new();
@@ -153,7 +154,8 @@ fn compare_takes_a_record_of_the_wheels_revolution() {
     );
 }
 
-/// A slow run in time of the same pair against its positions at rest: the angle between both is found, and with it the transmission error is the same.
+/// A slow run in time of the same pair against its positions at rest: the angle between both is found, and with it the
+/// transmission error is the same.
 #[test]
 fn a_run_in_time_is_compared_with_positions_at_rest() {
     let bench = Bench::new();

@@ -79,7 +79,8 @@ fn result(pitches: usize) -> SceneResult {
     }
 }
 
-/// A record with further keys and one column, a function of the pinion's angle, over turns of the shaft with `teeth` teeth.
+/// A record with further keys and one column, a function of the pinion's angle, over turns of the shaft with `teeth`
+/// teeth.
 fn record(
     keys: &str,
     (teeth, turns): (usize, usize),
@@ -121,7 +122,8 @@ fn near(found: &[(f64, f64, f64)], expected: &[(f64, f64, f64)]) {
     }
 }
 
-/// One revolution of the wheel holds all there is; so do 47 of the pinion. The amplitudes are the same, the orders those of the shaft.
+/// One revolution of the wheel holds all there is; so do 47 of the pinion. The amplitudes are the same, the orders
+/// those of the shaft.
 #[test]
 fn a_record_of_either_shaft_shows_mesh_and_holes() {
     let result = result(47);
@@ -178,7 +180,8 @@ fn an_offset_is_reported_and_not_applied() {
     assert!(table.contains("2.86") && table.contains("best"), "{table}");
 }
 
-/// A tacho on the pinion cuts every revolution: the holes of the wheel are not locked to it. Its orders are compared, and the table says so.
+/// A tacho on the pinion cuts every revolution: the holes of the wheel are not locked to it. Its orders are compared,
+/// and the table says so.
 #[test]
 fn a_record_of_one_pinion_turn_averages_the_rest_out() {
     let mesh_only = record("", (23, 1), "te_um_100Nm", |a| {
@@ -234,7 +237,8 @@ fn a_run_that_is_too_short_is_told_what_would_do() {
     }
 }
 
-/// The page: a spectrum with the holes where the run covers them, marks where it does not, and no strain joined to itself too early.
+/// The page: a spectrum with the holes where the run covers them, marks where it does not, and no strain joined to
+/// itself too early.
 #[test]
 fn the_page_shows_what_is_covered() {
     let page = |pitches| {

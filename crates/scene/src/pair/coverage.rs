@@ -44,7 +44,8 @@ impl LoadedScene {
         Passage::of((at(start), at(end)), number.unwrap_or(0), teeth)
     }
 
-    /// Runs that would cover what this one does not, for these gauges (gear and index in its model); empty where it covers everything.
+    /// Runs that would cover what this one does not, for these gauges (gear and index in its model); empty where it
+    /// covers everything.
     pub fn proposal(&self, gauges: &[(usize, usize)]) -> String {
         let passages: Vec<(usize, Passage)> = gauges
             .iter()

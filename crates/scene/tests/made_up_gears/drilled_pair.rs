@@ -1,4 +1,5 @@
-//! 23 teeth drive 47: two made-up reduced gears, the wheel solid or with six holes, which do not divide its teeth. No finite elements.
+//! 23 teeth drive 47: two made-up reduced gears, the wheel solid or with six holes, which do not divide its teeth. No
+//! finite elements.
 #![allow(clippy::unwrap_used, dead_code, missing_docs)]
 
 use std::f64::consts::TAU;

@@ -1,5 +1,5 @@
-//! 23 teeth drive 47, solid or with six holes: a quantity repeats after its own period and no earlier, a run says how much of it it has seen, and
-//! what it proposes gives the figures of the whole.
+//! 23 teeth drive 47, solid or with six holes: a quantity repeats after its own period and no earlier, a run says how
+//! much of it it has seen, and what it proposes gives the figures of the whole.
 
 use crate::made_up_gears::drilled_pair::{scene, write_models};
 use gearmesh_geometry::input::InputDocument;
@@ -74,7 +74,8 @@ fn curves_repeat_after_their_own_periods() {
     }
 }
 
-/// The run of the issue: three pitches, the gauged tooth in mesh at the start. Its figures are wrong and marked; those of the proposed start are right.
+/// The run of the issue: three pitches, the gauged tooth in mesh at the start. Its figures are wrong and marked; those
+/// of the proposed start are right.
 #[test]
 fn a_passage_that_is_cut_is_marked_and_the_proposed_run_holds_it() {
     let folder = folder();
@@ -87,7 +88,8 @@ fn a_passage_that_is_cut_is_marked_and_the_proposed_run_holds_it() {
             strain.iter().fold(0.0_f64, |most, x| most.max(x.abs())),
         ]
     };
-    // Fine enough for a peak at the tip, where the load leaves at once: a path of 1.6 pitches, a strain that grows along it.
+    // Fine enough for a peak at the tip, where the load leaves at once: a path of 1.6 pitches, a strain that grows
+    // along it.
     let fine = 96;
     let keys = |pitches| format!("pitches = {pitches}\npoints_per_pitch = {fine}");
     let (whole, cut) = (of(&keys(47)), of(&keys(3)));
@@ -130,7 +132,8 @@ fn a_passage_that_is_cut_is_marked_and_the_proposed_run_holds_it() {
     }
 }
 
-/// Six holes on 47 teeth: less than the wheel's revolution is part of everything; the pinion's gauge needs the hunting period.
+/// Six holes on 47 teeth: less than the wheel's revolution is part of everything; the pinion's gauge needs the hunting
+/// period.
 #[test]
 fn a_drilled_wheel_is_covered_by_its_revolution() {
     let folder = folder();
