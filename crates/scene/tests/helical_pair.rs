@@ -96,7 +96,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
         let whole = slices.len() == 1;
         let pairs = value("mesh", "loaded_pairs");
         assert!(
-            sum_n > normal_n / pairs && (whole || slices.iter().all(|q| q * width_m <= normal_n)),
+            sum_n > (1.0 - 1e-9) * normal_n / pairs
+                && (whole || slices.iter().all(|q| q * width_m <= normal_n)),
             "{model} {slices:?}"
         );
         assert!((axial - 1.0).abs() < 5e-3, "{model} {axial}");
