@@ -2,6 +2,7 @@
 //! once and long tests run beside each other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod analytic_tooth;
 mod friction_at_the_root;
 mod gear_modes;
 mod graded_tooth;
