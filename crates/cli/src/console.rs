@@ -34,9 +34,22 @@ pub fn warning(text: impl std::fmt::Display) {
     note(format!("warning: {text}"));
 }
 
+/// Numbers that look like those of another unit.
+pub fn unit_slips(slips: Vec<gearmesh_geometry::InputError>) {
+    slips.into_iter().for_each(warning);
+}
+
 /// An error.
 pub fn error(text: impl std::fmt::Display) {
     note(format!("error: {text}"));
+}
+
+/// A mesh error in words.
+pub fn mesh_error(relative: Option<f64>) -> String {
+    relative.map_or_else(
+        || "not estimated".to_owned(),
+        |error| format!("about {:.2} %", 100.0 * error),
+    )
 }
 
 /// Remarks on the progress where standard error is no terminal.

@@ -4,6 +4,7 @@ use crate::arguments::LengthUnit;
 use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
+use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{ElementKind, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_mesh::{ElementShape, GearMesh};
@@ -20,6 +21,26 @@ use std::path::Path;
 /// The Python that has gmsh and meshio.
 pub fn python() -> Result<PythonEnvironment, Failure> {
     PythonEnvironment::find().map_err(Failure::work)
+}
+
+/// Reads a gear file for the offline stage.
+pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
+    let document = InputDocument::read(path)?;
+    let gear = GearDefinition::from_document(&document)?;
+    judge_gear(&gear, &document)?;
+    Ok(gear)
+}
+
+/// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like those of another unit.
+pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
+    if let Some(body) = &gear.blank.meshed
+        && !body.file.is_file()
+    {
+        let problem = format!("the mesh file {} does not exist", body.file.display());
+        return Err(document.error("blank.file", problem).into());
+    }
+    console::unit_slips(document.unit_slips());
+    Ok(())
 }
 
 /// Says which element was chosen and why, where the gear file leaves it open and the usual one does not do.

@@ -218,6 +218,26 @@ fn modes_are_sorted_paired_and_drawn() {
     let text = succeeds(&arguments).stdout;
     assert!(text.contains("bore rigid on a reference point"), "{text}");
     assert!(text.contains("natural modes up to"), "{text}");
+    // Without an estimate no error is stated, rather than one of zero.
+    for what in [
+        "mesh error of the deflection, loaded tooth: not estimated",
+        "mesh error of the deflection, other teeth: not estimated",
+        "mesh error not estimated",
+    ] {
+        assert!(text.contains(what), "`{what}` is not in {text}");
+    }
+    let answer = succeeds(
+        &[
+            &["compliance", argument(&model), "--tooth", "2"][..],
+            &["--line-load-N-per-mm", "100", "--half-width-mm", "0.1"],
+            &["--radius-mm", "27"],
+        ]
+        .concat(),
+    );
+    assert!(
+        answer.stdout.contains("tooth 2; mesh error not estimated"),
+        "{answer:#?}"
+    );
 }
 
 #[test]

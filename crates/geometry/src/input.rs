@@ -1,8 +1,11 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod number_ranges;
 mod table_keys;
+mod unit_slips;
 mod wording;
 
+pub use number_ranges::NumberRange;
 pub use table_keys::TableKeys;
 
 use serde::de::DeserializeOwned;
@@ -62,13 +65,27 @@ impl InputDocument {
         }
     }
 
-    /// Parses the document into a structure whose keys are all checked by serde.
+    /// Parses the document into a structure whose keys are all checked by serde; every number is finite and within the
+    /// [`NumberRange`] of its key.
     ///
     /// # Errors
     /// [`InputError`] with the line of a syntax error, or with line and key of an unknown key, a missing key, a wrong
-    /// type or an unknown name. An unknown key that differs from a known one by its unit only is answered with the
-    /// right key.
+    /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit only is
+    /// answered with the right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
+        let parsed = self.glance()?;
+        let table: toml::Table = self.glance()?;
+        match number_ranges::first_problem(&table) {
+            None => Ok(parsed),
+            Some((key, problem)) => Err(self.error(&key, problem)),
+        }
+    }
+
+    /// As [`InputDocument::parse`] without a look at the numbers: for structures that hold some of the keys only.
+    ///
+    /// # Errors
+    /// As [`InputDocument::parse`].
+    pub fn glance<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         let deserializer =
             toml::Deserializer::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
         serde_path_to_error::deserialize(deserializer).map_err(|e| {

@@ -67,7 +67,7 @@ pub struct GaugeRows {
     pub side: Flank,
     /// Position and size in words.
     pub description: String,
-    /// Estimated relative discretisation error of its strain.
+    /// Estimated relative discretisation error of its strain, zero where it was not estimated.
     pub error_estimate_relative: f64,
     /// Strain per newton (1/N), `[tooth][flank][load][component]`; components: inward normal, profile tangential
     /// towards the tip, axial +z. (K⁻¹g)ᵀN, method 2 of seed 004.
@@ -75,6 +75,13 @@ pub struct GaugeRows {
     /// Strain per newton (1/N), `[flank][load]`: gᵀW for normal loads on the gauge's own tooth. Method 1 is the normal
     /// component of `adjoint` less this on the own tooth.
     pub own_tooth: Vec<f64>,
+}
+
+impl GaugeRows {
+    /// The estimated relative error of its strain; none where it was not estimated.
+    pub fn error_estimate(&self) -> Option<f64> {
+        (self.error_estimate_relative > 0.0).then_some(self.error_estimate_relative)
+    }
 }
 
 /// Where a reduced gear comes from.

@@ -406,7 +406,10 @@ fn root_strain(chapter: &SceneChapter) -> Section {
         table = table.row([
             s.gear.to_string(),
             s.name.clone(),
-            format!("{:.2}", 100.0 * s.error_estimate_relative),
+            s.error_estimate().map_or_else(
+                || "not estimated".to_string(),
+                |error| format!("{:.2}", 100.0 * error),
+            ),
         ]);
         let curve = r.curve(&s.method_2, last);
         let view = PeakView::of(r, curve);

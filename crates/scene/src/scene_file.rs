@@ -33,7 +33,7 @@ impl SceneFile {
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
     pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
-        let marks: Marks = document.parse()?;
+        let marks: Marks = document.glance()?;
         Ok(marks.pair.is_some() || marks.body.is_some())
     }
 
@@ -51,7 +51,7 @@ impl SceneFile {
     /// # Errors
     /// As [`SceneFile::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
-        let marks: Marks = document.parse()?;
+        let marks: Marks = document.glance()?;
         match (marks.pair, marks.body) {
             (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
             (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),

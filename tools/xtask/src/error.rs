@@ -21,6 +21,11 @@ pub enum XtaskError {
         /// Its exit status in words.
         status: String,
     },
+    /// Rust tests failed; what they printed was shown.
+    TestsFailed {
+        /// Package, program and name of each.
+        names: Vec<String>,
+    },
     /// `import gmsh` fails for a reason that installing libraries does not mend.
     GmshUnusable {
         /// The last line that Python printed.
@@ -56,6 +61,9 @@ impl fmt::Display for XtaskError {
             Self::Missing { what, install } => write!(f, "{what}\nInstall it with:\n  {install}"),
             Self::Failed { command, status } => {
                 write!(f, "this command failed ({status}):\n  {command}")
+            }
+            Self::TestsFailed { names } => {
+                write!(f, "{} failed:\n  {}", names.len(), names.join("\n  "))
             }
             Self::GmshUnusable { message } => {
                 write!(

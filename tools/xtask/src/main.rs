@@ -11,6 +11,7 @@ mod error;
 mod machine;
 mod prepare;
 mod python_module;
+mod rust_tests;
 mod steps;
 mod system_libs;
 mod venv;
@@ -28,6 +29,8 @@ Usage: cargo xtask <COMMAND>
 
   test [--fast]   everything that CI runs: formatting, lints, documentation, Rust tests, Python tests
                   --fast   leaves out the tests marked #[ignore], which take minutes
+  rust-tests [NAME...]
+                  the Rust tests alone, or those of the programs named (such as `verification`), with the ten slowest
   demo [ARGS]     gear pair A from definition to report, into out/demo; ARGS go to `gearmesh demo`
   bench offline [--quick] [--program PATH]
                   time and memory of the offline stage beside other programs, into docs/benchmarks/offline.md
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
 #[derive(Debug, PartialEq, Eq)]
 enum Command {
     Test(steps::Extent),
+    RustTests(Vec<String>),
     Demo(Vec<String>),
     BenchOffline(bench::Options),
     AccuracyCost(bench::Options),
@@ -77,10 +81,14 @@ impl Command {
             return Err("no command given".to_owned());
         };
         let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+        let owned = |words: &[&str]| words.iter().map(|&word| word.to_owned()).collect();
         match (name.as_str(), rest.as_slice()) {
-            ("demo", rest) => Ok(Self::Demo(rest.iter().map(|&arg| arg.to_owned()).collect())),
+            ("demo", rest) => Ok(Self::Demo(owned(rest))),
             ("test", []) => Ok(Self::Test(steps::Extent::Full)),
             ("test", ["--fast"]) => Ok(Self::Test(steps::Extent::Fast)),
+            ("rust-tests", rest) if !rest.iter().any(|word| word.starts_with('-')) => {
+                Ok(Self::RustTests(owned(rest)))
+            }
             ("bench", ["offline", rest @ ..]) => {
                 bench_options("bench offline", rest).map(Self::BenchOffline)
             }
@@ -89,8 +97,10 @@ impl Command {
             }
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
-            | ("test" | "prepare" | "bench" | "accuracy-cost", ["--help" | "-h"]) => Ok(Self::Help),
-            ("test" | "prepare", rest) => {
+            | ("test" | "rust-tests" | "prepare" | "bench" | "accuracy-cost", ["--help" | "-h"]) => {
+                Ok(Self::Help)
+            }
+            ("test" | "rust-tests" | "prepare", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
             ("bench", _) => Err("`bench` needs what to measure: `bench offline`".into()),
@@ -130,6 +140,10 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
     let venv = prepare::prepare(&workspace)?;
     match command {
         Command::Test(extent) => steps::test(&workspace, &venv, extent),
+        Command::RustTests(names) => {
+            steps::rust_tests(&workspace, &venv, steps::Extent::Full, &names)?;
+            Ok(ExitCode::SUCCESS)
+        }
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare | Command::Help | Command::BenchOffline(_) | Command::AccuracyCost(_) => {
             Ok(ExitCode::SUCCESS)
@@ -150,6 +164,21 @@ mod tests {
     fn test_runs_everything_unless_told_to_be_fast() {
         assert_eq!(parse("test"), Ok(Command::Test(steps::Extent::Full)));
         assert_eq!(parse("test --fast"), Ok(Command::Test(steps::Extent::Fast)));
+    }
+
+    #[test]
+    fn rust_tests_takes_names_of_programs() {
+        assert_eq!(parse("rust-tests"), Ok(Command::RustTests(Vec::new())));
+        let names = vec!["modes".to_owned(), "study".to_owned()];
+        assert_eq!(
+            parse("rust-tests modes study"),
+            Ok(Command::RustTests(names))
+        );
+        assert_eq!(parse("rust-tests --help"), Ok(Command::Help));
+        assert_eq!(
+            parse("rust-tests --fast"),
+            Err("unknown argument `--fast` of `rust-tests`".into())
+        );
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::console::{readable, say};
 use crate::error::XtaskError;
 use crate::machine;
 use crate::python_module;
+use crate::rust_tests;
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
@@ -19,6 +20,14 @@ pub enum Extent {
     Full,
     /// Without those.
     Fast,
+}
+
+/// What a step does.
+type Step<'a> = Box<dyn FnOnce() -> Result<(), XtaskError> + 'a>;
+
+/// A step of one command.
+fn command<'a>(mut command: Command) -> Step<'a> {
+    Box::new(move || run_checked(&mut command))
 }
 
 /// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of packages
@@ -38,10 +47,6 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         command.env("RUSTDOCFLAGS", "-D warnings");
         command
     };
-    let mut rust_tests = cargo(&["test", "--workspace", "--tests", "--no-fail-fast"]);
-    if extent == Extent::Full {
-        rust_tests.args(["--", "--include-ignored"]);
-    }
     let mut python_tests = Command::new(venv.python());
     python_tests.current_dir(workspace.root()).args([
         "-m",
@@ -53,33 +58,32 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
     ]);
     set_environment(&mut python_tests, venv);
 
-    let steps = [
-        ("formatting", cargo(&["fmt", "--all", "--check"])),
-        (
-            "lints",
-            cargo(&[
-                "clippy",
-                "--workspace",
-                "--all-targets",
-                "--",
-                "-D",
-                "warnings",
-            ]),
-        ),
-        ("documentation of the libraries", pages("--lib")),
-        ("documentation of the programs", pages("--bins")),
-        ("Rust tests", rust_tests),
+    let rust_tests = || rust_tests(workspace, venv, extent, &[]);
+    let lints = cargo(&[
+        "clippy",
+        "--workspace",
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ]);
+    let steps: [(&str, Step); 7] = [
+        ("formatting", command(cargo(&["fmt", "--all", "--check"]))),
+        ("lints", command(lints)),
+        ("documentation of the libraries", command(pages("--lib"))),
+        ("documentation of the programs", command(pages("--bins"))),
+        ("Rust tests", Box::new(rust_tests)),
         (
             "documentation tests",
-            cargo(&["test", "--workspace", "--doc"]),
+            command(cargo(&["test", "--workspace", "--doc"])),
         ),
-        ("Python tests", python_tests),
+        ("Python tests", command(python_tests)),
     ];
     let start = Instant::now();
-    for (name, mut command) in steps {
+    for (name, step) in steps {
         say(&format!("\n== {name}"));
         let step_start = Instant::now();
-        let outcome = run_checked(&mut command);
+        let outcome = step();
         let verdict = if outcome.is_ok() { "passed" } else { "FAILED" };
         say(&format!(
             "== {name} {verdict} in {}",
@@ -89,6 +93,21 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
     }
     say(&format!("\nall passed in {}", readable(start.elapsed())));
     Ok(ExitCode::SUCCESS)
+}
+
+/// The Rust tests of the programs named, of all where none is.
+///
+/// # Errors
+/// As [`rust_tests::run`].
+pub fn rust_tests(
+    workspace: &Workspace,
+    venv: &Venv,
+    extent: Extent,
+    only: &[String],
+) -> Result<(), XtaskError> {
+    let mut build = cargo(workspace, venv);
+    build.args(["test", "--workspace", "--tests"]);
+    rust_tests::run(build, venv, extent, only)
 }
 
 /// Gear pair A from definition to report: `gearmesh demo -o out/demo` and the user's further arguments. The exit
@@ -145,7 +164,7 @@ pub fn cargo(workspace: &Workspace, venv: &Venv) -> Command {
 }
 
 /// `.venv/bin` first on PATH (cmake for HDF5's C sources is there), and the interpreter that meshing starts.
-fn set_environment(command: &mut Command, venv: &Venv) {
+pub fn set_environment(command: &mut Command, venv: &Venv) {
     command.env("PATH", path_with_first(venv.bin_dir()));
     command.env("GEARMESH_PYTHON", venv.python());
     if machine::lacks_make() {
@@ -185,7 +204,7 @@ pub fn run_checked(command: &mut Command) -> Result<(), XtaskError> {
 }
 
 /// The command as one could type it in the project's root.
-fn shown(command: &Command) -> String {
+pub fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words
         .map(|word| word.to_string_lossy().into_owned())

@@ -44,6 +44,12 @@ impl Venv {
         Ok(venv)
     }
 
+    /// An environment in a folder, as it is.
+    #[cfg(test)]
+    pub fn at(dir: PathBuf) -> Self {
+        Self { dir }
+    }
+
     /// The environment's interpreter.
     pub fn python(&self) -> PathBuf {
         self.dir.join("bin/python")

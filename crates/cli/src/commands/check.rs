@@ -2,13 +2,13 @@
 
 use crate::arguments::CheckArguments;
 use crate::commands::{reduce, run_system};
-use crate::console;
 use crate::failure::Failure;
+use crate::{console, offline};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{FileError, read_reduced_gear};
 use gearmesh_scene::system_run::SystemResult;
-use gearmesh_scene::{SceneFile, SceneResult};
+use gearmesh_scene::{SceneFile, SceneResult, load};
 
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -63,14 +63,18 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let folder = path.parent().unwrap_or(std::path::Path::new(""));
         match SceneFile::from_document(document, folder)? {
             SceneFile::Pair(scene) => {
+                let loaded = load(*scene)?;
+                loaded.scene.notes.iter().for_each(console::note);
+                console::unit_slips(loaded.unit_slips());
                 console::data(format!(
                     "{}: scene `{}`, sound",
                     path.display(),
-                    scene.title
+                    loaded.scene.title
                 ));
             }
             SceneFile::System(scene) => {
                 let loaded = scene.load()?;
+                console::unit_slips(loaded.unit_slips());
                 let built = loaded.build()?;
                 console::data(format!(
                     "{}: scene `{}`, sound: {} bodies, {} joints and motions, {} force elements",
@@ -85,6 +89,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         }
     } else {
         let gear = GearDefinition::from_document(&document)?;
+        offline::judge_gear(&gear, &document)?;
         let p = &gear.profile;
         console::data(format!("{}: gear `{}`, sound", path.display(), gear.name));
         console::data(format!(

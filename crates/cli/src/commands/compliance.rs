@@ -86,11 +86,9 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
         );
         return Ok(());
     }
-    let mesh_error = mesh_error.map_or(String::new(), |error| {
-        format!("; mesh error about {:.2} %", 100.0 * error)
-    });
+    let mesh_error = console::mesh_error(mesh_error);
     console::data(format!(
-        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}{mesh_error}",
+        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}; mesh error {mesh_error}",
         model.name, a.tooth
     ));
     let slices: Vec<String> = (0..model.grid.slices)

@@ -3,14 +3,13 @@
 use crate::arguments::MeshArguments;
 use crate::failure::Failure;
 use crate::{console, offline, output_name};
-use gearmesh_geometry::GearDefinition;
 use gearmesh_mesh::GearMesh;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     output_name::demand_mesh(&arguments.output)?;
-    let gear = GearDefinition::read(&arguments.gear)?;
+    let gear = offline::gear(&arguments.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "nodes and elements are");
     let mesh = GearMesh::new(&gear, &offline::python()?)

@@ -15,7 +15,7 @@ pub fn run(a: &ModesArguments) -> Result<(), Failure> {
     if let Some(path) = &a.shapes {
         output_name::demand_mesh(path)?;
     }
-    let gear = GearDefinition::read(&a.gear)?;
+    let gear = offline::gear(&a.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "natural modes are");
     let range = range(a, &gear)?;

@@ -12,12 +12,16 @@ use serde_json::json;
 pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
     let (lines, figures) = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => {
-            let plan = load(*scene)?.plan();
+            let loaded = load(*scene)?;
+            loaded.scene.notes.iter().for_each(console::note);
+            console::unit_slips(loaded.unit_slips());
+            let plan = loaded.plan();
             let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns});
             (plan.lines, figures)
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
+            console::unit_slips(loaded.unit_slips());
             let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
                 .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
             let figures = json!({

@@ -81,24 +81,24 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
             .iter()
             .map(|(s, torque, one, two)| {
                 json!({"gear": s.gear, "gauge": s.name, "torque_Nm": torque, "range_method_1": one, "range_method_2": two,
-                       "mesh_error_relative": s.error_estimate_relative})
+                       "mesh_error_relative": s.error_estimate()})
             })
             .collect();
         console::json(&json!({"rows": list, "seconds": result.seconds[1]}));
         return Ok(());
     }
     console::data(format!(
-        "{:>4} {:<18} {:>10} {:>18} {:>18} {:>12}",
-        "gear", "gauge", "torque N m", "range 1 ustrain", "range 2 ustrain", "mesh error %"
+        "{:>4} {:<18} {:>10} {:>18} {:>18} {:>14}",
+        "gear", "gauge", "torque N m", "range 1 ustrain", "range 2 ustrain", "mesh error"
     ));
     for (s, torque, one, two) in rows {
         console::data(format!(
-            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>12.2}",
+            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>14}",
             s.gear,
             s.name,
             one * 1e6,
             two * 1e6,
-            100.0 * s.error_estimate_relative
+            console::mesh_error(s.error_estimate())
         ));
     }
     console::data(format!(

@@ -3,14 +3,13 @@
 use crate::arguments::ReduceArguments;
 use crate::failure::Failure;
 use crate::{console, offline, output_name};
-use gearmesh_geometry::GearDefinition;
-use gearmesh_model::{ReducedGear, write_reduced_gear};
+use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
     output_name::demand_hdf5(&arguments.output)?;
-    let gear = GearDefinition::read(&arguments.gear)?;
+    let gear = offline::gear(&arguments.gear)?;
     let model = match &gear.blank.meshed {
         Some(body) => {
             if !arguments.no_error_estimate {
@@ -37,7 +36,7 @@ pub fn figures(model: &ReducedGear) -> serde_json::Value {
     let gauges: Vec<_> = model
         .gauges
         .iter()
-        .map(|g| json!({"name": g.name, "error_estimate_relative": g.error_estimate_relative}))
+        .map(|g| json!({"name": g.name, "error_estimate_relative": g.error_estimate()}))
         .collect();
     json!({
         "name": model.name,
@@ -92,12 +91,16 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
             format!("{name}: {:.2} %", 100.0 * value)
         });
     }
+    for name in [
+        ReductionChecks::LOADED_TOOTH_ERROR,
+        ReductionChecks::OTHER_TEETH_ERROR,
+    ] {
+        if model.checks.further(name).is_none() {
+            lines.push(format!("{name}: {}", console::mesh_error(None)));
+        }
+    }
     for g in &model.gauges {
-        let error = if g.error_estimate_relative > 0.0 {
-            format!("about {:.2} %", 100.0 * g.error_estimate_relative)
-        } else {
-            "not estimated".to_owned()
-        };
+        let error = console::mesh_error(g.error_estimate());
         lines.push(format!(
             "gauge {}: {}; mesh error {error}",
             g.name, g.description

@@ -15,7 +15,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output_name::demand_hdf5(&arguments.output)?;
     let scene = match SceneFile::read(&arguments.scene)? {
         SceneFile::Pair(scene) => scene,
-        SceneFile::System(scene) => return run_system::run(scene.load()?, arguments),
+        SceneFile::System(scene) => {
+            let loaded = scene.load()?;
+            console::unit_slips(loaded.unit_slips());
+            return run_system::run(loaded, arguments);
+        }
     };
     if arguments.restart {
         return Err(Failure::input(
@@ -23,6 +27,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         ));
     }
     let loaded = load(*scene)?;
+    loaded.scene.notes.iter().for_each(console::note);
+    console::unit_slips(loaded.unit_slips());
     let result = run_scene(&loaded, &|done, total| {
         console::note(format!("torque {done} of {total} solved"))
     })?;

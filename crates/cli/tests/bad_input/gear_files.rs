@@ -259,3 +259,87 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
         &["mesh.plane_strain", "meshed in quadrilaterals"],
     );
 }
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let gauge = "tooth = 17\nside = \"right\"";
+    gear_refused(
+        THIN,
+        (gauge, "tooth = 17\nz_mm = inf\nside = \"right\""),
+        "z_mm",
+        &["gauge.0.z_mm: found inf, allowed is a finite number from -1e6 to 1e6 mm"],
+    );
+    gear_refused(
+        SOLID,
+        (
+            "[mesh]",
+            "[crack]\ntooth = 0\nside = \"right\"\ndepth_mm = 1.0\ntangent_deg = nan\n[mesh]",
+        ),
+        "tangent_deg",
+        &["crack.tangent_deg: found NaN, allowed is a finite number from -1e6 to 1e6 deg"],
+    );
+    gear_refused(
+        SOLID,
+        ("face_width_mm = 12.0", "face_width_mm = 1.8e19"),
+        "face_width_mm",
+        &["tooth.face_width_mm: found 18000000000000000000"],
+    );
+    gear_refused(
+        SOLID,
+        ("face_width_mm = 12.0", "face_width_mm = 2e4"),
+        "face_width_mm",
+        &["tooth.face_width_mm: found 20000, allowed is 0.01 to 10000"],
+    );
+}
+
+/// Allowed, but told: the numbers look like those of another unit.
+#[test]
+fn likely_slips_of_units_are_warned_of_by_name() {
+    let desk = Desk::new();
+    let text = changed(
+        SOLID,
+        "young_GPa = 210.0",
+        "young_GPa = 210000.0\ndensity_kg_per_m3 = 7.8e-9",
+    );
+    let file = desk.file(
+        "gear.toml",
+        format!("{text}[microgeometry]\nlead_crowning_um = 0.012\n"),
+    );
+    let answer = succeeds(&["check", argument(&file)]);
+    for (key, words) in [
+        (
+            "young_GPa",
+            "material.young_GPa: 210000 is unusual, 0.1 to 1500 is usual; a slip of units? steel has 206 GPa",
+        ),
+        (
+            "density",
+            "material.density_kg_per_m3: 0.0000000078 is unusual",
+        ),
+        (
+            "lead_crowning",
+            "microgeometry.lead_crowning_um: 0.012 is unusual",
+        ),
+    ] {
+        let line = line_of(&std::fs::read_to_string(&file).unwrap(), key);
+        let warning = format!("warning: {}:{line}: {words}", file.display());
+        assert!(
+            answer.stderr.contains(&warning),
+            "`{warning}` is not in {answer:#?}"
+        );
+    }
+    assert_eq!(answer.stderr.lines().count(), 3, "{answer:#?}");
+}
+
+#[test]
+fn a_missing_mesh_file_is_seen_by_check() {
+    let (body, _) = SOLID.split_once("[mesh]").unwrap();
+    gear_refused(
+        body,
+        (
+            "kind = \"solid\"",
+            "kind = \"mesh\"\nfile = \"nowhere.inp\"",
+        ),
+        "nowhere.inp",
+        &["blank.file: the mesh file", "nowhere.inp does not exist"],
+    );
+}

@@ -1,17 +1,20 @@
 //! Scenes of a gear pair.
 
 use crate::common::{
-    Desk, SOLID, argument, changed, gearmesh, line_of, refused, succeeds, workshop,
+    Desk, SOLID, argument, changed, gearmesh, line_of, number, refused, run_scene, succeeds,
+    workshop,
 };
 use crate::gear_files::gear_refused;
 
-/// `gearmesh plan` and `run` refuse a scene in which `from` became `to`, at the line of `at`.
+/// `gearmesh check`, `plan` and `run` refuse a scene in which `from` became `to`, at the line of `at`.
 fn scene_refused((from, to): (&str, &str), at: &str, parts: &[&str]) {
     let desk = Desk::new();
     let text = changed(&workshop().scene(""), from, to);
     let file = desk.file("scene.toml", &text);
     let place = format!("{}:{}: ", file.display(), line_of(&text, at));
-    refused(&gearmesh(&["plan", argument(&file)]), 2, parts);
+    for command in ["check", "plan"] {
+        refused(&gearmesh(&[command, argument(&file)]), 2, parts);
+    }
     let answer = gearmesh(&[
         "run",
         argument(&file),
@@ -162,4 +165,54 @@ fn a_value_of_the_wrong_type_is_named_by_its_key() {
         &["tooth.teeth: "],
     );
     scene_refused(("\"hybrid\"", "\"hybird\""), "hybird", &["mesh.model: "]);
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let centre = "centre_distance_mm = 54.7";
+    scene_refused(
+        (centre, "centre_distance_mm = inf"),
+        "centre_distance_mm",
+        &["pair.centre_distance_mm: found inf, allowed is a finite number from -1e6 to 1e6 mm"],
+    );
+    scene_refused(
+        ("[20.0, 60.0]", "[20.0, nan]"),
+        "torques_Nm",
+        &["run.torques_Nm.1: found NaN, allowed is a finite number from -1e12 to 1e12 Nm"],
+    );
+}
+
+/// One vocabulary for both kinds of scene: the former name is read with a note and means the same; keys of gear meshes are refused by name.
+#[test]
+fn friction_has_the_names_of_gear_meshes() {
+    let desk = Desk::new();
+    let scene = |key: &str| {
+        let friction = format!("friction = {{ model = \"coulomb\", {key} = 0.1 }}\n");
+        desk.file("scene.toml", workshop().scene(&friction))
+    };
+    let result = desk.path("result.h5");
+    let mean = |key: &str| {
+        let file = scene(key);
+        let answer = succeeds(&["run", argument(&file), "-o", argument(&result), "--json"]);
+        (
+            number(&answer.json()["rows"][0]["te_mean_m"]),
+            answer.stderr,
+        )
+    };
+    let (now, told) = mean("dynamic_coefficient");
+    assert!(!told.contains("dynamic_coefficient"), "{told}");
+    let (formerly, told) = mean("coefficient");
+    assert_eq!(now, formerly);
+    assert!(
+        told.contains("mesh.friction.coefficient: is now called dynamic_coefficient"),
+        "{told}"
+    );
+    let none = run_scene(&desk, "").1;
+    assert!((now / number(&none["rows"][0]["te_mean_m"]) - 1.0).abs() > 1e-4);
+    let friction = "[mesh]\nfriction = { model = \"coulomb\", dynamic_coefficient = 0.1, static_speed_mm_per_s = 5.0 }";
+    scene_refused(
+        ("[mesh]", friction),
+        "static_speed",
+        &["mesh.friction.static_speed_mm_per_s: is for gear meshes, which have speeds"],
+    );
 }

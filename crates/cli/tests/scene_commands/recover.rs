@@ -75,7 +75,7 @@ fn friction_reaches_method_2() {
     let without = recovered(&desk, &result);
     let (result, figures) = run_scene(
         &desk,
-        "friction = { model = \"coulomb\", coefficient = 0.1 }\n",
+        "friction = { model = \"coulomb\", dynamic_coefficient = 0.1 }\n",
     );
     let with = recovered(&desk, &result);
     for row in figures["rows"].as_array().unwrap() {

@@ -73,8 +73,8 @@ impl ToothTable {
         keys.require(
             "module_mm",
             self.module_mm,
-            self.module_mm > 0.0,
-            "more than 0",
+            (0.01..=200.0).contains(&self.module_mm),
+            "0.01 to 200",
         )?;
         keys.require(
             "pressure_angle_deg",
@@ -103,8 +103,8 @@ impl ToothTable {
         keys.require(
             "face_width_mm",
             self.face_width_mm,
-            self.face_width_mm > 0.0,
-            "more than 0",
+            (0.01..=10_000.0).contains(&self.face_width_mm),
+            "0.01 to 10000",
         )?;
         keys.require(
             "tip_chamfer_mm",

@@ -17,12 +17,19 @@ pub struct StrainSeries {
     pub gear: usize,
     /// Name of the gauge.
     pub name: String,
-    /// Estimated relative error of the mesh at this gauge.
+    /// Estimated relative error of the mesh at this gauge, zero where it was not estimated.
     pub error_estimate_relative: f64,
     /// Method 1.
     pub method_1: Vec<f64>,
     /// Method 2.
     pub method_2: Vec<f64>,
+}
+
+impl StrainSeries {
+    /// The estimated relative error of the mesh; none where it was not estimated.
+    pub fn error_estimate(&self) -> Option<f64> {
+        (self.error_estimate_relative > 0.0).then_some(self.error_estimate_relative)
+    }
 }
 
 /// All curves of a run. With T torques, A angles, L line slots and S slices.

@@ -156,6 +156,20 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 }
 
 impl LoadedScene {
+    /// Numbers of the scene and of the gear files inside its models that look like those of another unit.
+    #[must_use]
+    pub fn unit_slips(&self) -> Vec<InputError> {
+        let files = [&self.scene.gear_1, &self.scene.gear_2];
+        let mut slips = self.scene.document.unit_slips();
+        for (k, (file, model)) in files.into_iter().zip(&self.models).enumerate() {
+            if k == 0 || file != files[0] {
+                let name = format!("gear file inside {}", file.display());
+                slips.extend(InputDocument::new(name, model.input_toml.clone()).unit_slips());
+            }
+        }
+        slips
+    }
+
     /// What will be computed.
     pub fn plan(&self) -> Plan {
         Plan::new(

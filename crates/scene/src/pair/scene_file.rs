@@ -1,8 +1,9 @@
 //! The scene file: a gear pair, its models, torques, angle range and gauges.
 
 use crate::rating::RatingTable;
-use gearmesh_contact::{ContactOptions, Friction, LocalContact};
-use gearmesh_geometry::input::InputDocument;
+use crate::system::tables::friction::FrictionTable;
+use gearmesh_contact::{ContactOptions, LocalContact};
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, InputError, Misalignment};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -87,28 +88,6 @@ struct MeshTable {
     friction: Option<FrictionTable>,
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum FrictionModel {
-    Coulomb,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct FrictionTable {
-    #[allow(dead_code)]
-    model: FrictionModel,
-    /// Coefficient.
-    coefficient: f64,
-    /// Distance from the pitch point within which friction turns round; 20 where not given.
-    #[serde(default = "default_reversal")]
-    reversal_um: f64,
-}
-
-fn default_reversal() -> f64 {
-    20.0
-}
-
 /// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
 const DEFAULT_EDGE_RADIUS_UM: f64 = 100.0;
 
@@ -173,6 +152,8 @@ pub struct Scene {
     pub ratings: Vec<RatingTable>,
     /// Where the scene is.
     pub folder: PathBuf,
+    /// What to tell about the file beside its sense: keys with former names.
+    pub notes: Vec<String>,
     /// The file, for later complaints and provenance.
     pub document: InputDocument,
 }
@@ -251,25 +232,12 @@ impl Scene {
             (4..=100_000).contains(&points),
             "4 to 100000",
         )?;
-        let friction = match &table.mesh.friction {
-            None => None,
-            Some(f) => {
-                require(
-                    "mesh.friction.coefficient",
-                    f.coefficient,
-                    (0.0..=1.0).contains(&f.coefficient),
-                    "0 to 1",
-                )?;
-                require(
-                    "mesh.friction.reversal_um",
-                    f.reversal_um,
-                    f.reversal_um > 0.0,
-                    "more than 0",
-                )?;
-                Some(Friction {
-                    coefficient: f.coefficient,
-                    reversal_m: f.reversal_um * 1e-6,
-                })
+        let keys = TableKeys::new(&document, "mesh");
+        let (friction, note) = match &table.mesh.friction {
+            None => (None, None),
+            Some(table) => {
+                let (friction, note) = table.of_pair(&keys)?;
+                (Some(friction), note)
             }
         };
         let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
@@ -319,6 +287,7 @@ impl Scene {
             gauges_2: table.gauges.gear_2,
             ratings: table.rating,
             folder: folder.into(),
+            notes: note.into_iter().collect(),
             document,
         })
     }

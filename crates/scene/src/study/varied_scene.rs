@@ -18,7 +18,7 @@ pub fn varied(
     case: &Case,
     folder: &Path,
 ) -> Result<SystemScene, InputError> {
-    let given: toml::Value = scene.parse()?;
+    let given: toml::Value = scene.glance()?;
     let mut root = given.clone();
     for setting in &case.settings {
         for key in &setting.keys {

@@ -20,7 +20,11 @@ fn tables_that_do_not_increase_are_refused_in_their_file() {
         ),
         (
             "time_s,torque_Nm\n0,1\n0.2,x\n",
-            "rig.csv:3: torque_Nm: found 'x', allowed is a finite number",
+            "rig.csv:3: torque_Nm: found 'x', allowed is a number such as",
+        ),
+        (
+            "time_s,torque_Nm\n0,1\n0.2,inf\n",
+            "rig.csv:3: torque_Nm: found inf, allowed is a finite number from -1e12 to 1e12 Nm",
         ),
         (
             "time_s,torque_Nm\n0,1\n0.2,3,4\n",

@@ -126,7 +126,7 @@ fn values_out_of_range_are_refused() {
     refused(
         ("to = -100.0", "to = nan"),
         "torque_Nm",
-        &["STEP runs from 0 s to 0.01 s", "all numbers finite"],
+        &["load.0.torque_Nm.step.to: found NaN, allowed is a finite number"],
     );
     refused(
         ("end_s = 0.01", "end_s = 0.0"),

@@ -239,7 +239,9 @@ fn meshes_that_cannot_be_are_refused() {
             "exponent = 1.5\nerrors_2 = [{ kind = \"broken-tooth\", tooth = 57, above_radius_mm = 75.0 }]",
         ),
         "errors_2",
-        &["gear_mesh.0.errors_2.0: broken tooth: there is no tooth 57; the gear has teeth 0 to 56"],
+        &[
+            "gear_mesh.0.errors_2.0.tooth: broken-tooth: there is no tooth 57; the gear has teeth 0 to 56",
+        ],
     );
     refused(
         (
@@ -247,7 +249,7 @@ fn meshes_that_cannot_be_are_refused() {
             "exponent = 1.5\nerrors_1 = [{ kind = \"pitch\", side = \"right\", removed_um = [1.0, 2.0] }]",
         ),
         "errors_1",
-        &["pitch errors: the list has 2 entries, 57 are needed"],
+        &["gear_mesh.0.errors_1.0.removed_um: found 2 numbers, allowed are 57: one a tooth"],
     );
     refused(
         (
@@ -271,8 +273,51 @@ fn meshes_that_cannot_be_are_refused() {
             "exponent = 1.5\nfriction = { model = \"coulomb\", static_coefficient = 0.1, dynamic_coefficient = 0.2 }",
         ),
         "friction",
-        &["the static coefficient is 0.1; it must be at least the dynamic coefficient"],
+        &[
+            "gear_mesh.0.friction.static_coefficient: found 0.1, allowed is at least dynamic_coefficient, 0.2",
+        ],
     );
+    for (further, complaint) in [
+        (
+            "errors_1 = [{ kind = \"spall\", tooth = 3, side = \"right\", radii_mm = [74.0, 73.0], z_mm = [-1.0, 1.0], depth_um = 5.0 }]",
+            "gear_mesh.0.errors_1.0.radii_mm: found [74, 73], allowed is [lower, upper]",
+        ),
+        (
+            "errors_1 = [{ kind = \"spall\", tooth = 3, side = \"right\", radii_mm = [73.0, 74.0], z_mm = [-1.0, 1.0], depth_um = -5.0 }]",
+            "gear_mesh.0.errors_1.0.depth_um: found -5, allowed is more than 0",
+        ),
+        (
+            "errors_1 = [{ kind = \"tip-chip\", tooth = 3, end = \"+z\", height_mm = 1.0, length_mm = 0.0 }]",
+            "gear_mesh.0.errors_1.0.length_mm: found 0, allowed is more than 0",
+        ),
+        (
+            "errors_1 = [{ kind = \"broken-tooth\", tooth = 3, above_radius_mm = 99.0 }]",
+            "gear_mesh.0.errors_1.0.above_radius_mm: found 99, allowed is more than 0 and less than the tip radius",
+        ),
+        (
+            "friction = { model = \"coulomb\", dynamic_coefficient = 0.2, static_speed_mm_per_s = 10, dynamic_speed_mm_per_s = 5 }",
+            "gear_mesh.0.friction.dynamic_speed_mm_per_s: found 5, allowed is more than static_speed_mm_per_s, 10",
+        ),
+        (
+            "friction = { model = \"coulomb\", coefficient = 0.2 }",
+            "gear_mesh.0.friction.coefficient: is called dynamic_coefficient",
+        ),
+        (
+            "friction = { model = \"coulomb\", dynamic_coefficient = 0.2, reversal_um = 20 }",
+            "gear_mesh.0.friction.reversal_um: is for scenes of a [pair]",
+        ),
+        (
+            "friction = { model = \"coulomb\" }",
+            "gear_mesh.0.friction.dynamic_coefficient: missing",
+        ),
+    ] {
+        let at = further.split(' ').next().unwrap();
+        refused(
+            ("exponent = 1.5", &format!("exponent = 1.5\n{further}")),
+            at,
+            &[complaint],
+        );
+    }
     refused(
         (
             "[[gear_mesh]]",

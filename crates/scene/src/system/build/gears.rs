@@ -123,6 +123,16 @@ impl Gear {
             || m.flank_angle_m != 0.0
     }
 
+    /// Numbers of its gear file that look like those of another unit.
+    pub(super) fn unit_slips(&self) -> Vec<InputError> {
+        let shown = self.file.display();
+        let file = match self.model {
+            Some(_) => format!("gear file inside {shown}"),
+            None => shown.to_string(),
+        };
+        InputDocument::new(file, self.definition.source.clone()).unit_slips()
+    }
+
     /// Where it comes from, in words.
     pub(super) fn source(&self) -> String {
         let kind = if self.model.is_some() {

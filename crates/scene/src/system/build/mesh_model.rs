@@ -6,24 +6,18 @@ use std::sync::Arc;
 
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
-    BeamTeeth, BeamTooth, Damped, Damping, DrivetrainError, FlankError, Friction, GearMesh,
-    MeshKinematics, PairCurve, PathEnds, ReducedTeeth, TeethModel,
+    BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
+    PairCurve, PathEnds, ReducedTeeth, TeethModel,
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{FlankSide, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
-use crate::system::tables::gear_mesh::{
-    DampingTable, FlanksWord, FrictionTable, GearMeshTable, MeshModel, PathWord,
-};
-use crate::system::tables::{MM, UM};
+use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, MeshModel, PathWord};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene does not state.
 pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
-/// Sliding speed of the static coefficient of friction where a scene states none \[m/s\]: small against the sliding of gears that run at some rpm,
-/// large enough for steps of some microseconds.
-const DEFAULT_STATIC_SPEED_M_PER_S: f64 = 10e-3;
 
 pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
     let touching: &[&str] = &["impact", "iso6336", "analytic", "hybrid"];
@@ -332,46 +326,19 @@ impl SceneMesh<'_> {
         teeth: impl TeethModel + 'static,
         slices: usize,
     ) -> Result<Box<dyn TeethModel>, InputError> {
-        let damping = match &self.table.damping {
-            None => return Ok(Box::new(teeth)),
-            Some(DampingTable::StiffnessProportional {
-                time_s,
-                full_depth_um,
-            }) => Damping::StiffnessProportional {
-                time_s: *time_s,
-                full_depth_m: UM * full_depth_um,
-            },
-            Some(DampingTable::Viscous {
-                damping_N_s_per_mm,
-                full_depth_um,
-            }) => Damping::Viscous {
-                coefficient_n_s_per_m: damping_N_s_per_mm / MM,
-                full_depth_m: UM * full_depth_um,
-            },
+        let Some(damping) = &self.table.damping else {
+            return Ok(Box::new(teeth));
         };
+        let damping = damping.check(&self.keys)?;
         let damped =
             Damped::new(teeth, damping, slices).map_err(|e| self.keys.error("damping", e))?;
         Ok(Box::new(damped))
     }
 
     fn friction(&self) -> Result<Option<Friction>, InputError> {
-        let Some(FrictionTable::Coulomb {
-            static_coefficient,
-            dynamic_coefficient,
-            static_speed_mm_per_s,
-            dynamic_speed_mm_per_s,
-        }) = &self.table.friction
-        else {
-            return Ok(None);
-        };
-        let slow = static_speed_mm_per_s.map_or(DEFAULT_STATIC_SPEED_M_PER_S, |speed| MM * speed);
-        let fast = dynamic_speed_mm_per_s.map_or(10.0 * slow, |speed| MM * speed);
-        let coefficients = [
-            static_coefficient.unwrap_or(*dynamic_coefficient),
-            *dynamic_coefficient,
-        ];
-        Friction::new(coefficients, [slow, fast])
-            .map(Some)
-            .map_err(|e| self.keys.error("friction", e))
+        let table = self.table.friction.as_ref();
+        table
+            .map(|table| table.of_gear_mesh(&self.keys))
+            .transpose()
     }
 }

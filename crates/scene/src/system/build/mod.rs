@@ -91,6 +91,20 @@ impl SystemScene {
 }
 
 impl LoadedSystem {
+    /// Numbers of the scene and of its gears' files that look like those of another unit.
+    #[must_use]
+    pub fn unit_slips(&self) -> Vec<InputError> {
+        let mut slips = self.scene.document.unit_slips();
+        let mut seen = Vec::new();
+        for gear in self.gears.iter().flatten() {
+            if !seen.contains(&&gear.file) {
+                seen.push(&gear.file);
+                slips.extend(gear.unit_slips());
+            }
+        }
+        slips
+    }
+
     /// The system of the scene.
     ///
     /// # Errors

@@ -119,6 +119,81 @@ impl FlankErrorTable {
         }
     }
 
+    /// Complains about numbers that the gear cannot have, by the keys that stand in the file.
+    fn check(
+        &self,
+        gear: &ToothGeometry,
+        keys: &TableKeys<'_>,
+        key: &str,
+    ) -> Result<(), InputError> {
+        let at = |name: &str| format!("{key}.{name}");
+        let positive =
+            |name: &str, value: f64| keys.require(&at(name), value, value > 0.0, "more than 0");
+        let rising = |name: &str, [low, high]: [f64; 2]| match low < high {
+            true => Ok(()),
+            false => Err(keys.error(
+                &at(name),
+                format!("found [{low}, {high}], allowed is [lower, upper]"),
+            )),
+        };
+        let (kind, last) = (self.kind(), gear.teeth - 1);
+        if let Some(tooth) = self.tooth().filter(|tooth| *tooth > last) {
+            let problem =
+                format!("{kind}: there is no tooth {tooth}; the gear has teeth 0 to {last}");
+            return Err(keys.error(&at("tooth"), problem));
+        }
+        match self {
+            Self::Pitch { removed_um, .. } => {
+                let (found, teeth) = (removed_um.len(), gear.teeth);
+                if found == teeth {
+                    return Ok(());
+                }
+                let problem = format!("found {found} numbers, allowed are {teeth}: one a tooth");
+                Err(keys.error(&at("removed_um"), problem))
+            }
+            Self::Deviation { .. } => Ok(()),
+            Self::BrokenTooth {
+                above_radius_mm, ..
+            } => {
+                let tip = gear.tip_radius_m / MM;
+                let ok = *above_radius_mm > 0.0 && *above_radius_mm < tip;
+                let allowed = format!("more than 0 and less than the tip radius, {tip:.3}");
+                keys.require(&at("above_radius_mm"), *above_radius_mm, ok, &allowed)
+            }
+            Self::TipChip {
+                height_mm,
+                length_mm,
+                ..
+            } => {
+                positive("height_mm", *height_mm)?;
+                positive("length_mm", *length_mm)
+            }
+            Self::Spall {
+                radii_mm,
+                z_mm,
+                depth_um,
+                edge_deg,
+                ..
+            } => {
+                positive("depth_um", *depth_um)?;
+                positive("edge_deg", edge_deg.unwrap_or(DEFAULT_EDGE_DEG))?;
+                rising("radii_mm", *radii_mm)?;
+                rising("z_mm", *z_mm)
+            }
+        }
+    }
+
+    /// The tooth that has it; none where all may have.
+    fn tooth(&self) -> Option<usize> {
+        match self {
+            Self::Pitch { .. } => None,
+            Self::Deviation { tooth, .. } => *tooth,
+            Self::BrokenTooth { tooth, .. }
+            | Self::TipChip { tooth, .. }
+            | Self::Spall { tooth, .. } => Some(*tooth),
+        }
+    }
+
     /// Puts the error on a gear; files relative to `folder`.
     ///
     /// # Errors
@@ -129,6 +204,7 @@ impl FlankErrorTable {
         (keys, key): (&TableKeys<'_>, &str),
         folder: &Path,
     ) -> Result<Arc<dyn FlankError>, InputError> {
+        self.check(gear, keys, key)?;
         let fault = |error| keys.error(key, error);
         Ok(match self {
             Self::Pitch { side, removed_um } => {
@@ -157,14 +233,7 @@ impl FlankErrorTable {
                     DeviationTable::new(&profile, &rows(lead, "z_mm", MM)?).map_err(fault)?;
                 match tooth {
                     None => Arc::new(table),
-                    Some(tooth) if *tooth < gear.teeth => Arc::new(table.on_tooth(*tooth)),
-                    Some(tooth) => {
-                        let last = gear.teeth - 1;
-                        return Err(keys.error(
-                            key,
-                            format!("there is no tooth {tooth}; the gear has teeth 0 to {last}"),
-                        ));
-                    }
+                    Some(tooth) => Arc::new(table.on_tooth(*tooth)),
                 }
             }
             Self::BrokenTooth {

@@ -3,10 +3,15 @@
 use std::path::PathBuf;
 
 use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::Damping;
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::flank_errors::{CrackTable, FlankErrorTable};
+use super::friction::FrictionTable;
+use super::{MM, UM};
 
 /// `[[gear_mesh]]` as it stands in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -190,21 +195,37 @@ pub enum DampingTable {
     },
 }
 
-/// `friction`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(tag = "model", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum FrictionTable {
-    /// Coulomb, regularised in the sliding velocity.
-    Coulomb {
-        /// Coefficient at `static_speed_mm_per_s`; that of sliding where not given.
-        static_coefficient: Option<f64>,
-        /// Coefficient from `dynamic_speed_mm_per_s` on.
-        dynamic_coefficient: f64,
-        /// Sliding speed of the static coefficient; 10 where not given.
-        static_speed_mm_per_s: Option<f64>,
-        /// Sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
-        dynamic_speed_mm_per_s: Option<f64>,
-    },
+impl DampingTable {
+    /// The damping in SI units; `keys` are those of the mesh.
+    ///
+    /// # Errors
+    /// [`InputError`] for a number out of its range.
+    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<Damping, InputError> {
+        let (name, value, depth) = match self {
+            Self::StiffnessProportional {
+                time_s,
+                full_depth_um,
+            } => ("time_s", *time_s, *full_depth_um),
+            Self::Viscous {
+                damping_N_s_per_mm,
+                full_depth_um,
+            } => ("damping_N_s_per_mm", *damping_N_s_per_mm, *full_depth_um),
+        };
+        let at = |name: &str| format!("damping.{name}");
+        keys.require(&at(name), value, value >= 0.0, "0 or more")?;
+        keys.require(&at("full_depth_um"), depth, depth > 0.0, "more than 0")?;
+        let full_depth_m = UM * depth;
+        Ok(match self {
+            Self::StiffnessProportional { time_s, .. } => Damping::StiffnessProportional {
+                time_s: *time_s,
+                full_depth_m,
+            },
+            Self::Viscous { .. } => Damping::Viscous {
+                coefficient_n_s_per_m: value / MM,
+                full_depth_m,
+            },
+        })
+    }
 }
 
 /// `eccentricity_1` and `eccentricity_2`.

@@ -3,6 +3,7 @@
 pub mod body;
 pub mod connection;
 pub mod flank_errors;
+pub mod friction;
 pub mod function;
 pub mod gear_mesh;
 pub mod joint;

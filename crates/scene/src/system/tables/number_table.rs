@@ -1,10 +1,10 @@
 //! A table of numbers in a file: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank
-//! lines are passed over. Complaints name file, line and head.
+//! lines are passed over. Numbers are within the range of the unit in their head. Complaints name file, line and head.
 
 use std::path::Path;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{InputDocument, NumberRange};
 
 /// Columns of a file.
 #[derive(Debug, Clone)]
@@ -68,17 +68,16 @@ impl NumberTable {
                 ));
             }
             for ((column, &place), head) in table.columns.iter_mut().zip(&places).zip(heads) {
-                let value = fields[place]
-                    .parse::<f64>()
-                    .ok()
-                    .filter(|value| value.is_finite());
-                let problem = || {
-                    format!(
-                        "found '{}', allowed is a finite number such as -12.5 or 3e-2",
-                        fields[place]
-                    )
-                };
-                column.push(value.ok_or_else(|| complaint(Some(line), head, problem()))?);
+                let value = fields[place].parse::<f64>().map_err(|_| {
+                    let found = fields[place];
+                    let problem =
+                        format!("found '{found}', allowed is a number such as -12.5 or 3e-2");
+                    complaint(Some(line), head, problem)
+                })?;
+                if let Some(problem) = NumberRange::of(head).problem(value) {
+                    return Err(complaint(Some(line), head, problem));
+                }
+                column.push(value);
             }
             table.lines.push(line);
         }

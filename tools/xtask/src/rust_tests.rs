@@ -1,0 +1,122 @@
+//! The Rust tests, as many processes at a time as there are cores.
+//!
+//! `cargo test` runs one binary after another, and while the last long test of a binary runs the other cores wait. Here cargo
+//! builds the binaries and names them; each is cut into parts, one for each module of tests, which share what they have made in
+//! memory; the parts run side by side, one test after another in each. A line of the harness ends with each test: that is
+//! how long it took.
+
+mod binaries;
+mod part;
+
+use std::process::Command;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use crate::console::{readable, say};
+use crate::error::XtaskError;
+use crate::steps::Extent;
+use crate::venv::Venv;
+use part::{Part, PartResult};
+
+/// Programs that take minutes. They are cut and start first, so that none is left alone at the end; the others in cargo's order.
+const LONG: [&str; 2] = ["reduction verification", "tests validation"];
+
+/// Tests listed at the end.
+const SLOWEST: usize = 10;
+
+/// Builds with `build`, a call of `cargo test` without arguments of its harness, and runs the tests of the programs named in
+/// `only`, of all where it is empty. All parts run, whatever fails.
+///
+/// # Errors
+/// [`XtaskError::Failed`] where something does not build, [`XtaskError::TestsFailed`] with the names of what failed or of
+/// programs that are not there.
+pub fn run(build: Command, venv: &Venv, extent: Extent, only: &[String]) -> Result<(), XtaskError> {
+    let start = Instant::now();
+    let binaries = binaries::built(build)?;
+    say(&format!(
+        "{} test programs built in {}",
+        binaries.len(),
+        readable(start.elapsed())
+    ));
+    let there = |name: &&String| binaries.iter().any(|binary| binary.name == **name);
+    if let Some(name) = only.iter().find(|name| !there(name)) {
+        let names = vec![format!("{name}: no test program has this name")];
+        return Err(XtaskError::TestsFailed { names });
+    }
+    let mut parts = Vec::new();
+    for binary in binaries {
+        if !only.is_empty() && !only.contains(&binary.name) {
+            continue;
+        }
+        let long = LONG.contains(&binary.label().as_str());
+        parts.extend(part::parts_of(binary, extent, long)?);
+    }
+    parts.sort_by_key(|part| !part.long);
+    summary(&run_side_by_side(parts, venv)?)
+}
+
+/// Runs the parts, the first ones first, on as many threads as there are cores.
+fn run_side_by_side(parts: Vec<Part>, venv: &Venv) -> Result<Vec<PartResult>, XtaskError> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let waiting = Mutex::new(parts.into_iter());
+    let next = || waiting.lock().ok().and_then(|mut parts| parts.next());
+    let outcomes: Vec<Result<Vec<PartResult>, XtaskError>> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|_| {
+                scope.spawn(|| {
+                    let mut done = Vec::new();
+                    while let Some(part) = next() {
+                        let result = part.run(venv)?;
+                        say(&result.line());
+                        done.push(result);
+                    }
+                    Ok(done)
+                })
+            })
+            .collect();
+        workers
+            .into_iter()
+            .map(|worker| {
+                worker
+                    .join()
+                    .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            })
+            .collect()
+    });
+    let mut all = Vec::new();
+    for outcome in outcomes {
+        all.extend(outcome?);
+    }
+    Ok(all)
+}
+
+/// Prints the number of tests, the slowest, and of what failed all it printed.
+fn summary(results: &[PartResult]) -> Result<(), XtaskError> {
+    let mut times: Vec<(Duration, String)> = results
+        .iter()
+        .flat_map(|part| {
+            part.times
+                .iter()
+                .map(|(name, time)| (*time, part.full_name(name)))
+        })
+        .collect();
+    let total: Duration = times.iter().map(|(time, _)| *time).sum();
+    say(&format!(
+        "{} tests, {} one after another; the slowest:",
+        times.len(),
+        readable(total)
+    ));
+    times.sort_by_key(|(time, _)| std::cmp::Reverse(*time));
+    for (time, name) in times.iter().take(SLOWEST) {
+        say(&format!("  {:>12}  {name}", readable(*time)));
+    }
+    let failed: Vec<&PartResult> = results.iter().filter(|part| !part.passed).collect();
+    for part in &failed {
+        say(&format!("\n== {}\n{}", part.label, part.output));
+    }
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let names = failed.iter().flat_map(|part| part.failures()).collect();
+    Err(XtaskError::TestsFailed { names })
+}

@@ -1,0 +1,279 @@
+//! A part of a test program: tests that run one after another in one process.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::console::readable;
+use crate::error::XtaskError;
+use crate::rust_tests::binaries::Binary;
+use crate::steps::{Extent, shown};
+use crate::venv::Venv;
+
+/// Tests of a program that run in one process, so that they share what the first of them makes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// The program.
+    pub binary: Binary,
+    /// Package, target and, of a long program, module.
+    pub label: String,
+    /// Full names of the tests.
+    pub tests: Vec<String>,
+    /// Whether it takes minutes and its loops are to keep to one thread: the other parts have the other cores.
+    pub long: bool,
+}
+
+/// What came of a part.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PartResult {
+    /// As in [`Part`].
+    pub label: String,
+    /// Whether all tests passed.
+    pub passed: bool,
+    /// Each test that ran and its time.
+    pub times: Vec<(String, Duration)>,
+    /// All that it printed.
+    pub output: String,
+}
+
+/// Cuts a program into its parts: one, or of a long program one for each module.
+///
+/// # Errors
+/// [`XtaskError::Failed`] or [`XtaskError::Io`] where the program does not tell its tests.
+pub fn parts_of(binary: Binary, extent: Extent, long: bool) -> Result<Vec<Part>, XtaskError> {
+    let mut tests = names(&binary, &[])?;
+    if extent == Extent::Fast {
+        let ignored = names(&binary, &["--ignored"])?;
+        tests.retain(|name| !ignored.contains(name));
+    }
+    let label = binary.label();
+    let mut parts: Vec<Part> = Vec::new();
+    for test in tests {
+        let label = match test.split_once("::") {
+            Some((module, _)) if long => format!("{label} {module}"),
+            _ => label.clone(),
+        };
+        match parts.iter_mut().find(|part| part.label == label) {
+            Some(part) => part.tests.push(test),
+            None => parts.push(Part {
+                binary: binary.clone(),
+                label,
+                tests: vec![test],
+                long,
+            }),
+        }
+    }
+    Ok(parts)
+}
+
+/// Names of the program's tests.
+fn names(binary: &Binary, choice: &[&str]) -> Result<Vec<String>, XtaskError> {
+    let mut command = Command::new(&binary.program);
+    command.args(["--list", "--format", "terse"]).args(choice);
+    let output = command
+        .current_dir(&binary.folder)
+        .output()
+        .map_err(XtaskError::io(|| format!("starting {}", shown(&command))))?;
+    if !output.status.success() {
+        return Err(XtaskError::Failed {
+            command: shown(&command),
+            status: output.status.to_string(),
+        });
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    let tests = text.lines().filter_map(|line| line.strip_suffix(": test"));
+    Ok(tests.map(str::to_owned).collect())
+}
+
+impl Part {
+    /// Runs the tests one after another.
+    ///
+    /// # Errors
+    /// [`XtaskError::Io`] where the program does not start.
+    pub fn run(&self, venv: &Venv) -> Result<PartResult, XtaskError> {
+        let mut command = Command::new(&self.binary.program);
+        command
+            .args(["--include-ignored", "--test-threads=1", "--exact"])
+            .args(&self.tests)
+            .current_dir(&self.binary.folder)
+            .env("CARGO_MANIFEST_DIR", &self.binary.folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        crate::steps::set_environment(&mut command, venv);
+        if self.long {
+            command.env("RAYON_NUM_THREADS", "1");
+        }
+        let program = self.binary.program.display();
+        let failed = |source| XtaskError::Io {
+            action: format!("running {program}"),
+            source,
+        };
+        let mut child = command.spawn().map_err(failed)?;
+        // What goes to stderr past the harness (a child's message, an abort) is rare: read beside, shown after the rest.
+        let stderr = child.stderr.take();
+        let beside = std::thread::spawn(move || {
+            let lines = stderr.map(|pipe| BufReader::new(pipe).lines());
+            let lines = lines.into_iter().flatten().map_while(Result::ok);
+            lines.map(|line| line + "\n").collect::<String>()
+        });
+        let mut output = String::new();
+        let mut times = Vec::new();
+        let mut last = Instant::now();
+        if let Some(stdout) = child.stdout.take() {
+            let mut reader = BufReader::new(stdout);
+            let mut line = Vec::new();
+            while reader.read_until(b'\n', &mut line).map_err(failed)? > 0 {
+                let text = String::from_utf8_lossy(&line);
+                if let Some((name, _)) = ended(&text) {
+                    times.push((name.to_owned(), last.elapsed()));
+                    last = Instant::now();
+                }
+                output.push_str(&text);
+                line.clear();
+            }
+        }
+        let status = child.wait().map_err(failed)?;
+        output.push_str(&beside.join().unwrap_or_default());
+        if !status.success() {
+            output.push_str(&format!("{status}\n"));
+        }
+        // A name that the program does not know would pass as no test at all.
+        let all = output.contains(&format!("running {} test", self.tests.len()));
+        Ok(PartResult {
+            label: self.label.clone(),
+            passed: status.success() && all,
+            times,
+            output,
+        })
+    }
+}
+
+impl PartResult {
+    /// One line for the console.
+    pub fn line(&self) -> String {
+        let time: Duration = self.times.iter().map(|(_, time)| *time).sum();
+        let verdict = if self.passed { "" } else { "  FAILED" };
+        let count = self.times.len();
+        format!(
+            "{:>12}  {}, {count} tests{verdict}",
+            readable(time),
+            self.label
+        )
+    }
+
+    /// Names of the tests that failed; the part's own where it ended otherwise.
+    pub fn failures(&self) -> Vec<String> {
+        let lines = self.output.lines().filter_map(ended);
+        let failed = lines.filter(|(_, passed)| !passed);
+        let names: Vec<String> = failed.map(|(name, _)| self.full_name(name)).collect();
+        if names.is_empty() {
+            return vec![self.label.clone()];
+        }
+        names
+    }
+
+    /// Package, target and name of a test.
+    pub fn full_name(&self, test: &str) -> String {
+        let mut words = self.label.splitn(3, ' ');
+        let (package, target) = (words.next(), words.next());
+        format!(
+            "{} {} {test}",
+            package.unwrap_or_default(),
+            target.unwrap_or_default()
+        )
+    }
+}
+
+/// The test whose end a line of the harness tells, and whether it passed.
+fn ended(line: &str) -> Option<(&str, bool)> {
+    let (name, verdict) = line
+        .trim_end()
+        .strip_prefix("test ")?
+        .rsplit_once(" ... ")?;
+    // "name - should panic"
+    let name = name.split(" - ").next()?;
+    match verdict {
+        "ok" => Some((name, true)),
+        "FAILED" => Some((name, false)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::PathBuf;
+
+    #[test]
+    fn lines_of_the_harness_are_read() {
+        assert_eq!(ended("test a::b ... ok\n"), Some(("a::b", true)));
+        assert_eq!(
+            ended("test a - should panic ... FAILED"),
+            Some(("a", false))
+        );
+        for other in [
+            "test result: ok. 1 passed",
+            "running 3 tests",
+            "",
+            "test a ... ",
+        ] {
+            assert_eq!(ended(other), None, "{other}");
+        }
+    }
+
+    /// This very program, as a binary of two kinds.
+    fn own_parts(long: bool) -> Vec<Part> {
+        let program = std::env::current_exe().map_or_else(|_| PathBuf::new(), |path| path);
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+        let name = "xtask".to_owned();
+        let binary = Binary {
+            name,
+            folder,
+            program,
+        };
+        parts_of(binary, Extent::Full, long).unwrap_or_default()
+    }
+
+    #[test]
+    fn a_long_program_is_cut_by_modules_and_loses_no_test() {
+        let (whole, cut) = (own_parts(false), own_parts(true));
+        assert_eq!(whole.len(), 1);
+        assert!(cut.len() > 5 && cut.iter().any(|part| part.label == "xtask xtask console"));
+        let mut names: Vec<&String> = cut.iter().flat_map(|part| &part.tests).collect();
+        let mut all: Vec<&String> = whole[0].tests.iter().collect();
+        names.sort();
+        all.sort();
+        assert_eq!(names, all);
+    }
+
+    fn ran(tests: &[&str]) -> PartResult {
+        let mut part = own_parts(false).remove(0);
+        part.tests = tests.iter().map(|&name| name.to_owned()).collect();
+        let venv = Venv::at(PathBuf::from("no-venv"));
+        let told = |error: XtaskError| panic!("{error}");
+        part.run(&venv).unwrap_or_else(told)
+    }
+
+    #[test]
+    fn a_part_runs_its_tests_alone_and_times_them() {
+        let name = "console::tests::durations_read_naturally";
+        let result = ran(&[name]);
+        assert!(result.passed, "{}", result.output);
+        let names: Vec<&str> = result.times.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, [name]);
+        assert!(
+            result.line().ends_with("xtask xtask, 1 tests"),
+            "{}",
+            result.line()
+        );
+        assert_eq!(result.full_name(name), format!("xtask xtask {name}"));
+    }
+
+    #[test]
+    fn a_test_that_is_not_there_does_not_pass() {
+        let result = ran(&["console::tests::no_such_test"]);
+        assert!(!result.passed);
+        assert_eq!(result.failures(), ["xtask xtask"]);
+    }
+}
