@@ -208,6 +208,30 @@ fn source_files_stay_short() {
     assert_no_faults(&faults);
 }
 
+/// A target with `test = false` is not compiled for tests; those in it would never run.
+#[test]
+fn targets_without_tests_have_none() {
+    let mut faults = Vec::new();
+    for package in packages() {
+        let targets = package["targets"].as_array().expect("a list of targets");
+        for target in targets.iter().filter(|target| target["test"] == false) {
+            let main = PathBuf::from(text(target, "src_path"));
+            let folder = relative(main.parent().expect("a source file is in a folder"));
+            if !folder.ends_with("src") {
+                continue;
+            }
+            let attribute = concat!("#[", "test]");
+            let with_tests = rust_files(&folder).into_iter();
+            faults.extend(
+                with_tests
+                    .filter(|file| read(file).contains(attribute))
+                    .map(|file| format!("{}: its target has test = false", relative(&file))),
+            );
+        }
+    }
+    assert_no_faults(&faults);
+}
+
 #[test]
 fn unchecked_code_stays_where_it_is_listed() {
     let keyword = concat!("un", "safe");

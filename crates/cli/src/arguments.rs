@@ -208,6 +208,16 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Two names with `=` between them.
+fn head_and_column(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((head, column)) if !head.is_empty() && !column.is_empty() => {
+            Ok((head.trim().to_owned(), column.trim().to_owned()))
+        }
+        _ => Err("allowed is HEAD=COLUMN, a column of data.csv and one of the result".to_owned()),
+    }
+}
+
 /// `gearmesh recover`.
 #[derive(Debug, Args)]
 #[allow(non_snake_case)]
@@ -239,8 +249,17 @@ pub struct RecoverArguments {
 pub struct CompareArguments {
     /// Result file
     pub result: PathBuf,
-    /// Folder of a reference record
+    /// Folder of a reference record (docs/records.md)
     pub reference: PathBuf,
+    /// Multibody results: which column of the result belongs to a column of data.csv; may be given several times
+    #[arg(long, value_name = "HEAD=COLUMN", value_parser = head_and_column)]
+    pub column: Vec<(String, String)>,
+    /// Multibody results: begin at this time [default: the middle of the run]
+    #[arg(long)]
+    pub from_s: Option<f64>,
+    /// Multibody results: the record's angle at the start of the run [default: 0]
+    #[arg(long, allow_negative_numbers = true)]
+    pub start_angle_deg: Option<f64>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

@@ -6,6 +6,7 @@ pub mod compliance;
 pub mod demo;
 pub mod mesh;
 pub mod modes;
+pub mod periods;
 pub mod plan;
 pub mod ratings;
 pub mod recover;

@@ -130,7 +130,7 @@ impl ContactLines {
     }
 
     /// Roll angles on gear 1 at mid-face between which pairs are looked for.
-    fn range_1_rad(&self) -> (f64, f64) {
+    pub fn range_1_rad(&self) -> (f64, f64) {
         let (start, end) = self.extension.map_or(
             (self.pair.roll_start_1_rad, self.pair.roll_end_1_rad),
             |e| (e.start_1_rad, e.end_1_rad),

@@ -427,7 +427,8 @@ impl GearDefinition {
     }
 }
 
-fn greatest_common_divisor(a: usize, b: usize) -> usize {
+/// Greatest common divisor; the other number where one is zero.
+pub fn greatest_common_divisor(a: usize, b: usize) -> usize {
     if b == 0 {
         a
     } else {

@@ -1,12 +1,13 @@
 //! How far a computed series and a reference agree, both seen through the rig pipeline.
 
+use crate::pair_orders::{PairOrders, Shaft};
 use crate::quantity::Quantity;
 use crate::record::{RecordColumn, ReferenceRecord};
 use gearmesh_signal::rig::{OrderFilter, RigError, RigSettings, RigSignal, process};
 use gearmesh_signal::statistics::{
     StatisticsError, correlation, largest_deviation, peak_to_peak, rms, rms_deviation,
 };
-use gearmesh_signal::{AngleSeries, AngleSeriesError, OrderError};
+use gearmesh_signal::{AngleSeries, AngleSeriesError, OrderError, SeriesError, best_offset};
 
 /// Why two series cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -37,6 +38,14 @@ pub enum ComparisonError {
         /// What the spectrum said.
         source: OrderError,
     },
+    /// The offset could not be sought.
+    #[error("angle offset of {quantity}: {source}")]
+    Offset {
+        /// The quantity.
+        quantity: Quantity,
+        /// What the transform said.
+        source: SeriesError,
+    },
     /// A statistic could not be made.
     #[error("statistics of {quantity}: {source}")]
     Statistics {
@@ -50,7 +59,7 @@ pub enum ComparisonError {
 /// Amplitudes of one order, SI units.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct HarmonicComparison {
-    /// The order (periods in one revolution of the driver).
+    /// The order (periods in one revolution of the record's shaft).
     pub order: f64,
     /// Our amplitude of the cosine.
     pub ours: f64,
@@ -99,16 +108,54 @@ pub struct SeriesComparison {
     pub correlation: Option<f64>,
     /// Largest |ours − reference|, with the sign of ours − reference.
     pub largest_deviation: f64,
-    /// Driver angle of it, rad.
+    /// Angle of the record's shaft there, rad.
     pub largest_deviation_angle_rad: f64,
     /// RMS of ours − reference.
     pub rms_deviation: f64,
-    /// Our signal as compared: filtered, one revolution, uniform in the angle from 0.
+    /// By how much the reference's angles would have to be less for the best correlation, rad of the record's shaft;
+    /// applied to nothing. `None` where a signal is constant.
+    pub best_offset_rad: Option<f64>,
+    /// The correlation that it would give.
+    pub best_offset_correlation: Option<f64>,
+    /// Whether the record holds whole periods of ours. Where it does not, what is not locked to the record's
+    /// revolutions has been averaged out of ours, as a rig's averaging does.
+    pub is_locked: bool,
+    /// Our signal as compared: filtered, one block of revolutions, uniform in the angle from 0.
     #[serde(skip)]
     pub ours: RigSignal,
     /// The reference's signal as compared.
     #[serde(skip)]
     pub reference: RigSignal,
+}
+
+/// How both sides are looked at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigView {
+    /// The rig. Its blocks are as long as the record; the recording is taken as long as our series needs.
+    pub settings: RigSettings,
+    /// What is taken out of the transmission error.
+    pub te_filter: OrderFilter,
+    /// Orders of the shaft whose amplitudes are compared.
+    pub orders: Vec<f64>,
+}
+
+impl RigView {
+    /// The rig of seed 004 on a shaft of a pair, in blocks of so many of its revolutions.
+    pub fn of(
+        pair: &PairOrders,
+        shaft: Shaft,
+        revolutions_per_block: usize,
+        orders: Vec<f64>,
+    ) -> Self {
+        Self {
+            settings: RigSettings {
+                revolutions_per_block,
+                ..RigSettings::default()
+            },
+            te_filter: pair.filter(shaft),
+            orders,
+        }
+    }
 }
 
 /// Compares our series with a column of a record.
@@ -119,8 +166,7 @@ pub fn compare_with_column(
     ours: &AngleSeries,
     record: &ReferenceRecord,
     column: &RecordColumn,
-    settings: &RigSettings,
-    orders: &[f64],
+    view: &RigView,
 ) -> Result<SeriesComparison, ComparisonError> {
     let reference = record
         .series(column)
@@ -128,18 +174,18 @@ pub fn compare_with_column(
             column: column.name.clone(),
             source,
         })?;
-    let mut comparison = compare(ours, &reference, &column.quantity, settings, orders)?;
+    let mut comparison = compare(ours, &reference, &column.quantity, view)?;
     comparison.torque_nm = column.torque_nm;
     comparison.mean.uncertainty = record.uncertainty.mean(&column.quantity);
     comparison.peak_to_peak.uncertainty = record.uncertainty.peak_to_peak(&column.quantity);
     Ok(comparison)
 }
 
-/// Compares two series of a quantity, SI units, each over the driver's angle from the same origin.
+/// Compares two series of a quantity, SI units, each over the angle of the same shaft from the same origin.
 ///
-/// Both go through [`gearmesh_signal::rig::process`] with the same settings; of the transmission error orders 0 and 1 are
-/// removed, of strain nothing. The signals are never shifted against each other. `torque_nm` is left at 0 and no uncertainty is
-/// stated; [`compare_with_column`] knows both.
+/// Both go through [`gearmesh_signal::rig::process`] with the same settings; of the transmission error the mean and
+/// eccentricity are removed, of strain nothing. The signals are never shifted against each other. `torque_nm` is left
+/// at 0 and no uncertainty is stated; [`compare_with_column`] knows both.
 ///
 /// # Errors
 /// [`ComparisonError`].
@@ -147,15 +193,17 @@ pub fn compare(
     ours: &AngleSeries,
     reference: &AngleSeries,
     quantity: &Quantity,
-    settings: &RigSettings,
-    orders: &[f64],
+    view: &RigView,
 ) -> Result<SeriesComparison, ComparisonError> {
     let filter = match quantity {
-        Quantity::TransmissionError => OrderFilter::RemoveMeanAndEccentricity,
+        Quantity::TransmissionError => view.te_filter,
         Quantity::Strain { .. } => OrderFilter::KeepAll,
     };
-    let through = |side, series| {
-        process(series, settings, filter).map_err(|source| ComparisonError::Rig {
+    let per_block = view.settings.revolutions_per_block;
+    let is_locked = per_block.is_multiple_of(ours.period().whole_revolutions());
+    let settings = view.settings.in_blocks(per_block, ours.period());
+    let through = |side, series: &AngleSeries| {
+        process(series, &settings, filter).map_err(|source| ComparisonError::Rig {
             side,
             quantity: quantity.clone(),
             source,
@@ -179,6 +227,11 @@ pub fn compare(
         Err(StatisticsError::Constant) => None,
         Err(source) => return Err(statistic(source)),
     };
+    let offset =
+        best_offset(&ours.values, &reference.values).map_err(|source| ComparisonError::Offset {
+            quantity: quantity.clone(),
+            source,
+        })?;
     let largest = largest_deviation(&ours.values, &reference.values).map_err(statistic)?;
     Ok(SeriesComparison {
         quantity: quantity.clone(),
@@ -191,7 +244,7 @@ pub fn compare(
             reference: reference.mean_before_filter,
             uncertainty: None,
         },
-        harmonics: harmonics(&ours, &reference, orders).map_err(|source| {
+        harmonics: harmonics(&ours, &reference, &view.orders).map_err(|source| {
             ComparisonError::Order {
                 quantity: quantity.clone(),
                 source,
@@ -201,6 +254,9 @@ pub fn compare(
         largest_deviation: largest.value,
         largest_deviation_angle_rad: ours.angle_rad(largest.index),
         rms_deviation: rms_deviation(&ours.values, &reference.values).map_err(statistic)?,
+        best_offset_rad: offset.map(|offset| offset.angle_rad(per_block)),
+        best_offset_correlation: offset.map(|offset| offset.correlation),
+        is_locked,
         ours,
         reference,
     })
@@ -232,6 +288,14 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
+    fn view(orders: &[f64]) -> RigView {
+        let pair = PairOrders {
+            teeth: [57, 57],
+            openings: [0, 3],
+        };
+        RigView::of(&pair, Shaft::Gear1, 1, orders.to_vec())
+    }
+
     fn te(scale: f64, phase: f64, mean: f64) -> AngleSeries {
         let values: Vec<f64> = (0..1368)
             .map(|i| {
@@ -250,8 +314,7 @@ mod tests {
             &ours,
             &reference,
             &Quantity::TransmissionError,
-            &RigSettings::default(),
-            &[3.0, 57.0],
+            &view(&[3.0, 57.0]),
         )
         .unwrap();
         assert!((c.mean.ours + 41e-6).abs() < 1e-12 && (c.mean.reference + 40e-6).abs() < 1e-12);
@@ -267,13 +330,12 @@ mod tests {
     #[test]
     fn equal_series_agree_and_filters_follow_the_quantity() {
         let series = te(1.0, 0.0, -40e-6);
-        let settings = RigSettings::default();
+        let view_of_both = view(&[0.0, 1.0]);
         let c = compare(
             &series,
             &series,
             &Quantity::TransmissionError,
-            &settings,
-            &[0.0, 1.0],
+            &view_of_both,
         )
         .unwrap();
         assert_eq!((c.largest_deviation, c.rms_deviation), (0.0, 0.0));
@@ -282,7 +344,7 @@ mod tests {
         let strain = Quantity::Strain {
             gauge: "t0_tension".into(),
         };
-        let c = compare(&series, &series, &strain, &settings, &[0.0, 1.0]).unwrap();
+        let c = compare(&series, &series, &strain, &view_of_both).unwrap();
         assert!(
             (c.harmonics[0].ours - 40e-6).abs() < 1e-12
                 && (c.harmonics[1].ours - 9e-6).abs() < 1e-12
@@ -300,7 +362,7 @@ mod tests {
             .collect();
         let ours = AngleSeries::uniform(0.0, &values, 1).unwrap();
         let strain = Quantity::Strain { gauge: "g".into() };
-        let c = compare(&ours, &reference, &strain, &RigSettings::default(), &[]).unwrap();
+        let c = compare(&ours, &reference, &strain, &view(&[])).unwrap();
         assert!((c.largest_deviation + 1e-6).abs() < 1e-9);
         assert!((c.largest_deviation_angle_rad - 2.0).abs() < 2e-3);
     }
@@ -312,8 +374,7 @@ mod tests {
             &series,
             &series,
             &Quantity::TransmissionError,
-            &RigSettings::default(),
-            &[2501.0],
+            &view(&[2501.0]),
         );
         assert!(matches!(error, Err(ComparisonError::Order { .. })));
     }

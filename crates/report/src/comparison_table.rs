@@ -8,7 +8,8 @@ const WEAKEST_HARMONIC: f64 = 1e-5;
 
 /// Text tables of comparisons, grouped by quantity in the order of their first occurrence.
 ///
-/// For each quantity: the overall figures, the stated uncertainty of the reference, the harmonics. Values are in the unit of the
+/// For each quantity: the overall figures, the angle offset with the best correlation (applied to nothing), the stated uncertainty of the
+/// reference, the harmonics. Values are in the unit of the
 /// quantity (µm, µε); differences are ours/reference − 1.
 pub fn comparison_table(comparisons: &[SeriesComparison]) -> String {
     let mut text = String::new();
@@ -36,12 +37,12 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
     let mut rows = vec![
         [
             "torque", "mean", "mean", "diff.", "pk-pk", "pk-pk", "diff.", "RMS", "RMS", "correl.",
-            "max dev.", "at angle",
+            "max dev.", "at angle", "offset", "correl.",
         ]
         .map(String::from)
         .to_vec(),
         [
-            "", "ours", "ref.", "", "ours", "ref.", "", "ours", "ref.", "", "", "",
+            "", "ours", "ref.", "", "ours", "ref.", "", "ours", "ref.", "", "", "", "best", "there",
         ]
         .map(String::from)
         .to_vec(),
@@ -58,6 +59,8 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
             "-",
             unit.symbol,
             "deg",
+            "deg",
+            "-",
         ]
         .map(String::from)
         .to_vec(),
@@ -74,10 +77,11 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
             percent(&c.peak_to_peak),
             shown(c.rms.ours),
             shown(c.rms.reference),
-            c.correlation
-                .map_or_else(|| "-".into(), |r| format!("{r:.5}")),
+            number_or_dash(c.correlation, 5),
             shown(c.largest_deviation),
             format!("{:.2}", c.largest_deviation_angle_rad.to_degrees()),
+            number_or_dash(c.best_offset_rad.map(f64::to_degrees), 2),
+            number_or_dash(c.best_offset_correlation, 5),
         ]);
     }
     let _ = writeln!(text, "{} ({})", first.quantity, unit.symbol);
@@ -94,6 +98,17 @@ fn figures(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparis
         stated(first.mean.uncertainty),
         stated(first.peak_to_peak.uncertainty)
     );
+    if group.iter().any(|c| !c.is_locked) {
+        let _ = writeln!(
+            text,
+            "  the record is no whole number of our periods: what is not locked to its revolutions is averaged out of ours"
+        );
+    }
+}
+
+/// Rounded to so many places, or a dash.
+fn number_or_dash(value: Option<f64>, places: usize) -> String {
+    value.map_or_else(|| "-".into(), |v| format!("{v:.places$}"))
 }
 
 fn harmonics(text: &mut String, first: &SeriesComparison, group: &[&SeriesComparison]) {
@@ -187,9 +202,11 @@ fn write_aligned(text: &mut String, rows: &[Vec<String>]) {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::comparison::RigView;
     use crate::comparison::compare;
+    use crate::pair_orders::{PairOrders, Shaft};
     use crate::quantity::Quantity;
-    use gearmesh_signal::{AngleSeries, RigSettings};
+    use gearmesh_signal::AngleSeries;
     use std::f64::consts::TAU;
 
     #[test]
@@ -200,12 +217,15 @@ mod tests {
                 .collect();
             AngleSeries::uniform(0.0, &values, 1).unwrap()
         };
+        let pair = PairOrders {
+            teeth: [57, 57],
+            openings: [0, 0],
+        };
         let mut c = compare(
             &series(1.02),
             &series(1.0),
             &Quantity::TransmissionError,
-            &RigSettings::default(),
-            &[57.0],
+            &RigView::of(&pair, Shaft::Gear1, 1, vec![57.0]),
         )
         .unwrap();
         c.torque_nm = 300.0;

@@ -14,18 +14,23 @@ pub mod comparison;
 mod comparison_table;
 pub mod min_max;
 pub mod page;
+pub mod pair_orders;
+mod peak_view;
 pub mod quantity;
 mod ratings;
 pub mod record;
 mod record_data;
+pub mod result_series;
 pub mod scene_comparison;
 pub mod scene_page;
 mod short_number;
+pub mod system_comparison;
 mod system_page;
 
 pub use comparison::{
-    ComparisonError, HarmonicComparison, SeriesComparison, compare, compare_with_column,
+    ComparisonError, HarmonicComparison, RigView, SeriesComparison, compare, compare_with_column,
 };
 pub use comparison_table::comparison_table;
+pub use pair_orders::{PairOrders, Shaft};
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};

@@ -16,6 +16,9 @@ pub(crate) fn section(title: &str, ratings: &[RatingResult]) -> Option<Section> 
             "{}: {}.",
             rated.name, rated.method
         )));
+        if let Some(missing) = &rated.incomplete {
+            section = section.push(Text::note(format!("{}: {missing}", rated.name)));
+        }
         section = match &rated.problem {
             Some(problem) => section.push(Text::note(format!("Not rated: {problem}"))),
             None => section.push(table(rated)),

@@ -1,18 +1,26 @@
-//! A reference record: a folder with `record.toml` (what it is) and `data.csv` (the columns).
+//! A reference record: a folder with `record.toml` (what it is) and `data.csv` (the columns). For users:
+//! docs/records.md.
 //!
 //! `record.toml` needs `title`, `kind` ("computed" or "measured"), `source` and `angle_origin`; it may have `method`,
-//! `command`, `date` and a table `[uncertainty]` with `te_mean_um`, `te_peak_to_peak_um` and `strain_range_ustrain`. Further keys
-//! describe the record for people and are not read. `data.csv` is described at [`crate::record::ReferenceRecord`].
+//! `command`, `date`, `shaft` ("gear_1" or "gear_2": of which shaft the angle is), `revolutions`, `[columns]` (column
+//! of `data.csv` = column of a multibody result) and a table `[uncertainty]` with `te_mean_um`, `te_peak_to_peak_um`
+//! and `strain_range_ustrain`. Further keys describe the record for people and are not read. `data.csv` is described at
+//! [`crate::record::ReferenceRecord`].
 
+use crate::pair_orders::Shaft;
 use crate::quantity::{Quantity, Unit};
 use crate::record_data::{DataError, parse_data};
-use gearmesh_signal::{AngleSeries, AngleSeriesError};
+use gearmesh_signal::{AngleSeries, AngleSeriesError, ShaftPeriod};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 /// Largest file that is read, so that a wrong path does not fill the memory.
 const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
+
+/// Most revolutions of a record: the rig's 5000 pulses a turn fill the memory beyond.
+const MOST_REVOLUTIONS: usize = 1000;
 
 /// Why a reference record cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -118,9 +126,10 @@ pub struct RecordColumn {
 
 /// A reference record.
 ///
-/// `data.csv`: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank lines
-/// are skipped. First column `angle_deg`, the driver's angle, increasing, one revolution. The others are `te_um_<T>Nm` and
-/// `strain_<gauge>_ustrain_<T>Nm` in any order, T the torque on the driven gear as a decimal number.
+/// `data.csv`: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank
+/// lines are skipped. First column `angle_deg`, the angle of the record's shaft, increasing, over its revolutions. The
+/// others are `te_um_<T>Nm` and `strain_<gauge>_ustrain_<T>Nm` in any order, T the torque on the driven gear as a
+/// decimal number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceRecord {
     /// The folder it was read from.
@@ -131,8 +140,14 @@ pub struct ReferenceRecord {
     pub kind: RecordKind,
     /// Where the numbers come from.
     pub source: String,
-    /// What angle 0 of the driver is.
+    /// What angle 0 is.
     pub angle_origin: String,
+    /// Shaft whose angle stands in `data.csv`, positive in its own sense of turning.
+    pub shaft: Shaft,
+    /// Revolutions of that shaft after which the record repeats.
+    pub revolutions: usize,
+    /// Columns of a multibody result by the names of this record's columns.
+    pub multibody_columns: BTreeMap<String, String>,
     /// How the numbers were made, if stated.
     pub method: Option<String>,
     /// The command that makes them, if stated.
@@ -141,7 +156,7 @@ pub struct ReferenceRecord {
     pub date: Option<String>,
     /// Stated uncertainties.
     pub uncertainty: RecordUncertainty,
-    /// Angle of the driver, rad, strictly increasing, spanning less than one revolution or closing it.
+    /// Angle of the shaft, rad, strictly increasing, spanning less than its revolutions or closing them.
     pub angle_rad: Vec<f64>,
     /// The columns in the order of the file.
     pub columns: Vec<RecordColumn>,
@@ -167,16 +182,23 @@ impl ReferenceRecord {
                 message,
             },
         )?;
-        let data = parse_data(&read_bytes(&data_path)?).map_err(|source| RecordError::Data {
-            path: data_path,
-            source,
-        })?;
+        let data =
+            parse_data(&read_bytes(&data_path)?, description.revolutions()).map_err(|source| {
+                RecordError::Data {
+                    path: data_path,
+                    source,
+                }
+            })?;
+        let revolutions = description.revolutions();
         Ok(Self {
             folder: folder.to_path_buf(),
             title: description.title,
             kind: description.kind,
             source: description.source,
             angle_origin: description.angle_origin,
+            shaft: description.shaft,
+            revolutions,
+            multibody_columns: description.columns,
             method: description.method,
             command: description.command,
             date: description.date.map(|date| {
@@ -196,12 +218,17 @@ impl ReferenceRecord {
         })
     }
 
-    /// A column as a periodic series over one revolution of the driver.
+    /// A column as a periodic series over the revolutions of its shaft.
     ///
     /// # Errors
-    /// [`AngleSeriesError`], where the angles do not cover the revolution.
+    /// [`AngleSeriesError`], where the angles do not cover the revolutions.
     pub fn series(&self, column: &RecordColumn) -> Result<AngleSeries, AngleSeriesError> {
-        AngleSeries::one_revolution(&self.angle_rad, &column.values)
+        AngleSeries::new(&self.angle_rad, &column.values, self.period())
+    }
+
+    /// What the record repeats after.
+    pub fn period(&self) -> ShaftPeriod {
+        ShaftPeriod::revolutions(self.revolutions)
     }
 }
 
@@ -245,7 +272,18 @@ struct Description {
     /// A TOML date or a string.
     date: Option<toml::Value>,
     #[serde(default)]
+    shaft: Shaft,
+    revolutions: Option<Spanned<usize>>,
+    #[serde(default)]
+    columns: BTreeMap<String, String>,
+    #[serde(default)]
     uncertainty: UncertaintyTable,
+}
+
+impl Description {
+    fn revolutions(&self) -> usize {
+        self.revolutions.as_ref().map_or(1, |r| *r.get_ref())
+    }
 }
 
 #[derive(Deserialize, Default)]
@@ -283,6 +321,20 @@ fn parse_description(text: &str) -> Result<Description, TomlProblem> {
             message: e.message().trim().replace('\n', "; "),
         }
     })?;
+    if let Some(revolutions) = &description.revolutions
+        && !(1..=MOST_REVOLUTIONS).contains(revolutions.get_ref())
+    {
+        let (line, column) = line_and_column(text, revolutions.span().start);
+        let message = format!(
+            "revolutions = {}; allowed is 1 to {MOST_REVOLUTIONS}",
+            revolutions.get_ref()
+        );
+        return Err(TomlProblem {
+            line,
+            column,
+            message,
+        });
+    }
     let u = &description.uncertainty;
     let named = [
         ("te_mean_um", &u.te_mean_um),

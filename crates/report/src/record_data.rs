@@ -20,7 +20,7 @@ pub enum DataError {
     NoHead,
     /// The first column is not the angle.
     #[error(
-        "{line}: column 1 is '{found}'; the first column must be angle_deg, the driver's angle"
+        "{line}: column 1 is '{found}'; the first column must be angle_deg, the angle of the record's shaft"
     )]
     FirstColumn {
         /// Line of the heads.
@@ -92,17 +92,20 @@ pub enum DataError {
         /// Angle of the line before, degrees.
         before_deg: f64,
     },
-    /// More than one revolution.
+    /// More revolutions than stated.
     #[error(
-        "{line}: angle {found_deg} deg is more than 360 deg after the first, {first_deg} deg; a record is one revolution"
+        "{line}: angle {found_deg} deg is more than {} deg after the first, {first_deg} deg; record.toml says revolutions = {revolutions} (1 where not given)",
+        360.0 * *.revolutions as f64
     )]
-    MoreThanOneRevolution {
+    MoreRevolutions {
         /// Line.
         line: usize,
         /// Angle found, degrees.
         found_deg: f64,
         /// First angle, degrees.
         first_deg: f64,
+        /// Revolutions stated.
+        revolutions: usize,
     },
     /// A head without numbers.
     #[error("{line}: no line of numbers follows the head")]
@@ -119,8 +122,8 @@ pub(crate) struct Data {
     pub(crate) columns: Vec<RecordColumn>,
 }
 
-/// Parses the bytes of a `data.csv`.
-pub(crate) fn parse_data(bytes: &[u8]) -> Result<Data, DataError> {
+/// Parses the bytes of a `data.csv` that goes over so many revolutions.
+pub(crate) fn parse_data(bytes: &[u8], revolutions: usize) -> Result<Data, DataError> {
     let text = std::str::from_utf8(bytes).map_err(|e| DataError::NotUtf8 {
         line: bytes[..e.valid_up_to()]
             .iter()
@@ -151,7 +154,7 @@ pub(crate) fn parse_data(bytes: &[u8]) -> Result<Data, DataError> {
             });
         }
         let angle = number(line, 0, &heads, fields[0])?;
-        check_angle(line, angle, &angle_deg)?;
+        check_angle(line, angle, &angle_deg, revolutions)?;
         angle_deg.push(angle);
         for (i, column) in columns.iter_mut().enumerate() {
             column
@@ -248,7 +251,12 @@ fn number(line: usize, index: usize, heads: &[&str], field: &str) -> Result<f64,
         })
 }
 
-fn check_angle(line: usize, found_deg: f64, before: &[f64]) -> Result<(), DataError> {
+fn check_angle(
+    line: usize,
+    found_deg: f64,
+    before: &[f64],
+    revolutions: usize,
+) -> Result<(), DataError> {
     let (Some(&first_deg), Some(&before_deg)) = (before.first(), before.last()) else {
         return Ok(());
     };
@@ -260,11 +268,12 @@ fn check_angle(line: usize, found_deg: f64, before: &[f64]) -> Result<(), DataEr
         });
     }
     // The angles are decimal numbers: 360 written with few digits still closes the revolution.
-    if found_deg - first_deg > 360.0 * (1.0 + 1e-6) {
-        return Err(DataError::MoreThanOneRevolution {
+    if found_deg - first_deg > 360.0 * revolutions as f64 * (1.0 + 1e-6) {
+        return Err(DataError::MoreRevolutions {
             line,
             found_deg,
             first_deg,
+            revolutions,
         });
     }
     Ok(())
@@ -277,13 +286,14 @@ mod tests {
     use proptest::prelude::*;
 
     fn refused(text: &str) -> String {
-        parse_data(text.as_bytes()).unwrap_err().to_string()
+        parse_data(text.as_bytes(), 1).unwrap_err().to_string()
     }
 
     #[test]
     fn comments_blank_lines_crlf_and_byte_order_mark_are_skipped() {
         let data = parse_data(
             "\u{feff}# made by\r\nangle_deg, te_um_50Nm\r\n\r\n0, 1\r\n1, 2\r\n".as_bytes(),
+            1,
         )
         .unwrap();
         assert_eq!(data.angle_rad.len(), 2);
@@ -320,7 +330,7 @@ mod tests {
         );
         assert!(refused("angle_deg,te_um_50Nm\n0,1\n361,1\n").contains("more than 360"));
         assert!(
-            parse_data(b"angle_deg,te_um_5Nm\n0,\xff\n")
+            parse_data(b"angle_deg,te_um_5Nm\n0,\xff\n", 1)
                 .unwrap_err()
                 .to_string()
                 .starts_with("2: bytes")
@@ -330,8 +340,8 @@ mod tests {
     proptest! {
         #[test]
         fn text_like_garbage_never_panics(text in "[ae0-9.,#\\-\n_NmtuS]{0,200}") {
-            let _ = parse_data(text.as_bytes());
-            let _ = parse_data(format!("angle_deg,te_um_5Nm\n{text}").as_bytes());
+            let _ = parse_data(text.as_bytes(), 1);
+            let _ = parse_data(format!("angle_deg,te_um_5Nm\n{text}").as_bytes(), 1);
         }
 
         #[test]
@@ -340,7 +350,7 @@ mod tests {
             for (i, v) in values.iter().enumerate() {
                 text += &format!("{i},{v}\n");
             }
-            let data = parse_data(text.as_bytes()).unwrap();
+            let data = parse_data(text.as_bytes(), 1).unwrap();
             let expected: Vec<f64> = values.iter().map(|v| v / 1e6).collect();
             prop_assert_eq!(&data.columns[0].values, &expected);
         }

@@ -1,21 +1,46 @@
-//! A whole result against a reference record: every quantity and torque that both have.
+//! A whole result of a pair against a reference record: every quantity and torque that both have, as a rig on the
+//! record's shaft would show it.
 
-use crate::comparison::{ComparisonError, SeriesComparison, compare_with_column};
+use crate::comparison::{ComparisonError, RigView, SeriesComparison, compare_with_column};
+use crate::pair_orders::{PairOrders, Shaft};
 use crate::quantity::Quantity;
 use crate::record::ReferenceRecord;
-use gearmesh_geometry::GearDefinition;
-use gearmesh_geometry::input::InputDocument;
+use crate::result_series::{ResultSeriesError, series};
 use gearmesh_scene::SceneResult;
-use gearmesh_signal::{AngleSeries, AngleSeriesError, RigSettings};
+use gearmesh_scene::periods::Coverage;
+use gearmesh_signal::ShaftPeriod;
 
 /// Why a result cannot be compared with a record.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneComparisonError {
-    /// The result does not cover a revolution.
+    /// The gears in the result cannot be read.
+    #[error("the gear files kept in the result cannot be read; run the scene again")]
+    Gears,
+    /// The result does not cover a period.
+    #[error("{quantity} of the result: {source}")]
+    Series {
+        /// The quantity.
+        quantity: Quantity,
+        /// What is missing.
+        source: ResultSeriesError,
+    },
+    /// The record ends before a gauge's strain repeats.
     #[error(
-        "the result cannot be taken through the rig pipeline, which needs one whole revolution of the driver: {0}; set run.pitches to the driver's number of teeth"
+        "{quantity} repeats after {period_pitches} pitches; the record is {revolutions} revolution(s) of {shaft}, {record_pitches} pitches, which holds no \
+         whole number of that: give a record of whole revolutions of the gauge's gear (shaft and revolutions in record.toml)"
     )]
-    Series(#[from] AngleSeriesError),
+    StrainPeriod {
+        /// The quantity.
+        quantity: Quantity,
+        /// Its period.
+        period_pitches: usize,
+        /// Revolutions of the record.
+        revolutions: usize,
+        /// Whose.
+        shaft: Shaft,
+        /// The same in pitches.
+        record_pitches: usize,
+    },
     /// The pipeline failed.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),
@@ -27,52 +52,76 @@ pub enum SceneComparisonError {
     },
 }
 
-/// Order of the mesh: teeth of the driver, as its gear file in the result says; 1 where that cannot be read.
-pub fn mesh_order(result: &SceneResult) -> f64 {
-    GearDefinition::from_document(&InputDocument::new(
-        "gear in result",
-        result.gear_toml[0].clone(),
-    ))
-    .map_or(1.0, |gear| gear.tooth.teeth as f64)
+/// Orders of a record's shaft whose amplitudes of the transmission error are compared: mesh and openings, each with its
+/// double. Those between the lines of a spectrum over the record's revolutions are left out: a record of so few turns
+/// does not have them.
+pub fn compared_orders(pair: &PairOrders, shaft: Shaft, revolutions: usize) -> Vec<f64> {
+    let mut orders = pair.of_openings(shaft);
+    orders.push(pair.teeth_on(shaft) as f64);
+    let mut orders: Vec<f64> = orders.iter().flat_map(|n| [*n, 2.0 * n]).collect();
+    let is_line = |order: &f64| {
+        let line = order * revolutions as f64;
+        (line - line.round()).abs() < 1e-9 * line
+    };
+    orders.retain(is_line);
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
 }
 
 /// Compares transmission error and the strain of method 2 with every matching column of a record.
 ///
 /// # Errors
-/// [`SceneComparisonError`] when the result does not cover a revolution or nothing matches.
+/// [`SceneComparisonError`] when the result does not cover a period or nothing matches.
 pub fn compare_scene(
     result: &SceneResult,
     record: &ReferenceRecord,
 ) -> Result<Vec<SeriesComparison>, SceneComparisonError> {
-    let mut quantities: Vec<(Quantity, &[f64])> = vec![(Quantity::TransmissionError, &result.te_m)];
+    let pair = PairOrders::of(result).ok_or(SceneComparisonError::Gears)?;
+    let mut quantities: Vec<(Quantity, Coverage, &[f64])> = vec![(
+        Quantity::TransmissionError,
+        result.contact_coverage,
+        &result.te_m,
+    )];
     for series in &result.strain {
+        let gauge = series.name.clone();
         quantities.push((
-            Quantity::Strain {
-                gauge: series.name.clone(),
-            },
+            Quantity::Strain { gauge },
+            series.coverage,
             &series.method_2,
         ));
     }
-    let settings = RigSettings::default();
-    let mesh = mesh_order(result);
-    let mut te_orders = vec![mesh, 2.0 * mesh];
-    te_orders.extend(blank_orders(result).iter().flat_map(|n| [*n, 2.0 * n]));
-    te_orders.sort_by(f64::total_cmp);
+    let (shaft, revolutions) = (record.shaft, record.revolutions);
+    let te_view = RigView::of(
+        &pair,
+        shaft,
+        revolutions,
+        compared_orders(&pair, shaft, revolutions),
+    );
+    // A gauge's spectrum is that of a short pulse and tells nothing order by order.
+    let strain_view = RigView {
+        orders: Vec::new(),
+        ..te_view.clone()
+    };
     let mut comparisons = Vec::new();
-    for (quantity, values) in quantities {
+    for (quantity, coverage, values) in quantities {
         for (k, &torque) in result.torque_nm.iter().enumerate() {
             let Some(column) = record.column(&quantity, torque) else {
                 continue;
             };
-            let ours = AngleSeries::one_revolution(&result.angle_rad, result.curve(values, k))?;
-            // A gauge's spectrum is that of a short pulse and tells nothing order by order.
-            let orders = match quantity {
-                Quantity::TransmissionError => te_orders.as_slice(),
-                Quantity::Strain { .. } => &[],
+            let view = match quantity {
+                Quantity::TransmissionError => &te_view,
+                Quantity::Strain { .. } => {
+                    refuse_strain_of_other_period(&quantity, &coverage, (&pair, record))?;
+                    &strain_view
+                }
             };
-            comparisons.push(compare_with_column(
-                &ours, record, column, &settings, orders,
-            )?);
+            let ours = series(result, &coverage, result.curve(values, k), (&pair, shaft));
+            let ours = ours.map_err(|source| SceneComparisonError::Series {
+                quantity: quantity.clone(),
+                source,
+            })?;
+            comparisons.push(compare_with_column(&ours, record, column, view)?);
         }
     }
     if comparisons.is_empty() {
@@ -84,20 +133,22 @@ pub fn compare_scene(
     Ok(comparisons)
 }
 
-/// Orders, per revolution of gear 1, at which slots or holes of the blanks repeat.
-pub fn blank_orders(result: &SceneResult) -> Vec<f64> {
-    let gears = result.gear_toml.each_ref().map(|text| {
-        GearDefinition::from_document(&InputDocument::new("gear in result", text.clone())).ok()
-    });
-    let [Some(gear_1), Some(gear_2)] = gears else {
-        return Vec::new();
-    };
-    let ratio = gear_1.tooth.teeth as f64 / gear_2.tooth.teeth as f64;
-    let mut orders: Vec<f64> = [(gear_1, 1.0), (gear_2, ratio)]
-        .into_iter()
-        .filter_map(|(gear, turns)| Some(gear.blank.openings?.count() as f64 * turns))
-        .collect();
-    orders.sort_by(f64::total_cmp);
-    orders.dedup();
-    orders
+/// Passages of a tooth cannot be averaged over revolutions in which it is somewhere else.
+fn refuse_strain_of_other_period(
+    quantity: &Quantity,
+    coverage: &Coverage,
+    (pair, record): (&PairOrders, &ReferenceRecord),
+) -> Result<(), SceneComparisonError> {
+    let teeth = pair.teeth_on(record.shaft);
+    let period = ShaftPeriod::new(coverage.period_pitches, teeth);
+    if period.is_some_and(|period| record.period().is_multiple_of(&period)) {
+        return Ok(());
+    }
+    Err(SceneComparisonError::StrainPeriod {
+        quantity: quantity.clone(),
+        period_pitches: coverage.period_pitches,
+        revolutions: record.revolutions,
+        shaft: record.shaft,
+        record_pitches: record.revolutions * teeth,
+    })
 }

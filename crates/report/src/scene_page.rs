@@ -5,17 +5,21 @@ use crate::page::{
     Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
     PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
 };
+use crate::pair_orders::{PairOrders, Shaft};
+use crate::peak_view::PeakView;
 use crate::quantity::Quantity;
 use crate::ratings;
 use crate::record::ReferenceRecord;
-use crate::scene_comparison::{SceneComparisonError, blank_orders, compare_scene, mesh_order};
+use crate::result_series::series;
+use crate::scene_comparison::{SceneComparisonError, compare_scene};
 use crate::system_page;
 use gearmesh_model::FileError;
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::SystemResult;
+use gearmesh_signal::RigSettings;
 use gearmesh_signal::rig::process;
 use gearmesh_signal::statistics::{mean, peak_to_peak};
-use gearmesh_signal::{AngleSeries, OrderFilter, RigSettings};
 
 /// A gear's cross-section coloured by stress.
 #[derive(Debug, Clone)]
@@ -124,29 +128,39 @@ pub fn scene_page(
 
 fn overview(r: &SceneResult) -> Section {
     let last = r.torque_nm.len() - 1;
-    let te = r.curve(&r.te_m, last);
+    let te_mean = |k: usize| mean(r.averaged(&r.te_m, k));
+    let te_range = |k: usize| peak_to_peak(r.curve(&r.te_m, k));
+    let mark = mark(&r.contact_coverage);
     let figure = |value: Result<f64, gearmesh_signal::statistics::StatisticsError>| {
         value.unwrap_or(f64::NAN) * 1e6
     };
     let mut figures = KeyFigures::new()
         .figure("torque", format!("{}", r.torque_nm[last]), "N m")
-        .figure("TE mean", format!("{:.3}", figure(mean(te))), "µm")
         .figure(
-            "TE peak-to-peak",
-            format!("{:.3}", figure(peak_to_peak(te))),
+            format!("TE mean{mark}"),
+            format!("{:.3}", figure(te_mean(last))),
             "µm",
         )
-        .figure("K_Hbeta", format!("{:.3}", r.k_h_beta[last]), "1");
+        .figure(
+            format!("TE peak-to-peak{mark}"),
+            format!("{:.3}", figure(te_range(last))),
+            "µm",
+        )
+        .figure(
+            format!("K_Hbeta{mark}"),
+            format!("{:.3}", r.k_h_beta[last]),
+            "1",
+        );
     if let Some(s) = r.strain.first() {
         let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
         figures = figures.figure(
-            format!("strain range {}", s.name),
+            format!("strain range {}{}", s.name, mark_of_extremes(&s.coverage)),
             format!("{range:.0}"),
             "µε",
         );
     }
     let mut section = Section::new(r.title.clone()).push(figures);
-    let mut table = Table::new("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor")
+    let mut table = Table::new(format!("By torque: transmission error, mean mesh stiffness (secant and tangent), largest Hertz pressure, face load factor{mark}"))
         .column("torque N m", Align::Right)
         .column("TE mean µm", Align::Right)
         .column("TE pk-pk µm", Align::Right)
@@ -159,38 +173,55 @@ fn overview(r: &SceneResult) -> Section {
     }
     let block = r.pressure_pa.len() / r.torque_nm.len();
     for (k, torque) in r.torque_nm.iter().enumerate() {
-        let te = r.curve(&r.te_m, k);
-        let average = |values: &[f64]| mean(r.curve(values, k)).unwrap_or(f64::NAN) * 1e-6;
+        let average = |values: &[f64]| mean(r.averaged(values, k)).unwrap_or(f64::NAN) * 1e-6;
         let pressure = r.pressure_pa[k * block..(k + 1) * block]
             .iter()
             .copied()
             .fold(0.0, f64::max);
         let mut row = vec![
             format!("{torque}"),
-            format!("{:.3}", figure(mean(te))),
-            format!("{:.3}", figure(peak_to_peak(te))),
+            format!("{:.3}", figure(te_mean(k))),
+            format!("{:.3}", figure(te_range(k))),
             format!("{:.2}", average(&r.secant_n_per_m)),
             format!("{:.2}", average(&r.tangent_n_per_m)),
             format!("{:.0}", pressure * 1e-6),
             format!("{:.3}", r.k_h_beta[k]),
         ];
         if r.has_axial_force() {
-            let axial = mean(r.curve(&r.axial_force_1_n, k)).unwrap_or(f64::NAN);
+            let axial = mean(r.averaged(&r.axial_force_1_n, k)).unwrap_or(f64::NAN);
             row.push(format!("{axial:.1}"));
         }
         table = table.row(row);
     }
     section = section.push(table);
+    for sentence in r.incomplete() {
+        section = section.push(Text::note(sentence));
+    }
+    if !r.proposal.is_empty() {
+        section = section.push(Text::note(format!("To cover it: {}", r.proposal)));
+    }
     for warning in &r.warnings {
         section = section.push(Text::note(format!("Warning: {warning}")));
     }
     section
 }
 
-fn angle_step(r: &SceneResult) -> f64 {
-    r.angle_rad
-        .get(1)
-        .map_or(1.0, |second| second - r.angle_rad[0])
+/// What stands behind the name of a mean or a whole curve that a longer run may change.
+fn mark(coverage: &Coverage) -> &'static str {
+    if coverage.is_whole() {
+        ""
+    } else {
+        " (incomplete)"
+    }
+}
+
+/// What stands behind the name of a peak or a range that a longer run may change.
+fn mark_of_extremes(coverage: &Coverage) -> &'static str {
+    if coverage.has_extremes() {
+        ""
+    } else {
+        " (incomplete)"
+    }
 }
 
 fn angles_deg(r: &SceneResult) -> Vec<f64> {
@@ -209,12 +240,11 @@ fn reference_values(
 ) -> Option<Vec<f64>> {
     let record = chapter.record.as_ref()?;
     let series = record.series(record.column(quantity, torque_nm)?).ok()?;
+    let driver_turns = PairOrders::of(&chapter.result)?.driver_turns(record.shaft);
+    let angles = chapter.result.angle_rad.iter();
     Some(
-        chapter
-            .result
-            .angle_rad
-            .iter()
-            .map(|&a| series.value(a) * 1e6)
+        angles
+            .map(|&a| series.value(a / driver_turns) * 1e6)
             .collect(),
     )
 }
@@ -222,23 +252,11 @@ fn reference_values(
 fn transmission_error(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let mut chart = LineChart::new(
-        "Transmission error by torque",
+        format!("Transmission error by torque{}", mark(&r.contact_coverage)),
         angle_axis(),
         Axis::new("TE", "µm"),
     )
     .x_values(angles_deg(r));
-    let mesh_order = mesh_order(r);
-    let mut spectrum = SpectrumChart::new(
-        "Order spectrum of the transmission error, orders 0 and 1 removed",
-        Axis::new("amplitude", "µm"),
-    )
-    .up_to_order(2.3 * mesh_order)
-    .decades(5)
-    .highlight(mesh_order, "mesh");
-    for order in blank_orders(r) {
-        spectrum = spectrum.highlight(order, "slots or holes");
-    }
-    let mut orders_set = false;
     for (k, &torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
         chart = chart.series(LineSeries::new(format!("{torque} N m"), micro(te)));
@@ -249,42 +267,59 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
                     .hidden(),
             );
         }
-        if k != 0 && k + 1 != r.torque_nm.len() {
-            continue;
-        }
-        if let Ok(series) = AngleSeries::one_revolution(&r.angle_rad, te)
-            && let Ok(signal) = process(
-                &series,
-                &RigSettings::default(),
-                OrderFilter::RemoveMeanAndEccentricity,
-            )
-        {
-            if !orders_set {
-                spectrum = spectrum.orders(signal.spectrum.orders());
-                orders_set = true;
-            }
-            spectrum = spectrum.series(SpectrumSeries::new(
-                format!("{torque} N m"),
-                micro(&signal.spectrum.amplitudes()),
-            ));
-        }
     }
-    let mut section = Section::new(format!("{}: transmission error", r.title))
+    let section = Section::new(format!("{}: transmission error", r.title))
         .push(Text::paragraph(
             "TE = r_b2 theta_2 - r_b1 theta_1, zero where unmodified flanks first touch without load, negative under load. \
              Reference curves are switched on in the legend.",
         ))
         .push(chart);
-    if orders_set {
-        section = section.push(spectrum);
+    match order_spectrum(r) {
+        Ok(Some(spectrum)) => section.push(spectrum),
+        Ok(None) => section,
+        Err(problem) => section.push(Text::note(format!("No order spectrum: {problem}"))),
     }
-    section
+}
+
+/// Orders of the transmission error on the driver, first and last torque; none where the gears are not known.
+fn order_spectrum(r: &SceneResult) -> Result<Option<SpectrumChart>, String> {
+    let Some(pair) = PairOrders::of(r) else {
+        return Ok(None);
+    };
+    let shaft = Shaft::Gear1;
+    let mesh = pair.teeth_on(shaft) as f64;
+    let mut chart = SpectrumChart::new(
+        "Order spectrum of the transmission error on the driver, mean and once per revolution of either gear removed",
+        Axis::new("amplitude", "µm"),
+    )
+    .up_to_order(2.3 * mesh)
+    .decades(5)
+    .highlight(mesh, "mesh");
+    for order in pair.of_openings(shaft) {
+        chart = chart.highlight(order, "slots or holes");
+    }
+    let last = r.torque_nm.len() - 1;
+    let shown = if last == 0 { vec![0] } else { vec![0, last] };
+    for k in shown {
+        let te = r.curve(&r.te_m, k);
+        let series =
+            series(r, &r.contact_coverage, te, (&pair, shaft)).map_err(|e| e.to_string())?;
+        let period = series.period();
+        let settings = RigSettings::default().in_blocks(period.whole_revolutions(), period);
+        let signal = process(&series, &settings, pair.filter(shaft)).map_err(|e| e.to_string())?;
+        chart = chart
+            .orders(signal.spectrum.orders())
+            .series(SpectrumSeries::new(
+                format!("{} N m", r.torque_nm[k]),
+                micro(&signal.spectrum.amplitudes()),
+            ));
+    }
+    Ok(Some(chart))
 }
 
 fn contact(r: &SceneResult) -> Section {
     // Over the first pitches: the load of each tooth pair, and the stiffness.
-    let points = ((3.3 * std::f64::consts::TAU / mesh_order(r) / angle_step(r)) as usize)
-        .clamp(1, r.angles());
+    let points = ((3.3 * r.points_per_pitch() as f64) as usize).clamp(1, r.angles());
     let x: Vec<f64> = angles_deg(r)[..points].to_vec();
     let last = r.torque_nm.len() - 1;
     let mut pairs: Vec<i64> = (0..points)
@@ -343,54 +378,6 @@ fn contact(r: &SceneResult) -> Section {
         .push(stiffness)
 }
 
-/// How a curve with one peak is shown: a whole revolution begins half a revolution before the peak, so that the peak
-/// is never cut in two; angles before the run's first one count as negative.
-struct PeakView {
-    first: usize,
-    peak: usize,
-}
-
-impl PeakView {
-    fn of(r: &SceneResult, curve: &[f64]) -> Self {
-        let n = curve.len();
-        let peak = (0..n)
-            .max_by(|a, b| curve[*a].abs().total_cmp(&curve[*b].abs()))
-            .unwrap_or(0);
-        let whole = (n as f64 * angle_step(r) / std::f64::consts::TAU - 1.0).abs() < 1e-9;
-        let first = if whole { (peak + n / 2) % n } else { 0 };
-        Self { first, peak }
-    }
-
-    fn turned(&self, values: &[f64]) -> Vec<f64> {
-        [&values[self.first..], &values[..self.first]].concat()
-    }
-
-    fn angle_deg(&self, r: &SceneResult, index: usize) -> f64 {
-        let before = self.first > 0 && index >= self.first && self.peak < self.first;
-        let after = self.first > 0 && index < self.first && self.peak >= self.first;
-        r.angle_rad[index].to_degrees() + 360.0 * (f64::from(after) - f64::from(before))
-    }
-
-    fn angles_deg(&self, r: &SceneResult) -> Vec<f64> {
-        let n = r.angles();
-        (0..n)
-            .map(|k| self.angle_deg(r, (self.first + k) % n))
-            .collect()
-    }
-
-    fn peak_deg(&self, r: &SceneResult) -> f64 {
-        self.angle_deg(r, self.peak)
-    }
-
-    fn range_deg(&self, r: &SceneResult) -> (f64, f64) {
-        let n = r.angles();
-        (
-            self.angle_deg(r, self.first),
-            self.angle_deg(r, (self.first + n - 1) % n),
-        )
-    }
-}
-
 fn root_strain(chapter: &SceneChapter) -> Section {
     let r = &chapter.result;
     let last = r.torque_nm.len() - 1;
@@ -412,11 +399,14 @@ fn root_strain(chapter: &SceneChapter) -> Section {
             ),
         ]);
         let curve = r.curve(&s.method_2, last);
-        let view = PeakView::of(r, curve);
+        let view = PeakView::of(r, s, curve);
         let mut chart = LineChart::new(
             format!(
-                "Gear {}, gauge {}, {} N m",
-                s.gear, s.name, r.torque_nm[last]
+                "Gear {}, gauge {}, {} N m{}",
+                s.gear,
+                s.name,
+                r.torque_nm[last],
+                mark_of_extremes(&s.coverage)
             ),
             angle_axis(),
             Axis::new("strain", "µε"),

@@ -1,7 +1,7 @@
 //! A quantity as a periodic function of the shaft angle, from values on a grid.
 
 use crate::periodic_spline::PeriodicSpline;
-use std::f64::consts::TAU;
+use crate::shaft_period::ShaftPeriod;
 
 /// Fewest points of a series: a periodic cubic needs them.
 const FEWEST_POINTS: usize = 4;
@@ -88,14 +88,6 @@ pub enum AngleSeriesError {
         /// The stated period in rad.
         period_rad: f64,
     },
-    /// The period is no whole number of revolutions and no whole part of one.
-    #[error(
-        "period {period_rad} rad is neither a whole number of revolutions nor a whole fraction of one"
-    )]
-    Period {
-        /// The stated period in rad.
-        period_rad: f64,
-    },
 }
 
 /// A quantity over the angle of a shaft, known everywhere by periodic cubic spline interpolation.
@@ -103,14 +95,15 @@ pub enum AngleSeriesError {
 /// # Why this interpolation
 /// It works on any increasing grid and damps least among the local choices. For a pure order with p points per period,
 /// on a uniform grid, the amplitude that comes out is 1/(1 + Σ_{k≠0} (1 + kp)⁻⁴) of the true one (M. Unser, Splines: a
-/// perfect fit, IEEE Signal Processing Magazine 1999), that is short by about 2.16/p⁴: 7e-6 at p = 24, 1.1e-4 at 12, 6e-4
-/// at 8, 1.4 % at 4. Linear interpolation would lose π²/(3p²), 0.6 % at p = 24. The images at k·N ± m (N points a turn) that
-/// sampling adds are weaker than the order m by (m/(kN ± m))⁴: 4e-6 for the mesh order with 24 points a pitch. A
-/// kink of the signal is rounded over about one step; two series that are compared should have similar steps there.
+/// perfect fit, IEEE Signal Processing Magazine 1999), that is short by about 2.16/p⁴: 7e-6 at p = 24, 1.1e-4 at 12,
+/// 6e-4 at 8, 1.4 % at 4. Linear interpolation would lose π²/(3p²), 0.6 % at p = 24. The images at k·N ± m (N points a
+/// turn) that sampling adds are weaker than the order m by (m/(kN ± m))⁴: 4e-6 for the mesh order with 24 points a
+/// pitch. A kink of the signal is rounded over about one step; two series that are compared should have similar steps
+/// there.
 #[derive(Debug, Clone)]
 pub struct AngleSeries {
     spline: PeriodicSpline,
-    period_rad: f64,
+    period: ShaftPeriod,
     points: usize,
 }
 
@@ -120,25 +113,19 @@ impl AngleSeries {
     /// # Errors
     /// [`AngleSeriesError`], see its variants.
     pub fn one_revolution(angle_rad: &[f64], values: &[f64]) -> Result<Self, AngleSeriesError> {
-        Self::new(angle_rad, values, TAU)
+        Self::new(angle_rad, values, ShaftPeriod::REVOLUTION)
     }
 
-    /// One period on any increasing grid; `period_rad` is a whole number of revolutions (a series of three turns: 6π)
-    /// or a whole fraction of one (one pitch of 57 teeth: 2π/57).
+    /// One period on any increasing grid (angles in rad).
     ///
     /// # Errors
     /// [`AngleSeriesError`], see its variants.
     pub fn new(
         angle_rad: &[f64],
         values: &[f64],
-        period_rad: f64,
+        period: ShaftPeriod,
     ) -> Result<Self, AngleSeriesError> {
-        let whole = |turns: f64| {
-            turns.is_finite() && turns >= 0.5 && (turns - turns.round()).abs() < 1e-9 * turns
-        };
-        if !(whole(period_rad / TAU) || whole(TAU / period_rad)) {
-            return Err(AngleSeriesError::Period { period_rad });
-        }
+        let period_rad = period.rad();
         if angle_rad.len() != values.len() {
             return Err(AngleSeriesError::Lengths {
                 angles: angle_rad.len(),
@@ -171,7 +158,7 @@ impl AngleSeries {
         refuse_hole(angle_rad, period_rad)?;
         Ok(Self {
             spline: PeriodicSpline::new(angle_rad.to_vec(), values.to_vec(), period_rad),
-            period_rad,
+            period,
             points,
         })
     }
@@ -185,12 +172,12 @@ impl AngleSeries {
         values: &[f64],
         revolutions: usize,
     ) -> Result<Self, AngleSeriesError> {
-        let period_rad = TAU * revolutions as f64;
-        let step = period_rad / values.len().max(1) as f64;
+        let period = ShaftPeriod::revolutions(revolutions);
+        let step = period.rad() / values.len().max(1) as f64;
         let angle_rad: Vec<f64> = (0..values.len())
             .map(|i| start_rad + step * i as f64)
             .collect();
-        Self::new(&angle_rad, values, period_rad)
+        Self::new(&angle_rad, values, period)
     }
 
     /// The quantity at an angle (rad, any finite number).
@@ -198,9 +185,9 @@ impl AngleSeries {
         self.spline.value(angle_rad)
     }
 
-    /// The period in whole revolutions: 1 also where the period is a fraction of a revolution.
-    pub fn period_revolutions(&self) -> usize {
-        (self.period_rad / TAU).round().max(1.0) as usize
+    /// The period.
+    pub fn period(&self) -> ShaftPeriod {
+        self.period
     }
 
     /// Number of points that define the series.
@@ -266,6 +253,7 @@ fn refuse_hole(angle_rad: &[f64], period_rad: f64) -> Result<(), AngleSeriesErro
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     fn grid(n: usize, span: f64) -> Vec<f64> {
         (0..n).map(|i| span * i as f64 / n as f64).collect()
@@ -273,11 +261,11 @@ mod tests {
 
     #[test]
     fn one_pitch_repeats_over_the_revolution() {
-        let period = TAU / 57.0;
-        let angle = grid(24, period);
+        let period = ShaftPeriod::new(1, 57).unwrap();
+        let angle = grid(24, period.rad());
         let values: Vec<f64> = angle.iter().map(|a| (57.0 * a).cos()).collect();
         let series = AngleSeries::new(&angle, &values, period).unwrap();
-        assert_eq!(series.period_revolutions(), 1);
+        assert_eq!(series.period().whole_revolutions(), 1);
         for i in 0..300 {
             let angle = 0.021 * f64::from(i);
             assert!((series.value(angle) - (57.0 * angle).cos()).abs() < 1e-4);
@@ -306,41 +294,34 @@ mod tests {
     fn bad_series_are_refused_with_the_reason() {
         let angle = grid(36, TAU);
         let values = vec![1.0; 36];
-        let err = |a: &[f64], v: &[f64], p: f64| AngleSeries::new(a, v, p).unwrap_err();
+        let turn = ShaftPeriod::REVOLUTION;
+        let err = |a: &[f64], v: &[f64], p| AngleSeries::new(a, v, p).unwrap_err();
         assert!(matches!(
-            err(&angle, &values[1..], TAU),
+            err(&angle, &values[1..], turn),
             AngleSeriesError::Lengths { .. }
         ));
         assert!(matches!(
-            err(&angle, &values, 1.1 * TAU),
-            AngleSeriesError::Period { .. }
-        ));
-        assert!(matches!(
-            err(&angle, &values, f64::NAN),
-            AngleSeriesError::Period { .. }
-        ));
-        assert!(matches!(
-            err(&angle, &values, TAU / 2.0),
+            err(&angle, &values, ShaftPeriod::new(1, 2).unwrap()),
             AngleSeriesError::LongerThanPeriod { .. }
         ));
         assert!(matches!(
-            err(&grid(36, 0.5), &values, TAU),
+            err(&grid(36, 0.5), &values, turn),
             AngleSeriesError::Hole { .. }
         ));
         assert!(matches!(
-            err(&[], &[], TAU),
+            err(&[], &[], turn),
             AngleSeriesError::TooFewPoints { found: 0 }
         ));
         let mut swapped = angle.clone();
         swapped.swap(4, 5);
         assert!(matches!(
-            err(&swapped, &values, TAU),
+            err(&swapped, &values, turn),
             AngleSeriesError::NotIncreasing { index: 5, .. }
         ));
         let mut broken = values.clone();
         broken[7] = f64::NAN;
         assert!(matches!(
-            err(&angle, &broken, TAU),
+            err(&angle, &broken, turn),
             AngleSeriesError::NotFinite { index: 7, .. }
         ));
     }

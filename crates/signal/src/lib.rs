@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | a quantity over the angle of a shaft | a periodic function of the angle | [`AngleSeries`] |
 //! | an [`AngleSeries`] | what a rig's post-processing would show | [`rig::process`] |
+//! | two signals of one period | the offset at which they agree best | [`best_offset`] |
 //! | uniform samples over whole revolutions | amplitudes and phases by order, exact | [`OrderSpectrum`] |
 //! | uniform samples of any length | amplitudes, power density, with a [`Window`] | [`spectrum`] |
 //! | time samples and the shaft's angle | samples uniform in the angle, and back | [`Resampler`] |
@@ -14,9 +15,10 @@
 //! | one or two signals | RMS, kurtosis, crest factor, peak-to-peak, correlation, largest deviation | [`statistics`] |
 //!
 //! Angles are in rad, an *order* is a number of periods in one revolution of the shaft whose angle is the abscissa
-//! (the driver's throughout gearmesh). Nothing here knows the unit of the quantity: what goes in comes out. Equations and
+//! (the driver's where nothing else is said). Nothing here knows the unit of the quantity: what goes in comes out. Equations and
 //! accuracies: docs/theory/signals.md.
 
+pub mod alignment;
 pub mod angle_series;
 pub mod campbell;
 pub mod envelope;
@@ -26,12 +28,14 @@ pub mod orders;
 mod periodic_spline;
 pub mod resampling;
 pub mod rig;
+pub mod shaft_period;
 pub mod sidebands;
 pub mod spectrum;
 pub mod statistics;
 pub mod synchronous_average;
 pub mod window;
 
+pub use alignment::{BestOffset, best_offset};
 pub use angle_series::{AngleSeries, AngleSeriesError};
 pub use campbell::{CampbellRow, FrequencyBlocks, OrderBlocks};
 pub use envelope::{Band, Envelope, envelope};
@@ -39,6 +43,7 @@ pub use error::SeriesError;
 pub use orders::{OrderError, OrderSpectrum};
 pub use resampling::{AngleSamples, GridSamples, Resampler};
 pub use rig::{OrderFilter, RigError, RigSettings, RigSignal};
+pub use shaft_period::ShaftPeriod;
 pub use sidebands::{Sideband, SidebandSettings, sideband_table};
 pub use spectrum::{
     BlockTransform, Spectrum, WelchSettings, amplitude_spectrum, power_spectral_density,

@@ -185,6 +185,11 @@ impl OrderSpectrum {
         Ok(self.coefficient(order)?.arg())
     }
 
+    /// Whether an order is one of the lines.
+    pub fn has(&self, order: f64) -> bool {
+        self.line(order).is_ok()
+    }
+
     /// Sets an order to zero.
     ///
     /// # Errors

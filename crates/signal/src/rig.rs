@@ -1,21 +1,24 @@
 //! What a gear test rig does to a signal, done to a computed one.
 //!
-//! Seed 004, section 4.2: the signal is sampled in time at 51.2 kHz while the gears turn slowly (10 rpm, 60 s); encoders
-//! of 5000 pulses a turn bring it to the angle domain; a tacho cuts it into revolutions; the order spectra of the
-//! revolutions are averaged (as complex numbers); for the transmission error orders 0 and 1 (mean and eccentricity) are removed; the
+//! Seed 004, section 4.2: the signal is sampled in time at 51.2 kHz while the gears turn slowly (10 rpm, 60 s);
+//! encoders of 5000 pulses a turn bring it to the angle domain; a tacho cuts it into blocks of whole revolutions (of
+//! one, there); the order spectra of the blocks are averaged (as complex numbers); for the transmission error the mean
+//! and once per revolution of either shaft (eccentricity; orders 0 and 1, there, with equal teeth) are removed; the
 //! spectrum is brought back to the angle domain. Both sides of a comparison go through [`process`], so whatever the
 //! pipeline does to a signal it does to both.
 //!
 //! # What the pipeline does to a signal
-//! - Series to time: the periodic spline of [`AngleSeries`]; an order with p points per period loses 2.16/p⁴ of its amplitude.
+//! - Series to time: the periodic spline of [`AngleSeries`]; an order with p points per period loses 2.16/p⁴ of its
+//!   amplitude.
 //! - Time to angle: four-point Lagrange interpolation between the samples. With h the angle of one sampling interval an
 //!   order m loses at most (3/128)(m h)⁴. At 10 rpm one turn has 307 200 samples: 4e-14 at order 57.
-//! - Aliasing: orders above half the pulses (2500) fold back. The spline's images of order m that lie there are weaker than
-//!   m by (m/5000)⁴ or more for a series of up to 2500 points a turn (order 57: 2e-8); content of
-//!   denser series above order 2500 folds as it does on the rig.
+//! - Aliasing: orders above half the pulses (2500) fold back. The spline's images of order m that lie there are weaker
+//!   than m by (m/5000)⁴ or more for a series of up to 2500 points a turn (order 57: 2e-8); content of denser series
+//!   above order 2500 folds as it does on the rig.
 
 use crate::angle_series::AngleSeries;
 use crate::orders::{OrderError, OrderSpectrum};
+use crate::shaft_period::{ShaftPeriod, least_common_multiple};
 use std::f64::consts::TAU;
 
 /// Most pulses that one run may produce, so that a typing error does not fill the memory (80 MB).
@@ -33,7 +36,9 @@ pub struct RigSettings {
     pub speed_rad_per_s: f64,
     /// Encoder pulses in one revolution.
     pub pulses_per_revolution: usize,
-    /// Revolutions recorded and averaged.
+    /// Revolutions in a block, between two cuts of the tacho: lines of the spectrum are 1/this apart.
+    pub revolutions_per_block: usize,
+    /// Revolutions recorded; their blocks are averaged.
     pub revolutions: usize,
 }
 
@@ -44,18 +49,48 @@ impl Default for RigSettings {
             sampling_rate_hz: 51_200.0,
             speed_rad_per_s: 10.0 * TAU / 60.0,
             pulses_per_revolution: 5000,
+            revolutions_per_block: 1,
             revolutions: 10,
         }
     }
 }
 
+impl RigSettings {
+    /// The same rig with blocks of so many revolutions, recording at least as long as before and whole periods of a
+    /// series, each part of it equally often.
+    #[must_use]
+    pub fn in_blocks(self, revolutions_per_block: usize, period: ShaftPeriod) -> Self {
+        let common =
+            least_common_multiple(revolutions_per_block.max(1), period.whole_revolutions());
+        Self {
+            revolutions_per_block,
+            revolutions: self.revolutions.div_ceil(common).max(1) * common,
+            ..self
+        }
+    }
+}
+
 /// What is taken out of the averaged spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OrderFilter {
     /// Nothing: for strain.
     KeepAll,
-    /// Orders 0 (mean) and 1 (eccentricity): for the transmission error.
-    RemoveMeanAndEccentricity,
+    /// Order 0 (mean) and once per revolution of either shaft (eccentricity): for the transmission error.
+    RemoveMeanAndEccentricity {
+        /// Revolutions of the other shaft in one of the shaft whose angle counts: teeth of this one over those of the
+        /// other.
+        other_shaft: f64,
+    },
+}
+
+impl OrderFilter {
+    /// What is taken out of the transmission error of a pair, over the angle of the gear with `teeth` teeth that runs
+    /// with one of `mate` teeth.
+    pub fn of_transmission_error(teeth: usize, mate: usize) -> Self {
+        Self::RemoveMeanAndEccentricity {
+            other_shaft: teeth as f64 / mate.max(1) as f64,
+        }
+    }
 }
 
 /// Why the pipeline refuses.
@@ -93,11 +128,14 @@ pub enum RigError {
     },
     /// The average would not hold every part of the series equally often.
     #[error(
-        "{revolutions} revolutions are no multiple of the {period_revolutions} revolutions that the series repeats after"
+        "{revolutions} revolutions are no whole number of blocks of {revolutions_per_block}, or no multiple of the \
+         {period_revolutions} revolutions that the series repeats after"
     )]
     UnevenAverage {
         /// Revolutions asked for.
         revolutions: usize,
+        /// Revolutions in a block.
+        revolutions_per_block: usize,
         /// Period of the series in revolutions.
         period_revolutions: usize,
     },
@@ -106,12 +144,14 @@ pub enum RigError {
     Orders(#[from] OrderError),
 }
 
-/// A signal as the rig's post-processing shows it: one revolution, uniform in the angle, first sample at angle 0.
+/// A signal as the rig's post-processing shows it: one block, uniform in the angle, first sample at angle 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigSignal {
-    /// The averaged, filtered signal; sample j is at the angle 2πj/len.
+    /// The averaged, filtered signal over one block; see [`RigSignal::angle_rad`].
     pub values: Vec<f64>,
-    /// The averaged, filtered spectrum over one revolution.
+    /// Revolutions in the block.
+    pub revolutions: usize,
+    /// The averaged, filtered spectrum over one block.
     pub spectrum: OrderSpectrum,
     /// The mean before the filter.
     pub mean_before_filter: f64,
@@ -120,13 +160,14 @@ pub struct RigSignal {
 }
 
 impl RigSignal {
-    /// Angle of a sample in rad, 0 … 2π.
+    /// Angle of a sample in rad, from 0 to the end of the block.
     pub fn angle_rad(&self, sample: usize) -> f64 {
-        TAU * sample as f64 / self.values.len() as f64
+        TAU * (self.revolutions * sample) as f64 / self.values.len() as f64
     }
 }
 
-/// Sends a series through the rig: time samples, encoder pulses, revolutions, averaged spectrum, filter, angle.
+/// Sends a series through the rig: time samples, encoder pulses, blocks of revolutions, averaged spectrum, filter,
+/// angle.
 ///
 /// The shaft passes angle 0 at time 0 and turns at constant speed in its positive sense. Amplitudes and phases refer to
 /// the angle of the series: nothing is shifted.
@@ -139,26 +180,33 @@ pub fn process(
     filter: OrderFilter,
 ) -> Result<RigSignal, RigError> {
     check(series, settings)?;
-    let pulses = settings.pulses_per_revolution;
-    let mut spectra = Vec::with_capacity(settings.revolutions);
-    for revolution in 0..settings.revolutions {
+    let per_block = settings.revolutions_per_block;
+    let pulses = settings.pulses_per_revolution * per_block;
+    let blocks = settings.revolutions / per_block;
+    let mut spectra = Vec::with_capacity(blocks);
+    for block in 0..blocks {
         let signal: Vec<f64> = (0..pulses)
-            .map(|pulse| at_pulse(series, settings, revolution * pulses + pulse))
+            .map(|pulse| at_pulse(series, settings, block * pulses + pulse))
             .collect();
-        spectra.push(OrderSpectrum::from_samples(&signal, 1)?);
+        spectra.push(OrderSpectrum::from_samples(&signal, per_block)?);
     }
     let mut spectrum = OrderSpectrum::average(&spectra)?;
     let mean_before_filter = spectrum.mean();
     let first_order_before_filter = spectrum.amplitude(1.0)?;
     match filter {
         OrderFilter::KeepAll => {}
-        OrderFilter::RemoveMeanAndEccentricity => {
+        OrderFilter::RemoveMeanAndEccentricity { other_shaft } => {
             spectrum.remove(0.0)?;
             spectrum.remove(1.0)?;
+            // Between two lines it averages out: there is nothing to remove.
+            if spectrum.has(other_shaft) {
+                spectrum.remove(other_shaft)?;
+            }
         }
     }
     Ok(RigSignal {
         values: spectrum.to_samples()?,
+        revolutions: per_block,
         spectrum,
         mean_before_filter,
         first_order_before_filter,
@@ -193,6 +241,7 @@ fn check(series: &AngleSeries, settings: &RigSettings) -> Result<(), RigError> {
     positive("speed in rad/s", settings.speed_rad_per_s)?;
     let RigSettings {
         pulses_per_revolution,
+        revolutions_per_block,
         revolutions,
         ..
     } = *settings;
@@ -212,10 +261,14 @@ fn check(series: &AngleSeries, settings: &RigSettings) -> Result<(), RigError> {
             pulses_per_revolution,
         });
     }
-    let period_revolutions = series.period_revolutions();
-    if !revolutions.is_multiple_of(period_revolutions) {
+    let period_revolutions = series.period().whole_revolutions();
+    let is_even = [revolutions_per_block, period_revolutions]
+        .iter()
+        .all(|part| *part > 0 && revolutions.is_multiple_of(*part));
+    if !is_even {
         return Err(RigError::UnevenAverage {
             revolutions,
+            revolutions_per_block,
             period_revolutions,
         });
     }
@@ -284,7 +337,7 @@ mod tests {
         let input = series(1368, |a| {
             -30.0 + 4.0 * (a + 0.2).cos() + 1.5 * (3.0 * a).cos() + 0.8 * (57.0 * a).cos()
         });
-        let signal = through(&input, OrderFilter::RemoveMeanAndEccentricity);
+        let signal = through(&input, OrderFilter::of_transmission_error(57, 57));
         assert!((signal.mean_before_filter + 30.0).abs() < 1e-9);
         assert!((signal.first_order_before_filter - 4.0).abs() < 1e-9);
         assert_eq!(signal.spectrum.amplitude(0.0), Ok(0.0));
@@ -317,7 +370,8 @@ mod tests {
 
     #[test]
     fn what_is_not_locked_to_the_turn_averages_out() {
-        // Three revolutions in which order 2/3 is present: its average over the revolutions is zero, the mesh order stays.
+        // Three revolutions in which order 2/3 is present: its average over the revolutions is zero, the mesh order
+        // stays.
         let values: Vec<f64> = (0..4200)
             .map(|i| {
                 let a = 3.0 * TAU * f64::from(i) / 4200.0;
@@ -338,6 +392,7 @@ mod tests {
             uneven,
             Err(RigError::UnevenAverage {
                 revolutions: 10,
+                revolutions_per_block: 1,
                 period_revolutions: 3
             })
         );
@@ -411,7 +466,7 @@ mod tests {
             let settings = RigSettings { revolutions: 1, pulses_per_revolution: 500, ..RigSettings::default() };
             let run = |v: &[f64]| {
                 let input = AngleSeries::uniform(0.0, v, 1).unwrap();
-                process(&input, &settings, OrderFilter::RemoveMeanAndEccentricity).unwrap().values
+                process(&input, &settings, OrderFilter::of_transmission_error(57, 57)).unwrap().values
             };
             let scaled: Vec<f64> = x.iter().map(|v| factor * v + 5.0).collect();
             for (a, b) in run(&x).iter().zip(run(&scaled)) {

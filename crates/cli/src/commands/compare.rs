@@ -3,26 +3,73 @@
 use crate::arguments::CompareArguments;
 use crate::console;
 use crate::failure::Failure;
+use gearmesh_model::FileError;
+use gearmesh_report::system_comparison::{SystemSelection, compare_system};
 use gearmesh_report::{ReferenceRecord, comparison_table, scene_comparison::compare_scene};
 use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::SystemResult;
 use serde_json::json;
 
 /// Runs the command.
-pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
-    let result = SceneResult::read(&arguments.result).map_err(Failure::input)?;
-    let record = ReferenceRecord::read(&arguments.reference).map_err(Failure::input)?;
-    let comparisons = compare_scene(&result, &record).map_err(Failure::input)?;
-    if arguments.json {
+pub fn run(a: &CompareArguments) -> Result<(), Failure> {
+    let record = || ReferenceRecord::read(&a.reference).map_err(Failure::input);
+    let (title, record, comparisons) = match SystemResult::open(&a.result) {
+        Ok(result) => {
+            let record = record()?;
+            let start_angle_deg = a.start_angle_deg.unwrap_or(0.0);
+            if !start_angle_deg.is_finite() {
+                return Err(Failure::input(format!(
+                    "--start-angle-deg: found {start_angle_deg}, allowed is a finite number"
+                )));
+            }
+            let selection = SystemSelection {
+                columns: a.column.iter().cloned().collect(),
+                from_s: a.from_s,
+                start_angle_rad: start_angle_deg.to_radians(),
+            };
+            let found = compare_system(&result, &record, &selection).map_err(Failure::input)?;
+            (result.head.title, record, found)
+        }
+        Err(FileError::WrongFormat { .. }) => {
+            let result = SceneResult::read(&a.result).map_err(Failure::input)?;
+            refuse_options_of_systems(a)?;
+            let record = record()?;
+            let found = compare_scene(&result, &record).map_err(Failure::input)?;
+            (result.title, record, found)
+        }
+        Err(error) => return Err(Failure::input(error)),
+    };
+    if a.json {
         let list = serde_json::to_value(&comparisons).map_err(Failure::work)?;
-        console::json(
-            &json!({"record": record.title, "kind": record.kind.to_string(), "comparisons": list}),
-        );
+        console::json(&json!({
+            "record": record.title, "kind": record.kind.to_string(), "shaft": record.shaft,
+            "revolutions": record.revolutions, "comparisons": list,
+        }));
     } else {
         console::data(format!(
-            "{} against `{}` ({})",
-            result.title, record.title, record.kind
+            "{title} against `{}` ({})",
+            record.title, record.kind
+        ));
+        console::data(format!(
+            "angles and orders of the shaft of {}, {} revolution(s)",
+            record.shaft, record.revolutions
         ));
         console::data(comparison_table(&comparisons));
     }
     Ok(())
+}
+
+fn refuse_options_of_systems(a: &CompareArguments) -> Result<(), Failure> {
+    let given = [
+        ("--column", !a.column.is_empty()),
+        ("--from-s", a.from_s.is_some()),
+        ("--start-angle-deg", a.start_angle_deg.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((option, _)) => Err(Failure::input(format!(
+            "{option} is for results of multibody scenes; {} is that of a [pair]: leave it out",
+            a.result.display()
+        ))),
+        None => Ok(()),
+    }
 }

@@ -19,6 +19,9 @@ use gearmesh_signal::statistics::peak_to_peak;
 use std::path::Path;
 use std::time::Instant;
 
+/// Teeth of all three gears.
+const TEETH: usize = 57;
+
 /// Stages and their times.
 struct Clock {
     start: Instant,
@@ -161,12 +164,8 @@ fn picture(
 fn order_amplitude(result: &SceneResult, torque: usize, order: f64) -> Result<f64, Failure> {
     let te = result.curve(&result.te_m, torque);
     let series = AngleSeries::one_revolution(&result.angle_rad, te).map_err(Failure::work)?;
-    let signal = process(
-        &series,
-        &RigSettings::default(),
-        OrderFilter::RemoveMeanAndEccentricity,
-    )
-    .map_err(Failure::work)?;
+    let filter = OrderFilter::of_transmission_error(TEETH, TEETH);
+    let signal = process(&series, &RigSettings::default(), filter).map_err(Failure::work)?;
     signal.spectrum.amplitude(order).map_err(Failure::work)
 }
 
@@ -219,7 +218,7 @@ fn print_table(result: &SceneResult, record: &ReferenceRecord) -> Result<(), Fai
             range * 1e6,
             percent(te.and_then(|c| c.peak_to_peak.relative_difference())),
             order_amplitude(result, k, 3.0)? * 1e6,
-            order_amplitude(result, k, 57.0)? * 1e6,
+            order_amplitude(result, k, TEETH as f64)? * 1e6,
             gauges.join(", ")
         ));
     }

@@ -16,7 +16,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
             let plan = loaded.plan();
-            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns});
+            let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal});
             (plan.lines, figures)
         }
         SceneFile::System(scene) => {

@@ -20,6 +20,8 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
         lines.push(format!("rating of {}: {}", rated.name, rated.method));
         let problem = rated.problem.iter();
         lines.extend(problem.map(|problem| format!("  not rated: {problem}")));
+        let missing = rated.incomplete.iter();
+        lines.extend(missing.map(|missing| format!("  {missing}")));
         lines.extend(rated.figures.iter().map(|figure| {
             let (name, value) = (figure.name, figure.value);
             format!("  {name:<28} {value:>13.6e}  {}", figure.description)
@@ -34,6 +36,7 @@ pub fn json(ratings: &[RatingResult]) -> Value {
         let figures = rated.figures.iter();
         json!({
             "name": rated.name, "method": rated.method, "problem": rated.problem,
+            "incomplete": rated.incomplete,
             "figures": figures.map(|f| (f.name.to_owned(), json!(f.value))).collect::<serde_json::Map<_, _>>(),
         })
     });

@@ -1,6 +1,7 @@
 //! `gearmesh recover`: strain of all gauges of both models; the whole field on request.
 
 use crate::arguments::{LengthUnit, RecoverArguments};
+use crate::commands::periods;
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
 use crate::{console, console::StageBar, output_name};
@@ -31,6 +32,7 @@ pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
     let request = field_request(a, &result)?;
     let clock = std::time::Instant::now();
     result.strain = scene_run::strain(&loaded, &result, &all)?;
+    result.proposal = loaded.proposal(&all);
     result.seconds[1] = clock.elapsed().as_secs_f64();
     result.write(&a.output).map_err(Failure::work)?;
     print(&result, a.json)?;
@@ -81,10 +83,12 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
             .iter()
             .map(|(s, torque, one, two)| {
                 json!({"gear": s.gear, "gauge": s.name, "torque_Nm": torque, "range_method_1": one, "range_method_2": two,
-                       "mesh_error_relative": s.error_estimate()})
+                       "complete": s.coverage.has_extremes(), "mesh_error_relative": s.error_estimate()})
             })
             .collect();
-        console::json(&json!({"rows": list, "seconds": result.seconds[1]}));
+        console::json(
+            &json!({"rows": list, "coverage": periods::json(result), "seconds": result.seconds[1]}),
+        );
         return Ok(());
     }
     console::data(format!(
@@ -93,12 +97,13 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
     ));
     for (s, torque, one, two) in rows {
         console::data(format!(
-            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>14}",
+            "{:>4} {:<18} {torque:>10.1} {:>18.2} {:>18.2} {:>14}{}",
             s.gear,
             s.name,
             one * 1e6,
             two * 1e6,
-            console::mesh_error(s.error_estimate())
+            console::mesh_error(s.error_estimate()),
+            periods::mark_of_extremes(&s.coverage)
         ));
     }
     console::data(format!(
@@ -107,6 +112,7 @@ fn print(result: &SceneResult, as_json: bool) -> Result<(), Failure> {
         result.angles() * result.torque_nm.len(),
         result.seconds[1]
     ));
+    periods::lines(result).into_iter().for_each(console::data);
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! `gearmesh run`: a scene to a result file.
 
 use crate::arguments::RunArguments;
-use crate::commands::{ratings, run_system};
+use crate::commands::{periods, ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
@@ -43,12 +43,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Mean and peak-to-peak of the transmission error of one torque \[m\].
+/// Mean over whole periods and peak-to-peak of the transmission error of one torque \[m\].
 pub fn transmission_error(result: &SceneResult, torque: usize) -> Result<(f64, f64), Failure> {
-    let te = result.curve(&result.te_m, torque);
     Ok((
-        mean(te).map_err(Failure::work)?,
-        peak_to_peak(te).map_err(Failure::work)?,
+        mean(result.averaged(&result.te_m, torque)).map_err(Failure::work)?,
+        peak_to_peak(result.curve(&result.te_m, torque)).map_err(Failure::work)?,
     ))
 }
 
@@ -69,17 +68,18 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
             "iter/pos"
         ),
     ];
+    let mark = periods::mark(&result.contact_coverage);
     for (k, torque) in result.torque_nm.iter().enumerate() {
         let (te_mean, te_range) = transmission_error(result, k)?;
         let width_mm = 1e3 * face_width_m(result)?;
-        let per_width = |values: &[f64]| fourier(result.curve(values, k), 0).0 / width_mm * 1e-6;
+        let per_width = |values: &[f64]| fourier(result.averaged(values, k), 0).0 / width_mm * 1e-6;
         let block = result.pressure_pa.len() / result.torque_nm.len();
         let pressure = result.pressure_pa[k * block..(k + 1) * block]
             .iter()
             .copied()
             .fold(0.0, f64::max);
         lines.push(format!(
-            "{torque:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}",
+            "{torque:>10.1} {:>12.4} {:>12.4} {:>14.4} {:>15.4} {:>8.4} {:>12.1} {:>12.1e} {:>9.2}{mark}",
             te_mean * 1e6,
             te_range * 1e6,
             per_width(&result.secant_n_per_m),
@@ -96,10 +96,12 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
             "torque N m", "axial force gear 1 N", "axial over normal force"
         ));
         for (k, torque) in result.torque_nm.iter().enumerate() {
-            let axial = fourier(result.curve(&result.axial_force_1_n, k), 0).0;
-            let normal = fourier(&result.normal_force_n(k), 0).0;
+            let axial = fourier(result.averaged(&result.axial_force_1_n, k), 0).0;
+            let normal = result.normal_force_n(k);
+            let averaged = result.averaged(&result.axial_force_1_n, k).len();
+            let normal = fourier(&normal[..averaged], 0).0;
             lines.push(format!(
-                "{torque:>10.1} {axial:>22.3} {:>24.6}",
+                "{torque:>10.1} {axial:>22.3} {:>24.6}{mark}",
                 axial / normal
             ));
         }
@@ -110,6 +112,7 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
         1e6 * result.seconds[0] / (result.angles() * result.torque_nm.len()) as f64,
         result.seconds[1]
     ));
+    lines.extend(periods::lines(result));
     lines.extend(ratings::lines(&result.ratings));
     Ok(lines)
 }
@@ -127,21 +130,23 @@ fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {
     let rows = (0..result.torque_nm.len())
         .map(|k| {
             let (te_mean, te_range) = transmission_error(result, k)?;
-            let curve = result.curve(&result.tangent_n_per_m, k);
-            let (mean, harmonics) = mesh_harmonics(curve, result.pitches, 5);
-            let (axial, _) = fourier(result.curve(&result.axial_force_1_n, k), 0);
+            let curve = result.averaged(&result.tangent_n_per_m, k);
+            let pitches = result.contact_coverage.averaged_pitches();
+            let (mean, harmonics) = mesh_harmonics(curve, pitches, 5);
+            let (axial, _) = fourier(result.averaged(&result.axial_force_1_n, k), 0);
             Ok(json!({
                 "torque_Nm": result.torque_nm[k], "te_mean_m": te_mean, "te_peak_to_peak_m": te_range,
                 "tangent_stiffness_mean_N_per_m": mean,
-                "secant_stiffness_mean_N_per_m": fourier(result.curve(&result.secant_n_per_m, k), 0).0,
+                "secant_stiffness_mean_N_per_m": fourier(result.averaged(&result.secant_n_per_m, k), 0).0,
                 "tangent_stiffness_fourier": harmonics.iter().map(|(a, p)| json!({"amplitude_N_per_m": a, "phase_rad": p})).collect::<Vec<_>>(),
                 "axial_force_1_mean_N": axial,
                 "k_h_beta": result.k_h_beta[k], "torque_balance": result.torque_balance[k],
                 "residual": result.residual[k], "iterations": result.iterations[k],
+                "complete": result.contact_coverage.is_whole(),
             }))
         })
         .collect::<Result<Vec<_>, Failure>>()?;
     Ok(
-        json!({"title": result.title, "rows": rows, "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds}),
+        json!({"title": result.title, "rows": rows, "coverage": periods::json(result), "ratings": ratings::json(&result.ratings), "warnings": result.warnings, "seconds": result.seconds}),
     )
 }

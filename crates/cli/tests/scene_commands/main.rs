@@ -8,11 +8,16 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
+mod drilled_pair;
+#[path = "../../../contact/tests/pair_common/mod.rs"]
+mod pair_common;
 mod plan;
 mod recover;
 mod report;
 mod run;
 mod schema;
+mod unequal_pair;
 
 use common::{Desk, argument, succeeds, workshop};
 use gearmesh_scene::{SceneResult, StrainSeries};

@@ -1,6 +1,7 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs` says what will
-//! be computed, `run.rs` computes, `result.rs` keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
+//! be computed, `run.rs` computes, `coverage.rs` says how much of each period that sees, `result.rs` keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
 
+mod coverage;
 pub mod plan;
 pub mod rating;
 pub mod result;

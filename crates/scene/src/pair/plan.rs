@@ -1,9 +1,7 @@
 //! What a scene will compute, before anything is computed.
 
 use super::rating::PairRating;
-use super::scene_file::Scene;
-use gearmesh_contact::ContactLines;
-use gearmesh_model::ReducedGear;
+use super::run::LoadedScene;
 
 /// Size and effects of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,16 +12,20 @@ pub struct Plan {
     pub positions: usize,
     /// Largest number of unknown slice forces at a position.
     pub unknowns: usize,
+    /// Runs that would cover the periods that this one does not; empty where it covers all.
+    pub proposal: String,
 }
 
 impl Plan {
     /// Derives the plan of a scene with its loaded models.
-    pub fn new(
-        scene: &Scene,
-        lines: &ContactLines,
-        [gear_1, gear_2]: [&ReducedGear; 2],
-        ratings: &[PairRating],
-    ) -> Self {
+    pub fn new(loaded: &LoadedScene) -> Self {
+        let LoadedScene {
+            scene,
+            models: [gear_1, gear_2],
+            lines,
+            ratings,
+            ..
+        } = loaded;
         let pair = &lines.pair;
         let positions = scene.positions() * scene.torques_nm.len();
         let unknowns = lines.most_pairs() * gear_1.grid.slices;
@@ -97,12 +99,14 @@ impl Plan {
                 2 * gauges * positions
             )
         });
+        text.extend(loaded.period_lines());
         let rated = |r: &PairRating| format!("rating     {}, at each torque: {}", r.name, r.method);
         text.extend(ratings.iter().map(rated));
         Self {
             lines: text,
             positions,
             unknowns,
+            proposal: loaded.proposal(&loaded.gauges),
         }
     }
 }

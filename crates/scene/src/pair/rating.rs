@@ -143,11 +143,12 @@ impl RatedPair<'_> {
 impl PairRating {
     /// Judges one torque of a result whose strain is that of the scene's gauges.
     fn judged(&self, result: &SceneResult, torque: usize) -> RatingResult {
-        let figures = match &self.rule {
+        let (coverage, figures) = match &self.rule {
             PairRule::Nominal(rating) => {
                 let forces = result.normal_force_n(torque);
                 let largest = forces.into_iter().fold(0.0, f64::max);
-                nominal_figures(rating, largest).map_err(|e| e.to_string())
+                let figures = nominal_figures(rating, largest).map_err(|e| e.to_string());
+                (result.contact_coverage, figures)
             }
             PairRule::Fatigue {
                 job,
@@ -161,11 +162,12 @@ impl PairRating {
                 } else {
                     &series.method_2
                 };
-                history(job, result.curve(strain, torque), *revolutions)
+                let figures = history(job, result.curve(strain, torque), *revolutions);
+                (series.coverage, figures)
             }
         };
         let name = format!("{} at {} N m", self.name, result.torque_nm[torque]);
-        RatingResult::new(name, self.method.clone(), figures)
+        RatingResult::new(name, self.method.clone(), figures).incomplete_by(coverage.missing())
     }
 }
 

@@ -1,5 +1,7 @@
 //! The result of a scene, in memory and as an HDF5 file.
 
+use super::coverage::{named, periods_of, put_coverage, take_coverage};
+use crate::periods::Coverage;
 use crate::rating::{RatingResult, put_ratings, take_ratings};
 use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, Values};
 use std::path::Path;
@@ -7,7 +9,7 @@ use std::path::Path;
 /// Name and version of the result file.
 pub const RESULT_FORMAT: FileFormat = FileFormat {
     name: "gearmesh-result",
-    version: 2,
+    version: 3,
 };
 
 /// Strain of one gauge, `[torque][angle]`, dimensionless.
@@ -19,6 +21,8 @@ pub struct StrainSeries {
     pub name: String,
     /// Estimated relative error of the mesh at this gauge, zero where it was not estimated.
     pub error_estimate_relative: f64,
+    /// How much of its period the run has seen.
+    pub coverage: Coverage,
     /// Method 1.
     pub method_1: Vec<f64>,
     /// Method 2.
@@ -49,6 +53,10 @@ pub struct SceneResult {
     pub created_utc: String,
     /// Pitches of gear 1 that the angles run through.
     pub pitches: usize,
+    /// How much of the period of transmission error, stiffness, forces and pressure the run has seen.
+    pub contact_coverage: Coverage,
+    /// A run that would cover what this one does not; empty where it covers everything.
+    pub proposal: String,
     /// Driver angles \[rad\], A.
     pub angle_rad: Vec<f64>,
     /// Torques on gear 2 \[N·m\], T.
@@ -104,6 +112,29 @@ impl SceneResult {
     /// One torque's part of a `[T][A]` array.
     pub fn curve<'a>(&self, values: &'a [f64], torque: usize) -> &'a [f64] {
         &values[torque * self.angles()..(torque + 1) * self.angles()]
+    }
+
+    /// Positions in a pitch.
+    pub fn points_per_pitch(&self) -> usize {
+        self.angles() / self.pitches.max(1)
+    }
+
+    /// The part of one torque's curve of the mesh that means are made of: as many whole periods as there are.
+    pub fn averaged<'a>(&self, values: &'a [f64], torque: usize) -> &'a [f64] {
+        let points = self.contact_coverage.averaged_pitches() * self.points_per_pitch();
+        &self.curve(values, torque)[..points]
+    }
+
+    /// All quantities with how much of their period the run has seen: those of the mesh first, then each gauge.
+    pub fn coverages(&self) -> Vec<(String, Coverage)> {
+        named(self.contact_coverage, &self.strain)
+    }
+
+    /// What is incomplete, a sentence for each quantity; empty where nothing is.
+    pub fn incomplete(&self) -> Vec<String> {
+        let sentence =
+            |(name, coverage): (String, Coverage)| Some(format!("{name}: {}", coverage.missing()?));
+        self.coverages().into_iter().filter_map(sentence).collect()
     }
 
     /// Whether the gears push each other along the axis: helical teeth.
@@ -286,6 +317,7 @@ impl SceneResult {
                 DataArray::count(series.gear as u32, "gear of the gauge"),
             );
             tree.put_text(name("name"), series.name.clone());
+            put_coverage(&mut tree, &format!("gauges/{i}"), &series.coverage);
             tree.put(
                 name("error"),
                 DataArray::scalar(
@@ -307,6 +339,7 @@ impl SceneResult {
                 tree.put(name(part), array);
             }
         }
+        put_coverage(&mut tree, "contact", &self.contact_coverage);
         for (name, text) in self.texts() {
             tree.put_text(name, text);
         }
@@ -322,6 +355,7 @@ impl SceneResult {
             ("gear_2_toml", self.gear_toml[1].clone()),
             ("model_1", self.model_files[0].clone()),
             ("model_2", self.model_files[1].clone()),
+            ("proposal", self.proposal.clone()),
             ("version", self.version.clone()),
             ("created_utc", self.created_utc.clone()),
             ("warnings", self.warnings.join("\n")),
@@ -341,11 +375,23 @@ impl SceneResult {
         let lines = [torques, angles, slots, slices];
         let pitches = tree.take_count(path, "pitches")?.max(1);
         let gauges = tree.take_count(path, "gauge_count")?;
+        let gear_toml = [
+            tree.take_text(path, "gear_1_toml")?,
+            tree.take_text(path, "gear_2_toml")?,
+        ];
+        let periods = periods_of(&gear_toml);
+        let of_old = periods.map(|periods| periods.contact());
+        let contact_coverage = take_coverage(&mut tree, (path, "contact"), pitches, of_old)?;
         let mut strain = Vec::new();
         for i in 0..gauges {
             let name = |part: &str| format!("gauges/{i}/{part}");
+            let gear = tree.take_count(path, &name("gear"))?;
+            let of_old = periods.filter(|_| (1..=2).contains(&gear));
+            let of_old = of_old.map(|periods| periods.of_tooth(gear));
+            let group = format!("gauges/{i}");
             strain.push(StrainSeries {
-                gear: tree.take_count(path, &name("gear"))?,
+                gear,
+                coverage: take_coverage(&mut tree, (path, &group), pitches, of_old)?,
                 name: tree.take_text(path, &name("name"))?,
                 error_estimate_relative: tree.take_scalar(path, &name("error"))?,
                 method_1: tree.take_f64(path, &name("method_1"), &curves)?,
@@ -354,10 +400,10 @@ impl SceneResult {
         }
         let ratings = take_ratings(&mut tree, path)?;
         let seconds = tree.take_f64(path, "seconds", &[2])?;
+        let proposal = tree.texts.remove("proposal").unwrap_or_default();
         let mut text = |name: &str| tree.take_text(path, name);
         let title = text("title")?;
         let scene_toml = text("scene_toml")?;
-        let gear_toml = [text("gear_1_toml")?, text("gear_2_toml")?];
         let model_files = [text("model_1")?, text("model_2")?];
         let (version, created_utc) = (text("version")?, text("created_utc")?);
         let warnings = text("warnings")?.lines().map(str::to_owned).collect();
@@ -369,6 +415,8 @@ impl SceneResult {
             version,
             created_utc,
             pitches,
+            contact_coverage,
+            proposal,
             angle_rad: tree.take_f64(path, "angle_rad", &[angles])?,
             torque_nm: tree.take_f64(path, "torque_Nm", &[torques])?,
             te_m: tree.take_f64(path, "te_m", &curves)?,

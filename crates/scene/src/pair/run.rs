@@ -5,6 +5,7 @@ use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
+use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{ContactError, ContactLines, ContactSlice, PathExtension, StaticContact};
@@ -55,6 +56,8 @@ pub struct LoadedScene {
     pub lines: ContactLines,
     /// Gauges to read: gear (1 or 2) and index in the model.
     pub gauges: Vec<(usize, usize)>,
+    /// After how many pitches what repeats.
+    pub periods: PairPeriods,
     /// What is judged after the run.
     pub ratings: Vec<PairRating>,
 }
@@ -139,6 +142,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         gauges: &gauges,
     };
     let ratings = rated.ratings()?;
+    let periods = PairPeriods::of([&gear_1, &gear_2]);
     let lines = ContactLines {
         pair,
         extension,
@@ -151,6 +155,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         models,
         lines,
         gauges,
+        periods,
         ratings,
     })
 }
@@ -172,12 +177,7 @@ impl LoadedScene {
 
     /// What will be computed.
     pub fn plan(&self) -> Plan {
-        Plan::new(
-            &self.scene,
-            &self.lines,
-            [&self.models[0], &self.models[1]],
-            &self.ratings,
-        )
+        Plan::new(self)
     }
 
     /// Driver angles of the scene \[rad\].
@@ -323,6 +323,8 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
         pitches: scene.pitches,
+        contact_coverage: loaded.contact_coverage(),
+        proposal: loaded.proposal(&loaded.gauges),
         torque_nm: scene.torques_nm.clone(),
         te_m: flatten(|c| &c.te),
         unloaded_m: curves
@@ -474,6 +476,7 @@ pub fn strain(
                 gear,
                 name: rows.name.clone(),
                 error_estimate_relative: rows.error_estimate_relative,
+                coverage: loaded.gauge_coverage(gear, index),
                 method_1: readings.iter().map(|s| s.method_1).collect(),
                 method_2: readings.iter().map(|s| s.method_2).collect(),
             })

@@ -216,14 +216,14 @@ impl Scene {
         require(
             "run.start_deg",
             table.run.start_deg,
-            table.run.start_deg.abs() <= 360.0,
-            "-360 to 360",
+            table.run.start_deg.abs() <= 36_000.0,
+            "-36000 to 36000",
         )?;
         require(
             "run.pitches",
             table.run.pitches as f64,
-            (1..=10_000).contains(&table.run.pitches),
-            "1 to 10000",
+            (1..=100_000).contains(&table.run.pitches),
+            "1 to 100000",
         )?;
         let points = table.run.points_per_pitch;
         require(

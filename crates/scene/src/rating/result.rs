@@ -26,6 +26,8 @@ pub struct RatingResult {
     pub method: String,
     /// Why there are no figures, where there are none.
     pub problem: Option<String>,
+    /// What the run has not seen of what is rated, so that a longer one may change the figures.
+    pub incomplete: Option<String>,
     /// Figures.
     pub figures: Vec<RatingFigure>,
 }
@@ -42,7 +44,17 @@ impl RatingResult {
             name,
             method,
             problem,
+            incomplete: None,
             figures,
+        }
+    }
+
+    /// The same with what the run has not seen of what is rated.
+    #[must_use]
+    pub fn incomplete_by(self, missing: Option<String>) -> Self {
+        Self {
+            incomplete: missing,
+            ..self
         }
     }
 
@@ -125,7 +137,12 @@ pub fn put_ratings(tree: &mut DataTree, ratings: &[RatingResult]) {
         let name = |part: &str| format!("ratings/{i}/{part}");
         tree.put_text(name("name"), rating.name.clone());
         tree.put_text(name("method"), rating.method.clone());
-        tree.put_text(name("problem"), rating.problem.clone().unwrap_or_default());
+        for (part, text) in [
+            ("problem", &rating.problem),
+            ("incomplete", &rating.incomplete),
+        ] {
+            tree.put_text(name(part), text.clone().unwrap_or_default());
+        }
         for f in &rating.figures {
             let value = DataArray::scalar(f.value, f.unit, f.description);
             tree.put(name(f.name), value);
@@ -142,6 +159,8 @@ pub fn take_ratings(tree: &mut DataTree, path: &Path) -> Result<Vec<RatingResult
     let mut rating = |i: usize| {
         let name = |part: &str| format!("ratings/{i}/{part}");
         let problem = Some(tree.take_text(path, &name("problem"))?).filter(|p| !p.is_empty());
+        // Files of older programs do not say.
+        let incomplete = tree.texts.remove(&name("incomplete"));
         let mut values = Vec::new();
         for (figure, _, _) in KINDS {
             if tree.arrays.contains_key(&name(figure)) {
@@ -152,6 +171,7 @@ pub fn take_ratings(tree: &mut DataTree, path: &Path) -> Result<Vec<RatingResult
             name: tree.take_text(path, &name("name"))?,
             method: tree.take_text(path, &name("method"))?,
             problem,
+            incomplete: incomplete.filter(|text| !text.is_empty()),
             figures: figures(&values),
         })
     };

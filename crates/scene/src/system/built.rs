@@ -97,6 +97,8 @@ pub struct RatingJob {
     pub from_s: f64,
     /// Columns that it reads.
     pub columns: Vec<String>,
+    /// Column of the turns of the gauge's gear, which say whether the history is a revolution; used where it is written.
+    pub turn_column: Option<String>,
     /// What is made of them.
     pub rule: RatingRule,
 }

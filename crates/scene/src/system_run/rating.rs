@@ -1,5 +1,7 @@
 //! Ratings of a run: one pass over its rows, or over what a sweep has measured. Equations: docs/theory/rating.md.
 
+use std::f64::consts::TAU;
+
 use gearmesh_model::{Column, FileError, RowLog};
 use gearmesh_rating::TurningPoints;
 
@@ -9,6 +11,9 @@ use crate::system::{RatingJob, RatingRule};
 /// Rows read at once.
 const BLOCK_ROWS: usize = 4096;
 
+/// Share of a turn by which the ends of a history, on rows, may miss a whole one.
+const TURN_ROUNDING: f64 = 1e-3;
+
 /// Microstrain in strain.
 const MICRO: f64 = 1e-6;
 
@@ -17,8 +22,12 @@ struct Collected<'a> {
     job: &'a RatingJob,
     /// Places of its columns.
     places: Vec<usize>,
+    /// Place of the turns of the gauge's gear; none where they are not written, or nothing passes.
+    turn_place: Option<usize>,
     /// Times of the first and last row.
     span_s: Option<[f64; 2]>,
+    /// Turns of the gear there \[rad\].
+    span_rad: Option<[f64; 2]>,
     points: TurningPoints,
     largest: f64,
     problem: Option<String>,
@@ -33,7 +42,9 @@ impl<'a> Collected<'a> {
         Self {
             job,
             places,
+            turn_place: job.turn_column.as_ref().and_then(place),
             span_s: None,
+            span_rad: None,
             points: TurningPoints::default(),
             largest: f64::NEG_INFINITY,
             problem: (!complete).then(missing),
@@ -46,6 +57,10 @@ impl<'a> Collected<'a> {
         }
         let [from, _] = self.span_s.unwrap_or([time_s; 2]);
         self.span_s = Some([from, time_s]);
+        if let Some(place) = self.turn_place {
+            let [from, _] = self.span_rad.unwrap_or([row[place]; 2]);
+            self.span_rad = Some([from, row[place]]);
+        }
         let values = self.places.iter().map(|&place| row[place]);
         match &self.job.rule {
             RatingRule::Nominal(_) => self.largest = values.fold(self.largest, largest),
@@ -70,8 +85,18 @@ impl<'a> Collected<'a> {
                 job.figures(self.points, length).map_err(|e| e.to_string())
             }
         };
+        let missing = self.span_rad.and_then(less_than_a_turn);
         RatingResult::new(self.job.name.clone(), self.job.method.clone(), figures)
+            .incomplete_by(missing)
     }
+}
+
+/// What a history lacks in which the gear turns less than once.
+fn less_than_a_turn([from, to]: [f64; 2]) -> Option<String> {
+    let turns = (to - from).abs() / TAU;
+    (turns < 1.0 - TURN_ROUNDING).then(|| {
+        format!("incomplete: the gauge's gear turns by {turns:.3} of a revolution in the history")
+    })
 }
 
 /// The larger one; not a number if one of both is none.

@@ -5,6 +5,10 @@
 #[path = "../../../drivetrain/tests/mesh_common/mod.rs"]
 pub mod mesh_common;
 
+pub mod drilled_pair;
+
+pub use mesh_common::pair_common;
+
 use std::path::Path;
 
 use gearmesh_geometry::GearPair;

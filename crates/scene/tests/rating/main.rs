@@ -1,4 +1,4 @@
-//! Ratings of scenes of both kinds.
+//! Ratings of scenes of both kinds, and how much of its periods a pair's run has seen.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "../common/mod.rs"]
@@ -9,6 +9,7 @@ mod pairs;
 #[path = "../system_runs/mod.rs"]
 mod system_runs;
 mod systems;
+mod unequal_pair;
 
 use gearmesh_geometry::Material;
 use made_up_gears::{YOUNG_PA, write_models};

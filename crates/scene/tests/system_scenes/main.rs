@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod gearbox;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
 mod pair_stiffness;

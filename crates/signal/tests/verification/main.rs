@@ -7,3 +7,4 @@ mod modulation;
 mod resampling;
 mod spectra;
 mod test_signals;
+mod unequal_teeth;

@@ -102,7 +102,10 @@ impl Part {
             .stderr(Stdio::piped());
         crate::steps::set_environment(&mut command, venv);
         if self.long {
-            command.env("RAYON_NUM_THREADS", "1");
+            // Of our own solvers, and of the linear algebra of the Python programs they are compared with.
+            for threads in ["RAYON_NUM_THREADS", "OPENBLAS_NUM_THREADS"] {
+                command.env(threads, "1");
+            }
         }
         let program = self.binary.program.display();
         let failed = |source| XtaskError::Io {

@@ -46,6 +46,7 @@ pub(super) fn build(
                     method: nominal_method(*load),
                     from_s,
                     columns: normal_forces(prepared),
+                    turn_column: None,
                     rule: RatingRule::Nominal(Box::new(job)),
                 }
             }
@@ -148,6 +149,7 @@ fn fatigue(
         method: rule.method(),
         from_s,
         columns,
+        turn_column: Some(format!("bodies/{}/turn_rad", gauge.body)),
         rule: RatingRule::Fatigue(FatigueJob::new(rule, material, &scene.folder, keys)?),
     })
 }

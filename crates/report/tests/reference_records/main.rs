@@ -1,13 +1,24 @@
-//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for.
+//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for; records of unequal pairs.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+mod unequal_teeth;
+
 use gearmesh_report::{
-    Quantity, RecordKind, ReferenceRecord, compare_with_column, comparison_table,
+    PairOrders, Quantity, RecordKind, ReferenceRecord, RigView, Shaft, compare_with_column,
+    comparison_table,
 };
-use gearmesh_signal::RigSettings;
 use std::path::Path;
 
 const TORQUES_NM: [f64; 6] = [50.0, 100.0, 150.0, 200.0, 250.0, 300.0];
+
+/// A rig on the driver of a pair of 57 and 57 teeth.
+fn view() -> RigView {
+    let pair = PairOrders {
+        teeth: [57, 57],
+        openings: [0, 3],
+    };
+    RigView::of(&pair, Shaft::Gear1, 1, vec![3.0, 57.0])
+}
 
 fn record(name: &str) -> ReferenceRecord {
     ReferenceRecord::read(
@@ -32,14 +43,7 @@ fn every_column_agrees_with_itself() {
             .iter()
             .map(|column| {
                 let ours = record.series(column).unwrap();
-                compare_with_column(
-                    &ours,
-                    &record,
-                    column,
-                    &RigSettings::default(),
-                    &[3.0, 57.0],
-                )
-                .unwrap()
+                compare_with_column(&ours, &record, column, &view()).unwrap()
             })
             .collect();
         for c in &comparisons {
@@ -52,19 +56,12 @@ fn every_column_agrees_with_itself() {
 
 #[test]
 fn slots_show_as_order_3_and_a_solid_body_does_not() {
-    let settings = RigSettings::default();
     for torque in TORQUES_NM {
         let of = |name: &str| {
             let record = record(name);
             let column = record.column(&Quantity::TransmissionError, torque).unwrap();
-            let c = compare_with_column(
-                &record.series(column).unwrap(),
-                &record,
-                column,
-                &settings,
-                &[3.0, 57.0],
-            )
-            .unwrap();
+            let ours = record.series(column).unwrap();
+            let c = compare_with_column(&ours, &record, column, &view()).unwrap();
             assert!(
                 c.mean.ours < 0.0,
                 "the transmission error is negative under load"
