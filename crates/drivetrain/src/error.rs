@@ -2,6 +2,9 @@
 
 use gearmesh_contact::ContactError;
 use gearmesh_contact::nlcp::{LocalLawError, NlcpError};
+use gearmesh_geometry::FlankSide;
+
+use crate::tooth_overlap::turning;
 
 /// Error of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -82,6 +85,34 @@ pub enum DrivetrainError {
         found_mrad: f64,
         /// Largest angle allowed.
         allowed_mrad: f64,
+    },
+    /// Flanks of the mesh are pressed into each other deeper than teeth can give way.
+    #[error(
+        "the {} flanks stand {depth_mm:.3} mm in each other, allowed are {allowed_mm:.3} mm, a tenth of the base pitch: the teeth would pass \
+         through each other; check loads, mesh stiffness and the angles at the start, or take a shorter step", flank.name()
+    )]
+    TeethPressed {
+        /// Side of the teeth.
+        flank: FlankSide,
+        /// How deep.
+        depth_mm: f64,
+        /// What is allowed.
+        allowed_mm: f64,
+    },
+    /// Teeth overlap on the side that the mesh leaves out.
+    #[error(
+        "the {behind} flanks, which the mesh leaves out, stand {depth_mm:.3} mm in each other, allowed are {allowed_mm:.3} mm, a fiftieth of \
+         the base pitch: the teeth would pass through each other. The {only} flanks carry loads that turn both gears {}; give the loads \
+         that sign, or write flanks = \"{behind}\" or \"both\"",
+        turning(behind.opposite()), behind = behind.name(), only = behind.opposite().name()
+    )]
+    TeethBehind {
+        /// The side that is left out.
+        behind: FlankSide,
+        /// How deep.
+        depth_mm: f64,
+        /// What is allowed.
+        allowed_mm: f64,
     },
     /// The base circles overlap.
     #[error(

@@ -48,7 +48,8 @@ impl PairTangents {
 
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
-/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry; strain of each gauge.
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
+/// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge.
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
@@ -201,6 +202,11 @@ impl ForceElement for MeshElement {
         Ok(())
     }
 
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let motion = self.motion(view);
+        Ok(self.mesh.refuse_overlap(&Pose::from(&motion))?)
+    }
+
     fn save(&self, out: &mut Vec<f64>) {
         self.mesh.save(out);
     }
@@ -223,7 +229,7 @@ impl ForceElement for MeshElement {
             })
         });
         sides
-            .chain(["transmission_error_m", "loaded_pairs"])
+            .chain(["transmission_error_m", "loaded_pairs", "apart"])
             .map(str::to_owned)
             .chain(strain)
             .map(|name| Channel { name })
@@ -250,9 +256,16 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
+        // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
+        let nearest = || self.mesh.nearest_gap_m(&Pose::from(&motion));
+        out[sides] = self
+            .mesh
+            .transmission_error_m()
+            .or_else(nearest)
+            .unwrap_or(f64::NAN);
         out[sides + 1] = pairs as f64;
-        let mut places = out[sides + 2..].iter_mut();
+        out[sides + 2] = f64::from(u8::from(self.mesh.is_apart()));
+        let mut places = out[sides + 3..].iter_mut();
         for gauges in &mut self.gauges {
             let coordinates = view.modal(self.bodies[gauges.gear() - 1]);
             for strain in gauges.read(&self.mesh, coordinates) {

@@ -113,6 +113,7 @@ fn gauges_are_channels_of_the_mesh() {
             "normal_force_left_N",
             "transmission_error_m",
             "loaded_pairs",
+            "apart",
             "strain_gear2_g0_method1_ustrain",
             "strain_gear2_g0_method2_ustrain",
             "strain_gear2_g1_method1_ustrain",

@@ -261,7 +261,7 @@ fn kinematic_meshes_keep_the_ratio() {
         );
         shafts.push(shaft);
     }
-    builder.joint(kinematic_mesh("mesh", [shafts[0], shafts[1]], [30, 41]));
+    builder.joint(kinematic_mesh("mesh", [shafts[0].b, shafts[1].b], [30, 41]));
     let axis = (Axes::World, [0.0, 0.0, 1.0]);
     let torque = TimeFunction::Constant(-5.0);
     builder.element(

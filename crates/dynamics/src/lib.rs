@@ -7,7 +7,7 @@
 //! | which motions do joints leave, prescribe or couple | [`Joint`], [`JointKind`], [`Motion`] | `joint.rs` |
 //! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs` |
 //! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
-//! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs` |
+//! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs`, `polar_angle.rs` |
 //! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
 //! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `scheme.rs` |
 //! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
@@ -34,6 +34,7 @@ pub mod initial;
 mod integrator;
 pub mod joint;
 mod matrix;
+mod polar_angle;
 pub mod relative_angle;
 pub mod relative_motion;
 pub mod rotation;

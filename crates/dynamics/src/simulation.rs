@@ -328,7 +328,7 @@ impl Simulation {
             .max(most(&equations.violation_rate));
         watch_dropped(&mut self.system, &self.other.state, &equations.violation)?;
         std::mem::swap(&mut self.now, &mut self.other);
-        self.system.commit(&self.now.state);
+        self.system.commit(&self.now.state)?;
         self.info
             .energy
             .advance(self.system.energy(&self.now.state, &self.now.lambda), h);

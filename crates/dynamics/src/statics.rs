@@ -207,7 +207,7 @@ pub fn next_equilibrium(
             }
         }
         iterations += iteration;
-        system.commit(&state);
+        system.commit(&state)?;
     }
     Ok(Equilibrium {
         state,

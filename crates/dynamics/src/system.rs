@@ -5,6 +5,7 @@ use crate::builder::SystemBuilder;
 use crate::constraints::Redundancy;
 use crate::elements::{Channel, ForceElement, Loads, View};
 use crate::energy::Energy;
+use crate::error::DynamicsError;
 use crate::inertia::Inertia;
 use crate::joint::Joint;
 use crate::state::{BodyMotion, Layout, State};
@@ -225,7 +226,10 @@ impl System {
     }
 
     /// Internal states move on to an accepted motion.
-    pub(crate) fn commit(&mut self, state: &State) {
+    ///
+    /// # Errors
+    /// [`DynamicsError::Element`] of an element whose model does not cover that motion.
+    pub(crate) fn commit(&mut self, state: &State) -> Result<(), DynamicsError> {
         self.refresh(state);
         let motions = &self.motions;
         for joint in &mut self.joints {
@@ -233,8 +237,14 @@ impl System {
         }
         let view = view(&self.motions, &self.layout, state, 1.0);
         for slot in &mut self.slots {
-            slot.element.commit(&view);
+            let committed = slot.element.commit(&view);
+            committed.map_err(|source| DynamicsError::Element {
+                element: slot.element.name().to_owned(),
+                time_s: state.time_s,
+                source,
+            })?;
         }
+        Ok(())
     }
 
     /// f̈ of every joint equation, and ḟ.

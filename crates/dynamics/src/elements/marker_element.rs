@@ -117,11 +117,12 @@ impl<L: Law> ForceElement for MarkerElement<L> {
         self.law.begin(&motion);
     }
 
-    fn commit(&mut self, view: &View<'_>) {
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
         if self.law.has_state() {
             let motion = self.motion(view);
             self.law.commit(&motion);
         }
+        Ok(())
     }
 
     fn save(&self, out: &mut Vec<f64>) {

@@ -3,7 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what is to be run | [`RunJob`], made from a scene by [`RunJob::from_scene`] | `job.rs`, `from_scene.rs` |
-//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs` |
+//! | motion in time, in rows or measured speed by speed | [`run`] | `in_time.rs`, `speed_plan.rs`, `column_statistics.rs`, `mesh_pace.rs` |
 //! | equilibria, natural frequencies | [`run`] | `static_series.rs`, `eigen_run.rs` |
 //! | what it will cost | [`RunCost`] | `cost.rs` |
 //! | what a row holds | [`Recorder`] | `recorder.rs`, `counted_angles.rs` |
@@ -21,6 +21,7 @@ mod error;
 mod from_scene;
 mod in_time;
 mod job;
+mod mesh_pace;
 mod part_folder;
 mod rating;
 mod recorder;

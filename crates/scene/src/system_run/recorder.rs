@@ -13,6 +13,7 @@ use gearmesh_model::Column;
 use nalgebra::UnitQuaternion;
 
 use super::counted_angles::{CountedAngles, body_angles};
+use super::error::SystemRunError;
 
 /// What is recorded besides the time.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -367,6 +368,27 @@ impl Recorder {
             self.row.push(at.largest_violation);
         }
         &self.row
+    }
+
+    /// The row of a moment, if it holds numbers only. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`SystemRunError::NotFinite`] with the column.
+    pub fn finite_row(
+        &mut self,
+        system: &mut System,
+        at: &Moment<'_>,
+    ) -> Result<&[f64], SystemRunError> {
+        self.row(system, at);
+        match self.row.iter().position(|value| !value.is_finite()) {
+            None => Ok(&self.row),
+            Some(place) => Err(SystemRunError::NotFinite {
+                column: self.columns[place].name.clone(),
+                value: self.row[place],
+                abscissa: self.columns[0].name.clone(),
+                at: self.row[0],
+            }),
+        }
     }
 
     /// Counts the turns of an accepted motion.

@@ -59,7 +59,7 @@ pub(super) fn run_static(
         let mut values = vec![number as f64, point.load_factor];
         values.extend(point.angle_rad);
         values.push(found.iterations as f64);
-        let row = recorder.row(
+        let row = recorder.finite_row(
             &mut system,
             &Moment {
                 abscissas: &values,
@@ -71,7 +71,7 @@ pub(super) fn run_static(
                 step_s: 0.0,
                 largest_violation: 0.0,
             },
-        );
+        )?;
         part.log().append(row)?;
         first.get_or_insert_with(|| found.state.clone());
         last = Some((point.load_factor, system, found.state));

@@ -327,3 +327,28 @@ fn meshes_that_cannot_be_are_refused() {
         &["gauge.0.body: `wheel` is no reduced gear (.h5)"],
     );
 }
+
+/// Angles that put teeth into each other are no start.
+#[test]
+fn teeth_that_stand_in_each_other_at_the_start_are_refused() {
+    let scene = changed(
+        &text("scene_two_wheels.toml"),
+        "gear = \"gear1.toml\"\n\n",
+        "gear = \"gear1.toml\"\ncardan_deg = [0.0, 0.0, 0.0]\n\n",
+    );
+    let scene = changed(
+        &scene,
+        "position_mm = [150.0, 0.0, 0.0]",
+        "position_mm = [150.0, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, 3.0]",
+    );
+    let complaint = build(&scene).err().unwrap().to_string();
+    for part in [
+        &format!("scene.toml:{}: ", line_of(&scene, "[[gear_mesh]]"))[..],
+        "flanks stand",
+        "mm in each other at the start, allowed are 0.768 mm",
+        "cardan_deg",
+        "`pinion` and `wheel`",
+    ] {
+        assert!(complaint.contains(part), "`{part}` is not in {complaint}");
+    }
+}

@@ -3,7 +3,9 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod epicyclic;
 mod gearbox;
+mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
 mod pair_stiffness;

@@ -9,7 +9,7 @@ use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, GearPair, InputError, Misalignment};
 
-use super::bodies::{Bodies, Frame};
+use super::bodies::Bodies;
 use super::gears::Gear;
 use super::mesh_model::{SceneMesh, refuse_unused};
 use super::parts::Parts;
@@ -167,14 +167,8 @@ impl PreparedMesh {
                 parts.element(&self.name, kind, bodies, ends);
             }
             None => {
-                let pair = |end: Option<usize>| {
-                    let frame: Frame = bodies.frame(end);
-                    MarkerPair {
-                        a: bodies.marker(None, &frame),
-                        b: bodies.marker(end, &frame),
-                    }
-                };
-                builder.joint(kinematic_mesh(&self.name, ends.map(pair), self.teeth));
+                let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
+                builder.joint(kinematic_mesh(&self.name, markers, self.teeth));
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }
         }
