@@ -8,6 +8,7 @@ mod gear_modes;
 mod graded_tooth;
 mod line_load;
 mod mesh_convergence;
+mod mesh_error_estimate;
 mod plane_strain_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;
