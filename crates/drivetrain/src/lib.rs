@@ -38,6 +38,7 @@ mod nearest_flanks;
 pub mod pair_curve;
 pub mod path_ends;
 pub mod pose;
+pub mod ring_foundation;
 pub mod roll_harmonics;
 pub mod slice_plane;
 pub mod step;
