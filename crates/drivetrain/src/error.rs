@@ -124,22 +124,6 @@ pub enum DrivetrainError {
         /// Sum of the base radii.
         smallest_mm: f64,
     },
-    /// The fillet foundation's fit is used outside its range.
-    #[error(
-        "analytic mesh, gear {gear}: {what} is {found:.4}, the fillet foundation of Sainsot, Velex and Duverger is fitted for {low} to {high} only; take another mesh model or change the bore"
-    )]
-    Foundation {
-        /// Gear 1 or 2.
-        gear: usize,
-        /// Ratio or angle.
-        what: &'static str,
-        /// Value.
-        found: f64,
-        /// Lower end.
-        low: f64,
-        /// Upper end.
-        high: f64,
-    },
     /// The two models do not fit each other or the pair.
     #[error(transparent)]
     Contact(#[from] ContactError),

@@ -9,6 +9,7 @@ use gearmesh_model::ReducedGear;
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
+use crate::mesh_channels::{FORCE_CHANNELS, SliceLineLoads, force_on_gear_1};
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
 
@@ -49,13 +50,15 @@ impl PairTangents {
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
 /// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
-/// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge.
+/// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
+/// on gear 1 and the line load of each slice (mesh_channels.rs).
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
     bodies: [BodyId; 2],
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
+    line_loads: Option<SliceLineLoads>,
 }
 
 impl MeshElement {
@@ -71,7 +74,17 @@ impl MeshElement {
             bodies: [gear_1.body, gear_2.body],
             mesh,
             gauges: Vec::new(),
+            line_loads: None,
         }
+    }
+
+    /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`, counted along gear 1's z.
+    #[must_use]
+    pub fn with_line_loads(mut self, slice_width_m: f64) -> Self {
+        self.line_loads = Some(SliceLineLoads {
+            width_m: slice_width_m,
+        });
+        self
     }
 
     /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and `…_method2_ustrain`.
@@ -220,6 +233,9 @@ impl ForceElement for MeshElement {
             FlankSide::Right => "normal_force_right_N",
             FlankSide::Left => "normal_force_left_N",
         });
+        let slices = self
+            .line_loads
+            .map(|_| self.mesh.kinematics().slices_m().len());
         let strain = self.gauges.iter().flat_map(|gauges| {
             let names = gauges.names().iter();
             names.flat_map(|name| {
@@ -232,6 +248,8 @@ impl ForceElement for MeshElement {
             .chain(["transmission_error_m", "loaded_pairs", "apart"])
             .map(str::to_owned)
             .chain(strain)
+            .chain(FORCE_CHANNELS.map(str::to_owned))
+            .chain(slices.map(SliceLineLoads::names).into_iter().flatten())
             .map(|name| Channel { name })
             .collect()
     }
@@ -274,6 +292,12 @@ impl ForceElement for MeshElement {
                     *place = 1e6 * value;
                 }
             }
+        }
+        let rest = places.into_slice();
+        let (forces, slices) = rest.split_at_mut(FORCE_CHANNELS.len());
+        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &motion.displacement_m));
+        if let Some(line_loads) = &self.line_loads {
+            line_loads.write(&self.mesh, slices);
         }
     }
 }

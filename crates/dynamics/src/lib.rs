@@ -56,7 +56,7 @@ pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;
 pub use checkpoint::Checkpoint;
 pub use constraints::Redundancy;
-pub use eigen::{NaturalMode, natural_modes};
+pub use eigen::{NaturalMode, natural_modes, strain_shares};
 pub use elements::{Channel, ForceElement, Loads, Power, View};
 pub use energy::{Energy, EnergyBalance};
 pub use error::{DynamicsError, ElementFailure};

@@ -280,7 +280,9 @@ fn rolling_has_exact_tangents_and_does_no_work() {
         let mut builder = System::builder();
         let a = builder.body(body("a", 0, random)).unwrap();
         let b = builder.body(body("b", 1, random)).unwrap();
-        let pair = pair(random, if on_ground { GROUND } else { a }, b);
+        let mut pair = pair(random, if on_ground { GROUND } else { a }, b);
+        // Axes apart: differences of a polar angle lose their figures close to the axis, with the cube of the distance.
+        pair.a.position_m += Vector3::new(-1.5, 0.4, 0.0);
         builder.joint(Joint::rolling("rolling", pair, [0.3, 0.7]));
         let mut case = Case::new(builder.build().unwrap(), random);
         case.check_tangents("rolling");

@@ -22,6 +22,7 @@ mod from_scene;
 mod in_time;
 mod job;
 mod mesh_pace;
+mod mode_shares;
 mod part_folder;
 mod rating;
 mod recorder;
@@ -32,7 +33,7 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, split_unit, varying};
+pub use column_names::{is_prominent, rank, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
@@ -41,6 +42,7 @@ pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
+pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
 pub(crate) use recorder::element_column;
 pub use recorder::{Course, Moment, Recorder, Selection};

@@ -3,7 +3,7 @@
 //! | group | columns | frame |
 //! | --- | --- | --- |
 //! | `bodies/NAME` | place, Cardan angles, turn about its own z axis, velocity, angular velocity, their rates, modal coordinates | place and velocity world, angular velocity body |
-//! | `joints/NAME` | force and moment on body 2, angle about z and offset along z | marker of body 1 |
+//! | `joints/NAME` | force and moment on body 2, angle about z and offset along z | marker of body 1; the force in world axes, too |
 //! | `elements/NAME` | the element's own channels | the element's |
 //! | `energy` | kinetic, potential, dissipated, supplied, error of the balance | |
 //! | `run` | length of the step, largest violation of a joint so far | |
@@ -288,6 +288,10 @@ impl Recorder {
                         "moment of the joint on body 2 in its marker, axes of the marker of body 1";
                     self.column(format!("{group}/moment_{axis}_Nm"), "N m", text);
                 }
+                for axis in AXES {
+                    let text = "force of the joint on body 2, world axes";
+                    self.column(format!("{group}/force_world_{axis}_N"), "N", text);
+                }
                 let text = "angle of body 2 about z of body 1's marker, turns counted";
                 self.column(format!("{group}/angle_rad"), "rad", text);
                 let text = "offset of body 2's marker along z of body 1's";
@@ -339,6 +343,8 @@ impl Recorder {
             let joint = &system.joints()[pair.joint];
             let load = joint.load(pair.pair, &self.lambda[pair.equations.clone()], &motion);
             self.row.extend_from_slice(load.as_slice());
+            let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
+            self.row.extend_from_slice(force.as_slice());
             self.row.extend(pair.angle.value(about_z(&motion)));
             self.row.push(motion.displacement_m[2]);
         }

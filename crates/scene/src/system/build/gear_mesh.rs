@@ -32,6 +32,8 @@ pub(super) struct PreparedMesh {
     pub mesh: Option<GearMesh>,
     /// The sides that can touch.
     pub sides: Vec<FlankSide>,
+    /// Width of a slice \[m\]; zero for `kinematic`.
+    slice_width_m: f64,
 }
 
 impl PreparedMesh {
@@ -90,6 +92,7 @@ impl PreparedMesh {
                 FlanksWord::Right => vec![FlankSide::Right],
                 FlanksWord::Left => vec![FlankSide::Left],
             },
+            slice_width_m: 0.0,
             key: key.clone(),
         };
         let mut scene = SceneMesh {
@@ -105,10 +108,11 @@ impl PreparedMesh {
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
         } else {
-            prepared.mesh = Some(scene.modal(
-                scene.mesh(&prepared.sides)?,
-                numbers.map(|number| bodies.list[number].modes),
-            )?);
+            let mesh = scene.mesh(&prepared.sides)?;
+            prepared.slice_width_m =
+                scene.face_width_m() / mesh.kinematics().slices_m().len() as f64;
+            let modes = numbers.map(|number| bodies.list[number].modes);
+            prepared.mesh = Some(scene.modal(mesh, modes)?);
         }
         scene.effects(parts);
         parts.notes.extend(scene.stiffness_note()?);
@@ -133,7 +137,8 @@ impl PreparedMesh {
         match self.mesh {
             Some(mesh) => {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                let mut element = MeshElement::new(&self.name, markers, mesh);
+                let mut element =
+                    MeshElement::new(&self.name, markers, mesh).with_line_loads(self.slice_width_m);
                 for gear in [1, 2] {
                     let on_gear = |gauge: &&BuiltGauge| {
                         gauge
