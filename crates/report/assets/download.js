@@ -76,7 +76,8 @@ function chartSvg(figure, plot, d) {
   }
   text(left + w / 2, top + h + 34, plot.axes[0].label, "text-anchor='middle' font-weight='600'");
   text(0, 0, plot.axes[1].label, `text-anchor='middle' font-weight='600' transform='translate(14 ${(top + h / 2).toFixed(1)}) rotate(-90)'`);
-  out.push(`<clipPath id='area'><rect x='${left}' y='${top}' width='${w}' height='${h}'/></clipPath><g clip-path='url(#area)'>`);
+  // An inner picture cuts what a zoom leaves outside.
+  out.push(`<svg x='${left}' y='${top}' width='${w}' height='${h}' viewBox='${left} ${top} ${w} ${h}'>`);
   for (const { i } of shown) {
     const colour = strokeOf(plot, i), xs = plot.data[0], ys = plot.data[i];
     if (d.orders) {
@@ -91,7 +92,7 @@ function chartSvg(figure, plot, d) {
     }
     out.push(`<path d='${path}' fill='none' stroke='${colour}' stroke-width='1.5' stroke-dasharray='${DASHES[d.series[i - 1].dash].join(" ")}'/>`);
   }
-  out.push(`</g><rect x='${left}' y='${top}' width='${w}' height='${h}' fill='none' stroke='${cssColour("--line")}'/>`);
+  out.push(`</svg><rect x='${left}' y='${top}' width='${w}' height='${h}' fill='none' stroke='${cssColour("--line")}'/>`);
   shown.forEach(({ s, i }, n) => {
     const at = plot.height + 30 + 20 * n + 6;
     line(12, at, 34, at, strokeOf(plot, i), "stroke-width='2'");

@@ -33,7 +33,7 @@ mod tests {
     #[test]
     fn forces_and_stresses_are_read_without_powers_of_ten() {
         assert_eq!(short(2812.345), "2812");
-        assert_eq!(short(215_776.5), "215777");
+        assert_eq!(short(215_776.6), "215777");
         assert_eq!(short(-0.012_345_6), "-0.01235");
         assert_eq!(short(3.2e-9), "3.200e-9");
         let (factor, unit) = usual_unit("Pa", 2.157_765e7);

@@ -26,7 +26,6 @@ fn bearings_of_the_three_stage_gearbox_carry_what_statics_say() {
         let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let off: Vec<f64> = by_hand.iter().zip(force).map(|(a, b)| b - a).collect();
         let off = norm(&off) / norm(&by_hand);
-        println!("{}: {force:.1?} N, off by {:.2} %", row[0], 100.0 * off);
         assert!(off < 0.02, "{}: {force:?} {by_hand:?}", row[0]);
     }
     // Along the axes nothing depends on where the resultants stand: F_t tan(beta).
