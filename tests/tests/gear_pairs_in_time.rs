@@ -159,8 +159,14 @@ fn seed_002_shows_its_mesh_frequency() {
     let law = Impact::new(stiffness, 67.0, 1e-5, 1).unwrap();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let none = [Vec::new(), Vec::new()];
-    let kinematics =
-        MeshKinematics::new(gears, none, 55e-3, gearmesh_contact::SliceLayout::new([20e-3; 2], 0.0, 1), PathEnds::Extended).unwrap();
+    let kinematics = MeshKinematics::new(
+        gears,
+        none,
+        55e-3,
+        gearmesh_contact::SliceLayout::new([20e-3; 2], 0.0, 1),
+        PathEnds::Extended,
+    )
+    .unwrap();
     let friction = Friction::new([0.78, 0.65], [1e-3, 0.1]).unwrap();
     let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
         .unwrap()

@@ -1,5 +1,6 @@
 //! The command line. Each argument is described once, here; help follows from it.
 
+use crate::length_unit::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -33,6 +34,8 @@ pub enum Command {
     Compare(CompareArguments),
     /// Write a report page
     Report(ReportArguments),
+    /// Export a result as a table: CSV, Parquet or MATLAB
+    Export(ExportArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, scene, model or result
@@ -60,25 +63,6 @@ pub struct MeshArguments {
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
-}
-
-/// Unit of lengths in a mesh file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LengthUnit {
-    /// Metres.
-    M,
-    /// Millimetres.
-    Mm,
-}
-
-impl LengthUnit {
-    /// As the Python module calls it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::M => "m",
-            Self::Mm => "mm",
-        }
-    }
 }
 
 /// `gearmesh reduce`.
@@ -274,9 +258,25 @@ pub struct ReportArguments {
     /// HTML file
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position; meshes the gears again
+    #[arg(long)]
+    pub stress: bool,
     /// Folder of a reference record for each result, in the same order
     #[arg(long)]
     pub reference: Vec<PathBuf>,
+}
+
+/// `gearmesh export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Result file, or folder of a study
+    pub result: PathBuf,
+    /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows, windows, modes and shapes; of both: ratings
+    #[arg(long)]
+    pub table: Option<String>,
 }
 
 /// `gearmesh signal`.
@@ -458,6 +458,9 @@ pub struct StudyArguments {
 pub struct SchemaArguments {
     /// Kind of file
     pub kind: SchemaKind,
+    /// Print a page of all keys (Markdown) instead
+    #[arg(long)]
+    pub markdown: bool,
 }
 
 /// A kind of file that has a schema.

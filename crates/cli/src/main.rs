@@ -6,6 +6,7 @@ mod commands;
 mod console;
 mod failure;
 mod interrupt;
+mod length_unit;
 mod offline;
 mod output_name;
 
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         Command::Run(a) => commands::run::run(a),
         Command::Recover(a) => commands::recover::run(a),
         Command::Compare(a) => commands::compare::run(a),
+        Command::Export(a) => commands::export::run(a),
         Command::Report(a) => commands::report::run(a),
         Command::Signal(a) => commands::signal::run(a),
         Command::Check(a) => commands::check::run(a),

@@ -1,9 +1,9 @@
 //! The offline side as the commands use it: reading a gear, meshing, reducing, writing meshes, making fields.
 
-use crate::arguments::LengthUnit;
 use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
+use crate::length_unit::LengthUnit;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{ElementKind, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};

@@ -6,6 +6,9 @@ use std::path::Path;
 /// Endings of HDF5 files.
 const HDF5: [&str; 2] = [".h5", ".hdf5"];
 
+/// Endings of tables.
+const TABLE: [&str; 3] = [".csv", ".parquet", ".mat"];
+
 /// Endings of pages.
 const PAGE: [&str; 2] = [".html", ".htm"];
 
@@ -20,6 +23,7 @@ pub fn demand_hdf5(path: &Path) -> Result<(), Failure> {
         "HDF5",
         "; `gearmesh export` makes .csv, .parquet and .mat files of a result",
     )
+    .map(|_| ())
 }
 
 /// Demands the ending of a page.
@@ -27,7 +31,7 @@ pub fn demand_hdf5(path: &Path) -> Result<(), Failure> {
 /// # Errors
 /// [`Failure`] that says what the command writes.
 pub fn demand_page(path: &Path) -> Result<(), Failure> {
-    demand(path, &PAGE, "an HTML page", "")
+    demand(path, &PAGE, "an HTML page", "").map(|_| ())
 }
 
 /// Demands the ending of a mesh format that is written.
@@ -41,18 +45,32 @@ pub fn demand_mesh(path: &Path) -> Result<(), Failure> {
         "a mesh for other programs",
         "",
     )
+    .map(|_| ())
 }
 
-fn demand(path: &Path, endings: &[&str], what: &str, advice: &str) -> Result<(), Failure> {
-    let name = path
-        .file_name()
-        .map(|name| name.to_string_lossy().to_lowercase());
-    if name.is_some_and(|name| endings.iter().any(|ending| name.ends_with(ending))) {
-        return Ok(());
-    }
-    Err(Failure::input(format!(
-        "{}: this writes {what}; allowed are names that end in {}{advice}",
-        path.display(),
-        endings.join(" ")
-    )))
+/// Which kind of table a name ends in.
+///
+/// # Errors
+/// [`Failure`] that lists them.
+pub fn table_ending(path: &Path) -> Result<&'static str, Failure> {
+    demand(path, &TABLE, "tables", "")
+}
+
+/// The ending that a name has.
+fn demand(
+    path: &Path,
+    endings: &[&'static str],
+    what: &str,
+    advice: &str,
+) -> Result<&'static str, Failure> {
+    let name = path.file_name().unwrap_or_default();
+    let name = name.to_string_lossy().to_lowercase();
+    let found = endings.iter().find(|ending| name.ends_with(**ending));
+    found.copied().ok_or_else(|| {
+        Failure::input(format!(
+            "{}: this writes {what}; allowed are names that end in {}{advice}",
+            path.display(),
+            endings.join(" ")
+        ))
+    })
 }

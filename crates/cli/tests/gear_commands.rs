@@ -31,6 +31,7 @@ fn help_names_all_commands() {
       recover     Recover the strain of all gauges from a result, and whole fields on request
       compare     Compare a result with a reference record
       report      Write a report page
+      export      Export a result as a table: CSV, Parquet or MATLAB
       signal      Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
       check       Check a gear file, scene, model or result
       study       Run a multibody scene again and again with some of its keys changed
@@ -56,6 +57,7 @@ fn help_names_all_commands() {
         "study",
         "schema",
         "demo",
+        "export",
     ] {
         let help = succeeds(&[command, "--help"]).stdout;
         assert!(
@@ -295,6 +297,11 @@ fn a_name_must_end_in_what_is_written() {
         ),
         ("reduce", "model.vtu", "this writes HDF5"),
         ("recover", "strain.csv", "this writes HDF5"),
+        (
+            "export",
+            "x.xlsx",
+            "this writes tables; allowed are names that end in .csv .parquet .mat",
+        ),
         (
             "report",
             "page.pdf",

@@ -119,7 +119,11 @@ fn own_weights(slice: usize, slices: usize) -> impl Iterator<Item = (usize, f64)
     let own = 2.0 - 0.5 * (edges[0] + edges[1]);
     let below = (slice > 0).then(|| (middle - 2, -0.25));
     let above = (slice + 1 < slices).then_some((middle + 2, -0.25));
-    let near = [(middle - 1, edges[0]), (middle, own), (middle + 1, edges[1])];
+    let near = [
+        (middle - 1, edges[0]),
+        (middle, own),
+        (middle + 1, edges[1]),
+    ];
     below.into_iter().chain(near).chain(above)
 }
 
@@ -168,7 +172,11 @@ mod tests {
                 };
                 assert!((moment(0) - 1.0).abs() < 1e-13 && moment(1).abs() < 1e-13);
                 let second = width * width / 12.0;
-                assert!((moment(2) - second).abs() < 1e-13, "{low} {width} {}", moment(2));
+                assert!(
+                    (moment(2) - second).abs() < 1e-13,
+                    "{low} {width} {}",
+                    moment(2)
+                );
             }
         }
     }

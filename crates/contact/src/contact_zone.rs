@@ -187,7 +187,10 @@ mod tests {
         ] {
             let zone = ContactZone::new([20e-3, 14e-3], displacement);
             let exchanged = ContactZone::new([14e-3, 20e-3], -displacement);
-            assert!((zone.middle_m - 0.5 * (low + high)).abs() < 1e-17, "{zone:?}");
+            assert!(
+                (zone.middle_m - 0.5 * (low + high)).abs() < 1e-17,
+                "{zone:?}"
+            );
             assert!((zone.width_m - (high - low)).abs() < 1e-17, "{zone:?}");
             assert!((zone.middle_m - exchanged.middle_m).abs() < 1e-18);
             assert!((zone.width_m - exchanged.width_m).abs() < 1e-18);
@@ -204,8 +207,14 @@ mod tests {
                 let zone = at(displacement);
                 let middle = (high.middle_m - low.middle_m) / (2.0 * h);
                 let width = (high.width_m - low.width_m) / (2.0 * h);
-                assert!((middle - zone.middle_by_displacement).abs() < 1e-3, "{zone:?} {middle}");
-                assert!((width - zone.width_by_displacement).abs() < 1e-3, "{zone:?} {width}");
+                assert!(
+                    (middle - zone.middle_by_displacement).abs() < 1e-3,
+                    "{zone:?} {middle}"
+                );
+                assert!(
+                    (width - zone.width_by_displacement).abs() < 1e-3,
+                    "{zone:?} {width}"
+                );
             }
         }
         let equal = ContactZone::of_equal_faces(20e-3);

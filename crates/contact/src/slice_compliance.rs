@@ -5,10 +5,10 @@
 //! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
 //! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
 
+use crate::axial_spread::AxialSpread;
 use crate::calibrated_field::CalibratedField;
 use crate::crack_rows::CrackRows;
 use crate::local_contact::{CompliancePart, LocalContact, effective_depth_m};
-use crate::axial_spread::AxialSpread;
 use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::{RollHats, RollPlace, SHARES};
 use crate::slice_spread::NeighbourTerm;

@@ -113,7 +113,8 @@ impl SliceContact {
         let compliance_1 = condense(1, gear_1)?;
         let compliance_2 = condense(2, gear_2)?;
         let slices = layout.slices;
-        let most_lines = lines.most_pairs() + 1;
+        // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
+        let most_lines = lines.most_pairs() + 2;
         let capacity = most_lines * slices;
         Ok(Self {
             places: Vec::with_capacity(most_lines),

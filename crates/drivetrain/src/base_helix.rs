@@ -96,8 +96,7 @@ impl BaseHelix {
         for (gear, sense) in [(0, 1.0), (1, -1.0)] {
             let twist = sigma * self.twist_rad_per_m[gear];
             let tan = sense * self.tan;
-            roll_rad[gear] =
-                plain_rad[gear] - twist * plane.axis_heights_m[gear] + tan * psi;
+            roll_rad[gear] = plain_rad[gear] - twist * plane.axis_heights_m[gear] + tan * psi;
             roll_gradient[gear] =
                 zero.roll_gradient[gear] - twist * height_gradient[gear] + tan * psi_gradient;
             let factor = 1.0 / (1.0 - sigma * tan * phi);
@@ -167,7 +166,8 @@ impl BaseHelix {
         let difference = r1 * roll_rad[0] - r2 * roll_rad[1];
         let sum = r1 * roll_rad[0] + r2 * roll_rad[1];
         // ∂(r_b1 ξ₁ − r_b2 ξ₂): the sum of both heights changes by twice that of the plane.
-        let changes = r1 * zero.roll_gradient[0] - r2 * zero.roll_gradient[1]
+        let changes = r1 * zero.roll_gradient[0]
+            - r2 * zero.roll_gradient[1]
             - 2.0 * twist * plane.plane_gradient
             + (r1 + r2) * tan * by_across;
         let own = twist * along

@@ -2,6 +2,9 @@
 
 use gearmesh_contact::ContactError;
 use gearmesh_contact::nlcp::{LocalLawError, NlcpError};
+use gearmesh_geometry::FlankSide;
+
+use crate::tooth_overlap::turning;
 
 /// Error of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -88,6 +91,34 @@ pub enum DrivetrainError {
         /// Largest angle allowed.
         allowed_mrad: f64,
     },
+    /// Flanks of the mesh are pressed into each other deeper than teeth can give way.
+    #[error(
+        "the {} flanks stand {depth_mm:.3} mm in each other, allowed are {allowed_mm:.3} mm, a tenth of the base pitch: the teeth would pass \
+         through each other; check loads, mesh stiffness and the angles at the start, or take a shorter step", flank.name()
+    )]
+    TeethPressed {
+        /// Side of the teeth.
+        flank: FlankSide,
+        /// How deep.
+        depth_mm: f64,
+        /// What is allowed.
+        allowed_mm: f64,
+    },
+    /// Teeth overlap on the side that the mesh leaves out.
+    #[error(
+        "the {behind} flanks, which the mesh leaves out, stand {depth_mm:.3} mm in each other, allowed are {allowed_mm:.3} mm, a fiftieth of \
+         the base pitch: the teeth would pass through each other. The {only} flanks carry loads that turn both gears {}; give the loads \
+         that sign, or write flanks = \"{behind}\" or \"both\"",
+        turning(behind.opposite()), behind = behind.name(), only = behind.opposite().name()
+    )]
+    TeethBehind {
+        /// The side that is left out.
+        behind: FlankSide,
+        /// How deep.
+        depth_mm: f64,
+        /// What is allowed.
+        allowed_mm: f64,
+    },
     /// The base circles overlap.
     #[error(
         "the centre distance is {found_mm:.4} mm, not above the sum of the base radii {smallest_mm:.4} mm: no line of action; hold the gears apart"
@@ -97,22 +128,6 @@ pub enum DrivetrainError {
         found_mm: f64,
         /// Sum of the base radii.
         smallest_mm: f64,
-    },
-    /// The fillet foundation's fit is used outside its range.
-    #[error(
-        "analytic mesh, gear {gear}: {what} is {found:.4}, the fillet foundation of Sainsot, Velex and Duverger is fitted for {low} to {high} only; take another mesh model or change the bore"
-    )]
-    Foundation {
-        /// Gear 1 or 2.
-        gear: usize,
-        /// Ratio or angle.
-        what: &'static str,
-        /// Value.
-        found: f64,
-        /// Lower end.
-        low: f64,
-        /// Upper end.
-        high: f64,
     },
     /// The two models do not fit each other or the pair.
     #[error(transparent)]

@@ -183,6 +183,13 @@ impl FlankContacts {
             .sum()
     }
 
+    /// How deep flanks stand in each other at most \[m\], along their normal; zero where none do.
+    #[must_use]
+    pub fn deepest_overlap_m(&self) -> f64 {
+        let gaps = self.contacts.iter().map(|contact| contact.gap_m);
+        gaps.fold(0.0, |deepest: f64, gap_m| deepest.max(-gap_m))
+    }
+
     /// The section of a contact.
     #[must_use]
     pub fn section(&self, contact: &ToothContact) -> &Section {

@@ -71,7 +71,7 @@ struct Side {
 /// A mesh of two gears.
 pub struct GearMesh {
     kinematics: MeshKinematics,
-    at: PoseGeometry,
+    pub(crate) at: PoseGeometry,
     sides: Vec<Side>,
     friction: Option<Friction>,
     modal: ModalLoads,

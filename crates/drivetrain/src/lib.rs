@@ -6,6 +6,7 @@
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
+//! | teeth that are apart, or stand in each other | `nearest_flanks.rs`, `tooth_overlap.rs` |
 //! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
@@ -28,20 +29,24 @@ pub mod friction;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
+mod mesh_channels;
 pub mod mesh_element;
 mod mesh_frame;
 pub mod mesh_kinematics;
 pub mod modal_loads;
 pub mod models;
+mod nearest_flanks;
 pub mod pair_curve;
 pub mod path_ends;
 pub mod pose;
+pub mod ring_foundation;
 pub mod roll_harmonics;
 pub mod slice_plane;
 pub mod step;
 pub mod strain_gauges;
 pub mod teeth_model;
 pub mod tooth_compliance;
+pub mod tooth_overlap;
 mod tooth_zero;
 
 pub use damping::{Damped, Damping};

@@ -9,6 +9,7 @@ use gearmesh_model::ReducedGear;
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
+use crate::mesh_channels::{FORCE_CHANNELS, SliceLineLoads, force_on_gear_1};
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
 
@@ -48,13 +49,16 @@ impl PairTangents {
 
 /// A [`GearMesh`] at its place. The markers are the gears' frames: z along the axis, origin at mid-face, tooth 0 on +x.
 ///
-/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry; strain of each gauge.
+/// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
+/// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
+/// on gear 1 and the line load of each slice (mesh_channels.rs).
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
     bodies: [BodyId; 2],
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
+    line_loads: Option<SliceLineLoads>,
 }
 
 impl MeshElement {
@@ -70,7 +74,17 @@ impl MeshElement {
             bodies: [gear_1.body, gear_2.body],
             mesh,
             gauges: Vec::new(),
+            line_loads: None,
         }
+    }
+
+    /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`, counted along gear 1's z.
+    #[must_use]
+    pub fn with_line_loads(mut self, slice_width_m: f64) -> Self {
+        self.line_loads = Some(SliceLineLoads {
+            width_m: slice_width_m,
+        });
+        self
     }
 
     /// Adds gauges of gear 1 or 2, read at every output time: channels `strain_gear1_<gauge>_method1_ustrain` and `…_method2_ustrain`.
@@ -201,6 +215,11 @@ impl ForceElement for MeshElement {
         Ok(())
     }
 
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let motion = self.motion(view);
+        Ok(self.mesh.refuse_overlap(&Pose::from(&motion))?)
+    }
+
     fn save(&self, out: &mut Vec<f64>) {
         self.mesh.save(out);
     }
@@ -214,6 +233,9 @@ impl ForceElement for MeshElement {
             FlankSide::Right => "normal_force_right_N",
             FlankSide::Left => "normal_force_left_N",
         });
+        let slices = self
+            .line_loads
+            .map(|_| self.mesh.kinematics().layout().slices);
         let strain = self.gauges.iter().flat_map(|gauges| {
             let names = gauges.names().iter();
             names.flat_map(|name| {
@@ -223,9 +245,11 @@ impl ForceElement for MeshElement {
             })
         });
         sides
-            .chain(["transmission_error_m", "loaded_pairs"])
+            .chain(["transmission_error_m", "loaded_pairs", "apart"])
             .map(str::to_owned)
             .chain(strain)
+            .chain(FORCE_CHANNELS.map(str::to_owned))
+            .chain(slices.map(SliceLineLoads::names).into_iter().flatten())
             .map(|name| Channel { name })
             .collect()
     }
@@ -250,9 +274,16 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        out[sides] = self.mesh.transmission_error_m().unwrap_or(f64::NAN);
+        // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
+        let nearest = || self.mesh.nearest_gap_m();
+        out[sides] = self
+            .mesh
+            .transmission_error_m()
+            .or_else(nearest)
+            .unwrap_or(f64::NAN);
         out[sides + 1] = pairs as f64;
-        let mut places = out[sides + 2..].iter_mut();
+        out[sides + 2] = f64::from(u8::from(self.mesh.is_apart()));
+        let mut places = out[sides + 3..].iter_mut();
         for gauges in &mut self.gauges {
             let coordinates = view.modal(self.bodies[gauges.gear() - 1]);
             for strain in gauges.read(&self.mesh, coordinates) {
@@ -261,6 +292,12 @@ impl ForceElement for MeshElement {
                     *place = 1e6 * value;
                 }
             }
+        }
+        let rest = places.into_slice();
+        let (forces, slices) = rest.split_at_mut(FORCE_CHANNELS.len());
+        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &motion.displacement_m));
+        if let Some(line_loads) = &self.line_loads {
+            line_loads.write(&self.mesh, slices);
         }
     }
 }

@@ -15,8 +15,8 @@
 use std::f64::consts::TAU;
 
 use gearmesh_contact::ContactZone;
-use gearmesh_contact::contact_zone::slice_place;
 use gearmesh_contact::SliceLayout;
+use gearmesh_contact::contact_zone::slice_place;
 use gearmesh_geometry::ToothGeometry;
 use nalgebra::{Matrix3, Vector3};
 
@@ -59,11 +59,7 @@ pub(crate) struct MeshFrame {
 
 impl MeshFrame {
     /// The frame of two gears with faces `face_widths_m` wide at a pose.
-    pub(crate) fn new(
-        gears: &[ToothGeometry; 2],
-        face_widths_m: [f64; 2],
-        pose: &Pose,
-    ) -> Self {
+    pub(crate) fn new(gears: &[ToothGeometry; 2], face_widths_m: [f64; 2], pose: &Pose) -> Self {
         let (u, b) = (pose.displacement_m, pose.axis_2());
         let sum = Vector3::z() + b;
         let below = 1.0 + b[2];
@@ -73,10 +69,7 @@ impl MeshFrame {
         let axis = sum / (2.0 * cos_half);
         let frame_turn = (b[2] * b - Vector3::z()) / (2.0 * below * (1.0 + cos_half));
         let lean = (Vector3::z() + axis) / (1.0 + cos_half);
-        let across = [
-            Vector3::x() - axis[0] * lean,
-            Vector3::y() - axis[1] * lean,
-        ];
+        let across = [Vector3::x() - axis[0] * lean, Vector3::y() - axis[1] * lean];
         let along_m = spin_gradient.dot(&u);
         let along_gradient = stacked(
             spin_gradient,
@@ -117,7 +110,10 @@ impl MeshFrame {
         let zone = &self.zone;
         let section_m = zone.middle_m + place * zone.width_m;
         let moves = zone.middle_by_displacement + place * zone.width_by_displacement;
-        let (plane_m, half_m) = (section_m + 0.5 * self.shift_m, 0.5 * self.displacement_along_m);
+        let (plane_m, half_m) = (
+            section_m + 0.5 * self.shift_m,
+            0.5 * self.displacement_along_m,
+        );
         let gradient = moves * self.displacement_gradient;
         ZoneSection {
             section_m,
@@ -168,6 +164,7 @@ impl PoseGeometry {
         let frame = MeshFrame::new(gears, layout.face_widths_m, pose);
         self.frame = Some(frame);
         let middle = CentreLine::new(gears, &frame, frame.section(0.0))?;
+        self.middle = Some(middle);
         if frame.zone.width_m <= layout.reference.width_m * crate::path_ends::LEAST_SHARE {
             return Ok(());
         }
@@ -183,7 +180,6 @@ impl PoseGeometry {
             line.polar_rad += TAU * ((middle.polar_rad - line.polar_rad) / TAU).round();
             self.slices.push(line);
         }
-        self.middle = Some(middle);
         Ok(())
     }
 }

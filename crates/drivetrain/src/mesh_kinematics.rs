@@ -42,20 +42,20 @@ pub const LARGEST_MISALIGNMENT_RAD: f64 = 10e-3;
 /// Two gears with their deviations.
 #[derive(Clone)]
 pub struct MeshKinematics {
-    gears: [ToothGeometry; 2],
+    pub(crate) gears: [ToothGeometry; 2],
     errors: [FlankErrors; 2],
     layout: SliceLayout,
     ends: PathEnds,
     edges: TipEdges,
     /// Roll angles up to which flanks touch, tip edges included.
     ends_rad: [f64; 2],
-    helix: Option<BaseHelix>,
+    pub(crate) helix: Option<BaseHelix>,
     /// How far the roll angle on gear 1 changes from mid-face to the faces, tilted axes included \[rad\]; zero on spur teeth.
     slant_1_rad: f64,
     /// r_b1 ξ₁ − r_b2 ξ₂ \[m\] in the middle of the path, where a spring that stands for the whole mesh has its gap; none where each pair has its own.
     common_place_m: Option<f64>,
     /// Bound of what deviations add to both flanks together \[m\].
-    most_added_m: f64,
+    pub(crate) most_added_m: f64,
 }
 
 /// A pair of teeth in the slice planes of a pose: what its sections share.

@@ -52,7 +52,7 @@ pub(crate) struct CentreLine {
     /// sin α and cos α.
     pressure_angle: (f64, f64),
     pressure_angle_rad: f64,
-    length_m: f64,
+    pub length_m: f64,
     pub polar_rad: f64,
 }
 

@@ -7,19 +7,18 @@
 //! ```text
 //! bending   ∫ [(x_F − x) cos α_F − y_F sin α_F]²/(E I) dx,   I = ⅔ y³ b
 //! shear     ∫ 1.2 cos²α_F/(G A) dx,   compression  ∫ sin²α_F/(E A) dx,   A = 2 y b
-//! foundation  cos²α_F/(E b) [L* (u/s)² + M* (u/s) + P* (1 + Q* tan²α_F)]
 //! ```
 //!
-//! u: distance along the centre line from the root circle to where the line of the force crosses it; s = 2 r_f θ_f: thickness at the root.
-//! A root crack takes the part of the section behind it out of I and A.
+//! and the foundation, an elastic ring between root circle and bore (ring_foundation.rs). A root crack takes the part of the section behind it
+//! out of I and A.
 //!
 //! Sources: D. C. H. Yang, J. Y. Lin, J. Mech. Trans. Autom. 109 (1987) 189-196; X. Tian, thesis, University of Alberta (2004), for shear;
-//! P. Sainsot, P. Velex, O. Duverger, J. Mech. Des. 126 (2004) 748-752 for the foundation; S. Wu, M. Zuo, A. Parey, J. Sound Vib. 317
-//! (2008) 308-324 for the crack.
+//! S. Wu, M. Zuo, A. Parey, J. Sound Vib. 317 (2008) 308-324 for the crack.
 
 use gearmesh_geometry::{FlankSide, Material, ToothGeometry};
 
 use crate::error::{DrivetrainError, positive};
+use crate::ring_foundation::RingFoundation;
 
 /// Sections along the fillet and along the flank: the trapezoidal rule is then right to 1e-4.
 const SECTIONS: usize = 200;
@@ -144,28 +143,10 @@ impl BeamTooth<'_> {
         -root[1].atan2(root[0])
     }
 
-    /// L*, M*, P*, Q* of this gear.
-    ///
-    /// # Errors
-    /// [`DrivetrainError::Foundation`] outside the range of the fit.
-    fn foundation(&self) -> Result<[f64; 4], DrivetrainError> {
+    /// The ring below the tooth.
+    fn foundation(&self) -> RingFoundation {
         let ratio = self.tooth.root_radius_m / self.bore_radius_m;
-        let theta = self.root_half_angle_rad();
-        for (what, found, low, high) in [
-            ("root radius over bore radius", ratio, 1.4, 7.0),
-            ("half the root angle of a tooth in rad", theta, 0.01, 0.12),
-        ] {
-            if !(low..=high).contains(&found) {
-                return Err(DrivetrainError::Foundation {
-                    gear: self.gear,
-                    what,
-                    found,
-                    low,
-                    high,
-                });
-            }
-        }
-        Ok(foundation_coefficients(theta, ratio))
+        RingFoundation::new(self.root_half_angle_rad(), ratio, self.material.poisson)
     }
 
     /// Sections from the root circle up to the flank at `roll_rad`.
@@ -193,15 +174,17 @@ impl BeamTooth<'_> {
     }
 
     /// The parts of the compliance for a force at roll angle `roll_rad` on either flank.
-    ///
-    /// # Errors
-    /// [`DrivetrainError::Foundation`] outside the range of the fit.
-    pub fn parts(
+    #[must_use]
+    pub fn parts(&self, roll_rad: f64, crack: Option<RootCrack>) -> ComplianceParts {
+        self.parts_on(&self.foundation(), roll_rad, crack)
+    }
+
+    fn parts_on(
         &self,
+        ring: &RingFoundation,
         roll_rad: f64,
         crack: Option<RootCrack>,
-    ) -> Result<ComplianceParts, DrivetrainError> {
-        let foundation = self.foundation()?;
+    ) -> ComplianceParts {
         let t = self.tooth;
         let (sin, cos) = (roll_rad - t.base_half_angle_rad).sin_cos();
         let [x_f, minus_y_f] = t.flank_point_m(FlankSide::Right, roll_rad);
@@ -228,40 +211,32 @@ impl BeamTooth<'_> {
                 *sum += 0.5 * (a + b) * length;
             }
         }
-        let root = self.root_half_angle_rad();
-        let thickness = 2.0 * t.root_radius_m * root;
-        let arm = x_f - y_f * sin / cos - t.root_radius_m * root.cos();
-        let [l, m, p, q] = foundation;
-        let relative = arm / thickness;
-        let tan = sin / cos;
-        let foundation = cos * cos / (young * width)
-            * (l * relative * relative + m * relative + p * (1.0 + q * tan * tan));
-        Ok(ComplianceParts {
+        // The line of the force crosses the centre line at this distance from the gear's centre.
+        let crossing = x_f - y_f * sin / cos;
+        let foundation = ring.compliance(crossing / t.root_radius_m, [sin, cos]) / (young * width);
+        ComplianceParts {
             bending: sums[0],
             shear: sums[1],
             compression: sums[2],
             foundation,
-        })
+        }
     }
 
     /// The table over the whole flank.
-    ///
-    /// # Errors
-    /// [`DrivetrainError::Foundation`] outside the range of the fit.
-    pub fn table(&self, crack: Option<RootCrack>) -> Result<ToothCompliance, DrivetrainError> {
+    #[must_use]
+    pub fn table(&self, crack: Option<RootCrack>) -> ToothCompliance {
         let (start, end) = (self.tooth.form_roll_rad, self.tooth.flank_end_roll_rad);
         let spacing_rad = (end - start) / (STATIONS - 1) as f64;
-        let m_per_n = (0..STATIONS)
-            .map(|k| {
-                let parts = self.parts(start + k as f64 * spacing_rad, crack)?;
-                Ok(parts.total())
-            })
-            .collect::<Result<_, DrivetrainError>>()?;
-        Ok(ToothCompliance {
+        let ring = self.foundation();
+        let total = |k: usize| {
+            let roll = start + k as f64 * spacing_rad;
+            self.parts_on(&ring, roll, crack).total()
+        };
+        ToothCompliance {
             start_rad: start,
             spacing_rad,
-            m_per_n,
-        })
+            m_per_n: (0..STATIONS).map(total).collect(),
+        }
     }
 }
 
@@ -314,21 +289,4 @@ impl ToothCompliance {
             (m0 + s * (2.0 * c2 + 3.0 * s * c3)) / self.spacing_rad,
         )
     }
-}
-
-/// L*, M*, P*, Q* of Sainsot, Velex and Duverger: X* = A/θ² + B h² + C h/θ + D/θ + E h + F.
-#[must_use]
-pub fn foundation_coefficients(root_half_angle_rad: f64, radius_ratio: f64) -> [f64; 4] {
-    let (theta, h) = (root_half_angle_rad, radius_ratio);
-    [
-        [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],
-        [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086],
-        [-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236],
-        [
-            -6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904,
-        ],
-    ]
-    .map(|[a, b, c, d, e, f]| {
-        a / (theta * theta) + b * h * h + c * h / theta + d / theta + e * h + f
-    })
 }

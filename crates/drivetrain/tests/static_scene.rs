@@ -192,9 +192,7 @@ fn analytic_teeth_soften_towards_the_tip() {
     let mut last = 0.0;
     for k in 0..=10 {
         let (low, high) = (pair.gear_1.form_roll_rad, pair.gear_1.flank_end_roll_rad);
-        let parts = tooth
-            .parts(low + (high - low) * f64::from(k) / 10.0, None)
-            .unwrap();
+        let parts = tooth.parts(low + (high - low) * f64::from(k) / 10.0, None);
         assert!(
             parts.bending > 0.0
                 && parts.shear > 0.0
@@ -205,20 +203,15 @@ fn analytic_teeth_soften_towards_the_tip() {
         last = parts.total();
         let table = tooth
             .table(None)
-            .unwrap()
             .at(low + (high - low) * f64::from(k) / 10.0)
             .0;
         assert!((table / parts.total() - 1.0).abs() < 1e-9);
     }
-    let refused = BeamTooth {
+    // A thin ring below the teeth, far from any published fit.
+    let roll = pair.gear_1.flank_end_roll_rad;
+    let thin = BeamTooth {
         bore_radius_m: 0.9 * pair.gear_1.root_radius_m,
         ..tooth
-    }
-    .table(None);
-    assert!(
-        refused
-            .unwrap_err()
-            .to_string()
-            .contains("root radius over bore radius")
-    );
+    };
+    assert!(thin.parts(roll, None).total() < tooth.parts(roll, None).total());
 }

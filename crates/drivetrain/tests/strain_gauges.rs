@@ -3,11 +3,11 @@
 
 mod mesh_common;
 
+use gearmesh_contact::AxialSpread;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Simulation;
 use gearmesh_geometry::FlankSide;
-use gearmesh_contact::AxialSpread;
 use gearmesh_recovery::{LoadedSlice, grid_forces};
 use mesh_common::running_pair::*;
 use mesh_common::*;
@@ -114,6 +114,7 @@ fn gauges_are_channels_of_the_mesh() {
             "normal_force_left_N",
             "transmission_error_m",
             "loaded_pairs",
+            "apart",
             "strain_gear2_g0_method1_ustrain",
             "strain_gear2_g0_method2_ustrain",
             "strain_gear2_g1_method1_ustrain",

@@ -21,7 +21,7 @@ use crate::error::DynamicsError;
 use crate::matrix::Matrix;
 use crate::rotation::skew;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{Slot, System};
 
 /// A damping matrix below this share of the frequencies, and an asymmetry of the stiffness below this share of it, is rounding.
 const ROUNDING: f64 = 1e-11;
@@ -101,6 +101,62 @@ pub fn natural_modes(
             .total_cmp(&b.natural_angular_frequency_rad_per_s())
     });
     Ok(modes)
+}
+
+/// Share of each force element in the strain energy of some modes about a state, `[mode][element]`: |yᴴ K y| with the element's part of the
+/// stiffness, over the sum of all elements. Zero of all where nothing is strained.
+///
+/// # Errors
+/// The error of an element.
+pub fn strain_shares(
+    system: &mut System,
+    state: &State,
+    modes: &[NaturalMode],
+) -> Result<Vec<Vec<f64>>, DynamicsError> {
+    let accelerations = system.accelerations(state)?;
+    let mut equations = Equations::new(system);
+    let at = At {
+        state,
+        acceleration: &accelerations.acceleration,
+        lambda: &accelerations.lambda,
+        load_factor: 1.0,
+    };
+    system.evaluate(at, Detail::Tangents, &mut equations)?;
+    let shares = modes.iter().map(|mode| {
+        // Increments of rotation are those about body axes.
+        let mut amplitudes = [0, 1].map(|part| mode.shape.iter().map(|a| a[part]).collect());
+        for (body, start) in system.layout.starts().enumerate() {
+            let to_body = state.orientations[body].inverse();
+            for y in &mut amplitudes {
+                let y: &mut Vec<f64> = y;
+                let turn = nalgebra::Vector3::from_column_slice(&y[start + 3..start + 6]);
+                y[start + 3..start + 6].copy_from_slice((to_body * turn).as_slice());
+            }
+        }
+        let energy = |slot: &Slot| -> f64 {
+            let of_part = |y: &Vec<f64>| -> f64 {
+                let pairs = slot.places.iter().flat_map(|columns| {
+                    (0..columns.count).map(move |j| (columns.local + j, columns.system + j))
+                });
+                pairs
+                    .map(|(local, place)| {
+                        let column = slot.loads.by_position.column(local);
+                        let rows = slot.places.iter().flat_map(|rows| {
+                            (0..rows.count).map(move |i| (rows.local + i, rows.system + i))
+                        });
+                        let force: f64 = rows.map(|(row, at)| column[row] * y[at]).sum();
+                        -force * y[place]
+                    })
+                    .sum()
+            };
+            amplitudes.iter().map(of_part).sum::<f64>().abs()
+        };
+        let energies: Vec<f64> = system.slots.iter().map(energy).collect();
+        let total: f64 = energies.iter().sum();
+        let scale = if total > 0.0 { total } else { 1.0 };
+        energies.iter().map(|energy| energy / scale).collect()
+    });
+    Ok(shares.collect())
 }
 
 /// M, C, K and B of the system become M̂, Ĉ, K̂ and B̂.

@@ -229,8 +229,14 @@ pub trait ForceElement: Send {
     /// Called once before the run, at its first motion: internal state begins here.
     fn begin(&mut self, _view: &View<'_>) {}
 
-    /// Called at the end of every accepted step: internal state (turns, slip, warm starts) moves on here only.
-    fn commit(&mut self, _view: &View<'_>) {}
+    /// Called at the end of every accepted step and at every static equilibrium: internal state (turns, slip, warm starts) moves on here
+    /// only.
+    ///
+    /// # Errors
+    /// A motion that the element's model does not cover: the run ends with this message.
+    fn commit(&mut self, _view: &View<'_>) -> Result<(), ElementFailure> {
+        Ok(())
+    }
 
     /// Appends the internal state, as plain numbers, always as many.
     fn save(&self, _out: &mut Vec<f64>) {}

@@ -6,6 +6,7 @@
 //! along axis i           e_iᵀ u
 //! axes i of A, k of B    e_iᵀ Q e_k          zero when the axes are perpendicular
 //! angle about z          a (relative_angle.rs)
+//! polar angle            β of u about z (polar_angle.rs)
 //!
 //! Σ factor · coordinate − offset − f(t) = 0
 //! ```
@@ -17,6 +18,7 @@ use nalgebra::{Matrix3, SVector, Vector3};
 
 use crate::body::BodyId;
 use crate::error::DynamicsError;
+use crate::polar_angle::PolarAngle;
 use crate::relative_angle::RelativeAngle;
 use crate::relative_motion::{Jacobian, Marker, MarkerPair, PairTangent, RelativeMotion};
 use crate::rotation::skew;
@@ -60,6 +62,7 @@ enum Coordinate {
     Along(usize),
     Axes { of_a: usize, of_b: usize },
     Angle,
+    Polar,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -84,7 +87,16 @@ pub struct Joint {
     name: String,
     pairs: Vec<MarkerPair>,
     angles: Vec<RelativeAngle>,
+    /// One a pair where an equation has a polar angle, none otherwise.
+    polars: Vec<PolarAngle>,
     equations: Vec<Equation>,
+}
+
+/// Derivatives of unit loads: of moments by the relative rotation, of forces by the displacement.
+#[derive(Default)]
+struct UnitSlope {
+    by_rotation: Matrix3<f64>,
+    by_displacement: Matrix3<f64>,
 }
 
 /// The part of one marker pair in the gradient of one equation.
@@ -168,10 +180,40 @@ impl Joint {
         Self::assembled(name, vec![first.0, second.0], vec![equation])
     }
 
+    /// Lets B roll on the outside of A without slip, wherever their parallel z axes go: with φ their turns, β the polar angle of the line of
+    /// centres and radii in the ratio r_A : r_B,
+    ///
+    /// ```text
+    /// r_A (φ_A − β) + r_B (φ_B − β) = r_B γ − (r_A + r_B) β_A = what it is at the start
+    /// ```
+    ///
+    /// γ: turn of B against A, β_A: β seen in A. The reaction is the tangential force where the circles touch, which bearings feel.
+    #[must_use]
+    pub fn rolling(name: &str, pair: MarkerPair, [radius_a, radius_b]: [f64; 2]) -> Self {
+        let term = |coordinate, factor| Term {
+            pair: 0,
+            coordinate,
+            factor,
+        };
+        let equation = Equation {
+            terms: vec![
+                term(Coordinate::Angle, radius_b),
+                term(Coordinate::Polar, -radius_a - radius_b),
+            ],
+            offset: 0.0,
+            starts_here: true,
+            motion: None,
+        };
+        Self::assembled(name, vec![pair], vec![equation])
+    }
+
     fn assembled(name: &str, pairs: Vec<MarkerPair>, equations: Vec<Equation>) -> Self {
+        let mut terms = equations.iter().flat_map(|equation| &equation.terms);
+        let rolls = terms.any(|term| term.coordinate == Coordinate::Polar);
         Self {
             name: name.to_owned(),
             angles: vec![RelativeAngle::default(); pairs.len()],
+            polars: vec![PolarAngle::default(); if rolls { pairs.len() } else { 0 }],
             pairs,
             equations,
         }
@@ -218,6 +260,9 @@ impl Joint {
         for (pair, angle) in self.pairs.iter().zip(&mut self.angles) {
             angle.begin(&pair.motion(&motion(pair.a.body), &motion(pair.b.body)));
         }
+        for (pair, polar) in self.pairs.iter().zip(&mut self.polars) {
+            polar.begin(&pair.motion(&motion(pair.a.body), &motion(pair.b.body)));
+        }
         for index in 0..self.equations.len() {
             if self.equations[index].starts_here {
                 self.equations[index].offset = 0.0;
@@ -239,18 +284,26 @@ impl Joint {
             for (pair, angle) in self.pairs.iter().zip(&mut self.angles) {
                 angle.commit(&pair.motion(&motion(pair.a.body), &motion(pair.b.body)));
             }
+            for (pair, polar) in self.pairs.iter().zip(&mut self.polars) {
+                polar.commit(&pair.motion(&motion(pair.a.body), &motion(pair.b.body)));
+            }
         }
     }
 
     /// Numbers that a checkpoint needs: angles and offsets.
     pub(crate) fn save(&self, out: &mut Vec<f64>) {
         out.extend(self.angles.iter().map(RelativeAngle::committed_rad));
+        out.extend(self.polars.iter().map(PolarAngle::committed_rad));
         out.extend(self.equations.iter().map(|equation| equation.offset));
     }
 
     /// Takes what [`Self::save`] wrote; `numbers` is exactly that long.
     pub(crate) fn restore(&mut self, numbers: &[f64]) {
-        let (angles, offsets) = numbers.split_at(self.angles.len());
+        let (angles, rest) = numbers.split_at(self.angles.len());
+        let (polars, offsets) = rest.split_at(self.polars.len());
+        for (polar, &number) in self.polars.iter_mut().zip(polars) {
+            polar.restore(number);
+        }
         for (angle, &number) in self.angles.iter_mut().zip(angles) {
             angle.restore(number);
         }
@@ -261,7 +314,7 @@ impl Joint {
 
     /// Length of what [`Self::save`] writes.
     pub(crate) fn saved(&self) -> usize {
-        self.angles.len() + self.equations.len()
+        self.angles.len() + self.polars.len() + self.equations.len()
     }
 
     /// f(t) of an equation with its derivatives; zero if nothing is prescribed.
@@ -299,20 +352,20 @@ impl Joint {
             Coordinate::Along(axis) => motion.displacement_m[axis],
             Coordinate::Axes { of_a, of_b } => motion.rotation[(of_a, of_b)],
             Coordinate::Angle => self.angles[term.pair].value(motion),
+            Coordinate::Polar => self.polars[term.pair].value(motion),
         }
     }
 
-    /// Load (f, μ) of one unit of λ in an equation on a pair; its derivative by the relative rotation is added to `slope`,
-    /// multiplied by `lambda`.
+    /// Load (f, μ) of one unit of λ in an equation on a pair; its derivatives are added to `slope`, multiplied by `lambda`.
     fn unit_load(
         &self,
         equation: usize,
         pair: usize,
         motion: &RelativeMotion,
-        slope: Option<(&mut Matrix3<f64>, f64)>,
+        slope: Option<(&mut UnitSlope, f64)>,
     ) -> SVector<f64, 6> {
         let mut load = SVector::<f64, 6>::zeros();
-        let mut curvature = Matrix3::zeros();
+        let mut curvature = UnitSlope::default();
         for term in self.equations[equation]
             .terms
             .iter()
@@ -327,20 +380,30 @@ impl Joint {
                     moment += term.factor * c.cross(&e);
                     if slope.is_some() {
                         // c × e with dc = φ × c
-                        curvature += term.factor * skew(&e) * skew(&c);
+                        curvature.by_rotation += term.factor * skew(&e) * skew(&c);
                     }
                 }
                 Coordinate::Angle => {
                     let mut moment = load.fixed_rows_mut::<3>(3);
                     moment += term.factor * RelativeAngle::gradient(motion);
                     if slope.is_some() {
-                        curvature += term.factor * RelativeAngle::gradient_slope(motion);
+                        curvature.by_rotation +=
+                            term.factor * RelativeAngle::gradient_slope(motion);
+                    }
+                }
+                Coordinate::Polar => {
+                    let mut force = load.fixed_rows_mut::<3>(0);
+                    force += term.factor * PolarAngle::gradient(motion);
+                    if slope.is_some() {
+                        curvature.by_displacement +=
+                            term.factor * PolarAngle::gradient_slope(motion);
                     }
                 }
             }
         }
         if let Some((slope, lambda)) = slope {
-            *slope += lambda * curvature;
+            slope.by_rotation += lambda * curvature.by_rotation;
+            slope.by_displacement += lambda * curvature.by_displacement;
         }
         load
     }
@@ -377,14 +440,20 @@ impl Joint {
         jacobian: &Jacobian,
     ) -> PairTangent {
         let mut load = SVector::<f64, 6>::zeros();
-        let mut slope = Matrix3::zeros();
+        let mut slope = UnitSlope::default();
         for (equation, &lambda) in lambda.iter().enumerate() {
             if lambda != 0.0 {
                 load += lambda * self.unit_load(equation, pair, motion, Some((&mut slope, lambda)));
             }
         }
         let turns = jacobian.fixed_rows::<3>(3);
-        motion.geometric_tangent(jacobian, &load) + turns.transpose() * (slope * turns)
+        let tangent = motion.geometric_tangent(jacobian, &load)
+            + turns.transpose() * (slope.by_rotation * turns);
+        if self.polars.is_empty() {
+            return tangent;
+        }
+        let moves = jacobian.fixed_rows::<3>(0);
+        tangent + moves.transpose() * (slope.by_displacement * moves)
     }
 
     /// Calls `visit` with every equation on one pair.

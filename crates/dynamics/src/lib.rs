@@ -7,12 +7,12 @@
 //! | which motions do joints leave, prescribe or couple | [`Joint`], [`JointKind`], [`Motion`] | `joint.rs` |
 //! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs` |
 //! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
-//! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs` |
+//! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs`, `polar_angle.rs` |
 //! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
-//! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `scheme.rs` |
+//! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `convergence.rs`, `scheme.rs` |
 //! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
 //! | does the energy balance | [`EnergyBalance`] | `energy.rs` |
-//! | where does the system stand still | [`equilibrium`] | `statics.rs` |
+//! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `unbalanced.rs` |
 //! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs` |
 //!
 //! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
@@ -23,6 +23,7 @@ pub mod body;
 pub mod builder;
 pub mod checkpoint;
 pub mod constraints;
+mod convergence;
 mod dense_lu;
 pub mod eigen;
 pub mod elements;
@@ -34,6 +35,7 @@ pub mod initial;
 mod integrator;
 pub mod joint;
 mod matrix;
+mod polar_angle;
 pub mod relative_angle;
 pub mod relative_motion;
 pub mod rotation;
@@ -48,12 +50,13 @@ pub mod table;
 #[cfg(test)]
 mod tangent_tests;
 pub mod time_function;
+mod unbalanced;
 
 pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;
 pub use checkpoint::Checkpoint;
 pub use constraints::Redundancy;
-pub use eigen::{NaturalMode, natural_modes};
+pub use eigen::{NaturalMode, natural_modes, strain_shares};
 pub use elements::{Channel, ForceElement, Loads, Power, View};
 pub use energy::{Energy, EnergyBalance};
 pub use error::{DynamicsError, ElementFailure};

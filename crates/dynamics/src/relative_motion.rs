@@ -169,6 +169,12 @@ impl RelativeMotion {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation))
     }
 
+    /// A vector in A axes in world axes.
+    #[must_use]
+    pub fn to_world(&self, in_a: &Vector3<f64>) -> Vector3<f64> {
+        self.a_from_world.tr_mul(in_a)
+    }
+
     /// J: derivative of (u, rotation of B against A in A axes) by the increments of both bodies, and of (u̇, ω) by their velocities.
     #[must_use]
     pub fn jacobian(&self) -> Jacobian {

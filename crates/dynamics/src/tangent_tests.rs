@@ -274,6 +274,24 @@ fn coupled_angles_have_exact_tangents() {
 }
 
 #[test]
+fn rolling_has_exact_tangents_and_does_no_work() {
+    for (seed, on_ground) in [(7, true), (8, false)] {
+        let random = &mut Random(seed);
+        let mut builder = System::builder();
+        let a = builder.body(body("a", 0, random)).unwrap();
+        let b = builder.body(body("b", 1, random)).unwrap();
+        let mut pair = pair(random, if on_ground { GROUND } else { a }, b);
+        // Axes apart: differences of a polar angle lose their figures close to the axis, with the cube of the distance.
+        pair.a.position_m += Vector3::new(-1.5, 0.4, 0.0);
+        builder.joint(Joint::rolling("rolling", pair, [0.3, 0.7]));
+        let mut case = Case::new(builder.build().unwrap(), random);
+        case.check_tangents("rolling");
+        case.check_gradient_rate("rolling");
+        case.check_energy("rolling");
+    }
+}
+
+#[test]
 fn force_elements_have_exact_tangents_and_keep_their_energy() {
     let random = &mut Random(91);
     let root = Matrix6::from_fn(|_, _| random.next());

@@ -38,21 +38,32 @@ pub fn schema() -> schemars::Schema {
 #[schemars(title = "gearmesh gear")]
 #[serde(deny_unknown_fields)]
 struct GearFile {
+    /// Name in prints and files.
     name: String,
+    /// The teeth.
     tooth: tooth_table::ToothTable,
+    /// The body below them.
     blank: blank_table::BlankTable,
+    /// Material.
     material: material_table::MaterialTable,
+    /// Material removed from the flanks; none where not given.
     #[serde(default)]
     microgeometry: microgeometry_table::MicrogeometryTable,
+    /// Element and element lengths.
     #[serde(default)]
     mesh: mesh_table::MeshTable,
+    /// What the reduction computes.
     #[serde(default)]
     reduction: reduction_table::ReductionTable,
+    /// Which natural modes the reduced gear keeps; none where not given.
     modes: Option<modes_table::ModesTable>,
+    /// How the bore is held.
     #[serde(default)]
     hub: hub_table::HubTable,
+    /// Strain gauges in the tooth roots.
     #[serde(default)]
     gauge: Vec<gauge_table::GaugeTable>,
+    /// Crack in a tooth root; none where not given.
     crack: Option<crack_table::CrackTable>,
 }
 

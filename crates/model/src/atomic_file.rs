@@ -12,13 +12,20 @@ use crate::file_error::FileError;
 /// # Errors
 /// [`FileError::NotARegularFile`], [`FileError::Io`]; `path` is then as it was.
 pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a file of bytes.
+///
+/// # Errors
+/// [`FileError::NotARegularFile`], [`FileError::Io`]; `path` is then as it was.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_atomically(path, |_, file| {
-        file.write_all(text.as_bytes())
-            .map_err(|source| FileError::Io {
-                path: path.to_owned(),
-                action: "write",
-                source,
-            })
+        file.write_all(bytes).map_err(|source| FileError::Io {
+            path: path.to_owned(),
+            action: "write",
+            source,
+        })
     })
 }
 

@@ -64,6 +64,7 @@ pub fn write_columns(
         named.put(format!("{GROUP}/{name}"), place);
     }
     named.check_names(path)?;
+    tree.check_numbers(path)?;
     let staging = log.folder().to_owned();
     write_atomically_from(&staging, path, |temporary, handle| {
         tree.fill(path, temporary, format, |file| {

@@ -16,14 +16,32 @@ impl DataTree {
     /// Writes the tree as a sealed HDF5 file, atomically.
     ///
     /// # Errors
-    /// [`FileError::InvalidName`], [`FileError::NulInText`], [`FileError::NotARegularFile`], and where the disk or
-    /// libhdf5 refuses [`FileError::Io`] or [`FileError::Hdf5`]; an older file of that name is then untouched.
+    /// [`FileError::InvalidName`], [`FileError::NotANumber`], [`FileError::NulInText`], [`FileError::NotARegularFile`], and where the disk
+    /// or libhdf5 refuses [`FileError::Io`] or [`FileError::Hdf5`]; an older file of that name is then untouched.
     pub fn write(&self, path: &Path, format: &FileFormat) -> Result<(), FileError> {
         self.check_names(path)?;
+        self.check_numbers(path)?;
         write_atomically(path, |temporary, handle| {
             self.fill(path, temporary, format, |_| Ok(()))?;
             write_seal(handle, path)
         })
+    }
+
+    /// A file that is complete holds numbers only: what could not be computed is told before it is written.
+    pub(crate) fn check_numbers(&self, path: &Path) -> Result<(), FileError> {
+        for (name, array) in &self.arrays {
+            let Values::F64(values) = &array.values else {
+                continue;
+            };
+            if let Some(index) = values.iter().position(|value| value.is_nan()) {
+                return Err(FileError::NotANumber {
+                    path: path.to_owned(),
+                    item: name.clone(),
+                    index,
+                });
+            }
+        }
+        Ok(())
     }
 
     pub(crate) fn check_names(&self, path: &Path) -> Result<(), FileError> {

@@ -166,6 +166,16 @@ pub enum FileError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// An array that is to be written holds something that is no number.
+    #[error("entry {index} of `{item}` is not a number: {} was not written", path.display())]
+    NotANumber {
+        /// The file.
+        path: PathBuf,
+        /// The array.
+        item: String,
+        /// Place in it.
+        index: usize,
+    },
     /// A text that HDF5 cannot hold.
     #[error("the text \"{item}\" of {} contains a NUL character; remove it", path.display())]
     NulInText {

@@ -43,7 +43,7 @@ mod seal;
 pub mod synthetic;
 mod timestamp;
 
-pub use atomic_file::{wait_for_writes, write_text};
+pub use atomic_file::{wait_for_writes, write_bytes, write_text};
 pub use cell_kind::CellKind;
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};

@@ -226,7 +226,7 @@ fn wrong_shapes_types_and_values() {
     ));
     let poison = |array: &mut DataArray| {
         if let Values::F64(values) = &mut array.values {
-            values[3] = f64::NAN;
+            values[3] = f64::INFINITY;
         }
     };
     for name in [
@@ -243,7 +243,7 @@ fn wrong_shapes_types_and_values() {
         let error = with(name, &poison);
         let message = error.to_string();
         assert!(matches!(error, FileError::ReducedGear { .. }), "{message}");
-        assert!(message.contains("NaN at index 3"), "{message}");
+        assert!(message.contains("inf at index 3"), "{message}");
     }
     let mut gear = small_reduced_gear();
     gear.c_hub[0] = f64::NAN;
@@ -251,4 +251,28 @@ fn wrong_shapes_types_and_values() {
         write_reduced_gear(path, &gear),
         Err(FileError::ReducedGear { .. })
     ));
+}
+
+/// What is no number is not written as one: the file is not there, or the older one stays.
+#[test]
+fn a_tree_with_something_that_is_no_number_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    let format = FileFormat {
+        name: "test",
+        version: 1,
+    };
+    let mut tree = DataTree::default();
+    let values =
+        |values: [f64; 2]| DataArray::new(Values::F64(values.into()), &[("row", 2)], "m", "");
+    tree.put("sound", values([1.0, f64::INFINITY]));
+    tree.write(&path, &format).unwrap();
+    let before = std::fs::read(&path).unwrap();
+    tree.put("group/poisoned", values([1.0, f64::NAN]));
+    let error = tree.write(&path, &format).unwrap_err();
+    assert!(
+        matches!(&error, FileError::NotANumber { item, index: 1, .. } if item == "group/poisoned"),
+        "{error}"
+    );
+    assert_eq!(std::fs::read(&path).unwrap(), before);
 }

@@ -164,7 +164,8 @@ mod tests {
     fn without_friction_the_methods_differ_by_the_submodels_strain() {
         let model = small_reduced_gear();
         let gauge = &model.gauges[0];
-        let reader = GaugeReader::new(&model, gauge, Flank::Right, &AxialSpread::own(&model)).unwrap();
+        let reader =
+            GaugeReader::new(&model, gauge, Flank::Right, &AxialSpread::own(&model)).unwrap();
         let forces: Vec<f64> = (0..model.grid.slices)
             .map(|k| 100.0 + 30.0 * k as f64)
             .collect();

@@ -20,10 +20,11 @@ function logSplits(u, axisIndex, min, max) {
 const logAxis = { size: 64, splits: logSplits, filter: (u, splits) => splits, values: (u, splits) => splits.map(power) };
 
 // The toolbar, the chart made anew for every theme and width, and the legend for the keyboard.
-function chart(figure, place, hint, data, optionsFor, window) {
+function chart(figure, place, hint, data, optionsFor, window, d) {
   let plot = null, shown = null, range = window;
   const reset = () => { range = null; draw(); };
-  place.before(element("div", { className: "tools" }, element("span", { className: "hint", textContent: hint }), button("Show all", reset)));
+  place.before(element("div", { className: "tools" }, element("span", { className: "hint", textContent: hint }), button("Show all", reset),
+    ...downloads(figure, { PNG: () => chartPng(figure, plot), SVG: () => chartSvg(figure, plot, d), CSV: () => chartCsv(plot) })));
   place.setAttribute("role", "group");
   place.setAttribute("aria-label", figure.querySelector("figcaption").textContent);
 
@@ -104,7 +105,7 @@ function lineChart(figure, place, d) {
     focus: { alpha: 0.5 },
     cursor: { drag: { x: true, y: true, uni: 40 }, focus: { prox: 14 }, points: { size: 6 } },
   });
-  chart(figure, place, "Drag to zoom, double click for all, click a name to switch a curve.", data, options, d.window);
+  chart(figure, place, "Drag to zoom, double click for all, click a name to switch a curve.", data, options, d.window, d);
 }
 
 function spectrumChart(figure, place, d) {
@@ -148,5 +149,5 @@ function spectrumChart(figure, place, d) {
     cursor: { drag: { x: true, y: false }, points: { show: false } },
     hooks: { draw: [stems] },
   });
-  chart(figure, place, "Amplitude of the cosine. Drag to zoom, double click for all, click a name to switch a signal.", data, options, null);
+  chart(figure, place, "Amplitude of the cosine. Drag to zoom, double click for all, click a name to switch a signal.", data, options, null, d);
 }

@@ -31,13 +31,36 @@ function fieldPicture(figure, place, d) {
     element("label", {}, lines, "mesh"),
     element("label", {}, `colours to [${d.unit}]`, limit),
     button("Largest value", () => { view = { x: peak.x, y: peak.y, width: Math.max(box.width / 12, d.step * 200) }; request(); }),
-    button("Show all", () => { view = null; request(); })));
+    button("Show all", () => { view = null; request(); }),
+    ...downloads(figure, { PNG: () => canvasesToPng(figure, [canvas, bar]), SVG: fieldSvg, CSV: fieldCsv })));
   place.append(element("div", { className: "field" }, element("div", { className: "plane" }, canvas), bar), readout);
   if (d.window) view = { ...d.window };
   rest();
 
   function rest() { readout.textContent = `${d.quantity}: least ${number(least)}, largest ${number(largest)} ${d.unit} at x ${number(peak.x)}, y ${number(peak.y)} mm`; }
 
+  // All elements, the colours those of the bar.
+  function fieldSvg() {
+    const all = bounds(), f = 900 / all.width, w = 900, h = Math.ceil(all.height * f), x0 = all.x - all.width / 2, y1 = all.y + all.height / 2;
+    const fill = v => `rgb(${mapColour(VIRIDIS, (v - low) / (high - low)).join(",")})`, out = [];
+    for (let q = 0; q < quadCount; q++) {
+      const n = [0, 1, 2, 3].map(k => quads[4 * q + k]);
+      const v = d.perNode ? n.reduce((s, k) => s + values[k], 0) / 4 : values[q];
+      out.push(`<polygon points='${n.map(k => `${((X[k] - x0) * f).toFixed(2)},${((y1 - Y[k]) * f + 30).toFixed(2)}`).join(" ")}' fill='${fill(v)}' stroke='${fill(v)}' stroke-width='0.3'/>`);
+    }
+    const words = `${figureTitle(figure)}: ${d.quantity}, ${number(low)} (dark) to ${number(high)} ${d.unit} (light)`;
+    return `<svg xmlns='http://www.w3.org/2000/svg' width='${w}' height='${h + 34}' viewBox='0 0 ${w} ${h + 34}'><rect width='100%' height='100%' fill='white'/>` +
+      `<text x='8' y='18' ${SVG_FONT}>${escapeXml(words)}</text>${out.join("")}</svg>`;
+  }
+  function fieldCsv() {
+    const rows = [`x_mm,y_mm,${csvCell(`${d.quantity} [${d.unit}]`)}`];
+    if (d.perNode) for (let i = 0; i < count; i++) rows.push(`${X[i]},${Y[i]},${values[i]}`);
+    else for (let q = 0; q < quadCount; q++) {
+      const n = [0, 1, 2, 3].map(k => quads[4 * q + k]);
+      rows.push(`${n.reduce((s, k) => s + X[k], 0) / 4},${n.reduce((s, k) => s + Y[k], 0) / 4},${values[q]}`);
+    }
+    return rows.join("\n") + "\n";
+  }
   function peakPlace() {
     let best = 0;
     for (let i = 1; i < values.length; i++) if (values[i] > values[best]) best = i;

@@ -6,13 +6,17 @@
 //! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
 //! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
 //! | a curve of many points | fewer of them without losing a peak | [`min_max`] |
+//! | results | tables for other programs: CSV, Parquet, MATLAB | [`export`] |
 //! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] (`system_page.rs` for multibody scenes) |
 //!
 //! [`page`] knows nothing of gears: it draws what it is given.
 
 pub mod comparison;
 mod comparison_table;
+mod contact_pattern;
+pub mod export;
 pub mod min_max;
+pub mod overlay;
 pub mod page;
 pub mod pair_orders;
 mod peak_view;
@@ -34,3 +38,4 @@ pub use comparison_table::comparison_table;
 pub use pair_orders::{PairOrders, Shaft};
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};
+pub use short_number::{short, usual_unit};

@@ -35,6 +35,7 @@ use std::fmt::Write as _;
 
 const STYLE: &str = include_str!("../assets/page.css");
 const CHART_SCRIPT: &str = include_str!("../assets/charts.js");
+const DOWNLOAD_SCRIPT: &str = include_str!("../assets/download.js");
 const FIELD_SCRIPT: &str = include_str!("../assets/field.js");
 const PAGE_SCRIPT: &str = include_str!("../assets/page.js");
 const UPLOT_SCRIPT: &str = include_str!("../assets/uPlot-1.6.32.iife.min.js");
@@ -219,6 +220,13 @@ impl Page {
         self
     }
 
+    /// Puts a section before all others.
+    #[must_use]
+    pub fn first_section(mut self, section: Section) -> Self {
+        self.sections.insert(0, section);
+        self
+    }
+
     /// Adds a section at the end.
     #[must_use]
     pub fn section(mut self, section: Section) -> Self {
@@ -265,7 +273,7 @@ impl Page {
         let _ = write!(
             html,
             "<script>\n/* uPlot 1.6.32\n{UPLOT_LICENCE}*/\n{UPLOT_SCRIPT}\n</script>\n\
-             <script>\n\"use strict\";\n{PAGE_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n</script>\n</body>\n</html>\n"
+             <script>\n\"use strict\";\n{PAGE_SCRIPT}\n{DOWNLOAD_SCRIPT}\n{CHART_SCRIPT}\n{FIELD_SCRIPT}\n</script>\n</body>\n</html>\n"
         );
         Ok(html)
     }

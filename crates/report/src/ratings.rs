@@ -3,7 +3,7 @@
 use gearmesh_scene::rating::{RatingFigure, RatingResult};
 
 use crate::page::{Align, Section, Table, Text};
-use crate::short_number::short;
+use crate::short_number::{short, usual_unit};
 
 /// The section, where there are ratings.
 pub(crate) fn section(title: &str, ratings: &[RatingResult]) -> Option<Section> {
@@ -42,8 +42,10 @@ fn table(rated: &RatingResult) -> Table {
 fn in_usual_units(figure: &RatingFigure) -> (String, &'static str) {
     match (figure.unit, figure.value) {
         (_, value) if value == f64::INFINITY => ("no damage".to_owned(), ""),
-        ("Pa", value) => (short(1e-6 * value), "MPa"),
         ("1", value) => (short(value), ""),
-        (unit, value) => (short(value), unit),
+        (unit, value) => {
+            let (factor, unit) = usual_unit(unit, value.abs());
+            (short(factor * value), unit)
+        }
     }
 }

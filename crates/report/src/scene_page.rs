@@ -1,6 +1,7 @@
 //! The report page of one or more results.
 
 use crate::comparison_table;
+use crate::contact_pattern;
 use crate::page::{
     Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
     PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
@@ -81,6 +82,9 @@ pub fn scene_page(
             .section(overview(r))
             .section(transmission_error(chapter))
             .section(contact(r));
+        if let Some(section) = contact_pattern::section(r) {
+            page = page.section(section);
+        }
         if !r.strain.is_empty() {
             page = page.section(root_strain(chapter));
         }

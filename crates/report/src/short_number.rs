@@ -1,13 +1,47 @@
-//! Numbers of tables.
+//! Numbers of tables: usual units, few digits.
 
-/// Three to four digits.
-pub(crate) fn short(value: f64) -> String {
+/// Four digits or all before the point; a power of ten only where zeros would hide the number.
+#[must_use]
+pub fn short(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
-    } else if !(1e-3..1e5).contains(&value.abs()) {
+    } else if !(1e-3..1e7).contains(&value.abs()) {
         format!("{value:.3e}")
     } else {
-        let digits = (3 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 6);
+        let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 6);
         format!("{value:.*}", digits as usize)
+    }
+}
+
+/// The unit in which an engineer reads a quantity whose largest amount is `largest`, and the factor that brings it there: stress and pressure
+/// in MPa, line load and stiffness in N/mm, small lengths in µm or mm.
+#[must_use]
+pub fn usual_unit(unit: &'static str, largest: f64) -> (f64, &'static str) {
+    match unit {
+        "Pa" => (1e-6, "MPa"),
+        "N/m" => (1e-3, "N/mm"),
+        "m" if largest < 1e-3 => (1e6, "µm"),
+        "m" if largest < 1.0 => (1e3, "mm"),
+        _ => (1.0, unit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_and_stresses_are_read_without_powers_of_ten() {
+        assert_eq!(short(2812.345), "2812");
+        assert_eq!(short(215_776.6), "215777");
+        assert_eq!(short(-0.012_345_6), "-0.01235");
+        assert_eq!(short(3.2e-9), "3.200e-9");
+        let (factor, unit) = usual_unit("Pa", 2.157_765e7);
+        assert_eq!(
+            (short(factor * 2.157_765e7), unit),
+            ("21.58".to_owned(), "MPa")
+        );
+        assert_eq!(usual_unit("m", 3e-5), (1e6, "µm"));
+        assert_eq!(usual_unit("N", 3e5), (1.0, "N"));
     }
 }

@@ -18,9 +18,8 @@ use gearmesh_model::FileError;
 use gearmesh_scene::system_run::SystemResult;
 
 use self::columns::mesh_frequencies;
-use crate::page::{KeyFigures, Section, Text};
+use crate::page::{Section, Text};
 use crate::ratings;
-use crate::short_number::short;
 
 /// All sections of a result.
 pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
@@ -45,32 +44,27 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
 }
 
 fn overview(r: &SystemResult) -> Result<Section, FileError> {
-    let mut figures = KeyFigures::new();
-    if let Some(record) = &r.record {
-        figures = figures
-            .figure("simulated", format!("{:.4}", record.simulated_s), "s")
-            .figure("real-time factor", short(record.real_time_factor()), "")
-            .figure("steps", format!("{}", record.steps), "")
-            .figure(
-                "joints hold to",
-                format!("{:.1e}", record.largest_violation),
-                "m or rad",
-            )
-            .figure(
-                "energy error",
-                format!("{:.1e}", r.relative_energy_error().unwrap_or(f64::NAN)),
-                "relative",
-            );
+    let mut figures = transient::key_figures(r);
+    if r.record.is_some() {
+        let error = r.relative_energy_error().unwrap_or(f64::NAN);
+        figures = figures.figure("energy error", format!("{error:.1e}"), "of the work done");
     }
     for (name, hz) in mesh_frequencies(r)? {
         figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
     }
     let mut section = Section::new(r.head.title.clone());
+    if let Some(problem) = r.problem() {
+        section = section.push(Text::note(problem));
+    }
     if r.record.is_some() {
         section = section.push(figures);
     }
     if r.kind == "transient" {
-        section = section.push(transient::columns_table(r)?);
+        for table in transient::columns_tables(r)? {
+            if !table.is_empty() {
+                section = section.push(table);
+            }
+        }
     }
     if !r.head.notes.is_empty() {
         section = section.push(Text::preformatted(r.head.notes.join("\n")));

@@ -18,6 +18,7 @@ pub mod system;
 pub mod system_run;
 
 pub use pair::{
-    LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries, load, run,
+    ContactPlaces, LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries,
+    load, run,
 };
 pub use scene_file::SceneFile;

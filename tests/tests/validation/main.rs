@@ -2,11 +2,13 @@
 //! once and long tests run beside each other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod analytic_tooth;
 mod friction_at_the_root;
 mod gear_modes;
 mod graded_tooth;
 mod line_load;
 mod mesh_convergence;
+mod mesh_error_estimate;
 mod plane_strain_deflection;
 mod slice_deflection;
 mod solid_pair_transmission_error;

@@ -3,16 +3,17 @@
 use crate::arguments::DemoArguments;
 use crate::commands::report::write_page;
 use crate::commands::run::transmission_error;
+use crate::commands::stress_picture::picture;
 use crate::console;
 use crate::failure::Failure;
-use crate::offline::{self, FieldCase};
+use crate::offline;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_model::write_reduced_gear;
 use gearmesh_reduction::GearBody;
 use gearmesh_report::scene_comparison::compare_scene;
-use gearmesh_report::scene_page::{GearPicture, SceneChapter};
+use gearmesh_report::scene_page::SceneChapter;
 use gearmesh_report::{Quantity, ReferenceRecord};
-use gearmesh_scene::{LoadedScene, Scene, SceneResult, load, run as run_scene};
+use gearmesh_scene::{Scene, SceneResult, load, run as run_scene};
 use gearmesh_signal::AngleSeries;
 use gearmesh_signal::rig::{OrderFilter, RigSettings, process};
 use gearmesh_signal::statistics::peak_to_peak;
@@ -69,7 +70,7 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
             result.angles() * result.torque_nm.len(),
             result.strain.len()
         ));
-        let picture = picture(&loaded, &result, &definition, &body)?;
+        let picture = picture(&loaded, &result, (2, &definition, &body))?;
         clock.lap(format!("{pair}: stress field for the report"));
         let record = ReferenceRecord::read(&records.join(pair)).map_err(Failure::input)?;
         print_table(&result, &record)?;
@@ -111,53 +112,6 @@ fn reduce_gear(
         model.provenance.dofs
     ));
     Ok((gear, body))
-}
-
-/// The driven gear's von Mises stress at the largest torque, first position: the largest value over the width in each
-/// quad of the cross-section.
-fn picture(
-    loaded: &LoadedScene,
-    result: &SceneResult,
-    definition: &GearDefinition,
-    body: &GearBody,
-) -> Result<GearPicture, Failure> {
-    let torque = result.torque_nm.len() - 1;
-    let field = offline::field_of(
-        loaded,
-        result,
-        definition,
-        body,
-        FieldCase {
-            gear: 2,
-            torque,
-            angle: 0,
-        },
-    )?;
-    let section = &body.mesh.section;
-    let values = (0..section.quads.len())
-        .map(|quad| {
-            let layers = 0..body.mesh.layers.count();
-            layers
-                .filter_map(|layer| body.mesh.element(quad, layer))
-                .map(|element| field.von_mises_pa[element as usize] * 1e-6)
-                .fold(0.0, f64::max)
-        })
-        .collect();
-    Ok(GearPicture {
-        title: format!(
-            "{}, {} N m, driver angle {:.2} deg: largest von Mises stress over the width",
-            definition.name,
-            result.torque_nm[torque],
-            result.angle_rad[0].to_degrees()
-        ),
-        nodes_mm: section
-            .nodes
-            .iter()
-            .map(|p| [p[0] * 1e3, p[1] * 1e3])
-            .collect(),
-        quads: section.quads.iter().map(|q| q.map(|n| n as u32)).collect(),
-        von_mises_mpa: values,
-    })
 }
 
 /// Amplitude of an order of the transmission error \[m\], through the rig pipeline.

@@ -1,8 +1,9 @@
 //! `gearmesh modes`: natural frequencies and shapes with the bore held.
 
-use crate::arguments::{LengthUnit, ModesArguments};
+use crate::arguments::ModesArguments;
 use crate::console::StageBar;
 use crate::failure::Failure;
+use crate::length_unit::LengthUnit;
 use crate::offline::MeshFields;
 use crate::{console, offline, output_name};
 use gearmesh_geometry::{GearDefinition, ModeRange};

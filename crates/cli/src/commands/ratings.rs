@@ -1,7 +1,9 @@
 //! Ratings of a run as warnings, lines and JSON.
 
 use crate::console;
+use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
+use gearmesh_scene::system_run::split_unit;
 use serde_json::{Value, json};
 
 /// Tells what could not be judged.
@@ -23,8 +25,14 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
         let missing = rated.incomplete.iter();
         lines.extend(missing.map(|missing| format!("  {missing}")));
         lines.extend(rated.figures.iter().map(|figure| {
-            let (name, value) = (figure.name, figure.value);
-            format!("  {name:<28} {value:>13.6e}  {}", figure.description)
+            let (factor, unit) = usual_unit(figure.unit, figure.value.abs());
+            let unit = if unit == "1" { "" } else { unit };
+            let value = match figure.value {
+                f64::INFINITY => "no damage".to_owned(),
+                value => short(factor * value),
+            };
+            let (stem, _) = split_unit(figure.name);
+            format!("  {stem:<28} {value:>10} {unit:<4} {}", figure.description)
         }));
     }
     lines

@@ -1,8 +1,9 @@
 //! `gearmesh recover`: strain of all gauges of both models; the whole field on request.
 
-use crate::arguments::{LengthUnit, RecoverArguments};
+use crate::arguments::RecoverArguments;
 use crate::commands::periods;
 use crate::failure::Failure;
+use crate::length_unit::LengthUnit;
 use crate::offline::{self, FieldCase};
 use crate::{console, console::StageBar, output_name};
 use gearmesh_geometry::GearDefinition;

@@ -1,15 +1,19 @@
 //! `gearmesh report`: one HTML page for one or more results.
 
+use super::recover::scene_of;
+use super::stress_picture::pictures;
 use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_model::{FileError, write_text};
 use gearmesh_report::ReferenceRecord;
+use gearmesh_report::overlay::{overlaid_pairs, overlaid_systems};
+use gearmesh_report::page::Page;
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::system_run::SystemResult;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs the command.
 pub fn run(a: &ReportArguments) -> Result<(), Failure> {
@@ -22,6 +26,9 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
         )));
     }
     let (mut chapters, mut systems) = (Vec::new(), Vec::new());
+    let files = file_names(&a.results);
+    // Of pairs, of multibody results.
+    let mut names = [Vec::new(), Vec::new()];
     for (k, path) in a.results.iter().enumerate() {
         match SystemResult::open(path) {
             Ok(result) => {
@@ -32,6 +39,7 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
                     )));
                 }
                 systems.push(result);
+                names[1].push(files[k].clone());
                 continue;
             }
             Err(FileError::WrongFormat { .. }) => {}
@@ -42,13 +50,45 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
             Some(folder) => Some(ReferenceRecord::read(folder).map_err(Failure::input)?),
             None => None,
         };
+        names[0].push(files[k].clone());
+        let pictures = if a.stress {
+            let (pictures, left_out) = pictures(&scene_of(&result, path)?, &result)?;
+            left_out.iter().for_each(console::note);
+            pictures
+        } else {
+            Vec::new()
+        };
         chapters.push(SceneChapter {
             result,
             record,
-            pictures: Vec::new(),
+            pictures,
         });
     }
-    write_page(&chapters, &systems, &a.output)
+    let page = scene_page(&chapters, &systems).map_err(Failure::work)?;
+    let pairs = chapters.iter().zip(&names[0]);
+    let pairs: Vec<_> = pairs.map(|(c, name)| (name.clone(), &c.result)).collect();
+    let others: Vec<_> = names[1].iter().cloned().zip(&systems).collect();
+    let overlaid = overlaid_systems(&others).map_err(Failure::work)?;
+    let sections = overlaid.into_iter().chain(overlaid_pairs(&pairs));
+    write(sections.fold(page, Page::first_section), &a.output)
+}
+
+/// Names of files as a chart tells them apart: bare, or as given where two are alike.
+fn file_names(files: &[PathBuf]) -> Vec<String> {
+    let bare = |path: &PathBuf| {
+        path.file_name()
+            .map_or(path.display().to_string(), |n| n.to_string_lossy().into())
+    };
+    let all: Vec<String> = files.iter().map(bare).collect();
+    let alone = |name: &String| all.iter().filter(|other| *other == name).count() == 1;
+    if all.iter().all(alone) {
+        all.clone()
+    } else {
+        files
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect()
+    }
 }
 
 /// Renders the page and writes it, beside and renamed.
@@ -57,9 +97,14 @@ pub fn write_page(
     systems: &[SystemResult],
     output: &Path,
 ) -> Result<(), Failure> {
-    let html = scene_page(chapters, systems)
-        .and_then(|page| page.render().map_err(Into::into))
-        .map_err(Failure::work)?;
+    write(
+        scene_page(chapters, systems).map_err(Failure::work)?,
+        output,
+    )
+}
+
+fn write(page: Page, output: &Path) -> Result<(), Failure> {
+    let html = page.render().map_err(Failure::work)?;
     write_text(output, &html).map_err(Failure::work)?;
     console::note(format!(
         "{}: {:.1} MB",

@@ -5,10 +5,11 @@ use crate::commands::ratings;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
+use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
     Advance, ColumnSummary, EigenResult, Outcome, RunJob, RunOptions, RunRecord, SystemResult,
-    is_prominent, run as run_job,
+    is_overdamped, is_prominent, rank, run as run_job, shares_in_words, split_unit,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -20,8 +21,8 @@ const MOST_LINES: usize = 40;
 /// Columns of the tables of sweeps and equilibria.
 const MOST_COLUMNS: usize = 5;
 
-/// Bodies named with a mode.
-const MOST_BODIES: usize = 3;
+/// Bodies and force elements named with a mode.
+const MOST_SHARES: usize = 3;
 
 /// Runs a scene.
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
@@ -66,7 +67,11 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     } else {
         table(&result)?.into_iter().for_each(console::data);
     }
-    Ok(())
+    // The file is kept: it shows where things go wrong.
+    match result.problem() {
+        Some(problem) => Err(Failure::work(problem)),
+        None => Ok(()),
+    }
 }
 
 /// The figures for people.
@@ -109,7 +114,7 @@ fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
             per_step(r.factorisations)
         ),
         format!(
-            "joints hold to {:.1e} m or rad, their rates to {:.1e}; energy balances to {:.2e} J, {:.1e} of the largest energy",
+            "joints hold to {:.1e} m or rad, their rates to {:.1e}; energy balances to {:.2e} J, {:.1e} of the work done",
             r.largest_violation,
             r.largest_violation_rate,
             r.largest_energy_error_j,
@@ -120,25 +125,18 @@ fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
 
 fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut found = result.summaries(is_prominent).map_err(Failure::work)?;
-    let of_a_mesh = |name: &str| {
-        let mut meshes = result.head.meshes.iter();
-        meshes.any(|mesh| name.starts_with(&format!("elements/{}/", mesh.name)))
-    };
-    // Gear meshes, other force elements, speeds.
-    found.sort_by_key(|column| {
-        let name = &column.name[..];
-        (!of_a_mesh(name), !name.starts_with("elements/"))
-    });
-    let width = found
-        .iter()
+    let all = found.len();
+    found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
+    found.sort_by_key(|column| rank(&column.name));
+    let stems = found.iter().map(|column| split_unit(&column.name).0);
+    let width = stems
         .take(MOST_LINES)
-        .map(|column| column.name.chars().count())
-        .max()
-        .unwrap_or(0)
-        .max(6);
+        .map(|stem| stem.chars().count())
+        .max();
+    let width = width.unwrap_or(0).max(6);
     let mut lines = vec![format!(
-        "{:width$} {:>13} {:>13} {:>13} {:>12}",
-        "column", "mean", "deviation", "pk-pk", "dominant Hz"
+        "{:width$} {:<7} {:>11} {:>11} {:>11} {:>12}",
+        "column", "unit", "mean", "deviation", "pk-pk", "dominant Hz"
     )];
     for ColumnSummary {
         name,
@@ -146,16 +144,24 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
         dominant_hz,
     } in found.iter().take(MOST_LINES)
     {
+        let (stem, unit) = split_unit(name);
+        let largest = figures.least.abs().max(figures.largest.abs());
+        let (factor, unit) = usual_unit(unit, largest);
         let dominant = dominant_hz.map_or("-".to_owned(), |hz| format!("{hz:.3}"));
         lines.push(format!(
-            "{name:width$} {:>13.6e} {:>13.6e} {:>13.6e} {dominant:>12}",
-            figures.mean,
-            figures.deviation,
-            figures.peak_to_peak()
+            "{stem:width$} {unit:<7} {:>11} {:>11} {:>11} {dominant:>12}",
+            short(factor * figures.mean),
+            short(factor * figures.deviation),
+            short(factor * figures.peak_to_peak())
         ));
     }
-    if found.len() > MOST_LINES {
-        lines.push(format!("and {} more", found.len() - MOST_LINES));
+    let shown = found.len().min(MOST_LINES);
+    if shown < all {
+        let zero = all - found.len();
+        lines.push(format!(
+            "and {} more, {zero} of them zero throughout",
+            all - shown
+        ));
     }
     Ok(lines)
 }
@@ -167,11 +173,19 @@ fn sweep(result: &SystemResult) -> Vec<String> {
     let varying = sweep.varying();
     let mut chosen: Vec<(usize, &String)> = sweep.columns.iter().enumerate().collect();
     chosen.retain(|(place, name)| varying[*place] && is_prominent(name));
-    chosen.sort_by_key(|(_, name)| !name.starts_with("elements/"));
+    chosen.sort_by_key(|(_, name)| rank(name));
     chosen.truncate(MOST_COLUMNS);
     let mut head = format!("{:>12} {:>5}", "speed rpm", "way");
-    for (_, name) in &chosen {
-        head += &format!(" {:>30}", format!("pk-pk {}", short(name)));
+    let mut factors = Vec::new();
+    for (column, name) in &chosen {
+        let (stem, unit) = split_unit(name);
+        let windows = sweep.figures.iter();
+        let largest = windows.fold(0.0, |most: f64, figures| {
+            most.max(figures[*column].peak_to_peak())
+        });
+        let (factor, unit) = usual_unit(unit, largest);
+        factors.push(factor);
+        head += &format!(" {:>32}", format!("pk-pk {} {unit}", last_parts(stem)));
     }
     let mut lines = vec![head];
     for (window, figures) in sweep.windows.iter().zip(&sweep.figures) {
@@ -180,8 +194,8 @@ fn sweep(result: &SystemResult) -> Vec<String> {
             window.speed_rad_per_s * 60.0 / TAU,
             if window.up { "up" } else { "down" }
         );
-        for (column, _) in &chosen {
-            line += &format!(" {:>30.6e}", figures[*column].peak_to_peak());
+        for ((column, _), factor) in chosen.iter().zip(&factors) {
+            line += &format!(" {:>32}", short(factor * figures[*column].peak_to_peak()));
         }
         lines.push(line);
     }
@@ -189,11 +203,11 @@ fn sweep(result: &SystemResult) -> Vec<String> {
 }
 
 /// The last two parts of a column's name.
-fn short(name: &str) -> String {
+fn last_parts(name: &str) -> String {
     let parts: Vec<&str> = name.split('/').collect();
-    let short = parts[parts.len().saturating_sub(2)..].join("/");
-    let cut = short.chars().count().saturating_sub(24);
-    short.chars().skip(cut).collect()
+    let last = parts[parts.len().saturating_sub(2)..].join("/");
+    let cut = last.chars().count().saturating_sub(22);
+    last.chars().skip(cut).collect()
 }
 
 fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
@@ -201,20 +215,31 @@ fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let leading = names
         .clone()
         .filter(|name| matches!(*name, "load_factor" | "angle_rad"));
-    let channels = names.clone().filter(|name| is_prominent(name));
+    let mut channels: Vec<&str> = names.clone().filter(|name| is_prominent(name)).collect();
+    channels.sort_by_key(|name| rank(name));
     let mut chosen: Vec<&str> = leading.chain(channels).take(MOST_COLUMNS + 2).collect();
     if chosen.iter().all(|name| !is_prominent(name)) {
         let angles = names.filter(|name| name.ends_with("/turn_rad"));
         chosen.extend(angles.take(MOST_COLUMNS));
     }
-    let read = |name: &&str| result.rows.read(name).map_err(Failure::work);
-    let values = chosen.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let head = chosen.iter().map(|name| format!("{:>26}", short(name)));
-    let mut lines = vec![head.collect::<Vec<_>>().join(" ")];
+    let (mut head, mut columns) = (Vec::new(), Vec::new());
+    for name in chosen {
+        let (stem, unit) = split_unit(name);
+        let values = result.rows.read(name).map_err(Failure::work)?;
+        let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let (factor, unit) = usual_unit(unit, largest);
+        let title = format!("{} {unit}", last_parts(stem));
+        head.push(format!("{:>28}", title.trim_end()));
+        columns.push(
+            values
+                .into_iter()
+                .map(move |x| short(factor * x))
+                .collect::<Vec<_>>(),
+        );
+    }
+    let mut lines = vec![head.join(" ")];
     for row in 0..result.rows.rows() {
-        let cells = values
-            .iter()
-            .map(|column| format!("{:>26.8e}", column[row]));
+        let cells = columns.iter().map(|column| format!("{:>28}", column[row]));
         lines.push(cells.collect::<Vec<_>>().join(" "));
     }
     Ok(lines)
@@ -228,26 +253,41 @@ fn modes(result: &SystemResult, found: &EigenResult) -> Vec<String> {
     let mut lines = vec![
         title,
         format!(
-            "{:>5} {:>15} {:>12} {:>14}  share of the kinetic energy",
-            "mode", "frequency Hz", "damping %", "growth 1/s"
+            "{:>5} {:>13} {:>11}  {:<44} share of the strain energy",
+            "mode", "frequency Hz", "damping %", "share of the kinetic energy"
         ),
     ];
-    for (k, (mode, shares)) in found.modes.iter().zip(&found.participation).enumerate() {
-        let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-        let bodies = order
-            .iter()
-            .take(MOST_BODIES)
-            .filter(|&&body| shares[body] > 5e-4)
-            .map(|&body| format!("{} {:.1} %", result.bodies[body], 100.0 * shares[body]));
-        lines.push(format!(
-            "{:>5} {:>15.6} {:>12.4} {:>14.5e}  {}",
+    let mut overdamped = Vec::new();
+    for (k, mode) in found.modes.iter().enumerate() {
+        let moves = shares_in_words(&result.bodies, &found.participation[k], MOST_SHARES);
+        let strain = found.strain.get(k);
+        let strained = strain.map_or(String::new(), |shares| {
+            shares_in_words(&result.elements, shares, MOST_SHARES)
+        });
+        if is_overdamped(mode) {
+            let decay_ms = -1e3 / mode.growth_per_s;
+            overdamped.push(format!(
+                "{:>5} {:>13} {:>11}  {moves:<44} {strained}",
+                k + 1,
+                short(decay_ms),
+                ""
+            ));
+            continue;
+        }
+        let line = format!(
+            "{:>5} {:>13.4} {:>11.4}  {moves:<44} {strained}",
             k + 1,
             mode.frequency_hz(),
-            100.0 * mode.damping_ratio(),
-            mode.growth_per_s,
-            bodies.collect::<Vec<_>>().join(", ")
+            100.0 * mode.damping_ratio()
+        );
+        lines.push(line.trim_end().to_owned());
+    }
+    if !overdamped.is_empty() {
+        lines.push(format!(
+            "{} motions die out without vibrating (overdamped); time in ms to 1/e:",
+            overdamped.len()
         ));
+        lines.extend(overdamped);
     }
     lines
 }
@@ -263,6 +303,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         let mut run = Value::Object(entries.collect());
         run["real_time_factor"] = json!(record.real_time_factor());
         run["relative_energy_error"] = json!(result.relative_energy_error());
+        run["problem"] = json!(result.problem());
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
@@ -308,6 +349,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
                 let modes = modes.map(|(mode, shares)| {
                     json!({
                         "frequency_Hz": mode.frequency_hz(), "damping_ratio": mode.damping_ratio(), "growth_per_s": mode.growth_per_s,
+                        "overdamped": is_overdamped(mode),
                         "participation": result.bodies.iter().zip(shares).map(|(b, s)| (b.clone(), json!(s))).collect::<serde_json::Map<_, _>>(),
                     })
                 });

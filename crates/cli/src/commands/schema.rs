@@ -1,16 +1,21 @@
 //! `gearmesh schema`: what may stand in a file, as JSON Schema for editors and scripts.
 
+use super::schema_page;
 use crate::arguments::{SchemaArguments, SchemaKind};
 use crate::console;
 use crate::failure::Failure;
 
 /// Runs the command.
 pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
-    let schema = match arguments.kind {
-        SchemaKind::Scene => gearmesh_scene::schema::scene(),
-        SchemaKind::Study => gearmesh_scene::schema::study(),
-        SchemaKind::Gear => gearmesh_geometry::gear_file::schema(),
+    let (schema, kind) = match arguments.kind {
+        SchemaKind::Scene => (gearmesh_scene::schema::scene(), "scene"),
+        SchemaKind::Study => (gearmesh_scene::schema::study(), "study"),
+        SchemaKind::Gear => (gearmesh_geometry::gear_file::schema(), "gear"),
     };
-    console::json(schema.as_value());
+    if arguments.markdown {
+        console::data(schema_page::page(schema.as_value(), kind).trim_end());
+    } else {
+        console::json(schema.as_value());
+    }
     Ok(())
 }

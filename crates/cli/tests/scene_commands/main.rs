@@ -10,6 +10,7 @@
 mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
 mod drilled_pair;
+mod export;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

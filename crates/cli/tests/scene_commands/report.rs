@@ -44,3 +44,40 @@ fn report_loads_nothing() {
         assert!(!tight.contains(load), "the report loads by `{load}`");
     }
 }
+
+/// Two results by the names of their files, with what each felt over the flank, and the stress of both gears.
+#[test]
+fn results_stand_side_by_side() {
+    let desk = Desk::new();
+    let (result, _) = run_scene(&desk, "");
+    let other = desk.path("other.h5");
+    std::fs::copy(&result, &other).unwrap();
+    let page = desk.path("page.html");
+    let words = [
+        "report",
+        argument(&result),
+        argument(&other),
+        "-o",
+        argument(&page),
+    ];
+    succeeds(&[&words[..], &["--stress"]].concat());
+    let html = std::fs::read_to_string(&page).unwrap();
+    for part in [
+        "Gear pairs side by side",
+        "\"name\":\"result.h5, 60 N m\"",
+        "\"name\":\"other.h5, 60 N m\"",
+        "contact pattern</h2>",
+        "Largest Hertz pressure at 60 N m",
+        "Largest line load at 60 N m",
+        "largest von Mises stress over the width",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(html.find("side by side") < html.find("small pair: transmission error"));
+    // Both gears of both results.
+    assert_eq!(
+        html.matches("von Mises stress over the width</figcaption>")
+            .count(),
+        4
+    );
+}

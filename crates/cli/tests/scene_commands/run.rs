@@ -179,7 +179,7 @@ fn a_run_is_rated() {
     let answer = succeeds(&run);
     for part in [
         "rating of mesh mesh: Lewis's root stress",
-        "  hertz_pressure_Pa ",
+        "  hertz_pressure ",
         "rating of gauge tension of thin: cycles and damage",
         "  not rated: a stress amplitude of ",
     ] {

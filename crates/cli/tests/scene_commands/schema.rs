@@ -22,3 +22,26 @@ fn schemas_are_json() {
         );
     }
 }
+
+/// The pages in docs/reference are what the program makes.
+#[test]
+fn reference_pages_are_up_to_date() {
+    for kind in ["gear", "scene", "study"] {
+        let made = succeeds(&["schema", kind, "--markdown"]).stdout;
+        let place = format!("docs/reference/{kind}.md");
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(&place);
+        let kept = std::fs::read_to_string(file).unwrap_or_default();
+        assert!(
+            kept == made,
+            "{place} is stale; make it again: gearmesh schema {kind} --markdown > {place}"
+        );
+        // A key without a word about it is no help.
+        let empty: Vec<&str> = made
+            .lines()
+            .filter(|line| line.starts_with("| ") && line.ends_with("|  |"))
+            .collect();
+        assert!(empty.is_empty(), "{empty:#?}");
+    }
+}

@@ -149,7 +149,9 @@ impl SliceContact {
             self.slices()
         };
         let slices = place * laws..(place + 1) * laws;
-        slices.map(|slice| self.slice_energy_by_share(slice, place)).sum()
+        slices
+            .map(|slice| self.slice_energy_by_share(slice, place))
+            .sum()
     }
 
     fn slice_energy_by_share(&self, slice: usize, place: usize) -> f64 {

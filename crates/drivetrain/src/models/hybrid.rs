@@ -13,11 +13,11 @@
 //! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
-use gearmesh_contact::{ContactZone, LocalContact, SliceLayout};
 use gearmesh_contact::contact_lines::{ContactLine, ContactLines};
 use gearmesh_contact::contact_slices::ContactSlice;
 use gearmesh_contact::nlcp::{FLOOR_FRACTION, LocalLawError, NlcpError};
 use gearmesh_contact::slice_contact::{Given, Separations, SliceContact};
+use gearmesh_contact::{ContactZone, LocalContact, SliceLayout};
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 

@@ -1,11 +1,21 @@
-//! `kinematic`: an ideal ratio, r_b1 φ₁ + r_b2 φ₂ constant. A joint, not a force: no elasticity, no backlash, no contact lines, and the
-//! reaction is a moment on each shaft only.
+//! `kinematic`: an ideal ratio, pitch circles that roll on each other. A joint, not a force: no elasticity, no backlash, no contact lines.
+//!
+//! ```text
+//! z₁ (φ₁ − β) + z₂ (φ₂ − β) constant,      β: polar angle of the line of centres
+//! ```
+//!
+//! So it holds for axes that stand and for those that a carrier takes round, where it is Willis' equation. The reaction is the tangential
+//! force in the pitch point; the radial and the axial part of a real tooth force do no work and are not there.
 
-use gearmesh_dynamics::{Joint, MarkerPair};
+use gearmesh_dynamics::{Joint, Marker, MarkerPair};
 
-/// Couples the turns of two gears. Each pair is (marker of the housing, marker of the gear), z along the axis, both z axes the same
-/// way; `teeth` of gear 1 and gear 2.
+/// Couples the turns of two gears. The markers are the gears' frames, z along the axes, both z axes the same way; `teeth` of gear 1 and
+/// gear 2.
 #[must_use]
-pub fn kinematic_mesh(name: &str, [gear_1, gear_2]: [MarkerPair; 2], teeth: [usize; 2]) -> Joint {
-    Joint::ratio(name, (gear_1, teeth[0] as f64), (gear_2, teeth[1] as f64))
+pub fn kinematic_mesh(name: &str, [gear_1, gear_2]: [Marker; 2], teeth: [usize; 2]) -> Joint {
+    let pair = MarkerPair {
+        a: gear_1,
+        b: gear_2,
+    };
+    Joint::rolling(name, pair, teeth.map(|teeth| teeth as f64))
 }

@@ -95,10 +95,11 @@ impl Case {
             }
             "analytic" => {
                 let width = layout.reference.width_m;
-                let gears = [(1, &pair.gear_1), (2, &pair.gear_2)].map(|(number, gear)| BeamTooth {
-                    face_width_m: width,
-                    ..beam_tooth(number, gear)
-                });
+                let gears =
+                    [(1, &pair.gear_1), (2, &pair.gear_2)].map(|(number, gear)| BeamTooth {
+                        face_width_m: width,
+                        ..beam_tooth(number, gear)
+                    });
                 Box::new(BeamTeeth::new(gears, 3, [&[], &[]]).unwrap())
             }
             _ => {
@@ -145,15 +146,20 @@ impl Case {
             angular_velocity_rad_per_s: -back * omega,
         };
         let on_2 = self.mesh(name, pair, 0).evaluate(&at, false).unwrap();
-        let on_1 = self.mesh(name, &swapped, 1).evaluate(&seen_from_2, false).unwrap();
+        let on_1 = self
+            .mesh(name, &swapped, 1)
+            .evaluate(&seen_from_2, false)
+            .unwrap();
         let parts = |load: &Vector6| -> (Vector3<f64>, Vector3<f64>) {
-            (load.fixed_rows::<3>(0).into(), load.fixed_rows::<3>(3).into())
+            (
+                load.fixed_rows::<3>(0).into(),
+                load.fixed_rows::<3>(3).into(),
+            )
         };
         let (force, moment) = parts(&on_2.load);
         let (back_force, back_moment) = parts(&on_1.load);
-        let stack = |f: Vector3<f64>, m: Vector3<f64>| {
-            Vector6::new(f[0], f[1], f[2], m[0], m[1], m[2])
-        };
+        let stack =
+            |f: Vector3<f64>, m: Vector3<f64>| Vector6::new(f[0], f[1], f[2], m[0], m[1], m[2]);
         let first = stack(force, moment + u.cross(&force));
         let second = stack(-at.rotation * back_force, -at.rotation * back_moment);
         [(first, on_2.power.stored_j), (second, on_1.power.stored_j)]

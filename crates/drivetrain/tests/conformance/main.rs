@@ -8,8 +8,8 @@ mod exchange;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;
 mod models;
-mod zone;
 mod two_bodies;
+mod zone;
 
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;

@@ -36,8 +36,7 @@ fn unequal_mesh(name: &str, pair: &GearPair, displacement_m: f64, ends: PathEnds
             };
             let contact = (local, displacement_m);
             let side = FlankSide::Right;
-            let teeth =
-                ReducedTeeth::displaced(pair, side, [&one, &two], contact, 4000.0).unwrap();
+            let teeth = ReducedTeeth::displaced(pair, side, [&one, &two], contact, 4000.0).unwrap();
             layout = *teeth.layout();
             Box::new(teeth)
         }
@@ -74,7 +73,13 @@ fn displaced_pose(pair: &GearPair, displacement_m: f64, theta: f64) -> Pose {
 /// teeth are all in it.
 #[test]
 fn loads_follow_from_the_energy_on_faces_that_overlap_in_part() {
-    let models = ["impact", "iso6336", "analytic", "hybrid", "hybrid without local law"];
+    let models = [
+        "impact",
+        "iso6336",
+        "analytic",
+        "hybrid",
+        "hybrid without local law",
+    ];
     for pair in pairs() {
         for name in models {
             for ends in [PathEnds::Extended, PathEnds::LineOfAction] {
@@ -133,14 +138,21 @@ fn the_force_stands_in_the_middle_of_the_overlap() {
         // Moment about gear 2's origin: z e_z × F + …
         // What the shrinking overlap pushes along the axes acts at the pitch point.
         let [r1, r2] = [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m];
-        let pitch_point = -r2 / (r1 + r2) * Vector3::new(at.displacement_m[0], at.displacement_m[1], 0.0);
+        let pitch_point =
+            -r2 / (r1 + r2) * Vector3::new(at.displacement_m[0], at.displacement_m[1], 0.0);
         let moment = moment - pitch_point.cross(&(force[2] * Vector3::z()));
         let about = moment - moment[2] * Vector3::z();
         let height = about.dot(&Vector3::z().cross(&across)) / across.norm_squared() + displacement;
-        assert!((height - 0.5 * (low + high)).abs() < 1e-9, "{displacement}: {height}");
+        assert!(
+            (height - 0.5 * (low + high)).abs() < 1e-9,
+            "{displacement}: {height}"
+        );
         let whole = *whole.get_or_insert(across.norm());
         let share = across.norm() / whole;
-        assert!((share - (high - low) / 14e-3).abs() < 1e-6, "{displacement}: {share}");
+        assert!(
+            (share - (high - low) / 14e-3).abs() < 1e-6,
+            "{displacement}: {share}"
+        );
     }
 }
 
@@ -176,7 +188,10 @@ fn a_revolution_of_tilted_gears_makes_no_energy() {
             }
             let a_pitch = work.abs() / pair.gear_1.teeth as f64;
             println!("{name} {} {a_pitch:e} {most:e}", pair.is_helical());
-            assert!(a_pitch < tolerance * most, "{name}: {a_pitch:e} J of {most:e} J");
+            assert!(
+                a_pitch < tolerance * most,
+                "{name}: {a_pitch:e} J of {most:e} J"
+            );
         }
     }
 }

@@ -66,7 +66,14 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
     let omega = (MEAN / mass / delta).sqrt();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
-    let kinematics = MeshKinematics::new(gears, none, a, crate::mesh_common::layout(1), PathEnds::Extended).unwrap();
+    let kinematics = MeshKinematics::new(
+        gears,
+        none,
+        a,
+        crate::mesh_common::layout(1),
+        PathEnds::Extended,
+    )
+    .unwrap();
     let run = |x: f64, v: f64| {
         let scene = Scene {
             te_m: x - DEPTH,
@@ -78,7 +85,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
         let mesh = GearMesh::new(kinematics.clone(), FlankSide::Right, teeth()).unwrap();
         let params = Params {
             rho_infinity: 1.0,
-            newton_tolerance: 1e-13,
+            newton_tolerance: Some(1e-13),
             ..Params::fixed(TAU / omega / STEPS as f64)
         };
         let mut run = Simulation::new(scene.system(mesh), params).unwrap();

@@ -143,8 +143,14 @@ impl Oscillator {
         let damped = Damped::new(spring, damping, 1).unwrap();
         let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
         let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
-        let kinematics =
-            MeshKinematics::new(gears, none, a, crate::mesh_common::layout(1), PathEnds::Extended).unwrap();
+        let kinematics = MeshKinematics::new(
+            gears,
+            none,
+            a,
+            crate::mesh_common::layout(1),
+            PathEnds::Extended,
+        )
+        .unwrap();
         let mesh = GearMesh::new(kinematics, FlankSide::Right, damped.clone())
             .unwrap()
             .with_side(FlankSide::Left, damped)

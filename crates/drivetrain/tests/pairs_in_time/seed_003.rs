@@ -72,7 +72,14 @@ fn run(case: Case, te_m: f64, periods: f64) -> Vec<Sample> {
         relief.into_iter().collect()
     });
     let a = pair.centre_distance_m;
-    let kinematics = MeshKinematics::new(gears, errors, a, crate::mesh_common::layout(1), PathEnds::Extended).unwrap();
+    let kinematics = MeshKinematics::new(
+        gears,
+        errors,
+        a,
+        crate::mesh_common::layout(1),
+        PathEnds::Extended,
+    )
+    .unwrap();
     let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
         .unwrap()
         .with_side(FlankSide::Left, law)

@@ -99,6 +99,11 @@ impl Law for LinearBearing {
         (load, power)
     }
 
+    /// z along the shaft; x and y do not turn with it.
+    fn axes(&self) -> &'static str {
+        "shaft_"
+    }
+
     fn tangent(&self, motion: &RelativeMotion) -> LawTangent {
         let c: Vector3<f64> = motion.rotation.column(2).into();
         // dc = φ × c

@@ -34,6 +34,11 @@ pub trait Law: Send {
     /// Derivatives of the load.
     fn tangent(&self, motion: &RelativeMotion) -> LawTangent;
 
+    /// What the axes of marker A are called in the names of channels, with `_` behind; nothing where they have no name of their own.
+    fn axes(&self) -> &'static str {
+        ""
+    }
+
     /// Whether there is any internal state to move on; where there is none, accepted steps cost nothing.
     fn has_state(&self) -> bool {
         false
@@ -52,7 +57,7 @@ pub trait Law: Send {
     fn restore(&mut self, _numbers: &[f64]) {}
 }
 
-/// A law at its place. Channels: the load on B, A axes.
+/// A law at its place. Channels: force and moment on B, A axes, and the force in world axes; where A's axes have a name, the force across z, too.
 #[derive(Debug, Clone)]
 pub struct MarkerElement<L> {
     name: String,
@@ -117,11 +122,12 @@ impl<L: Law> ForceElement for MarkerElement<L> {
         self.law.begin(&motion);
     }
 
-    fn commit(&mut self, view: &View<'_>) {
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
         if self.law.has_state() {
             let motion = self.motion(view);
             self.law.commit(&motion);
         }
+        Ok(())
     }
 
     fn save(&self, out: &mut Vec<f64>) {
@@ -133,23 +139,29 @@ impl<L: Law> ForceElement for MarkerElement<L> {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let names = [
-            "force_x_N",
-            "force_y_N",
-            "force_z_N",
-            "moment_x_Nm",
-            "moment_y_Nm",
-            "moment_z_Nm",
-        ];
-        names
-            .map(|name| Channel {
-                name: name.to_owned(),
-            })
-            .to_vec()
+        let axes = self.law.axes();
+        let three =
+            |head: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{head}{axis}_{unit}"));
+        let mut names = [
+            three(&format!("force_{axes}"), "N"),
+            three(&format!("moment_{axes}"), "Nm"),
+            three("force_world_", "N"),
+        ]
+        .concat();
+        if !axes.is_empty() {
+            names.push("force_radial_N".to_owned());
+        }
+        names.into_iter().map(|name| Channel { name }).collect()
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
-        let (load, _) = self.law.load(&self.motion(view));
-        out.copy_from_slice(load.as_slice());
+        let motion = self.motion(view);
+        let (load, _) = self.law.load(&motion);
+        let force = load.fixed_rows::<3>(0).into_owned();
+        out[..6].copy_from_slice(load.as_slice());
+        out[6..9].copy_from_slice(motion.to_world(&force).as_slice());
+        if let Some(radial) = out.get_mut(9) {
+            *radial = force[0].hypot(force[1]);
+        }
     }
 }

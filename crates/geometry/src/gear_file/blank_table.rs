@@ -14,19 +14,33 @@ use std::path::Path;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BlankTable {
+    /// "solid" disc, "thin-rim" with hub and web, "contour" with sloped or stepped faces, "mesh" of another program.
     kind: BlankKind,
+    /// Bore.
     bore_diameter_mm: f64,
+    /// "thin-rim": outer diameter of the hub.
     hub_diameter_mm: Option<f64>,
+    /// "thin-rim": inner diameter of the rim.
     rim_inner_diameter_mm: Option<f64>,
+    /// "thin-rim": thickness of the web.
     web_thickness_mm: Option<f64>,
+    /// "thin-rim": place of the web's middle along the axis from mid-face; 0 where not given.
     web_offset_mm: Option<f64>,
+    /// "contour": back and front of the hub.
     hub_z_mm: Option<[f64; 2]>,
+    /// "contour": points of the web from the hub outwards.
     web: Option<Vec<WebPointTable>>,
+    /// Annular slots through the web or the disc; none where not given.
     slots: Option<SlotsTable>,
+    /// Round holes through the web or the disc; none where not given.
     holes: Option<HolesTable>,
+    /// "mesh": file of the whole gear, teeth included, beside this one.
     file: Option<String>,
+    /// "mesh": unit of its coordinates; "m" where not given.
     length_unit: Option<LengthUnit>,
+    /// "mesh": set of nodes or elements on the bore; "bore" where not given.
     bore_set: Option<String>,
+    /// "mesh": sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where not given.
     flank_sets: Option<String>,
 }
 

@@ -14,8 +14,11 @@ const SAME_MM: f64 = 1e-6;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WebPointTable {
+    /// Diameter.
     diameter_mm: f64,
+    /// Back and front of the web there.
     z_mm: [f64; 2],
+    /// Fillet radius of the corners there; 0 (sharp) where not given.
     #[serde(default)]
     fillet_radius_mm: f64,
 }

@@ -16,11 +16,17 @@ use std::f64::consts::FRAC_PI_2;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CrackTable {
+    /// Tooth, from 0.
     tooth: usize,
+    /// Side on which it opens.
     side: FlankSide,
+    /// Depth.
     depth_mm: f64,
+    /// Direction against the tooth's centre line: 0 towards the centre of the gear, 90 straight across; at right angles to the profile where not given.
     angle_deg: Option<f64>,
+    /// Place of the mouth: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is given.
     tangent_deg: Option<f64>,
+    /// Place of the mouth: its radius.
     radius_mm: Option<f64>,
 }
 

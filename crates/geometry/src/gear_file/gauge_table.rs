@@ -12,14 +12,22 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GaugeTable {
+    /// Name.
     name: String,
+    /// Tooth, from 0.
     tooth: usize,
+    /// Side of the tooth.
     side: FlankSide,
+    /// Place: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is given.
     tangent_deg: Option<f64>,
+    /// Place: radius.
     radius_mm: Option<f64>,
+    /// Length along the profile.
     length_mm: f64,
+    /// Middle along the axis from mid-face; 0 where not given.
     #[serde(default)]
     z_mm: f64,
+    /// Width along the axis.
     width_mm: f64,
 }
 

@@ -11,6 +11,7 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HubTable {
+    /// "fixed", or "reference-point": rigid, with six degrees of freedom; "fixed" where not given.
     #[serde(default)]
     support: HubSupport,
 }

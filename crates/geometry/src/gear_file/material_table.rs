@@ -11,8 +11,11 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct MaterialTable {
+    /// Young's modulus.
     young_GPa: f64,
+    /// Poisson's ratio.
     poisson: f64,
+    /// Density; needed by natural modes.
     density_kg_per_m3: Option<f64>,
 }
 

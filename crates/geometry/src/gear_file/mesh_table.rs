@@ -11,12 +11,19 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshTable {
+    /// Element; "hex8-incompatible" where not given, "tet10" for contours that need tetrahedra.
     element: Option<ElementKind>,
+    /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
+    /// Element length along the root fillet; 0.08 modules where not given, twice that in tetrahedra.
     fillet_mm: Option<f64>,
+    /// Largest element length in the body; 1.2 modules where not given, twice that in tetrahedra.
     body_mm: Option<f64>,
+    /// Element length along the axis; a tenth of the face where not given, a fifth in tetrahedra.
     axial_mm: Option<f64>,
+    /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
     min_scaled_jacobian: Option<f64>,
+    /// The cross-section only, one layer that does not move along the axis; false where not given.
     #[serde(default)]
     plane_strain: bool,
 }

@@ -12,12 +12,19 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MicrogeometryTable {
+    /// Profile crowning at the tip circle, a parabola in roll length from profile_crowning_diameter_mm on.
     profile_crowning_um: Option<f64>,
+    /// Diameter at which the profile crowning is zero; needed with it.
     profile_crowning_diameter_mm: Option<f64>,
+    /// Tip relief at the tip circle.
     tip_relief_um: Option<f64>,
+    /// Diameter at which the tip relief begins; needed with it.
     tip_relief_start_diameter_mm: Option<f64>,
+    /// "linear" or "parabolic" in roll length; "linear" where not given.
     tip_relief_shape: Option<TipReliefShape>,
+    /// Lead crowning: a parabola over the face, zero at mid-face, this at both ends; 0 where not given.
     lead_crowning_um: Option<f64>,
+    /// Slope of the flank line over the whole face width: removed at +z, added at -z, zero at mid-face; 0 where not given.
     flank_angle_um: Option<f64>,
 }
 

@@ -12,7 +12,9 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub(super) struct ModesTable {
+    /// So many, the lowest. This or up_to_Hz.
     count: Option<usize>,
+    /// All up to this frequency.
     up_to_Hz: Option<f64>,
 }
 

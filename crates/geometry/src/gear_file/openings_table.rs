@@ -11,11 +11,17 @@ use std::f64::consts::TAU;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SlotsTable {
+    /// Number round the axis.
     count: usize,
+    /// Inner radius.
     inner_radius_mm: f64,
+    /// Outer radius.
     outer_radius_mm: f64,
+    /// Angle that one slot covers.
     width_deg: f64,
+    /// Angle of the first one's middle from tooth 0.
     phase_deg: f64,
+    /// Radius of the corners.
     corner_radius_mm: f64,
 }
 
@@ -23,9 +29,13 @@ pub(super) struct SlotsTable {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HolesTable {
+    /// Number round the axis.
     count: usize,
+    /// Diameter of the circle through the holes' centres.
     pitch_circle_diameter_mm: f64,
+    /// Diameter of a hole.
     diameter_mm: f64,
+    /// Angle of the first one's middle from tooth 0.
     phase_deg: f64,
 }
 

@@ -10,9 +10,13 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ReductionTable {
+    /// Stations of the flank grid along the profile; 9 where not given.
     roll_stations: Option<usize>,
+    /// Slices over the face width; 5 where not given, 1 in plane strain.
     slices: Option<usize>,
+    /// Flanks that carry loads; both where not given.
     flanks: Option<Vec<FlankSide>>,
+    /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
     #[serde(default)]
     symmetry: Symmetry,
 }

@@ -11,25 +11,38 @@ use std::f64::consts::PI;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ToothTable {
+    /// Number of teeth.
     teeth: i64,
+    /// Module; of helical teeth in the normal section.
     module_mm: f64,
+    /// Pressure angle of the rack, of helical teeth in the normal section; 20 where not given.
     #[serde(default = "default_pressure_angle")]
     pressure_angle_deg: f64,
+    /// Profile shift coefficient x in modules; 0 where not given.
     #[serde(default)]
     profile_shift: f64,
+    /// Addendum of the tip in modules; 1 where not given. Not with tip_diameter_mm.
     addendum: Option<f64>,
+    /// Dedendum in modules: addendum of the cutting rack; 1.25 where not given.
     #[serde(default = "default_dedendum")]
     dedendum: f64,
+    /// Tip radius of the cutting rack in modules; 0.38 where not given.
     #[serde(default = "default_rack_tip_radius")]
     rack_tip_radius: f64,
+    /// Tip diameter where it is not reference diameter + 2 m (addendum + x).
     tip_diameter_mm: Option<f64>,
+    /// Reduction of the tooth thickness on the reference circle, for backlash; 0 where not given.
     #[serde(default)]
     thickness_allowance_mm: f64,
+    /// Chamfer of the tip edges, radially and circumferentially; 0 where not given.
     #[serde(default)]
     tip_chamfer_mm: f64,
+    /// Face width.
     face_width_mm: f64,
+    /// Helix angle on the reference cylinder, without sign; 0 (spur teeth) where not given.
     #[serde(default)]
     helix_angle_deg: f64,
+    /// Hand of helical teeth, "right" or "left"; needed with helix_angle_deg.
     hand: Option<Hand>,
 }
 

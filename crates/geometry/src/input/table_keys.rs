@@ -41,7 +41,14 @@ impl<'a> TableKeys<'a> {
         if ok && value.is_finite() {
             Ok(())
         } else {
-            Err(self.error(key, format!("found {value}, allowed is {allowed}")))
+            // Hundreds of zeros say less than an exponent.
+            let size = value.abs();
+            let found = if value.is_finite() && value != 0.0 && !(1e-9..1e15).contains(&size) {
+                format!("{value:e}")
+            } else {
+                value.to_string()
+            };
+            Err(self.error(key, format!("found {found}, allowed is {allowed}")))
         }
     }
 

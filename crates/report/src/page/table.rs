@@ -19,6 +19,7 @@ pub struct Table {
     caption: String,
     columns: Vec<(String, Align)>,
     rows: Vec<Vec<String>>,
+    folded: bool,
 }
 
 impl Table {
@@ -28,7 +29,21 @@ impl Table {
             caption: caption.into(),
             columns: Vec::new(),
             rows: Vec::new(),
+            folded: false,
         }
+    }
+
+    /// Shows the caption only, until the reader opens it.
+    #[must_use]
+    pub fn folded(mut self) -> Self {
+        self.folded = true;
+        self
+    }
+
+    /// Whether there are no rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
     }
 
     /// Adds a column.
@@ -41,8 +56,13 @@ impl Table {
     /// Adds a row with one cell for each column.
     #[must_use]
     pub fn row<S: Into<String>>(mut self, cells: impl IntoIterator<Item = S>) -> Self {
-        self.rows.push(cells.into_iter().map(Into::into).collect());
+        self.push_row(cells);
         self
+    }
+
+    /// The same in place.
+    pub fn push_row<S: Into<String>>(&mut self, cells: impl IntoIterator<Item = S>) {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
     pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
@@ -53,6 +73,14 @@ impl Table {
                 ""
             }
         };
+        if self.folded {
+            let _ = writeln!(
+                html,
+                "<details><summary>{} ({} rows)</summary>",
+                escape(&self.caption),
+                self.rows.len()
+            );
+        }
         let _ = write!(
             html,
             "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\"><table>\n<caption>{0}</caption>\n<thead><tr>",
@@ -83,6 +111,9 @@ impl Table {
             html.push_str("</tr>\n");
         }
         html.push_str("</tbody></table></div>\n");
+        if self.folded {
+            html.push_str("</details>\n");
+        }
         Ok(())
     }
 }

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{SystemResult, split_unit};
+use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
 
 use crate::page::{Axis, Section, Text};
+use crate::short_number::usual_unit;
 
 /// Charts of one section; what is left out is named.
 pub(super) const MOST_CHARTS: usize = 24;
@@ -14,6 +15,7 @@ pub(super) const MOST_CHARTS: usize = 24;
 pub(super) fn quantity(unit: &str) -> &'static str {
     match unit {
         "N" => "force",
+        "N/m" => "line load",
         "N·m" => "moment",
         "m" => "length",
         "rad" => "angle",
@@ -64,10 +66,10 @@ pub(super) struct Group {
     pub(super) columns: Vec<(String, String)>,
 }
 
-/// Columns that vary, by owner and unit: elements, speeds, joints, bodies.
+/// Columns that vary, by owner and unit, those first that a reader asks for first.
 pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Group> {
     let mut order: Vec<(u8, String)> = Vec::new();
-    let mut groups: BTreeMap<(u8, String), Group> = BTreeMap::new();
+    let mut groups: BTreeMap<String, Group> = BTreeMap::new();
     for (place, column) in r.rows.columns().iter().enumerate() {
         let parts: Vec<&str> = column.name.split('/').collect();
         let [kind, owners @ .., last] = &parts[..] else {
@@ -76,30 +78,29 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         let (stem, unit) = split_unit(last);
         let owner = owners.join(" ");
         // Speeds of all bodies share a chart; places and angles have one for each body.
-        let (rank, title, curve) = match *kind {
+        let (title, curve) = match *kind {
+            "elements" if stem.starts_with("force_world_") => (
+                format!("{owner}, force in world axes"),
+                stem.replace('_', " "),
+            ),
             "elements" => (
-                0,
                 format!("{owner}, {}", quantity(unit)),
                 stem.replace('_', " "),
             ),
             "bodies" if stem == "angular_velocity_z" => (
-                1,
                 "Angular velocities about the bodies' own z axes".to_owned(),
                 owner.clone(),
             ),
             "joints" if matches!(unit, "N" | "N·m") => (
-                2,
                 format!("{owner}, {} of the joint on body 2", quantity(unit)),
                 stem.replace('_', " "),
             ),
-            "bodies" if unit == "m" => (3, format!("{owner}, place"), stem.replace('_', " ")),
+            "bodies" if unit == "m" => (format!("{owner}, place"), stem.replace('_', " ")),
             "bodies" if unit == "√kg·m" => (
-                4,
                 format!("{owner}, modal coordinates"),
                 stem.replace('_', " "),
             ),
             "bodies" if unit == "rad/s²" && stem.ends_with('z') => (
-                5,
                 "Angular accelerations about the bodies' own z axes".to_owned(),
                 owner.clone(),
             ),
@@ -108,11 +109,13 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         if !varies(place) {
             continue;
         }
-        let key = (rank, title.clone());
-        if !groups.contains_key(&key) {
-            order.push(key.clone());
+        let key = (rank(&column.name), title.clone());
+        // A chart stands where its foremost column stands.
+        match order.iter_mut().find(|(_, known)| *known == title) {
+            Some(known) => known.0 = known.0.min(key.0),
+            None => order.push(key),
         }
-        let group = groups.entry(key).or_insert(Group {
+        let group = groups.entry(title.clone()).or_insert(Group {
             title,
             unit,
             columns: Vec::new(),
@@ -120,7 +123,9 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         group.columns.push((column.name.clone(), curve));
     }
     order.sort_by_key(|key| key.0);
-    let mut groups: Vec<Group> = order.iter().filter_map(|key| groups.remove(key)).collect();
+    let mut groups: Vec<Group> = (order.iter())
+        .filter_map(|(_, title)| groups.remove(title))
+        .collect();
     for group in &mut groups {
         if let ([(column, curve)], true) = (&group.columns[..], group.is_of_elements()) {
             let owner = column.split('/').nth(1).unwrap_or_default();
@@ -138,22 +143,15 @@ impl Group {
     }
 }
 
-/// Brings lengths to µm or mm where they are that small; gives the unit.
+/// Brings curves to the unit in which they are read; gives the unit.
 pub(super) fn scaled<'a>(
     unit: &'static str,
     curves: impl Iterator<Item = &'a mut Vec<f64>>,
 ) -> &'static str {
-    if unit != "m" {
-        return unit;
-    }
     let curves: Vec<&mut Vec<f64>> = curves.collect();
     let values = curves.iter().flat_map(|curve| curve.iter());
     let largest = values.fold(0.0_f64, |most, x| most.max(x.abs()));
-    let (unit, factor) = match largest {
-        x if x < 1e-3 => ("µm", 1e6),
-        x if x < 1.0 => ("mm", 1e3),
-        _ => ("m", 1.0),
-    };
+    let (factor, unit) = usual_unit(unit, largest);
     curves.into_iter().flatten().for_each(|x| *x *= factor);
     unit
 }

@@ -2,13 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{EigenResult, SystemResult};
+use gearmesh_scene::system_run::{EigenResult, SystemResult, is_overdamped, shares_in_words};
 
 use super::columns::speed_axis;
 use crate::page::{Align, Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Table};
+use crate::short_number::short;
 
-/// Bodies named with a mode.
-const MOST_BODIES: usize = 3;
+/// Bodies and force elements named with a mode.
+const MOST_SHARES: usize = 3;
 
 pub(super) fn eigen(r: &SystemResult) -> Section {
     let mut section = Section::new(format!("{}: natural frequencies", r.head.title));
@@ -16,37 +17,54 @@ pub(super) fn eigen(r: &SystemResult) -> Section {
         section = section.push(chart);
     }
     for found in &r.eigen {
-        section = section.push(modes_table(r, found));
+        for table in modes_tables(r, found) {
+            if !table.is_empty() {
+                section = section.push(table);
+            }
+        }
     }
     section
 }
 
-fn modes_table(r: &SystemResult, found: &EigenResult) -> Table {
+/// Vibrations, and motions that only die out.
+fn modes_tables(r: &SystemResult, found: &EigenResult) -> [Table; 2] {
     let mut title = format!("Load factor {}", found.point.load_factor);
     if let Some(speed) = found.point.speed_rad_per_s {
         title += &format!(", {:.2} rpm", speed * 60.0 / TAU);
     }
-    let mut table = Table::new(title)
+    let overdamped = Table::new(format!("{title}: motions that die out without vibrating"))
+        .column("motion", Align::Right)
+        .column("ms to 1/e", Align::Right);
+    let vibrating = Table::new(title)
         .column("mode", Align::Right)
         .column("frequency Hz", Align::Right)
-        .column("damping %", Align::Right)
-        .column("share of the kinetic energy", Align::Left);
-    for (k, (mode, shares)) in found.modes.iter().zip(&found.participation).enumerate() {
-        let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
-        let bodies = order
-            .iter()
-            .take(MOST_BODIES)
-            .filter(|&&body| shares[body] > 5e-4)
-            .map(|&body| format!("{} {:.1} %", r.bodies[body], 100.0 * shares[body]));
-        table = table.row([
-            (k + 1).to_string(),
-            format!("{:.4}", mode.frequency_hz()),
-            format!("{:.3}", 100.0 * mode.damping_ratio()),
-            bodies.collect::<Vec<_>>().join(", "),
-        ]);
+        .column("damping %", Align::Right);
+    let [mut vibrating, mut overdamped] = [vibrating, overdamped.folded()].map(|table| {
+        table
+            .column("share of the kinetic energy", Align::Left)
+            .column("share of the strain energy", Align::Left)
+    });
+    for (k, mode) in found.modes.iter().enumerate() {
+        let moves = shares_in_words(&r.bodies, &found.participation[k], MOST_SHARES);
+        let strain = found.strain.get(k);
+        let strained = strain.map_or("-".to_owned(), |shares| {
+            shares_in_words(&r.elements, shares, MOST_SHARES)
+        });
+        let number = (k + 1).to_string();
+        if is_overdamped(mode) {
+            let decay_ms = -1e3 / mode.growth_per_s;
+            overdamped.push_row([number, short(decay_ms), moves, strained]);
+        } else {
+            vibrating.push_row([
+                number,
+                format!("{:.4}", mode.frequency_hz()),
+                format!("{:.3}", 100.0 * mode.damping_ratio()),
+                moves,
+                strained,
+            ]);
+        }
     }
-    table
+    [vibrating, overdamped]
 }
 
 /// Frequencies over speed at the first load factor, with the orders of the meshes' teeth.
@@ -78,7 +96,8 @@ fn campbell(r: &SystemResult) -> Option<LineChart> {
     .x_values(speeds.clone());
     for mode in 0..modes {
         let at = |(_, found): &(f64, &EigenResult)| {
-            found.modes.get(mode).map_or(f64::NAN, |m| m.frequency_hz())
+            let vibrates = found.modes.get(mode).filter(|m| !is_overdamped(m));
+            vibrates.map_or(f64::NAN, |m| m.frequency_hz())
         };
         let values = points.iter().map(at).collect();
         let series = LineSeries::new(format!("mode {}", mode + 1), values);

@@ -1,10 +1,14 @@
 //! Static series over an angle or a load factor.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{SystemResult, split_unit};
+use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
 
 use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
+use crate::short_number::short;
+
+/// Columns of the table.
+const MOST_COLUMNS: usize = 8;
 
 pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
     let mut section = Section::new(format!("{}: equilibria", r.head.title));
@@ -63,19 +67,20 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Section, FileError> {
         .column("load factor", Align::Right)
         .column(axis_name(varied), Align::Right);
     let names = r.rows.columns().iter().map(|c| c.name.clone());
-    let chosen: Vec<String> = names
-        .filter(|name| name.starts_with("elements/"))
-        .take(5)
-        .collect();
+    let mut chosen: Vec<String> = names.filter(|name| name.starts_with("elements/")).collect();
+    chosen.sort_by_key(|name| rank(name));
+    chosen.truncate(MOST_COLUMNS);
     let mut values = Vec::new();
     for name in &chosen {
         let (stem, unit) = split_unit(name);
+        let mut column = r.rows.read(name)?;
+        let unit = scaled(unit, std::iter::once(&mut column));
         table = table.column(format!("{} {unit}", readable(stem)), Align::Right);
-        values.push(r.rows.read(name)?);
+        values.push(column);
     }
     for row in 0..factors.len().min(200) {
         let mut cells = vec![format!("{}", factors[row]), format!("{:.5}", x[row])];
-        cells.extend(values.iter().map(|column| format!("{:.6e}", column[row])));
+        cells.extend(values.iter().map(|column| short(column[row])));
         table = table.row(cells);
     }
     Ok(left_out(section.push(table), &groups))

@@ -1,6 +1,8 @@
 //! Curves of a speed sweep, up and down.
 
-use gearmesh_scene::system_run::{Figures, SweepResult, SystemResult, is_prominent, split_unit};
+use gearmesh_scene::system_run::{
+    Figures, SweepResult, SystemResult, is_prominent, rank, split_unit,
+};
 
 use super::columns::{MOST_CHARTS, quantity, readable, scaled, speed_axis};
 use super::transient::run_table;
@@ -50,7 +52,7 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut chosen: Vec<usize> = (0..sweep.columns.len())
         .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
         .collect();
-    chosen.sort_by_key(|c| !sweep.columns[*c].starts_with("elements/"));
+    chosen.sort_by_key(|c| rank(&sweep.columns[*c]));
     for &column in chosen.iter().take(MOST_CHARTS) {
         let (name, unit) = split_unit(&sweep.columns[column]);
         let figures: [Figure; 4] = [

@@ -1,15 +1,17 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, split_unit};
+use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, rank, split_unit};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
     MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, varies,
 };
 use crate::min_max;
-use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
-use crate::short_number::short;
+use crate::page::{
+    Align, Axis, AxisScale, KeyFigures, LineChart, LineSeries, Section, Table, Text,
+};
+use crate::short_number::{short, usual_unit};
 
 /// Lines of a series that are transformed: the last so many.
 const LONGEST: usize = 1 << 20;
@@ -23,31 +25,80 @@ const HARMONICS: usize = 5;
 /// Highest frequency of a spectrum over the mesh frequency.
 const SPECTRUM_END: f64 = 12.0;
 
-pub(super) fn columns_table(r: &SystemResult) -> Result<Table, FileError> {
-    let mut table = Table::new("Channels of force elements and speeds over the whole run")
-        .column("column", Align::Left)
-        .column("unit", Align::Left)
-        .column("mean", Align::Right)
-        .column("RMS about the mean", Align::Right)
-        .column("least", Align::Right)
-        .column("largest", Align::Right)
-        .column("peak to peak", Align::Right)
-        .column("dominant Hz", Align::Right);
-    for column in r.summaries(is_prominent)? {
+/// Meshes whose figures head a page.
+const MOST_MESHES: usize = 4;
+
+/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other kinds of results none.
+pub(super) fn key_figures(r: &SystemResult) -> KeyFigures {
+    let mut figures = KeyFigures::new();
+    let columns = || r.rows.columns().iter().map(|c| &*c.name).zip(&r.statistics);
+    for mesh in r.head.meshes.iter().take(MOST_MESHES) {
+        let of_mesh = format!("elements/{}/", mesh.name);
+        let find = |channel: &str| {
+            let mut found =
+                columns().filter_map(|(name, f)| Some((name.strip_prefix(&of_mesh)?, f)));
+            found.find(|(name, _)| *name == channel).map(|(_, f)| f)
+        };
+        if let Some(te) = find("transmission_error_m") {
+            let label = format!("{}: TE peak to peak", mesh.name);
+            figures = figures.figure(label, short(1e6 * te.peak_to_peak()), "µm");
+        }
+        let sides = ["normal_force_right_N", "normal_force_left_N"];
+        let forces = sides.iter().filter_map(|side| find(side)).map(|f| f.mean);
+        if let Some(force) = forces.reduce(f64::max) {
+            let label = format!("{}: mean normal force", mesh.name);
+            figures = figures.figure(label, short(force), "N");
+        }
+    }
+    let radial = columns().filter(|(name, _)| name.ends_with("/force_radial_N"));
+    if let Some((name, f)) = radial.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest)) {
+        let bearing = name.split('/').nth(1).unwrap_or_default();
+        let label = format!("largest bearing force: {bearing}");
+        figures = figures.figure(label, short(f.largest), "N");
+    }
+    figures
+}
+
+/// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
+const LAST_RANK: u8 = 5;
+
+/// Meshes, bearings and speeds at a glance, and folded all other force elements.
+pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> {
+    let mut tables = [
+        Table::new("Meshes, bearings and speeds over the whole run"),
+        Table::new("Springs, couplings and beams over the whole run").folded(),
+    ]
+    .map(|table| {
+        table
+            .column("column", Align::Left)
+            .column("unit", Align::Left)
+            .column("mean", Align::Right)
+            .column("RMS about the mean", Align::Right)
+            .column("least", Align::Right)
+            .column("largest", Align::Right)
+            .column("peak to peak", Align::Right)
+            .column("dominant Hz", Align::Right)
+    });
+    let mut found = r.summaries(is_prominent)?;
+    found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
+    found.sort_by_key(|column| rank(&column.name));
+    for column in found {
         let (name, unit) = split_unit(&column.name);
         let f = column.figures;
-        table = table.row([
+        let (factor, unit) = usual_unit(unit, f.least.abs().max(f.largest.abs()));
+        let place = usize::from(rank(&column.name) > LAST_RANK);
+        tables[place].push_row([
             readable(name),
             unit.to_owned(),
-            short(f.mean),
-            short(f.deviation),
-            short(f.least),
-            short(f.largest),
-            short(f.peak_to_peak()),
+            short(factor * f.mean),
+            short(factor * f.deviation),
+            short(factor * f.least),
+            short(factor * f.largest),
+            short(factor * f.peak_to_peak()),
             column.dominant_hz.map_or("-".to_owned(), short),
         ]);
     }
-    Ok(table)
+    Ok(tables)
 }
 
 pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {

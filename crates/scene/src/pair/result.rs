@@ -1,5 +1,6 @@
 //! The result of a scene, in memory and as an HDF5 file.
 
+use super::contact_places::ContactPlaces;
 use super::coverage::{named, periods_of, put_coverage, take_coverage};
 use crate::periods::Coverage;
 use crate::rating::{RatingResult, put_ratings, take_ratings};
@@ -85,6 +86,8 @@ pub struct SceneResult {
     pub force_n: Vec<f64>,
     /// Hertz pressure \[Pa\], `[T][A][L][S]`.
     pub pressure_pa: Vec<f64>,
+    /// Where the slices touch; none in files of older programs.
+    pub places: Option<ContactPlaces>,
     /// Largest over mean line load of the most loaded line, worst position, per torque: K_Hβ.
     pub k_h_beta: Vec<f64>,
     /// Newton iterations, sum over all positions, per torque.
@@ -284,6 +287,9 @@ impl SceneResult {
             "s",
             "wall time of contact and of strain",
         );
+        if let Some(places) = &self.places {
+            places.put(&mut tree, &[a, l, s]);
+        }
         tree.put(
             "pair_count",
             DataArray::new(
@@ -431,6 +437,7 @@ impl SceneResult {
             pair_count: tree.take_u32(path, "pair_count", &[angles])?,
             force_n: tree.take_f64(path, "force_N", &lines)?,
             pressure_pa: tree.take_f64(path, "pressure_Pa", &lines)?,
+            places: ContactPlaces::take(&mut tree, path, &[angles, slots, slices])?,
             k_h_beta: tree.take_f64(path, "k_h_beta", &[torques])?,
             iterations: tree.take_u32(path, "iterations", &[torques])?,
             residual: tree.take_f64(path, "residual", &[torques])?,

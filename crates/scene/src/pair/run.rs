@@ -1,5 +1,6 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
+use super::contact_places::ContactPlaces;
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
@@ -9,7 +10,8 @@ use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
-    AxialSpread, ContactError, ContactLines, ContactSlice, PathExtension, SliceLayout, StaticContact,
+    AxialSpread, ContactError, ContactLines, ContactSlice, PathExtension, SliceLayout,
+    StaticContact,
 };
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
@@ -350,6 +352,7 @@ pub fn run(
         pair_count,
         force_n: flatten(|c| &c.force),
         pressure_pa: flatten(|c| &c.pressure),
+        places: Some(ContactPlaces::new(loaded, &angles, slots)),
         k_h_beta: curves.iter().map(|c| c.k_h_beta).collect(),
         iterations: curves.iter().map(|c| c.iterations).collect(),
         residual: curves.iter().map(|c| c.residual).collect(),

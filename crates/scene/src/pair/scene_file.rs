@@ -79,6 +79,7 @@ enum PathTable {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MeshTable {
+    /// Model of the teeth: finite element compliance and the contact problem of the slices.
     #[allow(dead_code)]
     model: MeshModel,
     /// Local contact; "calibrated" where not given.

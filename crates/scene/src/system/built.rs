@@ -67,7 +67,7 @@ pub struct BuiltMesh {
     pub base_radii_m: [f64; 2],
     /// Model as in the scene.
     pub model: &'static str,
-    /// Frequency of the mesh at the start \[Hz\]: teeth times speed of gear 1 about its axis.
+    /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of centres.
     pub frequency_hz: f64,
 }
 

@@ -16,6 +16,7 @@ pub mod scene;
 pub mod tables;
 
 pub use build::{LoadedSystem, Variation};
+pub(crate) use build::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };

@@ -32,6 +32,41 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     found.unwrap_or((name, ""))
 }
 
+/// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, radial and axial forces of bearings, root strain, line loads, speeds,
+/// other force elements and joints, beams of shafts, all else.
+pub fn rank(name: &str) -> u8 {
+    let parts: Vec<&str> = name.split('/').collect();
+    let [kind, owners @ .., channel] = &parts[..] else {
+        return 9;
+    };
+    match *kind {
+        "elements" => match *channel {
+            "transmission_error_m" => 0,
+            "loaded_pairs" | "apart" => 1,
+            mesh if mesh.starts_with("normal_force_") || mesh.ends_with("_force_1_N") => 1,
+            "force_radial_N" | "force_shaft_z_N" => 2,
+            strain if strain.starts_with("strain_") => 3,
+            slice if slice.starts_with("line_load_slice_") => 4,
+            _ if owners.first().is_some_and(|owner| is_beam(owner)) => 8,
+            _ => 6,
+        },
+        "bodies" if *channel == "angular_velocity_z_rad_per_s" => 5,
+        "joints" if matches!(split_unit(channel).1, "N" | "N·m") => 7,
+        _ => 9,
+    }
+}
+
+/// Whether an element is a beam between stations of a shaft: `shaft_0-1`.
+fn is_beam(owner: &str) -> bool {
+    let Some((_, stations)) = owner.rsplit_once('_') else {
+        return false;
+    };
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    stations
+        .split_once('-')
+        .is_some_and(|(a, b)| number(a) && number(b))
+}
+
 /// Columns that a reader asks for first: channels of force elements, and speeds about the bodies' own axes.
 pub fn is_prominent(name: &str) -> bool {
     name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
@@ -63,6 +98,25 @@ mod tests {
             ("acceleration_x", "m/s²")
         );
         assert_eq!(split_unit("loaded_pairs"), ("loaded_pairs", ""));
+    }
+
+    #[test]
+    fn meshes_and_bearings_come_before_beams() {
+        let names = [
+            "elements/first stage/transmission_error_m",
+            "elements/first stage/normal_force_left_N",
+            "elements/front bearing/force_radial_N",
+            "elements/first stage/strain_gear1_root_method2_ustrain",
+            "elements/first stage/line_load_slice_3_N_per_m",
+            "bodies/pinion/angular_velocity_z_rad_per_s",
+            "elements/coupling/moment_z_Nm",
+            "joints/axis/force_x_N",
+            "elements/low shaft_0-1/force_x_N",
+            "bodies/pinion/x_m",
+        ];
+        let ranks = names.map(rank);
+        assert!(ranks.is_sorted() && ranks[7] < ranks[8], "{ranks:?}");
+        assert_eq!(rank("time_s"), 9);
     }
 
     #[test]

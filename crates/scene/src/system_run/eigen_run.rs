@@ -1,6 +1,8 @@
 //! `eigen`: natural frequencies about equilibria or motions, with the share of each body in them.
 
-use gearmesh_dynamics::{NaturalMode, State, StaticParams, System, equilibrium, natural_modes};
+use gearmesh_dynamics::{
+    NaturalMode, State, StaticParams, System, equilibrium, natural_modes, strain_shares,
+};
 use nalgebra::{DVector, Vector3};
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -17,7 +19,7 @@ pub(super) fn run_eigen(
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
     let mut results = Vec::with_capacity(job.points.len());
-    let mut bodies = Vec::new();
+    let (mut bodies, mut elements) = (Vec::new(), Vec::new());
     for (number, point) in job.points.iter().enumerate() {
         let system = (job.system_at)(*point)?;
         bodies = system
@@ -25,6 +27,7 @@ pub(super) fn run_eigen(
             .iter()
             .map(|body| body.name.clone())
             .collect();
+        elements = system.elements().map(str::to_owned).collect();
         let mut notes = Vec::new();
         let Some(found) = about(system, point, job, &mut notes, options)? else {
             return Ok(Outcome::Stopped);
@@ -43,7 +46,7 @@ pub(super) fn run_eigen(
         }
     }
     let mut tree = result::base(&head, "eigen", None);
-    result::put_eigen(&mut tree, &bodies, &results);
+    result::put_eigen(&mut tree, [&bodies, &elements], &results);
     result::write(options.output, &tree)?;
     Ok(Outcome::Finished)
 }
@@ -56,7 +59,7 @@ fn about(
     notes: &mut Vec<String>,
     options: &RunOptions<'_>,
 ) -> Result<Option<EigenResult>, SystemRunError> {
-    let (system, state, modes) = match job.settle {
+    let (mut system, state, modes) = match job.settle {
         Some(settling) => {
             let mut simulation = begin(system, (&settling.params, settling.start), notes)?;
             let mut found = None;
@@ -89,6 +92,7 @@ fn about(
             .is_none_or(|most| mode.frequency_hz() <= most)
     });
     let modes: Vec<NaturalMode> = kept.collect();
+    let strain = strain_shares(&mut system, &state, &modes)?;
     let participation = modes
         .iter()
         .map(|mode| participation(&system, &state, mode))
@@ -97,6 +101,7 @@ fn about(
         point: *point,
         modes,
         participation,
+        strain,
     }))
 }
 

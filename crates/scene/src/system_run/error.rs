@@ -6,6 +6,9 @@ use gearmesh_dynamics::DynamicsError;
 use gearmesh_model::FileError;
 use gearmesh_signal::SeriesError;
 
+use crate::system::tables::output::MOST_ROWS;
+use crate::system::{STEPS_A_PERIOD, floored};
+
 /// Why a multibody scene could not be run.
 #[derive(Debug, thiserror::Error)]
 pub enum SystemRunError {
@@ -57,13 +60,40 @@ pub enum SystemRunError {
         /// What is wrong.
         problem: &'static str,
     },
+    /// A step is too long for a mesh.
+    #[error(
+        "at t = {time_s} s mesh `{mesh}` runs at {frequency_hz:.3} Hz: a step of {step_s:.3e} s is {:.3} of its period, allowed is an \
+         eighth; take steps of at most {:.2e} s (solver.step_s, or solver.adaptive.largest_step_s)",
+        step_s * frequency_hz, floored(1.0 / (STEPS_A_PERIOD * frequency_hz))
+    )]
+    StepPassesTeeth {
+        /// The mesh.
+        mesh: String,
+        /// When \[s\].
+        time_s: f64,
+        /// Its frequency \[Hz\].
+        frequency_hz: f64,
+        /// The step \[s\].
+        step_s: f64,
+    },
+    /// A column of a row is not finite.
+    #[error(
+        "column `{column}` is {value} at {abscissa} = {at}: the run ends here, no result is written; look at what the part does just before"
+    )]
+    NotFinite {
+        /// The column.
+        column: String,
+        /// Its value.
+        value: f64,
+        /// First column.
+        abscissa: String,
+        /// Its value.
+        at: f64,
+    },
     /// A scene asks for something that its kind of run cannot give.
     #[error("{0}")]
     Input(#[from] gearmesh_geometry::InputError),
 }
-
-/// Rows of a result: 2³², 34 GB for each column.
-pub const MOST_ROWS: f64 = 4_294_967_296.0;
 
 impl SystemRunError {
     /// True when the input is to blame, not the computation.

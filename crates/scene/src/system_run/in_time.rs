@@ -14,8 +14,9 @@ use gearmesh_dynamics::{
 use gearmesh_model::{Column, DataTree, FileError, RowLog};
 
 use super::column_statistics::ColumnStatistics;
-use super::error::{MOST_ROWS, SystemRunError};
+use super::error::SystemRunError;
 use super::job::{Advance, InTime, Outcome, RunHead, RunOptions};
+use super::mesh_pace::MeshPace;
 use super::part_folder::PartFolder;
 use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
@@ -23,6 +24,7 @@ use super::result;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
 use crate::rating::put_ratings;
+use crate::system::tables::output::MOST_ROWS;
 use crate::system::{RatingJob, Start};
 
 /// Wall time between two calls of the progress.
@@ -57,6 +59,7 @@ struct Tape<'a> {
     samples: u64,
     recorder: Recorder,
     grid: OutputGrid,
+    pace: MeshPace,
     /// Of all rows.
     statistics: ColumnStatistics,
     /// Of the window that is open.
@@ -71,7 +74,7 @@ struct Tape<'a> {
 impl<'a> Tape<'a> {
     fn new(
         run: &'a InTime,
-        system: &System,
+        (head, system): (&RunHead, &System),
         selection: &Selection,
     ) -> Result<Self, SystemRunError> {
         let refused = |problem| SystemRunError::Interval {
@@ -99,6 +102,7 @@ impl<'a> Tape<'a> {
             samples: samples as u64,
             recorder,
             grid: OutputGrid::new(run.interval_s, start),
+            pace: MeshPace::new(system, &head.meshes),
             statistics: ColumnStatistics::new(columns),
             window: ColumnStatistics::new(columns),
             closed: 0,
@@ -141,9 +145,10 @@ impl<'a> Tape<'a> {
     }
 
     /// Takes the output times within a step. Allocates nothing, but where a window closes.
-    fn take(&mut self, step: &mut Accepted<'_>, log: &mut RowLog) -> Result<(), FileError> {
+    fn take(&mut self, step: &mut Accepted<'_>, log: &mut RowLog) -> Result<(), SystemRunError> {
         let (from_s, to_s) = (step.from.time_s, step.to.time_s);
         let (info, to) = (step.info, step.to);
+        self.pace.follow(step.system, to, to_s - from_s)?;
         let lambda = [step.lambda_from, step.lambda];
         let acceleration = [step.acceleration_from, step.acceleration];
         let Self {
@@ -156,6 +161,7 @@ impl<'a> Tape<'a> {
             closed,
             figures,
             before,
+            pace: _,
         } = self;
         let mut outcome = Ok(());
         let mut index = grid.next_index();
@@ -173,7 +179,7 @@ impl<'a> Tape<'a> {
             if !due || (!run.windows.is_empty() && open.is_none_or(|open| now < open.from_s)) {
                 return;
             }
-            let row = recorder.row(
+            let row = recorder.finite_row(
                 system,
                 &Moment {
                     abscissas: &[state.time_s],
@@ -186,9 +192,16 @@ impl<'a> Tape<'a> {
                     largest_violation: info.largest_violation,
                 },
             );
+            let row = match row {
+                Ok(row) => row,
+                Err(error) => {
+                    outcome = Err(error);
+                    return;
+                }
+            };
             statistics.add(row);
             if run.windows.is_empty() {
-                outcome = log.append(row);
+                outcome = log.append(row).map_err(SystemRunError::from);
             } else {
                 window.add(row);
             }
@@ -222,7 +235,7 @@ pub(super) fn run_in_time(
     (kind, run): (&str, &InTime),
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
-    let mut tape = Tape::new(run, &system, selection)?;
+    let mut tape = Tape::new(run, (&head, &system), selection)?;
     let columns = tape.recorder.columns().to_vec();
     let (mut part, saved) = PartFolder::open(
         options.output,

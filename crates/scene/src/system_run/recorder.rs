@@ -3,7 +3,7 @@
 //! | group | columns | frame |
 //! | --- | --- | --- |
 //! | `bodies/NAME` | place, Cardan angles, turn about its own z axis, velocity, angular velocity, their rates, modal coordinates | place and velocity world, angular velocity body |
-//! | `joints/NAME` | force and moment on body 2, angle about z and offset along z | marker of body 1 |
+//! | `joints/NAME` | force and moment on body 2, angle about z and offset along z | marker of body 1; the force in world axes, too |
 //! | `elements/NAME` | the element's own channels | the element's |
 //! | `energy` | kinetic, potential, dissipated, supplied, error of the balance | |
 //! | `run` | length of the step, largest violation of a joint so far | |
@@ -13,6 +13,7 @@ use gearmesh_model::Column;
 use nalgebra::UnitQuaternion;
 
 use super::counted_angles::{CountedAngles, body_angles};
+use super::error::SystemRunError;
 
 /// What is recorded besides the time.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -287,6 +288,10 @@ impl Recorder {
                         "moment of the joint on body 2 in its marker, axes of the marker of body 1";
                     self.column(format!("{group}/moment_{axis}_Nm"), "N m", text);
                 }
+                for axis in AXES {
+                    let text = "force of the joint on body 2, world axes";
+                    self.column(format!("{group}/force_world_{axis}_N"), "N", text);
+                }
                 let text = "angle of body 2 about z of body 1's marker, turns counted";
                 self.column(format!("{group}/angle_rad"), "rad", text);
                 let text = "offset of body 2's marker along z of body 1's";
@@ -338,6 +343,8 @@ impl Recorder {
             let joint = &system.joints()[pair.joint];
             let load = joint.load(pair.pair, &self.lambda[pair.equations.clone()], &motion);
             self.row.extend_from_slice(load.as_slice());
+            let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
+            self.row.extend_from_slice(force.as_slice());
             self.row.extend(pair.angle.value(about_z(&motion)));
             self.row.push(motion.displacement_m[2]);
         }
@@ -367,6 +374,27 @@ impl Recorder {
             self.row.push(at.largest_violation);
         }
         &self.row
+    }
+
+    /// The row of a moment, if it holds numbers only. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`SystemRunError::NotFinite`] with the column.
+    pub fn finite_row(
+        &mut self,
+        system: &mut System,
+        at: &Moment<'_>,
+    ) -> Result<&[f64], SystemRunError> {
+        self.row(system, at);
+        match self.row.iter().position(|value| !value.is_finite()) {
+            None => Ok(&self.row),
+            Some(place) => Err(SystemRunError::NotFinite {
+                column: self.columns[place].name.clone(),
+                value: self.row[place],
+                abscissa: self.columns[0].name.clone(),
+                at: self.row[0],
+            }),
+        }
     }
 
     /// Counts the turns of an accepted motion.

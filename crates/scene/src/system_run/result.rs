@@ -30,6 +30,8 @@ pub struct EigenResult {
     pub modes: Vec<NaturalMode>,
     /// Share of each body in the kinetic energy of each mode, `[mode][body]`.
     pub participation: Vec<Vec<f64>>,
+    /// Share of each force element in the strain energy of each mode, `[mode][element]`; empty in files of older programs.
+    pub strain: Vec<Vec<f64>>,
 }
 
 /// A measured speed sweep.
@@ -68,6 +70,8 @@ pub struct SystemResult {
     pub eigen: Vec<EigenResult>,
     /// Names of the bodies, in the order of the participations.
     pub bodies: Vec<String>,
+    /// Names of the force elements, in the order of the strain shares.
+    pub elements: Vec<String>,
 }
 
 impl SweepResult {
@@ -201,8 +205,13 @@ pub(super) fn put_sweep(
 }
 
 /// Natural modes of some operating points.
-pub(super) fn put_eigen(tree: &mut DataTree, bodies: &[String], results: &[EigenResult]) {
+pub(super) fn put_eigen(
+    tree: &mut DataTree,
+    [bodies, elements]: [&[String]; 2],
+    results: &[EigenResult],
+) {
     tree.put_text("eigen/bodies", bodies.join("\n"));
+    tree.put_text("eigen/elements", elements.join("\n"));
     for (i, result) in results.iter().enumerate() {
         let group = format!("eigen/{i:04}");
         let modes = ("mode", result.modes.len());
@@ -261,6 +270,18 @@ pub(super) fn put_eigen(tree: &mut DataTree, bodies: &[String], results: &[Eigen
             "1",
             text,
         );
+        if !elements.is_empty() {
+            let shares = result.strain.iter().flatten().copied().collect();
+            let text = "share of each force element in the strain energy";
+            put(
+                tree,
+                &format!("{group}/strain"),
+                shares,
+                &[modes, ("element", elements.len())],
+                "1",
+                text,
+            );
+        }
         let scalar = |value: f64, unit: &str, text: &str| DataArray::scalar(value, unit, text);
         let factor = scalar(result.point.load_factor, "1", "share of the scene's loads");
         tree.put(format!("{group}/load_factor"), factor);
@@ -306,7 +327,7 @@ impl SystemResult {
             .then(|| take_sweep(tree, path))
             .transpose()?;
         let ratings = take_ratings(tree, path)?;
-        let (bodies, eigen) = if kind == "eigen" {
+        let (bodies, elements, eigen) = if kind == "eigen" {
             take_eigen(tree, path)?
         } else {
             Default::default()
@@ -329,6 +350,7 @@ impl SystemResult {
             ratings,
             eigen,
             bodies,
+            elements,
         })
     }
 }
@@ -397,9 +419,12 @@ fn take_sweep(tree: &mut DataTree, path: &Path) -> Result<SweepResult, FileError
 fn take_eigen(
     tree: &mut DataTree,
     path: &Path,
-) -> Result<(Vec<String>, Vec<EigenResult>), FileError> {
+) -> Result<(Vec<String>, Vec<String>, Vec<EigenResult>), FileError> {
     let names = tree.take_text(path, "eigen/bodies")?;
     let bodies: Vec<String> = names.lines().map(str::to_owned).collect();
+    // Files of older programs have no elements.
+    let names = tree.take_text(path, "eigen/elements").unwrap_or_default();
+    let elements: Vec<String> = names.lines().map(str::to_owned).collect();
     let points = tree.children("eigen");
     let mut results = Vec::with_capacity(points.len());
     for point in points {
@@ -417,6 +442,11 @@ fn take_eigen(
         let real = tree.take_f64(path, &name("shape_real"), &[modes, dofs])?;
         let imaginary = tree.take_f64(path, &name("shape_imaginary"), &[modes, dofs])?;
         let shares = tree.take_f64(path, &name("participation"), &[modes, bodies.len()])?;
+        let strain = if elements.is_empty() {
+            Vec::new()
+        } else {
+            tree.take_f64(path, &name("strain"), &[modes, elements.len()])?
+        };
         let mode = |i: usize| NaturalMode {
             growth_per_s: growth[i],
             angular_frequency_rad_per_s: std::f64::consts::TAU * frequency[i],
@@ -434,7 +464,11 @@ fn take_eigen(
                 .chunks(bodies.len().max(1))
                 .map(<[_]>::to_vec)
                 .collect(),
+            strain: strain
+                .chunks(elements.len().max(1))
+                .map(<[_]>::to_vec)
+                .collect(),
         });
     }
-    Ok((bodies, results))
+    Ok((bodies, elements, results))
 }

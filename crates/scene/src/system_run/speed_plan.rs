@@ -12,7 +12,7 @@ use crate::system::{Direction, Schedule, SpeedSweep};
 const CHANGE: f64 = 0.25;
 
 /// Windows of a ramp.
-const RAMP_WINDOWS: usize = 100;
+const RAMP_WINDOWS: usize = Schedule::RAMP_WINDOWS;
 
 /// A time in which the response is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]

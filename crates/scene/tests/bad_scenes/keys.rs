@@ -1,5 +1,6 @@
 //! Unknown names, keys of another kind, values out of range.
 
+use crate::common::{build, changed, text};
 use crate::refused;
 
 #[test]
@@ -147,5 +148,97 @@ fn values_out_of_range_are_refused() {
         ("speed_rpm = -600.0", ""),
         "[[motion]]",
         &["a motion states exactly one of angle_deg, speed_rpm, position_mm, speed_mm_per_s"],
+    );
+}
+
+/// Steps that pass teeth by: at the start, at a speed to which a motion goes later, in a sweep, adaptive.
+#[test]
+fn steps_that_do_not_follow_the_mesh_are_refused() {
+    let allowed = "allowed is at most 1.75e-4 s, a tenth of the mesh period";
+    refused(
+        ("step_s = 2e-6", "step_s = 2e-4"),
+        "step_s",
+        &[
+            "solver.step_s: found 0.0002 s, 0.114 periods of mesh `mesh`, whose frequency is 570.000 Hz",
+            allowed,
+        ],
+    );
+    refused(
+        (
+            "step_s = 2e-6",
+            "adaptive = { largest_step_s = 2e-3, translation_tolerance_um = 1.0, rotation_tolerance_urad = 10.0 }",
+        ),
+        "adaptive",
+        &[
+            "solver.adaptive.largest_step_s: found 0.002 s, 1.140 periods of mesh `mesh`",
+            allowed,
+        ],
+    );
+    let ramp = "speed_rpm = { step = { start_s = 0.0, from = 0.0, end_s = 0.04, to = -60000.0 } }";
+    refused(
+        ("speed_rpm = -600.0", ramp),
+        "step_s",
+        &[
+            "0.114 periods of mesh `mesh`, whose frequency is 57000.000 Hz at the highest speed that the scene states",
+        ],
+    );
+    refused(
+        (
+            "kind = \"transient\"\nend_s = 0.05",
+            &sweep("to_rpm = -60000.0", "settle_s = 0.01\nmeasure_s = 0.01"),
+        ),
+        "step_s",
+        &["solver.step_s: found 0.000002 s, 0.114 periods of mesh `mesh`"],
+    );
+    // Ten steps a period are enough.
+    let scene = changed(
+        &text("scene_two_wheels.toml"),
+        "step_s = 2e-6",
+        "step_s = 1.75e-4",
+    );
+    build(&scene).unwrap();
+}
+
+fn sweep(to: &str, times: &str) -> String {
+    format!(
+        "kind = \"speed-sweep\"\nmotion = \"drive\"\nspeeds = 3\nfrom_rpm = -600.0\n{to}\n{times}"
+    )
+}
+
+/// Windows of a sweep without samples have no figures.
+#[test]
+fn sweeps_whose_windows_hold_no_samples_are_refused() {
+    let transient = "kind = \"transient\"\nend_s = 0.05";
+    let of = |times: &str| sweep("to_rpm = -700.0", times);
+    let samples = "two samples of output.interval_s = 0.00002";
+    for (measure, found) in [("1e-5", "0.00001"), ("1e-29", "1e-29")] {
+        refused(
+            (
+                transient,
+                &of(&format!("settle_s = 0.01\nmeasure_s = {measure}")),
+            ),
+            "measure_s",
+            &[&format!(
+                "run.measure_s: found {found}, allowed is at least 0.00004, {samples}"
+            )],
+        );
+    }
+    refused(
+        (transient, &of("settle_s = 1e-29\nmeasure_s = 0.01")),
+        "settle_s",
+        &["run.settle_s: found 1e-29, allowed is at least"],
+    );
+    refused(
+        (transient, &of("ramp_s = 1e-3").replace("speeds = 3\n", "")),
+        "ramp_s",
+        &[
+            "run.ramp_s: found 0.001, allowed is at least 0.004: each of its 100 windows needs",
+            samples,
+        ],
+    );
+    refused(
+        ("interval_s = 2e-5", "interval_s = 1e-29"),
+        "interval_s",
+        &["output.interval_s: found 1e-29, allowed is at least"],
     );
 }

@@ -72,7 +72,12 @@ impl Outputs {
     }
 
     pub fn value(&self, element: &str, channel: &str) -> f64 {
+        self.get(element, channel).unwrap()
+    }
+
+    pub fn get(&self, element: &str, channel: &str) -> Option<f64> {
         let is_it = |(of, one): &(String, Channel)| of == element && one.name == channel;
-        self.values[self.channels.iter().position(is_it).unwrap()]
+        let place = self.channels.iter().position(is_it)?;
+        Some(self.values[place])
     }
 }

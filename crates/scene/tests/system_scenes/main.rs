@@ -3,13 +3,16 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod epicyclic;
 mod gearbox;
+mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
 mod pair_stiffness;
 mod shafts;
 mod shipped;
 mod start;
+mod static_pairs;
 #[path = "../system_runs/mod.rs"]
 mod system_runs;
 mod tables;

@@ -105,7 +105,7 @@ fn stated_angles_stay() {
     let scene = changed(
         &text("scene_two_wheels.toml"),
         "position_mm = [150.0, 0.0, 0.0]",
-        "position_mm = [150.0, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, 3.0]",
+        "position_mm = [150.0, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, 0.05]",
     );
     let scene = changed(
         &scene,
@@ -113,7 +113,9 @@ fn stated_angles_stay() {
         "[[body]]\nname = \"pinion\"\ncardan_deg = [0.0, 0.0, 0.0]",
     );
     let built = build(&scene).unwrap();
-    assert!((body(&built, "wheel").orientation.scaled_axis()[2] - 3f64.to_radians()).abs() < 1e-15);
+    assert!(
+        (body(&built, "wheel").orientation.scaled_axis()[2] - 0.05f64.to_radians()).abs() < 1e-15
+    );
     assert!(
         built
             .notes

@@ -227,7 +227,7 @@ mod tests {
 
     /// This very program, as a binary of two kinds.
     fn own_parts(long: bool) -> Vec<Part> {
-        let program = std::env::current_exe().map_or_else(|_| PathBuf::new(), |path| path);
+        let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::new());
         let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let name = "xtask".to_owned();
         let binary = Binary {

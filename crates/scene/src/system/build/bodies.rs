@@ -32,6 +32,8 @@ pub(super) struct PlacedBody {
     pub turn_is_free: bool,
     /// Nobody has said how fast it turns.
     pub speed_is_free: bool,
+    /// Nobody has said how fast its origin moves.
+    pub velocity_is_free: bool,
 }
 
 impl PlacedBody {
@@ -116,6 +118,7 @@ impl PlacedBody {
             place_is_free: table.position_mm.is_none(),
             turn_is_free,
             speed_is_free: table.speed_rpm.is_none() && table.angular_velocity_rad_per_s.is_none(),
+            velocity_is_free: table.velocity_mm_per_s.is_none(),
             gear,
         })
     }
@@ -277,13 +280,22 @@ pub(super) struct Frame {
 }
 
 /// All bodies, and their numbers once the system has them.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Bodies {
     pub list: Vec<PlacedBody>,
     pub ids: Vec<BodyId>,
 }
 
 impl Bodies {
+    /// Takes all bodies as if nobody had said how they move.
+    pub(super) fn free_speeds(&mut self) {
+        for placed in &mut self.list {
+            (placed.speed_is_free, placed.velocity_is_free) = (true, true);
+            placed.body.angular_velocity_rad_per_s = Vector3::zeros();
+            placed.body.velocity_m_per_s = Vector3::zeros();
+        }
+    }
+
     /// Number of a body in the list; none for the ground.
     pub(super) fn find(
         &self,

@@ -9,7 +9,7 @@ use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, GearPair, InputError, Misalignment};
 
-use super::bodies::{Bodies, Frame};
+use super::bodies::Bodies;
 use super::gears::Gear;
 use super::mesh_model::{SceneMesh, refuse_unused};
 use super::parts::Parts;
@@ -32,6 +32,8 @@ pub(super) struct PreparedMesh {
     pub mesh: Option<GearMesh>,
     /// The sides that can touch.
     pub sides: Vec<FlankSide>,
+    /// Width of a slice \[m\]; zero for `kinematic`.
+    slice_width_m: f64,
 }
 
 impl PreparedMesh {
@@ -91,6 +93,7 @@ impl PreparedMesh {
                 FlanksWord::Right => vec![FlankSide::Right],
                 FlanksWord::Left => vec![FlankSide::Left],
             },
+            slice_width_m: 0.0,
             key: key.clone(),
         };
         let mut scene = SceneMesh {
@@ -99,7 +102,8 @@ impl PreparedMesh {
             folder,
             gears,
             pair: &pair,
-            displacement_m: at_start.face_displacement_m(gears.map(|gear| gear.definition.profile.base_radius_m)),
+            displacement_m: at_start
+                .face_displacement_m(gears.map(|gear| gear.definition.profile.base_radius_m)),
             curve: None,
         };
         scene.curve = scene.static_curve(prepared.sides[0])?;
@@ -107,10 +111,10 @@ impl PreparedMesh {
         if table.model == MeshModel::Kinematic {
             scene.microgeometry()?;
         } else {
-            prepared.mesh = Some(scene.modal(
-                scene.mesh(&prepared.sides)?,
-                numbers.map(|number| bodies.list[number].modes),
-            )?);
+            let mesh = scene.mesh(&prepared.sides)?;
+            prepared.slice_width_m = mesh.kinematics().layout().width_m();
+            let modes = numbers.map(|number| bodies.list[number].modes);
+            prepared.mesh = Some(scene.modal(mesh, modes)?);
         }
         scene.effects(parts);
         parts.notes.extend(scene.stiffness_note()?);
@@ -135,7 +139,8 @@ impl PreparedMesh {
         match self.mesh {
             Some(mesh) => {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
-                let mut element = MeshElement::new(&self.name, markers, mesh);
+                let mut element =
+                    MeshElement::new(&self.name, markers, mesh).with_line_loads(self.slice_width_m);
                 for gear in [1, 2] {
                     let on_gear = |gauge: &&BuiltGauge| {
                         gauge
@@ -169,14 +174,8 @@ impl PreparedMesh {
                 parts.element(&self.name, kind, bodies, ends);
             }
             None => {
-                let pair = |end: Option<usize>| {
-                    let frame: Frame = bodies.frame(end);
-                    MarkerPair {
-                        a: bodies.marker(None, &frame),
-                        b: bodies.marker(end, &frame),
-                    }
-                };
-                builder.joint(kinematic_mesh(&self.name, ends.map(pair), self.teeth));
+                let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
+                builder.joint(kinematic_mesh(&self.name, markers, self.teeth));
                 parts.joint(&self.name, "kinematic mesh", bodies, ends);
             }
         }

@@ -12,6 +12,7 @@ use super::parts::Parts;
 use crate::system::names;
 use crate::system::tables::MM;
 use crate::system::tables::joint::{JointTable, JointWord, MotionTable};
+use crate::system::tables::run::Run;
 
 /// What a motion drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,6 +81,9 @@ pub(super) fn add_joints(
     Ok(())
 }
 
+/// How often a function is looked at for its fastest speed.
+const LOOKS: u32 = 1000;
+
 /// A motion with its joint.
 pub(super) struct PlacedMotion {
     name: String,
@@ -98,6 +102,34 @@ impl PlacedMotion {
             (Motion::Speed(f), Driven::Angle) => Some(f.at(0.0).value),
             (Motion::Position(f), Driven::Angle) => Some(f.at(0.0).rate),
         }
+    }
+
+    /// The fastest speed about the joint's axis in a run that steps through time \[rad/s\], where the angle is driven: that of the values which
+    /// the run gives the motion, or the largest of its function, looked at often.
+    pub(super) fn fastest_spin(&self, run: &Run) -> Option<f64> {
+        let at = |time_s: f64| match (&self.motion, self.driven) {
+            (_, Driven::Place) => None,
+            (Motion::Speed(f), Driven::Angle) => Some(f.at(time_s).value),
+            (Motion::Position(f), Driven::Angle) => Some(f.at(time_s).rate),
+        };
+        let varied = run.varied_motion() == Some(&self.name);
+        let stated: Vec<f64> = match run {
+            Run::SpeedSweep(sweep) if varied => vec![sweep.from_rad_per_s, sweep.to_rad_per_s],
+            Run::Eigen {
+                speeds_rad_per_s: Some(speeds),
+                ..
+            } if varied => speeds.values.clone(),
+            _ => {
+                let end_s = run.simulated_s().unwrap_or(0.0);
+                let times = (0..=LOOKS).map(|i| end_s * f64::from(i) / f64::from(LOOKS));
+                times.map_while(at).collect()
+            }
+        };
+        at(0.0)?;
+        let fastest = stated
+            .into_iter()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        fastest.filter(|speed| speed.is_finite())
     }
 
     /// Takes another function, of the same kind of coordinate.

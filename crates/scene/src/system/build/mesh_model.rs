@@ -318,7 +318,10 @@ impl SceneMesh<'_> {
         let nominal = self.table.nominal_force_N.unwrap_or(reference);
         self.keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (self.table.local.unwrap_or_default().local_contact(), self.displacement_m);
+        let contact = (
+            self.table.local.unwrap_or_default().local_contact(),
+            self.displacement_m,
+        );
         ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.table.flanks.unwrap_or_default() {
                 FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",

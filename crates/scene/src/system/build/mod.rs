@@ -6,17 +6,22 @@
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts | `shafts.rs` |
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs` |
-//! | speeds and angles that nobody states | `start.rs` |
+//! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
+//! | angles that nobody states | `start.rs` |
+//! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
+//! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
 mod bodies;
+mod carriers;
 mod elements;
 mod gear_mesh;
 mod gears;
 mod joints;
 mod lump;
 mod mesh_effects;
+mod mesh_frequency;
 mod mesh_model;
 mod mesh_stiffness;
 mod pair_stiffness;
@@ -24,8 +29,12 @@ mod parts;
 mod ratings;
 mod shafts;
 mod start;
+mod start_speeds;
+mod stated_speeds;
+mod stiffness;
 
-use std::f64::consts::TAU;
+pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
+
 use std::sync::Arc;
 
 use gearmesh_dynamics::{Motion, System, SystemBuilder};
@@ -35,8 +44,10 @@ use gearmesh_geometry::input::TableKeys;
 use self::bodies::{Bodies, PlacedBody};
 use self::gear_mesh::PreparedMesh;
 use self::gears::{Gear, GearFiles};
+use self::joints::PlacedMotion;
 use self::parts::Parts;
 use self::shafts::PlacedShaft;
+use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
@@ -151,13 +162,22 @@ impl LoadedSystem {
         self.check_flexibility(&bodies, &meshes)?;
         let joints = joints::place(&tables.joint, document, &bodies)?;
         let motions = joints::motions(&tables.motion, files, &joints, &variation.motions)?;
-        start::settle_speeds(
-            &mut bodies,
-            (&joints, &motions),
-            &shafts,
-            &meshes,
-            &mut parts.notes,
-        );
+        let holds = Holds {
+            joints: &joints,
+            bearings: &tables.bearing,
+            shafts: &shafts,
+        };
+        let mut fastest = bodies.clone();
+        let moved = (&motions[..], &PlacedMotion::spin_at_start as &_);
+        start_speeds::settle_speeds(&mut bodies, holds, moved, &meshes, &mut parts.notes);
+        start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
+        // What motions drive is not held at the speeds of the start.
+        fastest.free_speeds();
+        let fastest_of = |motion: &PlacedMotion| motion.fastest_spin(&self.scene.run);
+        let moved = (&motions[..], &fastest_of as &_);
+        start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
+        mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
+        stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
         // Gears have been turned: frames along their axes are the same, others follow.
         let joints = joints::place(&tables.joint, document, &bodies)?;
@@ -439,13 +459,12 @@ impl LoadedSystem {
 }
 
 fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
-    let gear_1 = &bodies.list[mesh.bodies[0]].body;
     BuiltMesh {
         name: mesh.name.clone(),
         gears: mesh.bodies.map(|body| bodies.list[body].body.name.clone()),
         teeth: mesh.teeth,
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
-        frequency_hz: mesh.teeth[0] as f64 * gear_1.angular_velocity_rad_per_s.z.abs() / TAU,
+        frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
     }
 }

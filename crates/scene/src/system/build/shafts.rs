@@ -92,6 +92,7 @@ impl PlacedShaft {
                 place_is_free: false,
                 turn_is_free: false,
                 speed_is_free: omega.is_none(),
+                velocity_is_free: true,
             }
         };
         let mut own: Vec<Option<usize>> = vec![None; z.len()];

@@ -1,122 +1,16 @@
-//! What the scene leaves open about the start and the meshes settle: how fast bodies turn, and how far gears are turned so that their teeth
-//! touch.
-
-use std::f64::consts::TAU;
+//! How far gears are turned at the start so that their teeth touch, where the scene leaves that open.
 
 use gearmesh_drivetrain::FlankContacts;
+use gearmesh_drivetrain::tooth_overlap::{BEHIND, THROUGH};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, InputError};
-use nalgebra::Vector3;
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
-use super::joints::{PlacedJoint, PlacedMotion};
-use super::shafts::PlacedShaft;
 use crate::system::tables::UM;
-use crate::system::tables::joint::JointWord;
 
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;
-
-/// Gives speeds to bodies whose speed nobody states: those of motions, of the shaft or body that they are fixed to, and of the gears they
-/// mesh with.
-pub(super) fn settle_speeds(
-    bodies: &mut Bodies,
-    (joints, motions): (&[PlacedJoint<'_>], &[PlacedMotion]),
-    shafts: &[PlacedShaft],
-    meshes: &[PreparedMesh],
-    notes: &mut Vec<String>,
-) {
-    for motion in motions {
-        let joint = &joints[motion.joint];
-        if let ([None, Some(body)], Some(spin)) = (joint.ends, motion.spin_at_start()) {
-            let axis = joint.frame.axes * Vector3::z();
-            let sense = bodies.list[body].axis().dot(&axis);
-            if sense.abs() > 1.0 - 1e-9 {
-                settle(
-                    bodies,
-                    body,
-                    spin * sense.signum(),
-                    || "its motion".to_string(),
-                    notes,
-                );
-            }
-        }
-    }
-    let mut groups: Vec<(Vec<usize>, String)> = shafts
-        .iter()
-        .map(|shaft| (shaft.bodies().collect(), shaft.describe()))
-        .collect();
-    for joint in joints {
-        if let (JointWord::Fixed, [Some(a), Some(b)]) = (joint.table.kind, joint.ends) {
-            groups.push((vec![a, b], format!("joint `{}`", joint.table.name)));
-        }
-    }
-    loop {
-        let mut settled = false;
-        for (group, name) in &groups {
-            let Some(&known) = group.iter().find(|&&body| !bodies.list[body].speed_is_free) else {
-                continue;
-            };
-            let (spin, axis) = (
-                bodies.list[known].body.angular_velocity_rad_per_s.z,
-                bodies.list[known].axis(),
-            );
-            for &body in group {
-                let sense = bodies.list[body].axis().dot(&axis);
-                if sense.abs() > 1.0 - 1e-9 {
-                    settled |= settle(bodies, body, spin * sense.signum(), || name.clone(), notes);
-                }
-            }
-        }
-        for mesh in meshes {
-            for (from, to) in [(0, 1), (1, 0)] {
-                let [known, free] = [mesh.bodies[from], mesh.bodies[to]];
-                if bodies.list[known].speed_is_free {
-                    continue;
-                }
-                let spin = -bodies.list[known].body.angular_velocity_rad_per_s.z
-                    * mesh.teeth[from] as f64
-                    / mesh.teeth[to] as f64;
-                settled |= settle(
-                    bodies,
-                    free,
-                    spin,
-                    || format!("mesh `{}`", mesh.name),
-                    notes,
-                );
-            }
-        }
-        if !settled {
-            return;
-        }
-    }
-}
-
-/// Sets the speed of a body, if nobody has; says whether it did.
-fn settle(
-    bodies: &mut Bodies,
-    body: usize,
-    spin_rad_per_s: f64,
-    from: impl Fn() -> String,
-    notes: &mut Vec<String>,
-) -> bool {
-    let placed = &mut bodies.list[body];
-    if !placed.speed_is_free {
-        return false;
-    }
-    placed.speed_is_free = false;
-    placed.body.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, spin_rad_per_s);
-    if spin_rad_per_s != 0.0 {
-        let rpm = spin_rad_per_s * 60.0 / TAU;
-        notes.push(format!(
-            "body `{}` starts with {rpm:.6} rpm, which follows from {}",
-            placed.body.name,
-            from()
-        ));
-    }
-    true
-}
 
 /// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and where teeth stand
 /// whose angles are stated.
@@ -193,6 +87,29 @@ pub(super) fn settle_phases(
                 "mesh `{name}` starts as the bodies stand: {}",
                 stand.join(", ")
             ));
+        }
+        for side in [FlankSide::Right, FlankSide::Left] {
+            let share = if mesh.sides.contains(&side) {
+                THROUGH
+            } else {
+                BEHIND
+            };
+            let (depth_m, allowed_m) = (
+                -gap(bodies, side)?,
+                share * teeth.kinematics().base_pitch_m(),
+            );
+            if depth_m > allowed_m {
+                let problem = format!(
+                    "the {} flanks stand {:.3} mm in each other at the start, allowed are {:.3} mm; state other angles (cardan_deg) or places \
+                     of `{}` and `{}`",
+                    side.name(),
+                    1e3 * depth_m,
+                    1e3 * allowed_m,
+                    bodies.name(Some(mesh.bodies[0])),
+                    bodies.name(Some(mesh.bodies[1]))
+                );
+                return Err(keys.error("", problem));
+            }
         }
         meshed.extend(mesh.bodies);
     }

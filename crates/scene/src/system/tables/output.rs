@@ -7,6 +7,9 @@ use serde::Deserialize;
 
 use super::run::Run;
 
+/// Rows of a result: 2³², 34 GB for each column.
+pub const MOST_ROWS: f64 = 4_294_967_296.0;
+
 /// `[output]` as it stands in the file.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -57,6 +60,12 @@ impl OutputTable {
                     interval > 0.0 && interval <= simulated,
                     &allowed,
                 )?;
+                let least = simulated / MOST_ROWS;
+                let many = format!("at least {least:.3e}, which gives {MOST_ROWS} rows");
+                keys.require("interval_s", interval, interval >= least, &many)?;
+                if let Run::SpeedSweep(sweep) = run {
+                    sweep.schedule.refuse_empty_windows(document, interval)?;
+                }
                 Some(interval)
             }
         };

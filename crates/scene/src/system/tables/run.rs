@@ -163,6 +163,49 @@ pub enum Schedule {
     },
 }
 
+impl Schedule {
+    /// Windows that one way of a ramped sweep is cut into.
+    pub const RAMP_WINDOWS: usize = 100;
+
+    /// Refuses windows without samples: the mean and the spread of a window need two of them, at this output interval.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key that makes the windows.
+    pub fn refuse_empty_windows(
+        self,
+        document: &InputDocument,
+        interval_s: f64,
+    ) -> Result<(), InputError> {
+        let keys = TableKeys::new(document, "run");
+        let least_s = 2.0 * interval_s;
+        let samples = format!("two samples of output.interval_s = {interval_s}");
+        // Intervals that fit but for rounding do.
+        let holds = |window_s: f64| window_s >= least_s * (1.0 - 1e-9);
+        match self {
+            Self::Stepped {
+                speeds,
+                settle_s,
+                measure_s,
+            } => {
+                let allowed = format!("at least {least_s}, {samples}");
+                keys.require("measure_s", measure_s, holds(measure_s), &allowed)?;
+                // A change of speed must not be lost in the rounding of the time.
+                let least_s = 1e-9 * (2 * speeds) as f64 * measure_s;
+                let allowed = format!("at least {least_s:.3e}, 1e-9 of the run");
+                keys.require("settle_s", settle_s, settle_s >= least_s, &allowed)
+            }
+            Self::Ramped { ramp_s } => {
+                let windows = Self::RAMP_WINDOWS;
+                let allowed = format!(
+                    "at least {}: each of its {windows} windows needs {samples}",
+                    least_s * windows as f64
+                );
+                keys.require("ramp_s", ramp_s, holds(ramp_s / windows as f64), &allowed)
+            }
+        }
+    }
+}
+
 impl Run {
     /// Name of the kind in files.
     #[must_use]

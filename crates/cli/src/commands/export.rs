@@ -1,0 +1,91 @@
+//! `gearmesh export`: a result as a table of another program.
+
+use crate::arguments::ExportArguments;
+use crate::console;
+use crate::failure::Failure;
+use crate::output_name;
+use gearmesh_model::{FileError, write_bytes};
+use gearmesh_report::export::{
+    ExportError, Table, csv_text, mat_bytes, pair_tables, parquet_bytes, study_table, system_tables,
+};
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::SystemResult;
+use std::path::Path;
+
+/// Runs the command.
+pub fn run(a: &ExportArguments) -> Result<(), Failure> {
+    let ending = output_name::table_ending(&a.output)?;
+    let tables = tables_of(&a.result)?;
+    let names: Vec<&str> = tables.iter().map(|table| &*table.name).collect();
+    let chosen = match &a.table {
+        None => None,
+        Some(wanted) => {
+            let place = names.iter().position(|name| name == wanted);
+            let place = place.ok_or_else(|| {
+                Failure::input(format!(
+                    "--table: {} has no table `{wanted}`; allowed are {}",
+                    a.result.display(),
+                    names.join(" ")
+                ))
+            })?;
+            Some(place)
+        }
+    };
+    let first = &tables[chosen.unwrap_or(0)];
+    let bytes = match ending {
+        ".csv" => csv_text(first).map(String::into_bytes),
+        ".parquet" => parquet_bytes(first),
+        _ => mat_bytes(chosen.map_or(&tables[..], |place| &tables[place..=place])),
+    };
+    write_bytes(&a.output, &bytes.map_err(blame)?).map_err(Failure::work)?;
+    let written: Vec<&Table> = match (ending, chosen) {
+        (".mat", None) => tables.iter().collect(),
+        _ => vec![first],
+    };
+    for table in &written {
+        let columns = table.columns.len();
+        console::note(format!(
+            "table `{}`: {} rows of {columns} columns",
+            table.name,
+            table.rows()
+        ));
+    }
+    if written.len() < tables.len() && chosen.is_none() {
+        console::note(format!(
+            "a {ending} file holds one table; --table takes another: {}",
+            names[1..].join(" ")
+        ));
+    }
+    Ok(())
+}
+
+/// All tables of a result, or of the folder of a study; the most wanted one first.
+fn tables_of(path: &Path) -> Result<Vec<Table>, Failure> {
+    if path.is_dir() || path.extension().is_some_and(|ending| ending == "csv") {
+        let file = if path.is_dir() {
+            path.join("study.csv")
+        } else {
+            path.to_owned()
+        };
+        let text = std::fs::read_to_string(&file)
+            .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
+        let table = study_table(&text)
+            .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
+        return Ok(vec![table]);
+    }
+    match SystemResult::open(path) {
+        Ok(result) => system_tables(&result).map_err(blame),
+        Err(FileError::WrongFormat { .. }) => {
+            let result = SceneResult::read(path).map_err(Failure::input)?;
+            Ok(pair_tables(&result))
+        }
+        Err(error) => Err(Failure::input(error)),
+    }
+}
+
+fn blame(error: ExportError) -> Failure {
+    match error {
+        ExportError::Parquet(_) => Failure::work(error),
+        _ => Failure::input(error),
+    }
+}

@@ -1,0 +1,188 @@
+//! A JSON Schema as a page of Markdown: `gearmesh schema KIND --markdown`, the pages in docs/reference.
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+/// Makes the page.
+pub fn page(schema: &Value, kind: &str) -> String {
+    let mut page = Page {
+        definitions: &schema["$defs"],
+        told: BTreeSet::new(),
+        text: String::new(),
+    };
+    let _ = write!(
+        page.text,
+        "# Keys of {kind} files\n\nMade by `gearmesh schema {kind} --markdown` from what the program reads; units stand in the names of the keys. \
+         Keys in **bold** must be given.\n"
+    );
+    match schema["anyOf"].as_array() {
+        None => page.table("Top level", "", schema),
+        Some(kinds) => {
+            for one in kinds {
+                page.table(words_of(one).trim_end_matches('.'), "", one);
+            }
+        }
+    }
+    page.text
+}
+
+struct Page<'a> {
+    definitions: &'a Value,
+    /// Tables that have been described.
+    told: BTreeSet<String>,
+    text: String,
+}
+
+impl<'a> Page<'a> {
+    /// What a schema stands for: its reference followed, `null` beside it left out.
+    fn resolved(&self, schema: &'a Value) -> (&'a Value, Option<&'a str>) {
+        if let Some(reference) = schema["$ref"].as_str() {
+            let name = reference.rsplit('/').next().unwrap_or_default();
+            return (&self.definitions[name], Some(name));
+        }
+        for list in ["anyOf", "allOf"] {
+            let Some(parts) = schema[list].as_array() else {
+                continue;
+            };
+            let mut others = parts.iter().filter(|part| part["type"] != "null");
+            if let (Some(only), None) = (others.next(), others.next()) {
+                return self.resolved(only);
+            }
+        }
+        (schema, None)
+    }
+
+    /// A section with the keys of a table, then those of the tables in it. `path` is empty for the file itself.
+    fn table(&mut self, title: &str, path: &str, schema: &'a Value) {
+        let (found, name) = self.resolved(schema);
+        if name.is_some_and(|name| !self.told.insert(name.to_owned())) {
+            return;
+        }
+        let _ = write!(self.text, "\n## {title}\n\n");
+        let about = words_of(found);
+        if !about.is_empty() && !path.is_empty() {
+            let _ = write!(self.text, "{about}\n\n");
+        }
+        self.text += "| key | value | meaning |\n| --- | --- | --- |\n";
+        let mut inner = Vec::new();
+        for variant in variants(found) {
+            let needed: Vec<&str> = strings(&variant["required"]);
+            let Some(keys) = variant["properties"].as_object() else {
+                continue;
+            };
+            for (key, value) in keys {
+                let shown = if needed.contains(&key.as_str()) {
+                    format!("**`{key}`**")
+                } else {
+                    format!("`{key}`")
+                };
+                let (target, name) = self.resolved(value);
+                let meaning = match words_of(value) {
+                    text if text.is_empty() => words_of(target),
+                    text => text,
+                };
+                // The word that tells one kind of table from the others means that kind.
+                let meaning = if meaning.is_empty() {
+                    words_of(variant)
+                } else {
+                    meaning
+                };
+                let kind = self.kind(value);
+                let _ = writeln!(self.text, "| {shown} | {kind} | {} |", cell(&meaning));
+                let element = match target["items"] {
+                    Value::Null => (target, name, false),
+                    ref items => {
+                        let (target, name) = self.resolved(items);
+                        (target, name, true)
+                    }
+                };
+                if variants(element.0)
+                    .iter()
+                    .any(|v| v["properties"].is_object())
+                {
+                    inner.push((key.clone(), element, value));
+                }
+            }
+        }
+        for (key, (_, _, is_list), value) in inner {
+            let path = if path.is_empty() {
+                key
+            } else {
+                format!("{path}.{key}")
+            };
+            let title = if is_list {
+                format!("`[[{path}]]`")
+            } else {
+                format!("`[{path}]`")
+            };
+            let (target, _) = self.resolved(value);
+            let inner = if is_list { &target["items"] } else { value };
+            self.table(&title, &path, inner);
+        }
+    }
+
+    /// What a value is, in words.
+    fn kind(&self, schema: &'a Value) -> String {
+        let (found, _) = self.resolved(schema);
+        if let Some(word) = found["const"].as_str() {
+            return format!("`\"{word}\"`");
+        }
+        let words = strings(&found["enum"]);
+        if !words.is_empty() {
+            return words
+                .iter()
+                .map(|w| format!("`\"{w}\"`"))
+                .collect::<Vec<_>>()
+                .join(", ");
+        }
+        for list in ["oneOf", "anyOf"] {
+            if let Some(parts) = found[list].as_array() {
+                let mut kinds: Vec<String> = parts.iter().map(|part| self.kind(part)).collect();
+                kinds.dedup();
+                return kinds.join(", ");
+            }
+        }
+        let types = match &found["type"] {
+            Value::String(one) => vec![one.as_str()],
+            list => strings(list),
+        };
+        match types.iter().find(|kind| **kind != "null") {
+            Some(&"array") => {
+                let of = self.kind(&found["items"]);
+                match found["maxItems"].as_u64() {
+                    Some(count) => format!("{count} × {of}"),
+                    None => format!("list: {of}"),
+                }
+            }
+            Some(&"string") => "text".to_owned(),
+            Some(&"boolean") => "true or false".to_owned(),
+            Some(&"object") => "table".to_owned(),
+            Some(other) => (*other).to_owned(),
+            None => "any".to_owned(),
+        }
+    }
+}
+
+/// A table itself, or the tables that it may be.
+fn variants(schema: &Value) -> Vec<&Value> {
+    let several = schema["oneOf"].as_array().or(schema["anyOf"].as_array());
+    several.map_or(vec![schema], |list| list.iter().collect())
+}
+
+fn words_of(schema: &Value) -> String {
+    schema["description"]
+        .as_str()
+        .unwrap_or_default()
+        .replace('\n', " ")
+}
+
+/// A text that does not end a cell.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+fn strings(list: &Value) -> Vec<&str> {
+    let list = list.as_array().map_or(&[][..], Vec::as_slice);
+    list.iter().filter_map(Value::as_str).collect()
+}

@@ -1,0 +1,221 @@
+//! Several results in the same charts, by the names of their files.
+
+use gearmesh_model::FileError;
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
+use gearmesh_signal::statistics::{mean, peak_to_peak};
+
+use crate::min_max;
+use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table, Text};
+use crate::short_number::{short, usual_unit};
+
+/// Columns that are overlaid, at most.
+const MOST_CHARTS: usize = 12;
+
+/// The last rank that is overlaid: meshes, bearings, root strain.
+const LAST_RANK: u8 = 3;
+
+/// Gear pairs with the names of their files; none where there are fewer than two.
+#[must_use]
+pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
+    let [(_, first), _, ..] = results else {
+        return None;
+    };
+    let last = |r: &SceneResult| r.torque_nm.len() - 1;
+    let x: Vec<f64> = first.angle_rad.iter().map(|a| a.to_degrees()).collect();
+    let chart = |title: &str, y: Axis, factor: f64, of: fn(&SceneResult) -> &Vec<f64>| {
+        let axis = Axis::new("driver angle", "deg");
+        let mut chart = LineChart::new(title, axis, y).x_values(x.clone());
+        for (name, r) in results {
+            let own: Vec<f64> = r.angle_rad.iter().map(|a| a.to_degrees()).collect();
+            let values = interpolated(&own, r.curve(of(r), last(r)), &x);
+            let values = values.into_iter().map(|v| factor * v).collect();
+            let label = format!("{name}, {} N m", r.torque_nm[last(r)]);
+            chart = chart.series(LineSeries::new(label, values));
+        }
+        chart
+    };
+    let mut table = Table::new("At the largest torque")
+        .column("file", Align::Left)
+        .column("title", Align::Left)
+        .column("torque N m", Align::Right)
+        .column("TE mean µm", Align::Right)
+        .column("TE pk-pk µm", Align::Right)
+        .column("tangent N/µm", Align::Right)
+        .column("p_H MPa", Align::Right)
+        .column("K_Hbeta", Align::Right);
+    for (name, r) in results {
+        let k = last(r);
+        let te = r.curve(&r.te_m, k);
+        let block = r.pressure_pa.len() / r.torque_nm.len();
+        let pressure = r.pressure_pa[k * block..(k + 1) * block].iter().copied();
+        table.push_row([
+            name.clone(),
+            r.title.clone(),
+            format!("{}", r.torque_nm[k]),
+            short(1e6 * mean(te).unwrap_or(f64::NAN)),
+            short(1e6 * peak_to_peak(te).unwrap_or(f64::NAN)),
+            short(1e-6 * mean(r.curve(&r.tangent_n_per_m, k)).unwrap_or(f64::NAN)),
+            short(1e-6 * pressure.fold(0.0, f64::max)),
+            format!("{:.3}", r.k_h_beta[k]),
+        ]);
+    }
+    Some(
+        Section::new("Gear pairs side by side")
+            .push(table)
+            .push(chart(
+                "Transmission error",
+                Axis::new("TE", "µm"),
+                1e6,
+                |r| &r.te_m,
+            ))
+            .push(chart(
+                "Tangent mesh stiffness",
+                Axis::new("stiffness", "N/µm"),
+                1e-6,
+                |r| &r.tangent_n_per_m,
+            )),
+    )
+}
+
+/// Multibody results of one kind, transient or speed sweeps, with the names of their files; none where there are fewer than two.
+///
+/// # Errors
+/// [`FileError`] if a column cannot be read.
+pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Section>, FileError> {
+    let [(_, first), others @ ..] = results else {
+        return Ok(None);
+    };
+    let in_time = first.kind == "transient";
+    let overlaid = in_time || first.kind == "speed-sweep";
+    if others.is_empty() || !overlaid || others.iter().any(|(_, r)| r.kind != first.kind) {
+        return Ok(None);
+    }
+    let names_of = |r: &SystemResult| -> Vec<String> {
+        match &r.sweep {
+            Some(sweep) => sweep.columns.clone(),
+            None => r.rows.columns().iter().map(|c| c.name.clone()).collect(),
+        }
+    };
+    let others: Vec<Vec<String>> = others.iter().map(|(_, r)| names_of(r)).collect();
+    let mut common = names_of(first);
+    common.retain(|name| rank(name) <= LAST_RANK && others.iter().all(|all| all.contains(name)));
+    common.sort_by_key(|name| rank(name));
+    let mut section = Section::new("Results side by side");
+    if common.is_empty() {
+        return Ok(Some(section.push(Text::paragraph(
+            "The files have no meshes or bearings of the same names; nothing is overlaid.",
+        ))));
+    }
+    let left_out = common.len().saturating_sub(MOST_CHARTS);
+    for name in common.iter().take(MOST_CHARTS) {
+        let curves = results.iter().map(|(_, r)| {
+            if in_time {
+                in_time_curve(r, name)
+            } else {
+                Ok(swept_curve(r, name))
+            }
+        });
+        let curves = curves.collect::<Result<Vec<_>, FileError>>()?;
+        let (stem, unit) = split_unit(name);
+        let values = curves.iter().flat_map(|(_, y)| y);
+        let largest = values.fold(0.0, |most: f64, y| most.max(y.abs()));
+        let (factor, unit) = usual_unit(unit, largest);
+        let x = &curves[0].0;
+        let readable = stem
+            .split('/')
+            .skip(1)
+            .collect::<Vec<_>>()
+            .join(": ")
+            .replace('_', " ");
+        let (title, axis) = if in_time {
+            (readable, Axis::new("time", "s"))
+        } else {
+            let title = format!("{readable}, peak to peak on the way up");
+            (title, Axis::new("speed of the varied motion", "rpm"))
+        };
+        let thin = if in_time {
+            min_max::abscissas(x)
+        } else {
+            x.clone()
+        };
+        let mut chart = LineChart::new(title, axis, Axis::new("value", unit)).x_values(thin);
+        for ((file, _), (own, y)) in results.iter().zip(&curves) {
+            let values = interpolated(own, y, x).into_iter().map(|v| factor * v);
+            let values: Vec<f64> = values.collect();
+            let values = if in_time {
+                min_max::values(&values)
+            } else {
+                values
+            };
+            chart = chart.series(LineSeries::new(file.clone(), values));
+        }
+        section = section.push(chart);
+    }
+    if left_out > 0 {
+        section = section.push(Text::note(format!(
+            "{left_out} more common columns are not overlaid."
+        )));
+    }
+    Ok(Some(section))
+}
+
+type Curve = (Vec<f64>, Vec<f64>);
+
+fn in_time_curve(r: &SystemResult, name: &str) -> Result<Curve, FileError> {
+    Ok((r.rows.read("time_s")?, r.rows.read(name)?))
+}
+
+/// Peak to peak over the amount of the speed, upwards; downwards where the sweep goes down only.
+fn swept_curve(r: &SystemResult, name: &str) -> Curve {
+    let Some(sweep) = &r.sweep else {
+        return Curve::default();
+    };
+    let Some(column) = sweep.columns.iter().position(|c| c == name) else {
+        return Curve::default();
+    };
+    let up = sweep.windows.iter().any(|w| w.up);
+    let windows = sweep.windows.iter().zip(&sweep.figures);
+    let mut points: Vec<(f64, f64)> = windows
+        .filter(|(w, _)| w.up == up)
+        .map(|(w, f)| {
+            let rpm = w.speed_rad_per_s.abs() * 60.0 / std::f64::consts::TAU;
+            (rpm, f[column].peak_to_peak())
+        })
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points.dedup_by(|a, b| a.0.to_bits() == b.0.to_bits());
+    points.into_iter().unzip()
+}
+
+/// Straight between the points; nothing (NaN) beyond their ends.
+fn interpolated(x: &[f64], y: &[f64], at: &[f64]) -> Vec<f64> {
+    let value = |&at: &f64| {
+        let after = x.partition_point(|x| *x < at);
+        match (after.checked_sub(1), x.get(after)) {
+            (_, Some(next)) if *next == at => y[after],
+            (Some(before), Some(next)) => {
+                let share = (at - x[before]) / (next - x[before]);
+                y[before] + share * (y[after] - y[before])
+            }
+            _ => f64::NAN,
+        }
+    };
+    at.iter().map(value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_are_met_where_they_are_and_nowhere_else() {
+        let found = interpolated(
+            &[0.0, 1.0, 3.0],
+            &[2.0, 4.0, 8.0],
+            &[-0.1, 0.0, 0.5, 2.0, 3.0, 3.1],
+        );
+        assert_eq!(found[1..5], [2.0, 3.0, 6.0, 8.0]);
+        assert!(found[0].is_nan() && found[5].is_nan());
+    }
+}

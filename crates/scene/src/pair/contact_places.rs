@@ -1,0 +1,84 @@
+//! Where the slices of a static pair touch: what line load and pressure are drawn and exported over.
+
+use std::path::Path;
+
+use gearmesh_model::{DataArray, DataTree, FileError, Values};
+
+use super::run::LoadedScene;
+
+/// Places of all slices, `[angle][line slot][slice]`; zeros where a slice does not touch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactPlaces {
+    /// Roll angle on gear 1 \[rad\]: diameter 2 r_b1 √(1 + ξ²).
+    pub roll_1_rad: Vec<f64>,
+    /// Axial place \[m\], from mid-face of gear 1.
+    pub z_m: Vec<f64>,
+    /// Touching width \[m\]: line load = force over it.
+    pub width_m: Vec<f64>,
+}
+
+impl ContactPlaces {
+    /// The places at driver angles.
+    pub(super) fn new(loaded: &LoadedScene, angles_rad: &[f64], slots: usize) -> Self {
+        let slices = loaded.models[0].grid.slices;
+        let slice_width_m = loaded.models[0].face_width_m / slices as f64;
+        let empty = vec![0.0; angles_rad.len() * slots * slices];
+        let mut places = Self {
+            roll_1_rad: empty.clone(),
+            z_m: empty.clone(),
+            width_m: empty,
+        };
+        for (angle, &angle_rad) in angles_rad.iter().enumerate() {
+            for slice in loaded.slices_at(angle_rad) {
+                let at = (angle * slots + slice.line) * slices + slice.slice;
+                places.roll_1_rad[at] = slice.section.roll_1_rad;
+                places.z_m[at] = slice.z_m;
+                places.width_m[at] = slice_width_m * slice.share;
+            }
+        }
+        places
+    }
+
+    /// Adds the places to a result file.
+    pub(super) fn put(&self, tree: &mut DataTree, axes: &[(&str, usize)]) {
+        for (name, values, unit, text) in [
+            (
+                "roll_1_rad",
+                &self.roll_1_rad,
+                "rad",
+                "roll angle of the contact on gear 1",
+            ),
+            (
+                "z_m",
+                &self.z_m,
+                "m",
+                "axial place of the contact from mid-face of gear 1",
+            ),
+            (
+                "width_m",
+                &self.width_m,
+                "m",
+                "touching width of the slice, zero where it does not touch",
+            ),
+        ] {
+            let array = DataArray::new(Values::F64(values.clone()), axes, unit, text);
+            tree.put(format!("contact/{name}"), array);
+        }
+    }
+
+    /// Takes them from a file; none from one of an older program.
+    pub(super) fn take(
+        tree: &mut DataTree,
+        path: &Path,
+        shape: &[usize],
+    ) -> Result<Option<Self>, FileError> {
+        if !tree.arrays.contains_key("contact/width_m") {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            roll_1_rad: tree.take_f64(path, "contact/roll_1_rad", shape)?,
+            z_m: tree.take_f64(path, "contact/z_m", shape)?,
+            width_m: tree.take_f64(path, "contact/width_m", shape)?,
+        }))
+    }
+}

@@ -1,0 +1,263 @@
+//! How fast bodies turn at the start whose speed nobody states: as their motion, shaft, fixed joint or mesh asks, on axes that may be carried
+//! round.
+//!
+//! ```text
+//! z₁ (ω₁ − ω_c) + z₂ (ω₂ − ω_c) = 0        ω_c: turn of the line of centres (mesh_frequency.rs); Willis' equation
+//! ```
+
+use std::f64::consts::TAU;
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use nalgebra::Vector3;
+
+use super::bodies::Bodies;
+use super::carriers::{self, Carried};
+use super::gear_mesh::PreparedMesh;
+use super::joints::{PlacedJoint, PlacedMotion};
+use super::mesh_frequency::carrier_rad_per_s;
+use super::shafts::PlacedShaft;
+use crate::system::tables::connection::BearingTable;
+use crate::system::tables::gear_mesh::MeshModel;
+use crate::system::tables::joint::JointWord;
+
+/// Share by which speeds that a scene states on both gears of a `kinematic` mesh may miss its ratio: they are written with a few figures.
+const RATIO_IS_MET: f64 = 1e-6;
+
+/// Distance from an axis that counts as none \[m\]: rounding of places.
+const ON_AXIS_M: f64 = 1e-12;
+
+/// The speed about its joint's axis that a motion gives \[rad/s\], where it drives an angle.
+type SpinOf<'a> = &'a dyn Fn(&PlacedMotion) -> Option<f64>;
+
+/// What holds bodies.
+#[derive(Clone, Copy)]
+pub(super) struct Holds<'a> {
+    pub joints: &'a [PlacedJoint<'a>],
+    pub bearings: &'a [BearingTable],
+    pub shafts: &'a [PlacedShaft],
+}
+
+/// Gives speeds to bodies whose speed nobody states: those of motions, of the shaft or body that they are fixed to, and of the gears they
+/// mesh with. Bodies on a carrier that turns go along with it. A carrier that nobody drives stands.
+pub(super) fn settle_speeds(
+    bodies: &mut Bodies,
+    holds: Holds<'_>,
+    (motions, spin_of): (&[PlacedMotion], SpinOf<'_>),
+    meshes: &[PreparedMesh],
+    notes: &mut Vec<String>,
+) {
+    let carried = carriers::find(bodies, holds.joints, holds.bearings, holds.shafts);
+    let groups = fixed_groups(&holds);
+    loop {
+        let mut settled = false;
+        for motion in motions {
+            if let Some(spin) = spin_of(motion) {
+                settled |= drive(bodies, &holds.joints[motion.joint], spin, notes);
+            }
+        }
+        for one in &carried {
+            one.go_along(bodies);
+        }
+        for (group, name) in &groups {
+            settled |= turn_together(bodies, group, name, notes);
+        }
+        for mesh in meshes {
+            if mesh
+                .bodies
+                .iter()
+                .all(|&gear| place_is_known(bodies, &carried, gear))
+            {
+                settled |= follow_mesh(bodies, mesh, notes);
+            }
+        }
+        if settled {
+            continue;
+        }
+        // What carries others and is driven by nobody stands, so that the rest can follow.
+        let carriers = carried.iter().filter_map(|one| one.carrier);
+        let Some(free) = carriers
+            .into_iter()
+            .find(|&body| bodies.list[body].speed_is_free)
+        else {
+            return;
+        };
+        bodies.list[free].speed_is_free = false;
+    }
+}
+
+/// Whether everything that takes a body round has its speed; what stands on the body's own axis does not.
+fn place_is_known(bodies: &Bodies, carried: &[Carried], body: usize) -> bool {
+    let carrier = |body: usize| carried.iter().find(|one| one.body == body)?.carrier;
+    let mut on = body;
+    while bodies.list[on].velocity_is_free {
+        match carrier(on) {
+            None => return true,
+            Some(next) => {
+                let [led, leading] = [on, next].map(|body| &bodies.list[body]);
+                let arm = (led.body.position_m - leading.body.position_m).cross(&leading.axis());
+                if leading.speed_is_free && arm.norm() > ON_AXIS_M {
+                    return false;
+                }
+                on = next;
+            }
+        }
+    }
+    true
+}
+
+/// Bodies that turn as one, and what joins them.
+fn fixed_groups(holds: &Holds<'_>) -> Vec<(Vec<usize>, String)> {
+    let of_shafts = holds.shafts.iter();
+    let mut groups: Vec<(Vec<usize>, String)> = of_shafts
+        .map(|shaft| (shaft.bodies().collect(), shaft.describe()))
+        .collect();
+    for joint in holds.joints {
+        if let (JointWord::Fixed, [Some(a), Some(b)]) = (joint.table.kind, joint.ends) {
+            groups.push((vec![a, b], format!("joint `{}`", joint.table.name)));
+        }
+    }
+    groups
+}
+
+/// A motion turns body 2 of its joint against body 1.
+fn drive(
+    bodies: &mut Bodies,
+    joint: &PlacedJoint<'_>,
+    spin_rad_per_s: f64,
+    notes: &mut Vec<String>,
+) -> bool {
+    let axis = joint.frame.axes * Vector3::z();
+    // The speed of an end about the axis, and whether that is known; none where it turns about another axis.
+    let about = |end: Option<usize>| match end {
+        None => Some((0.0, true)),
+        Some(body) => {
+            let placed = &bodies.list[body];
+            let sense = placed.axis().dot(&axis);
+            let spin = placed.body.angular_velocity_rad_per_s.z * sense.signum();
+            (sense.abs() > 1.0 - 1e-9).then_some((spin, !placed.speed_is_free))
+        }
+    };
+    let from = || "its motion".to_string();
+    match (joint.ends, about(joint.ends[0]), about(joint.ends[1])) {
+        ([_, Some(led)], Some((base, true)), Some((_, false))) => {
+            let sense = bodies.list[led].axis().dot(&axis).signum();
+            settle(bodies, led, (base + spin_rad_per_s) * sense, from, notes)
+        }
+        ([Some(led), _], Some((_, false)), Some((end, true))) => {
+            let sense = bodies.list[led].axis().dot(&axis).signum();
+            settle(bodies, led, (end - spin_rad_per_s) * sense, from, notes)
+        }
+        _ => false,
+    }
+}
+
+fn turn_together(
+    bodies: &mut Bodies,
+    group: &[usize],
+    name: &str,
+    notes: &mut Vec<String>,
+) -> bool {
+    let known = group.iter().find(|&&body| !bodies.list[body].speed_is_free);
+    let Some(&known) = known else {
+        return false;
+    };
+    let spin = bodies.list[known].body.angular_velocity_rad_per_s.z;
+    let axis = bodies.list[known].axis();
+    let mut settled = false;
+    for &body in group {
+        let sense = bodies.list[body].axis().dot(&axis);
+        if sense.abs() > 1.0 - 1e-9 {
+            settled |= settle(
+                bodies,
+                body,
+                spin * sense.signum(),
+                || name.to_owned(),
+                notes,
+            );
+        }
+    }
+    settled
+}
+
+fn follow_mesh(bodies: &mut Bodies, mesh: &PreparedMesh, notes: &mut Vec<String>) -> bool {
+    let mut settled = false;
+    for (from, to) in [(0, 1), (1, 0)] {
+        if !bodies.list[mesh.bodies[from]].speed_is_free {
+            let spin = fitting_spin(bodies, mesh, (from, to));
+            let name = || format!("mesh `{}`", mesh.name);
+            settled |= settle(bodies, mesh.bodies[to], spin, name, notes);
+        }
+    }
+    settled
+}
+
+/// The speed of one gear of a mesh at which it rolls on the other \[rad/s\].
+fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)) -> f64 {
+    let carrier = carrier_rad_per_s(mesh, bodies);
+    let spin = bodies.list[mesh.bodies[from]]
+        .body
+        .angular_velocity_rad_per_s
+        .z;
+    carrier - (spin - carrier) * mesh.teeth[from] as f64 / mesh.teeth[to] as f64
+}
+
+/// Refuses speeds on both gears of a `kinematic` mesh that do not fit its ratio: the joint would change them at the start.
+pub(super) fn refuse_missed_ratios(
+    bodies: &Bodies,
+    meshes: &[PreparedMesh],
+    document: &InputDocument,
+) -> Result<(), InputError> {
+    for mesh in meshes
+        .iter()
+        .filter(|mesh| mesh.model == MeshModel::Kinematic)
+    {
+        let spin = |gear: usize| {
+            bodies.list[mesh.bodies[gear]]
+                .body
+                .angular_velocity_rad_per_s
+                .z
+        };
+        let fitting = fitting_spin(bodies, mesh, (0, 1));
+        let largest = spin(0).abs().max(spin(1).abs()).max(fitting.abs());
+        if (spin(1) - fitting).abs() > RATIO_IS_MET * largest {
+            let rpm = |spin: f64| spin * 60.0 / TAU;
+            let [gear_1, gear_2] = mesh.bodies.map(|body| bodies.name(Some(body)));
+            let problem = format!(
+                "`{gear_2}` turns at {:.6} rpm at the start; with `{gear_1}` at {:.6} rpm and the line of centres at {:.6} rpm the ratio asks \
+                 for {:.6} rpm: correct one of the speeds, or leave it out and it follows",
+                rpm(spin(1)),
+                rpm(spin(0)),
+                rpm(carrier_rad_per_s(mesh, bodies)),
+                rpm(fitting)
+            );
+            return Err(TableKeys::new(document, &mesh.key).error("gear_2", problem));
+        }
+    }
+    Ok(())
+}
+
+/// Sets the speed of a body, if nobody has; says whether it did.
+fn settle(
+    bodies: &mut Bodies,
+    body: usize,
+    spin_rad_per_s: f64,
+    from: impl Fn() -> String,
+    notes: &mut Vec<String>,
+) -> bool {
+    let placed = &mut bodies.list[body];
+    if !placed.speed_is_free {
+        return false;
+    }
+    placed.speed_is_free = false;
+    placed.body.angular_velocity_rad_per_s = Vector3::new(0.0, 0.0, spin_rad_per_s);
+    if spin_rad_per_s != 0.0 {
+        let rpm = spin_rad_per_s * 60.0 / TAU;
+        notes.push(format!(
+            "body `{}` starts with {rpm:.6} rpm, which follows from {}",
+            placed.body.name,
+            from()
+        ));
+    }
+    true
+}
