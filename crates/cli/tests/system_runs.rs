@@ -296,3 +296,43 @@ exponent = 1.0
         "{found} {single}"
     );
 }
+
+/// Steps far too long for a stiff spring let its energy vanish: the run says so and ends with 1, its result is kept and is not sound.
+#[test]
+fn a_run_whose_energy_does_not_balance_ends_with_1() {
+    let desk = Desk::new();
+    let scene = changed(
+        PENDULUM,
+        "stiffness_Nm_per_rad = 20.0",
+        "stiffness_Nm_per_rad = 1e6",
+    );
+    let scene = changed(&scene, "step_s = 1e-4", "step_s = 2e-3\nrho_infinity = 0.0");
+    let scene = changed(&scene, "end_s = 12.0", "end_s = 0.2");
+    let scene = changed(
+        &scene,
+        "mass_kg = 3.0",
+        "mass_kg = 3.0\nangular_velocity_rad_per_s = [0.0, 0.0, 30.0]",
+    );
+    let scene = desk.file("scene.toml", &scene);
+    let output = desk.path("result.h5");
+    let answer = gearmesh(&["run", argument(&scene), "-o", argument(&output)]);
+    assert_eq!(answer.code, Some(1), "{answer:#?}");
+    for part in [
+        "the energy of this run does not balance",
+        "% of the",
+        "energy/error_J",
+    ] {
+        assert!(
+            answer.stderr.contains(part),
+            "`{part}` is not in {answer:#?}"
+        );
+    }
+    // The figures are there all the same.
+    assert!(answer.stdout.contains("of the work done"), "{answer:#?}");
+    let checked = gearmesh(&["check", argument(&output)]);
+    assert_eq!(checked.code, Some(1), "{checked:#?}");
+    assert!(
+        checked.stdout.contains("transient, ") && checked.stdout.contains(", not sound"),
+        "{checked:#?}"
+    );
+}

@@ -81,7 +81,7 @@ fn undamped_pairs_keep_their_energy() {
                 .unwrap();
             let params = Params {
                 rho_infinity: 1.0,
-                newton_tolerance: 1e-12,
+                newton_tolerance: Some(1e-12),
                 ..Params::fixed(step_s)
             };
             let mut run = Simulation::new(system, params).unwrap();

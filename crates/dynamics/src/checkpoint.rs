@@ -13,7 +13,7 @@ use crate::system::System;
 /// Arrays of a run. Each may be stored as it is; names say what they hold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Checkpoint {
-    /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (11).
+    /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (13).
     pub scalars: Vec<f64>,
     /// steps, rejected, unconverged, iterations, factorisations, evaluations, steps of the present length.
     pub counts: Vec<u64>,
@@ -125,7 +125,7 @@ impl Simulation {
         let of_joints: usize = system.joints().iter().map(crate::joint::Joint::saved).sum();
         let c = checkpoint;
         for (what, found, expected) in [
-            ("scalars", c.scalars.len(), 18),
+            ("scalars", c.scalars.len(), 20),
             ("counts", c.counts.len(), 7),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
@@ -181,8 +181,8 @@ impl Simulation {
             jerk: vector(3),
             lambda: c.reactions.clone(),
         };
-        let mut energies = [0.0; 11];
-        energies.copy_from_slice(&c.scalars[7..18]);
+        let mut energies = [0.0; 13];
+        energies.copy_from_slice(&c.scalars[7..20]);
         Ok(Self {
             other: now.clone(),
             info: RunInfo {

@@ -5,6 +5,15 @@
 //! ```
 //!
 //! Powers are integrated by the trapezoidal rule over the accepted steps, an error of the second order like the integrator's own.
+//!
+//! What the error is judged against is the work done, whatever its sign: ∫ W dt with
+//!
+//! ```text
+//! W = Σ |power of each load and motion| + dissipated + Σ |m_i v̇_i v_i|      m: diagonal of the mass matrix
+//! ```
+//!
+//! The last sum is the work of all forces together on each degree of freedom. Kinetic energy that a body just has is no work: a fast flywheel
+//! must not hide that a mesh makes energy out of nothing.
 
 /// Energies and powers at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -40,18 +49,25 @@ pub struct EnergyBalance {
     pub supplied_j: f64,
     /// Largest magnitude of the balance's error so far \[J\].
     pub largest_error_j: f64,
+    /// Work done since the start, whatever its sign \[J\] (module page).
+    pub work_j: f64,
+    /// Its rate now \[W\].
+    pub work_rate_w: f64,
 }
 
 impl EnergyBalance {
-    pub(crate) fn begin(energy: Energy) -> Self {
+    pub(crate) fn begin(energy: Energy, work_rate_w: f64) -> Self {
         Self {
             first: energy,
             last: energy,
+            work_rate_w,
             ..Self::default()
         }
     }
 
-    pub(crate) fn advance(&mut self, energy: Energy, step_s: f64) {
+    pub(crate) fn advance(&mut self, energy: Energy, work_rate_w: f64, step_s: f64) {
+        self.work_j += 0.5 * step_s * (self.work_rate_w + work_rate_w);
+        self.work_rate_w = work_rate_w;
         self.dissipated_j += 0.5 * step_s * (self.last.dissipated_w + energy.dissipated_w);
         self.supplied_j += 0.5 * step_s * (self.last.supplied_w + energy.supplied_w);
         self.last = energy;
@@ -65,7 +81,7 @@ impl EnergyBalance {
     }
 
     /// The numbers, for a checkpoint.
-    pub(crate) fn numbers(&self) -> [f64; 11] {
+    pub(crate) fn numbers(&self) -> [f64; 13] {
         let [a, b] = [self.first, self.last];
         [
             a.kinetic_j,
@@ -79,10 +95,12 @@ impl EnergyBalance {
             self.dissipated_j,
             self.supplied_j,
             self.largest_error_j,
+            self.work_j,
+            self.work_rate_w,
         ]
     }
 
-    pub(crate) fn from_numbers(n: &[f64; 11]) -> Self {
+    pub(crate) fn from_numbers(n: &[f64; 13]) -> Self {
         let energy = |at: usize| Energy {
             kinetic_j: n[at],
             potential_j: n[at + 1],
@@ -95,6 +113,8 @@ impl EnergyBalance {
             dissipated_j: n[8],
             supplied_j: n[9],
             largest_error_j: n[10],
+            work_j: n[11],
+            work_rate_w: n[12],
         }
     }
 }

@@ -191,7 +191,8 @@ pub enum DynamicsError {
     /// The static equilibrium was not found.
     #[error(
         "static equilibrium not found: {iterations} iterations at load factor {load_factor}, correction {ratio:.2e} times the tolerance, \
-         largest in {largest}; start closer, use more load steps, or settle by a damped transient run"
+         largest in {largest}; {unbalanced}. Shorter steps did not help: start closer to the equilibrium, take an element that balances there, or \
+         settle by a damped transient run"
     )]
     NoEquilibrium {
         /// Iterations of the load step that failed.
@@ -202,6 +203,8 @@ pub enum DynamicsError {
         ratio: f64,
         /// Body and direction where the correction is largest.
         largest: String,
+        /// Where forces balance least, and what pushes there.
+        unbalanced: String,
     },
     /// The eigenvalue solver failed.
     #[error(

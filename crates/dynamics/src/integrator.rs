@@ -16,6 +16,7 @@
 
 use nalgebra::Vector3;
 
+use crate::convergence::{Convergence, Measured, Progress};
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::joint::Joint;
@@ -30,12 +31,8 @@ use crate::system::System;
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
 
-/// Where corrections no longer shrink, they are accepted up to this multiple of [`ROUNDING`]: they are rounding.
+/// Where corrections no longer shrink, they are accepted up to this multiple of the floor of rounding.
 const STALLED: f64 = 100.0;
-
-/// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
-/// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
-const ROUNDING: f64 = 1e-15;
 
 /// All that the scheme carries from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,9 +67,6 @@ pub(crate) enum StepFailure {
     Element(DynamicsError),
 }
 
-/// Kind of a degree of freedom: tolerances go by kind.
-pub(crate) const KINDS: usize = 3;
-
 /// Scheme, work space and factors.
 pub(crate) struct Integrator {
     pub scheme: Scheme,
@@ -82,19 +76,12 @@ pub(crate) struct Integrator {
     pub factored_step_s: f64,
     /// For the changes of step length, on the mass matrix itself.
     projector: Saddle,
-    pub kinds: Vec<usize>,
-    floor: [f64; KINDS],
-    /// 1 + the largest counted angle \[rad\] at the start of the step: what multiplies the floor.
-    revolved: f64,
-    /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
-    reach: (f64, f64),
+    pub convergence: Convergence,
     matrix: Matrix,
     turned: Matrix,
     increment: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
-    pushed: Vec<f64>,
-    inverse_mass: Vec<f64>,
     right: Vec<f64>,
     right_joints: Vec<f64>,
     secants: Secants,
@@ -105,29 +92,18 @@ impl Integrator {
     pub(crate) fn new(system: &System, scheme: Scheme) -> Self {
         let (n, m) = (system.degrees_of_freedom(), system.equations());
         let diagonal = system.mass_diagonal();
-        let kinds = (0..n).map(|dof| (system.layout.locate(dof).1 / 3).min(2));
-        let size = system.size_m();
-        let heaviest = system
-            .bodies
-            .iter()
-            .fold(0.0_f64, |most, body| most.max(body.mass_kg));
         Self {
             scheme,
             equations: Equations::new(system),
             saddle: Saddle::new(&diagonal, &system.kept),
             factored_step_s: f64::NAN,
             projector: Saddle::new(&diagonal, &system.kept),
-            kinds: kinds.collect(),
-            floor: [ROUNDING * size, ROUNDING, ROUNDING * size * heaviest.sqrt()],
-            reach: (size, heaviest.sqrt()),
+            convergence: Convergence::new(system, &scheme),
             matrix: Matrix::zeros(n, n),
-            revolved: 1.0,
             turned: Matrix::zeros(n, m),
             increment: vec![0.0; n],
             delta: vec![0.0; n],
             mu: vec![0.0; m],
-            pushed: vec![0.0; n],
-            inverse_mass: diagonal.iter().map(|mass| 1.0 / mass).collect(),
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
             secants: Secants::new(&diagonal, m),
@@ -154,9 +130,9 @@ impl Integrator {
         let square = scheme.beta * h * h;
         self.predict(system, from, to, h);
         let angles = system.joints.iter().map(Joint::largest_angle_rad);
-        self.revolved = 1.0 + angles.fold(0.0, f64::max);
+        self.convergence.begin(angles.fold(0.0, f64::max));
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
-        let (mut last, mut place) = (f64::INFINITY, 0);
+        let (mut last, mut last_above_floor, mut place) = (f64::INFINITY, f64::INFINITY, 0);
         self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
@@ -196,16 +172,6 @@ impl Integrator {
                 &mut self.mu,
             );
             self.secants.improve(&mut self.delta, &mut self.mu);
-            let (ratio, largest, above_floor) =
-                self.measure(system, from, h, params.newton_tolerance);
-            if !ratio.is_finite() {
-                self.factored_step_s = f64::NAN;
-                return Err(StepFailure::NoConvergence {
-                    iterations: iteration,
-                    ratio,
-                    largest,
-                });
-            }
             for (i, delta) in self.delta.iter().enumerate() {
                 self.increment[i] += delta;
                 to.state.velocity[i] += scheme.gamma / (h * scheme.beta) * delta;
@@ -216,9 +182,22 @@ impl Integrator {
             }
             to.state
                 .set_moved(&from.state, &self.increment, &system.layout);
-            let shrinks = ratio < SLOW * last;
+            let Measured {
+                ratio,
+                largest,
+                above_floor,
+            } = self.measure(system, from, to, h, params.newton_tolerance);
+            if !ratio.is_finite() {
+                self.factored_step_s = f64::NAN;
+                return Err(StepFailure::NoConvergence {
+                    iterations: iteration,
+                    ratio,
+                    largest,
+                });
+            }
+            let shrinks = above_floor < SLOW * last_above_floor;
             // What the corrections to come would add, if they shrink on as they do: ratio · (θ + θ² + …).
-            let theta = (ratio / last).min(0.5);
+            let theta = (above_floor / last_above_floor).min(0.5);
             let rest = ratio
                 * if iteration > 1 {
                     theta / (1.0 - theta)
@@ -232,7 +211,7 @@ impl Integrator {
             if !shrinks && iteration > 1 {
                 stale = true;
             }
-            (last, place) = (ratio, largest);
+            (last, last_above_floor, place) = (ratio, above_floor, largest);
             if iteration == params.most_iterations {
                 self.factored_step_s = f64::NAN;
                 return Err(StepFailure::NoConvergence {
@@ -302,63 +281,28 @@ impl Integrator {
         regular
     }
 
-    /// Largest correction over its tolerance, where, and over the absolute floor alone. The correction of the reactions counts as the
-    /// increment that it would cause if the bodies were free, M⁻¹Bᵀμ with the diagonal of M: with old factors δ can vanish while λ
-    /// does not converge.
+    /// The latest correction against what it may be.
     fn measure(
         &mut self,
         system: &System,
         from: &Point,
-        h: f64,
-        tolerance: f64,
-    ) -> (f64, usize, f64) {
-        if !system.kept.is_empty() {
-            self.pushed.fill(0.0);
-        }
-        for &equation in &system.kept {
-            let mu = self.mu[equation];
-            for (push, b) in self
-                .pushed
-                .iter_mut()
-                .zip(self.equations.gradient.column(equation))
-            {
-                *push += mu * b;
-            }
-        }
-        let mut size = [0.0_f64; KINDS];
-        for ((increment, velocity), &kind) in self
-            .increment
-            .iter()
-            .zip(&from.state.velocity)
-            .zip(&self.kinds)
-        {
-            size[kind] = size[kind].max(increment.abs()).max(h * velocity.abs());
-        }
-        // A turn moves places, too: what hardly moves in a system that spins need not be exact to a share of its own small motion.
-        let (arm, root_mass) = self.reach;
-        size[0] = size[0].max(arm * size[1]);
-        size[2] = size[2].max(root_mass * size[0]);
-        let mut most = [(0.0_f64, 0); KINDS];
-        let mut sum = 0.0;
-        let corrections = self.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
-        for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
-            let correction = delta.abs().max((inverse * push).abs());
-            // What is no number would be lost in the maximum.
-            sum += delta + push;
-            if correction > most[kind].0 {
-                most[kind] = (correction, dof);
-            }
-        }
-        let (mut worst, mut place, mut above) = (0.0_f64, 0, 0.0_f64);
-        for (kind, (correction, dof)) in most.into_iter().enumerate() {
-            let floor = self.floor[kind] * self.revolved;
-            let ratio = correction / (tolerance * size[kind] + floor);
-            if ratio > worst {
-                (worst, place) = (ratio, dof);
-            }
-            above = above.max(correction / floor);
-        }
-        (if sum.is_finite() { worst } else { f64::NAN }, place, above)
+        to: &Point,
+        step_s: f64,
+        stated: Option<f64>,
+    ) -> Measured {
+        let step = Progress {
+            step_s,
+            stated,
+            velocity: &from.state.velocity,
+            acceleration: &from.acceleration,
+            jerk: &from.jerk,
+            new_acceleration: &to.acceleration,
+            increment: &self.increment,
+            delta: &self.delta,
+            mu: &self.mu,
+            gradient: &self.equations.gradient,
+        };
+        self.convergence.measure(&system.kept, &step)
     }
 
     fn finish(&self, from: &Point, to: &mut Point, h: f64) {

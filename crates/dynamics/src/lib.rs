@@ -9,10 +9,10 @@
 //! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
 //! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs`, `polar_angle.rs` |
 //! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
-//! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `scheme.rs` |
+//! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `convergence.rs`, `scheme.rs` |
 //! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
 //! | does the energy balance | [`EnergyBalance`] | `energy.rs` |
-//! | where does the system stand still | [`equilibrium`] | `statics.rs` |
+//! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `unbalanced.rs` |
 //! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs` |
 //!
 //! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
@@ -23,6 +23,7 @@ pub mod body;
 pub mod builder;
 pub mod checkpoint;
 pub mod constraints;
+mod convergence;
 mod dense_lu;
 pub mod eigen;
 pub mod elements;
@@ -49,6 +50,7 @@ pub mod table;
 #[cfg(test)]
 mod tangent_tests;
 pub mod time_function;
+mod unbalanced;
 
 pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;

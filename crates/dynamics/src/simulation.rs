@@ -3,10 +3,11 @@
 use std::ops::ControlFlow;
 
 use crate::constraints::{self, watch_dropped};
+use crate::convergence::KINDS;
 use crate::energy::EnergyBalance;
 use crate::error::DynamicsError;
 use crate::initial;
-use crate::integrator::{Integrator, KINDS, Point, StepFailure};
+use crate::integrator::{Integrator, Point, StepFailure};
 use crate::scheme::{AdaptiveStep, Params, Scheme, StepControl};
 use crate::state::State;
 use crate::system::System;
@@ -171,12 +172,13 @@ impl Simulation {
             jerk,
             state,
         };
+        let work_rate_w = system.work_rate_w(&now, &integrator.convergence.inverse_mass);
         integrator.retune(&mut system, &mut now, 0.0, step_s)?;
         Ok(Self {
             other: now.clone(),
             info: RunInfo {
                 step_range_s: (f64::INFINITY, 0.0),
-                energy: EnergyBalance::begin(energy),
+                energy: EnergyBalance::begin(energy, work_rate_w),
                 ..RunInfo::default()
             },
             system,
@@ -329,9 +331,10 @@ impl Simulation {
         watch_dropped(&mut self.system, &self.other.state, &equations.violation)?;
         std::mem::swap(&mut self.now, &mut self.other);
         self.system.commit(&self.now.state)?;
-        self.info
-            .energy
-            .advance(self.system.energy(&self.now.state, &self.now.lambda), h);
+        let energy = self.system.energy(&self.now.state, &self.now.lambda);
+        let inverse_mass = &self.integrator.convergence.inverse_mass;
+        let work_rate_w = self.system.work_rate_w(&self.now, inverse_mass);
+        self.info.energy.advance(energy, work_rate_w, h);
         self.info.steps += 1;
         self.steps_alike += 1;
         let (least, largest) = self.info.step_range_s;
@@ -360,7 +363,7 @@ impl Simulation {
         let weight = self.integrator.scheme.error_constant.abs() * h * h;
         let pairs = self.other.acceleration.iter().zip(&self.now.acceleration);
         let ratios = pairs
-            .zip(&self.integrator.kinds)
+            .zip(&self.integrator.convergence.kinds)
             .map(|((new, old), &kind)| weight * (new - old).abs() / tolerance[kind]);
         // The floor keeps the growth of the step finite where nothing accelerates.
         ratios.fold(1e-9, f64::max)

@@ -1,4 +1,4 @@
-//! Static equilibrium: the motion in which nothing accelerates, by Newton's method with load steps.
+//! Static equilibrium: the motion in which nothing accelerates, by Newton's method along a path of loads or of time.
 //!
 //! ```text
 //! [∂residual/∂q   Bᵀ] [δ ]      [residual ]
@@ -18,6 +18,7 @@ use crate::error::DynamicsError;
 use crate::rotation::skew;
 use crate::state::State;
 use crate::system::System;
+use crate::unbalanced::{most_unbalanced, pushing};
 
 /// Singular values below this share of the largest, after scaling, count as zero.
 const FREE: f64 = 1e-11;
@@ -25,8 +26,12 @@ const FREE: f64 = 1e-11;
 /// Share of the largest stiffness, scaled by the masses, that counts as rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Load along a free direction, as a share of all loads, that counts as balanced.
+/// Load along a free direction, as a share of all that pushes along it, that counts as balanced.
 const BALANCED: f64 = 1e-9;
+
+/// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small: rounding, over a stiffness that is
+/// hardly there.
+const AT_REST: f64 = 1e-12;
 
 /// Longest correction of one iteration: radians, and shares of the system's size.
 const LONGEST: f64 = 0.2;
@@ -38,6 +43,9 @@ const PUSH_GROWTH: f64 = 2.0;
 /// Where the unbalanced force becomes this many times larger along a correction, something stiff is in the way (teeth, stops): the
 /// correction ends before it. Looked for from the first push on at ever doubled distances.
 const RUN_INTO: f64 = 4.0;
+
+/// Shortest step along the path to an equilibrium, over the longest.
+const LEAST_STRIDE: f64 = 1.0 / 256.0;
 
 /// What to do about motions that nothing resists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +59,8 @@ pub enum FreeMotions {
 /// Parameters of [`equilibrium`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticParams {
-    /// Equal steps in which applied loads and weights are brought up. Default 1.
+    /// Longest steps in which applied loads and weights are brought up, or time goes on: so many; shorter ones are made where they are needed.
+    /// Default 1.
     pub load_steps: usize,
     /// Iterations in each. Default 100.
     pub most_iterations: usize,
@@ -79,7 +88,7 @@ pub struct Equilibrium {
     pub state: State,
     /// Reactions λ, one for each joint equation.
     pub lambda: Vec<f64>,
-    /// Iterations of all load steps.
+    /// Iterations of all steps, those that were given up included.
     pub iterations: usize,
     /// Motions that nothing resists, held.
     pub held: Vec<String>,
@@ -91,13 +100,13 @@ struct Correction {
     values: Vec<f64>,
     /// Free motions, scaled to a largest entry of 1.
     free: Vec<Vec<f64>>,
-    /// Load along each over the sum of all loads' magnitudes along it.
+    /// Load along each over the sum of all that pushes along it, whatever its sign.
     share: Vec<f64>,
     /// Load along each.
     load: Vec<f64>,
 }
 
-/// Finds the static equilibrium near a state.
+/// Finds the static equilibrium near a state. Loads are brought up in fewer or more steps, as they are needed.
 ///
 /// # Errors
 /// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::Singular`] or the error of an element.
@@ -107,114 +116,196 @@ pub fn equilibrium(
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
     system.begin(start);
-    next_equilibrium(system, start, params)
+    follow(system, start, Path::Loads, params)
 }
 
-/// As [`equilibrium`], but joints and elements go on from the motion that they were last committed to: for a series of equilibria in
-/// which turns are counted and couplings hold.
+/// The equilibrium at another time, from the one at `from`: joints and elements go on from the motion that they were last committed to, in as
+/// many steps of time as are needed. For a series of equilibria in which turns are counted and couplings hold.
 ///
 /// # Errors
 /// As [`equilibrium`].
 pub fn next_equilibrium(
     system: &mut System,
-    start: &State,
+    from: &State,
+    time_s: f64,
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
-    let (n, m) = (system.degrees_of_freedom(), system.equations());
+    follow(system, from, Path::Time(time_s), params)
+}
+
+/// What is brought up on the way to an equilibrium.
+#[derive(Clone, Copy)]
+enum Path {
+    /// Applied loads and weights from nothing.
+    Loads,
+    /// Time from that of the start: motions and loads that are functions of it.
+    Time(f64),
+}
+
+/// Goes along a path in steps that become shorter where no equilibrium is found and longer again where one is.
+fn follow(
+    system: &mut System,
+    from: &State,
+    path: Path,
+    params: &StaticParams,
+) -> Result<Equilibrium, DynamicsError> {
     let mut equations = Equations::new(system);
-    let mut state = start.clone();
-    let rest = vec![0.0; n];
-    // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
-    let mut lambda = system.accelerations(&state)?.lambda;
-    let mut iterations = 0;
-    let mut held = Vec::new();
-    let size = system.size_m();
-    for step in 1..=params.load_steps.max(1) {
-        let load_factor = step as f64 / params.load_steps.max(1) as f64;
-        let mut iteration = 0;
-        let mut push = FIRST_PUSH;
-        loop {
-            iteration += 1;
-            let at = At {
-                state: &state,
-                acceleration: &rest,
-                lambda: &lambda,
-                load_factor,
-            };
-            system.evaluate(at, Detail::Tangents, &mut equations)?;
-            moments_in_world(system, &mut equations);
-            let mut correction = correct(system, &equations, m)?;
-            let unbalanced = (0..correction.free.len())
-                .filter(|&k| correction.share[k] > BALANCED)
-                .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));
-            if !correction.free.is_empty() && params.free_motions == FreeMotions::Refuse {
-                return Err(unbalanced_error(
-                    system,
-                    &correction,
-                    unbalanced.unwrap_or(0),
-                ));
+    let mut found = Equilibrium {
+        state: from.clone(),
+        // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
+        lambda: system.accelerations(from)?.lambda,
+        iterations: 0,
+        held: Vec::new(),
+    };
+    let whole = 1.0 / params.load_steps.max(1) as f64;
+    let (mut done, mut stride) = (0.0, whole);
+    while done < 1.0 {
+        // Sums of strides are 1 but for rounding.
+        let target = if done + stride > 1.0 - 1e-9 {
+            1.0
+        } else {
+            done + stride
+        };
+        let mut trial = found.clone();
+        let load_factor = match path {
+            Path::Loads => target,
+            Path::Time(time_s) => {
+                trial.state.time_s = from.time_s + target * (time_s - from.time_s);
+                1.0
             }
-            if let Some(k) = unbalanced {
-                if iteration >= params.most_iterations {
-                    return Err(unbalanced_error(system, &correction, k));
-                }
-                let signed = -push * correction.load[k].signum();
-                for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
-                    *value += signed * free;
-                }
-                push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
+        };
+        match settle(system, &mut trial, load_factor, params, &mut equations) {
+            Ok(()) => {
+                system.commit(&trial.state)?;
+                found = trial;
+                done = target;
+                stride = (2.0 * stride).min(whole);
             }
-            let (ratio, largest) = measure(system, &correction.values[..n], size);
-            let walk = Walk {
-                from: state.clone(),
-                lambda_from: lambda.clone(),
-                correction: &correction.values,
-                force_before: unbalanced_force(system, &equations),
-            };
-            let whole = (LONGEST / ratio).min(1.0);
-            let mut share = whole.min(FIRST_PUSH / ratio);
-            walk.to(share, system, &mut state, &mut lambda);
-            while share < whole {
-                let last = share;
-                share = whole.min(2.0 * share);
-                walk.to(share, system, &mut state, &mut lambda);
-                let at = At {
-                    state: &state,
-                    acceleration: &rest,
-                    lambda: &lambda,
-                    load_factor,
-                };
-                if !walk.is_clear(at, system, &mut equations) {
-                    walk.to(last, system, &mut state, &mut lambda);
-                    break;
-                }
+            Err(error) if stride > LEAST_STRIDE * whole && path.may_help(&error) => {
+                // What the trial took is told, too.
+                found.iterations = trial.iterations;
+                stride *= 0.25;
             }
-            if unbalanced.is_none() && ratio <= params.tolerance {
-                held = correction
-                    .free
-                    .iter()
-                    .map(|motion| in_words(system, motion))
-                    .collect();
-                break;
-            }
-            if iteration >= params.most_iterations || !ratio.is_finite() {
-                return Err(DynamicsError::NoEquilibrium {
-                    iterations: iteration,
-                    load_factor,
-                    ratio: ratio / params.tolerance,
-                    largest: system.describe(largest),
-                });
-            }
+            Err(error) => return Err(error),
         }
-        iterations += iteration;
-        system.commit(&state)?;
     }
-    Ok(Equilibrium {
+    Ok(found)
+}
+
+impl Path {
+    /// Whether shorter steps may find what a longer one did not. A motion that nothing resists is none the more resisted under a part of the
+    /// loads, but contact may be lost on the way to another position.
+    fn may_help(self, error: &DynamicsError) -> bool {
+        match error {
+            DynamicsError::NoEquilibrium { .. } | DynamicsError::Element { .. } => true,
+            DynamicsError::Unbalanced { .. } => matches!(self, Self::Time(_)),
+            _ => false,
+        }
+    }
+}
+
+/// Newton's method at one share of the loads, from the motion and reactions that `found` has to those in equilibrium.
+fn settle(
+    system: &mut System,
+    found: &mut Equilibrium,
+    load_factor: f64,
+    params: &StaticParams,
+    equations: &mut Equations,
+) -> Result<(), DynamicsError> {
+    let n = system.degrees_of_freedom();
+    let rest = vec![0.0; n];
+    let size = system.size_m();
+    let Equilibrium {
         state,
         lambda,
         iterations,
         held,
-    })
+    } = found;
+    let mut push = FIRST_PUSH;
+    for iteration in 1..=params.most_iterations.max(1) {
+        *iterations += 1;
+        let at = At {
+            state,
+            acceleration: &rest,
+            lambda,
+            load_factor,
+        };
+        system.evaluate(at, Detail::Tangents, equations)?;
+        let pushing = pushing(system, equations, lambda);
+        let at_rest = balances(system, equations, &pushing, params.tolerance * size);
+        moments_in_world(system, equations);
+        let mut correction = correct(system, equations, &pushing)?;
+        let unbalanced = (0..correction.free.len())
+            .filter(|&k| correction.share[k] > BALANCED)
+            .max_by(|&a, &b| correction.share[a].total_cmp(&correction.share[b]));
+        if !correction.free.is_empty() && params.free_motions == FreeMotions::Refuse {
+            return Err(unbalanced_error(
+                system,
+                &correction,
+                unbalanced.unwrap_or(0),
+            ));
+        }
+        let last = iteration >= params.most_iterations;
+        if let Some(k) = unbalanced {
+            if last {
+                return Err(unbalanced_error(system, &correction, k));
+            }
+            let signed = -push * correction.load[k].signum();
+            for (value, free) in correction.values.iter_mut().zip(&correction.free[k]) {
+                *value += signed * free;
+            }
+            push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
+        }
+        let (ratio, largest) = measure(system, &correction.values[..n], size);
+        let settled = unbalanced.is_none() && (at_rest || ratio <= params.tolerance);
+        if last && !settled || !ratio.is_finite() {
+            return Err(DynamicsError::NoEquilibrium {
+                iterations: iteration,
+                load_factor,
+                ratio: ratio / params.tolerance,
+                largest: system.describe(largest),
+                unbalanced: most_unbalanced(system, equations, lambda),
+            });
+        }
+        if settled {
+            *held = correction
+                .free
+                .iter()
+                .map(|motion| in_words(system, motion))
+                .collect();
+            if at_rest {
+                return Ok(());
+            }
+        }
+        let walk = Walk {
+            from: state.clone(),
+            lambda_from: lambda.clone(),
+            correction: &correction.values,
+            force_before: unbalanced_force(system, equations),
+        };
+        let whole = (LONGEST / ratio).min(1.0);
+        let mut share = whole.min(FIRST_PUSH / ratio);
+        walk.to(share, system, state, lambda);
+        while share < whole {
+            let last = share;
+            share = whole.min(2.0 * share);
+            walk.to(share, system, state, lambda);
+            let at = At {
+                state,
+                acceleration: &rest,
+                lambda,
+                load_factor,
+            };
+            if !walk.is_clear(at, system, equations) {
+                walk.to(last, system, state, lambda);
+                break;
+            }
+        }
+        if settled {
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 /// Lets the stiffness be that of moments along fixed axes: δ(R r) = R (δr + δψ × r). Off the equilibrium a rotation that nothing
@@ -227,7 +318,19 @@ fn moments_in_world(system: &System, equations: &mut Equations) {
     }
 }
 
-fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correction, DynamicsError> {
+/// Whether forces balance to rounding everywhere and joints hold.
+fn balances(system: &System, equations: &Equations, pushing: &[f64], holds: f64) -> bool {
+    let mut forces = equations.residual.iter().zip(pushing);
+    let mut kept = system.kept.iter();
+    forces.all(|(left, all)| left.abs() <= AT_REST * all)
+        && kept.all(|&equation| equations.violation[equation].abs() <= holds)
+}
+
+fn correct(
+    system: &System,
+    equations: &Equations,
+    pushing: &[f64],
+) -> Result<Correction, DynamicsError> {
     let n = equations.residual.len();
     let kept = &system.kept;
     let total = n + kept.len();
@@ -251,7 +354,6 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
         (false, true) => equations.gradient.get(j, kept[i - n]),
         (false, false) => 0.0,
     };
-    debug_assert!(kept.len() <= m);
     // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
     let mut scale = mass.clone();
     scale.resize(total, 1.0);
@@ -312,10 +414,11 @@ fn correct(system: &System, equations: &Equations, m: usize) -> Result<Correctio
             .zip(&equations.residual)
             .map(|(x, r)| x * r)
             .sum();
-        let all: f64 = (0..total).map(|i| right(i).abs()).sum();
+        let pushes = motion.iter().zip(pushing);
+        let all: f64 = pushes.map(|(x, push)| (x * push).abs()).sum();
         correction
             .share
-            .push(if all > 0.0 { along.abs() / all } else { 0.0 });
+            .push(if all > 0.0 { load.abs() / all } else { 0.0 });
         correction.load.push(load);
         correction.free.push(motion);
     }

@@ -7,6 +7,7 @@ use crate::elements::{Channel, ForceElement, Loads, View};
 use crate::energy::Energy;
 use crate::error::DynamicsError;
 use crate::inertia::Inertia;
+use crate::integrator::Point;
 use crate::joint::Joint;
 use crate::state::{BodyMotion, Layout, State};
 
@@ -40,6 +41,25 @@ impl Place {
 }
 
 impl Slot {
+    /// Generalised force of the last evaluation on a degree of freedom of the system.
+    pub(crate) fn force_on(&self, dof: usize) -> f64 {
+        let here = |place: &&Place| (place.system..place.system + place.count).contains(&dof);
+        let place = self.places.iter().find(here);
+        place.map_or(0.0, |place| {
+            self.loads.force[place.local + dof - place.system]
+        })
+    }
+
+    /// Adds the magnitudes of its last forces to those of the system.
+    pub(crate) fn add_magnitudes(&self, sums: &mut [f64]) {
+        for place in &self.places {
+            let own = &self.loads.force[place.local..][..place.count];
+            for (sum, force) in sums[place.system..].iter_mut().zip(own) {
+                *sum += force.abs();
+            }
+        }
+    }
+
     pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
         let (mut places, mut local) = (Vec::new(), 0);
         for &body in element.bodies() {
@@ -279,6 +299,28 @@ impl System {
             energy.supplied_w -= lambda * motion.rate;
         }
         energy
+    }
+
+    /// Rate of the work done, whatever its sign \[W\] (`energy.rs`), at an evaluated motion.
+    pub(crate) fn work_rate_w(&self, point: &Point, inverse_mass: &[f64]) -> f64 {
+        let mut rate = 0.0;
+        for (body, inertia) in self.inertias.iter().enumerate() {
+            let start = self.layout.start(BodyId(body)).unwrap_or_default();
+            let end = start + self.layout.size(BodyId(body));
+            rate += inertia.dissipated_power(&point.state.velocity[start + 6..end]);
+        }
+        for slot in &self.slots {
+            let power = slot.loads.power;
+            rate += power.dissipated_w.abs() + power.supplied_w.abs();
+        }
+        for (lambda, motion) in point.lambda.iter().zip(self.prescribed(point.state.time_s)) {
+            rate += (lambda * motion.rate).abs();
+        }
+        let moves = point.acceleration.iter().zip(&point.state.velocity);
+        let of_each = moves
+            .zip(inverse_mass)
+            .map(|((a, v), inverse)| (a * v).abs() / inverse);
+        rate + of_each.sum::<f64>()
     }
 
     /// Size of the system \[m\]: the farthest body or joint, at least a millimetre. What rounding of places is compared with.

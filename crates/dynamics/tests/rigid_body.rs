@@ -15,7 +15,7 @@ const GRAVITY: f64 = 9.81;
 fn params(step_s: f64, rho_infinity: f64) -> Params {
     Params {
         rho_infinity,
-        newton_tolerance: 1e-12,
+        newton_tolerance: Some(1e-12),
         ..Params::fixed(step_s)
     }
 }
@@ -290,7 +290,7 @@ fn reactions_are_of_the_second_order_from_the_first_step_on() {
 #[test]
 fn reactions_stay_smooth_when_the_step_changes() {
     let adaptive = Params {
-        newton_tolerance: 1e-12,
+        newton_tolerance: Some(1e-12),
         ..Params::adaptive(5e-3, 1e-8, 1e-8)
     };
     // Fixed steps of 1e-3 s leave 3e-3 N or less; steps here lie about that length.

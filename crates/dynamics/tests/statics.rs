@@ -183,3 +183,84 @@ fn the_first_stop_is_found_though_newton_would_jump_over_many() {
         assert!(found.iterations < 40, "{}", found.iterations);
     }
 }
+
+/// A torsion spring that goes soft, k atan(angle): it holds at most k π/2.
+struct Softening {
+    body: [BodyId; 1],
+    stiffness_nm: f64,
+}
+
+impl ForceElement for Softening {
+    fn name(&self) -> &'static str {
+        "softening"
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.body
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        // Below half a turn.
+        let angle = view.body(self.body[0]).orientation.scaled_axis().z;
+        loads.add_force(5, &[-self.stiffness_nm * angle.atan()]);
+        if loads.wants_tangents() {
+            let slope = self.stiffness_nm / (1.0 + angle * angle);
+            loads.add_by_position(5, 5, -slope);
+        }
+        Ok(())
+    }
+}
+
+fn softening_wheel(torque_nm: f64) -> System {
+    let mut builder = System::builder();
+    let pair = wheel_with_torque(&mut builder, torque_nm);
+    builder.element(Softening {
+        body: [pair.b.body],
+        stiffness_nm: 10.0,
+    });
+    builder.build().unwrap()
+}
+
+/// Six iterations of 0.2 rad at most do not reach 2.5 rad: the load is brought up in as many steps as it takes.
+#[test]
+fn loads_are_brought_up_in_as_many_steps_as_they_need() {
+    let params = StaticParams {
+        most_iterations: 9,
+        ..StaticParams::default()
+    };
+    let angle = |torque: f64| {
+        let mut system = softening_wheel(torque);
+        let start = system.start().clone();
+        let found = equilibrium(&mut system, &start, &params).unwrap();
+        (
+            found.state.orientations[0].scaled_axis().z,
+            found.iterations,
+        )
+    };
+    let (near, few) = angle(10.0 * 0.5_f64.atan());
+    close(near, 0.5, 1e-10);
+    assert!(few <= params.most_iterations, "{few}");
+    let (far, more) = angle(10.0 * 2.5_f64.atan());
+    close(far, 2.5, 1e-10);
+    assert!(more > params.most_iterations, "{more}");
+}
+
+#[test]
+fn what_does_not_balance_is_named() {
+    let mut system = softening_wheel(50.0);
+    let start = system.start().clone();
+    let error = equilibrium(&mut system, &start, &StaticParams::default()).unwrap_err();
+    let text = error.to_string();
+    assert!(
+        matches!(error, DynamicsError::NoEquilibrium { .. }),
+        "{text}"
+    );
+    for part in [
+        "forces balance least along body `wheel`, rotation about its own z",
+        "`motor` with ",
+        "`softening` with ",
+        "is left over",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in\n{text}");
+    }
+}

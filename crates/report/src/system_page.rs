@@ -47,12 +47,15 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
     let mut figures = transient::key_figures(r);
     if r.record.is_some() {
         let error = r.relative_energy_error().unwrap_or(f64::NAN);
-        figures = figures.figure("energy error", format!("{error:.1e}"), "relative");
+        figures = figures.figure("energy error", format!("{error:.1e}"), "of the work done");
     }
     for (name, hz) in mesh_frequencies(r)? {
         figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
     }
     let mut section = Section::new(r.head.title.clone());
+    if let Some(problem) = r.problem() {
+        section = section.push(Text::note(problem));
+    }
     if r.record.is_some() {
         section = section.push(figures);
     }

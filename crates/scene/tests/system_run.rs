@@ -7,7 +7,10 @@ use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_dynamics::elements::TorsionSpring;
-use gearmesh_dynamics::{Interpolation, MarkerPair, Motion, Params, System, Table, TimeFunction};
+use gearmesh_dynamics::{
+    BodyId, ElementFailure, ForceElement, Interpolation, Loads, MarkerPair, Motion, Params, System,
+    Table, TimeFunction, View,
+};
 use gearmesh_model::FileError;
 use gearmesh_scene::system::Start;
 use gearmesh_scene::system_run::*;
@@ -187,6 +190,66 @@ fn constant_torque_gives_linear_speed() {
         .summaries(|name| name.ends_with("velocity_z_rad_per_s"))
         .unwrap();
     assert!(figures.iter().any(|c| (c.figures.mean - 43.0).abs() < 1e-9));
+}
+
+/// A torque about a wheel's axis that nobody supplies.
+struct FromNowhere {
+    body: [BodyId; 1],
+    torque_nm: f64,
+}
+
+impl ForceElement for FromNowhere {
+    fn name(&self) -> &'static str {
+        "from nowhere"
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.body
+    }
+
+    fn evaluate(&mut self, _: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        loads.add_force(5, &[self.torque_nm]);
+        Ok(())
+    }
+}
+
+/// Energy out of nothing is seen beside the million joules that a flywheel just has; an honest load of the same size passes.
+#[test]
+fn energy_is_judged_against_the_work_done() {
+    let run = |made_up: bool| {
+        let mut builder = System::builder();
+        wheel("flywheel", &mut builder, 2000.0);
+        let pair = wheel("wheel", &mut builder, 1.0);
+        if made_up {
+            builder.element(FromNowhere {
+                body: [pair.b.body],
+                torque_nm: 2.0,
+            });
+        } else {
+            torque(&mut builder, pair, "torque", TimeFunction::Constant(2.0));
+        }
+        let desk = Desk::new();
+        desk.run(job(
+            builder.build().unwrap(),
+            transient(Params::fixed(1e-3), 1.0, 0.1),
+        ))
+    };
+    // dω = T t/J = 4 rad/s: 0.25 kg m² (5² − 1²) = 6 J, of 1e6.
+    let honest = run(false);
+    assert_eq!(honest.problem(), None);
+    let work = honest.record.unwrap().work_j;
+    assert!(
+        (work / 12.0 - 1.0).abs() < 1e-6,
+        "by the load and on the wheel: {work}"
+    );
+    let found = run(true);
+    let relative = found.relative_energy_error().unwrap();
+    assert!((relative - 1.0).abs() < 1e-6, "{relative}");
+    let problem = found.problem().unwrap();
+    assert!(
+        problem.contains("6.000e0 J came from nowhere") && problem.contains("100.0 %"),
+        "{problem}"
+    );
 }
 
 #[test]

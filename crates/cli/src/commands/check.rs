@@ -29,8 +29,10 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                         } else {
                             String::new()
                         };
+                        let problem = result.problem();
+                        let verdict = problem.as_ref().map_or("sound", |_| "not sound");
                         console::data(format!(
-                            "{}: result of `{}`, {}{size}, sound",
+                            "{}: result of `{}`, {}{size}, {verdict}",
                             path.display(),
                             result.head.title,
                             result.kind
@@ -39,7 +41,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                             .into_iter()
                             .skip(1)
                             .for_each(console::data);
-                        return Ok(());
+                        return problem.map_or(Ok(()), |text| Err(Failure::work(text)));
                     }
                     Err(FileError::WrongFormat { .. }) => {}
                     Err(error) => return Err(Failure::input(error)),

@@ -67,7 +67,11 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     } else {
         table(&result)?.into_iter().for_each(console::data);
     }
-    Ok(())
+    // The file is kept: it shows where things go wrong.
+    match result.problem() {
+        Some(problem) => Err(Failure::work(problem)),
+        None => Ok(()),
+    }
 }
 
 /// The figures for people.
@@ -110,7 +114,7 @@ fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
             per_step(r.factorisations)
         ),
         format!(
-            "joints hold to {:.1e} m or rad, their rates to {:.1e}; energy balances to {:.2e} J, {:.1e} of the largest energy",
+            "joints hold to {:.1e} m or rad, their rates to {:.1e}; energy balances to {:.2e} J, {:.1e} of the work done",
             r.largest_violation,
             r.largest_violation_rate,
             r.largest_energy_error_j,
@@ -299,6 +303,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         let mut run = Value::Object(entries.collect());
         run["real_time_factor"] = json!(record.real_time_factor());
         run["relative_energy_error"] = json!(result.relative_energy_error());
+        run["problem"] = json!(result.problem());
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);

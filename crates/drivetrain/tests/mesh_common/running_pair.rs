@@ -22,12 +22,9 @@ pub const STEP_S: f64 = TAU / SPEED / 57.0 / STEPS_A_PERIOD as f64;
 /// Torque on gear 2 \[N·m\].
 const TORQUE: f64 = 200.0;
 
-/// Newton to 1e-8 of the step's own motion, here 3e-12 m: four orders below the error of the step.
+/// Defaults: Newton's iteration adds at most a tenth to the error of the step.
 pub fn params() -> Params {
-    Params {
-        newton_tolerance: 1e-8,
-        ..Params::fixed(STEP_S)
-    }
+    Params::fixed(STEP_S)
 }
 
 /// 57/57 teeth, module 2.6 mm, centre distance 150 mm.

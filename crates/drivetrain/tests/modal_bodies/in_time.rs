@@ -27,7 +27,7 @@ fn vibrating_pairs_keep_their_energy() {
         torque(&mut builder, "load", markers[1], -60.0);
         let params = Params {
             rho_infinity: 1.0,
-            newton_tolerance: 1e-12,
+            newton_tolerance: Some(1e-12),
             ..Params::fixed(step_s)
         };
         let mut run = Simulation::new(builder.build().unwrap(), params).unwrap();

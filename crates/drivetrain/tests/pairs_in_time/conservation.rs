@@ -32,7 +32,7 @@ pub fn energy_error_j(
         let mesh = mesh("hybrid", pair, kinematics);
         let params = Params {
             rho_infinity: 1.0,
-            newton_tolerance: 1e-12,
+            newton_tolerance: Some(1e-12),
             ..Params::fixed(step_s)
         };
         let mut run = Simulation::new(scene.system(mesh), params).unwrap();
@@ -89,7 +89,7 @@ fn energy_of_a_damped_hybrid_pair_at_full_load() {
         .unwrap();
     let params = Params {
         rho_infinity: 1.0,
-        newton_tolerance: 1e-12,
+        newton_tolerance: Some(1e-12),
         ..Params::fixed(0.5e-6)
     };
     let mut run = Simulation::new(scene.system(mesh), params).unwrap();

@@ -78,7 +78,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
         let mesh = GearMesh::new(kinematics.clone(), FlankSide::Right, teeth()).unwrap();
         let params = Params {
             rho_infinity: 1.0,
-            newton_tolerance: 1e-13,
+            newton_tolerance: Some(1e-13),
             ..Params::fixed(TAU / omega / STEPS as f64)
         };
         let mut run = Simulation::new(scene.system(mesh), params).unwrap();

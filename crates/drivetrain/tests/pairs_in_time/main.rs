@@ -11,6 +11,7 @@ mod conservation;
 mod hard_cases;
 mod helical;
 mod instability;
+mod newton;
 mod resonance;
 mod root_crack;
 mod scene;

@@ -50,7 +50,7 @@ fn a_tumbling_modal_body_keeps_momentum_and_energy() {
         start.modal[0] = 0.02;
         let params = Params {
             rho_infinity: 1.0,
-            newton_tolerance: 1e-12,
+            newton_tolerance: Some(1e-12),
             ..Params::fixed(1.0 / steps as f64)
         };
         let mut simulation = Simulation::from_state(system, start, params).unwrap();

@@ -109,9 +109,14 @@ impl NumberRange {
 
 /// The first number of a document that is out of its range: dotted key and what is wrong.
 pub(super) fn first_problem(table: &toml::Table) -> Option<(String, String)> {
-    table
+    let (key, mut problem) = table
         .iter()
-        .find_map(|(key, value)| problem_below(value, key, NumberRange::of(key)))
+        .find_map(|(key, value)| problem_below(value, key, NumberRange::of(key)))?;
+    // Programs that know no joints write 1e23 N/m for a rigid support.
+    if key.contains("stiffness") {
+        problem.push_str("; a rigid support is a [[joint]], not a stiffness");
+    }
+    Some((key, problem))
 }
 
 fn problem_below(value: &toml::Value, path: &str, range: NumberRange) -> Option<(String, String)> {

@@ -186,6 +186,9 @@ fn run_case(
 fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
     let say = |error: FileError| error.to_string();
     let result = SystemResult::open(file).map_err(say)?;
+    if let Some(problem) = result.problem() {
+        return Err(problem);
+    }
     let times = result.rows.read("time_s").map_err(say)?;
     // Half a step of the clock's rounding belongs to the first row.
     let first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));

@@ -95,7 +95,8 @@ pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variat
     }
 }
 
-/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the angles.
+/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the angles; it begins at the
+/// start of the scene, where teeth touch.
 fn static_job(
     loaded: &LoadedSystem,
     load_factors: &[f64],
@@ -106,7 +107,7 @@ fn static_job(
         let count = values.map_or(1, <[f64]>::len);
         (0..count).map(move |i| StaticPoint {
             angle_rad: values.map(|values| values[i]),
-            time_s: i as f64,
+            time_s: values.map_or(0.0, |_| i as f64 + 1.0),
             load_factor,
         })
     };
@@ -126,19 +127,12 @@ fn static_job(
     })
 }
 
-/// Value i at t = i seconds.
+/// The start, from which a motion counts, at t = 0 and value i at t = i + 1 seconds.
 fn series_in_time(series: MotionValues) -> Result<(String, Motion), DynamicsError> {
-    let function = if let [only] = series.values[..] {
-        TimeFunction::Constant(only)
-    } else {
-        let times = (0..series.values.len()).map(|i| i as f64).collect();
-        TimeFunction::Table(Table::new(
-            "angles_deg",
-            times,
-            series.values,
-            Interpolation::Linear,
-        )?)
-    };
+    let values = [&[0.0], &series.values[..]].concat();
+    let times = (0..values.len()).map(|i| i as f64).collect();
+    let table = Table::new("angles_deg", times, values, Interpolation::Linear)?;
+    let function = TimeFunction::Table(table);
     Ok((series.motion, Motion::Position(function)))
 }
 

@@ -37,16 +37,21 @@ pub(super) fn run_static(
             .take()
             .filter(|(factor, ..)| factor.to_bits() == point.load_factor.to_bits());
         let (mut system, found) = match same {
-            Some((_, mut system, mut state)) => {
-                state.time_s = point.time_s;
-                let found = next_equilibrium(&mut system, &state, &params)?;
+            Some((_, mut system, state)) => {
+                let found = next_equilibrium(&mut system, &state, point.time_s, &params)?;
                 (system, found)
             }
             None => {
                 let mut system = (job.system_at)(point.load_factor)?;
                 let mut state = first.clone().unwrap_or_else(|| system.start().clone());
-                state.time_s = point.time_s;
-                let found = equilibrium(&mut system, &state, &params)?;
+                let found = if first.is_none() && point.time_s > state.time_s {
+                    // From where the scene begins, where teeth touch, and on to the first position.
+                    let begun = equilibrium(&mut system, &state, &params)?;
+                    next_equilibrium(&mut system, &begun.state, point.time_s, &params)?
+                } else {
+                    state.time_s = point.time_s;
+                    equilibrium(&mut system, &state, &params)?
+                };
                 (system, found)
             }
         };

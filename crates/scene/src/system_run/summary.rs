@@ -35,22 +35,16 @@ impl SystemResult {
         Ok((times.last().copied().unwrap_or(f64::NAN) - times[0]) / steps as f64)
     }
 
-    /// Largest error of the energy balance over the largest energy of a run in time: a sweep is faster in between than at its ends.
+    /// Largest error of the energy balance of a run in time over the work done.
     #[must_use]
     pub fn relative_energy_error(&self) -> Option<f64> {
-        let record = self.record.as_ref()?;
-        let of_rows = self.rows.columns().iter().map(|c| &*c.name);
-        let mut seen: Vec<(&str, &Figures)> = of_rows.zip(&self.statistics).collect();
-        if let Some(sweep) = &self.sweep {
-            let names = || sweep.columns.iter().map(|name| &**name);
-            let windows = sweep.figures.iter().flat_map(|window| names().zip(window));
-            seen.extend(windows);
-        }
-        let energies = seen.iter().filter(|(name, _)| name.starts_with("energy/"));
-        let largest = energies.fold(0.0_f64, |most, (_, f)| {
-            most.max(f.least.abs()).max(f.largest.abs())
-        });
-        Some(record.relative_energy_error(largest))
+        Some(self.record.as_ref()?.relative_energy_error())
+    }
+
+    /// What is wrong with the result as a whole, if anything is: no figure of it is to be used then.
+    #[must_use]
+    pub fn problem(&self) -> Option<String> {
+        self.record.as_ref()?.energy_problem()
     }
 
     /// Which columns of a transient result vary by more than rounding.

@@ -36,6 +36,60 @@ fn contradictory_speeds_are_named() {
     );
 }
 
+/// A body that lies on its side cannot spin about its own z on a hinge along the world's: the speed would be dropped at the start.
+#[test]
+fn a_speed_across_its_joints_axis_is_refused() {
+    let scene = |kind: &str, axis: &str, cardan: &str| {
+        format!(
+            "title = \"t\"\n[run]\nkind = \"transient\"\nend_s = 0.1\n[solver]\nstep_s = 1e-3\n[output]\ninterval_s = 1e-2\n\
+             [[body]]\nname = \"rotor\"\nmass_kg = 2.0\ninertia_kg_m2 = [0.02, 0.02, 0.03]\nspeed_rpm = 300.0\ncardan_deg = {cardan}\n\
+             [[joint]]\nname = \"hinge\"\nkind = \"{kind}\"\nbody_2 = \"rotor\"\n{axis}"
+        )
+    };
+    let complaint = |kind, axis, cardan| {
+        let text = scene(kind, axis, cardan);
+        let found = build(&text).err().map(|error| error.to_string());
+        let place = format!(
+            "scene.toml:{}: body.0.speed_rpm: ",
+            line_of(&text, "speed_rpm")
+        );
+        if let Some(found) = &found {
+            assert!(found.starts_with(&place), "{found}");
+        }
+        found
+    };
+    let upright = "[0.0, 0.0, 0.0]";
+    let z = "axis = [0.0, 0.0, 1.0]\n";
+    for (kind, axis, cardan, part) in [
+        ("revolute", z, "[90.0, 0.0, 0.0]", "turns by 300.000000 rpm"),
+        (
+            "cylindrical",
+            "axis = [1.0, 0.0, 0.0]\n",
+            upright,
+            "joint `hinge` (cylindrical)",
+        ),
+        ("revolute", z, "[1.0, 0.0, 0.0]", "turns by 5.235722 rpm"),
+        ("fixed", "", upright, "does not let it turn"),
+        ("prismatic", "", upright, "does not let it turn"),
+    ] {
+        let found = complaint(kind, axis, cardan).unwrap();
+        assert!(found.contains(part), "`{part}` is not in\n{found}");
+    }
+    for (kind, axis, cardan) in [
+        ("revolute", "", "[90.0, 0.0, 0.0]"),
+        ("revolute", "axis = [0.0, 0.0, -1.0]\n", upright),
+        // A milliradian is no contradiction.
+        ("revolute", z, "[0.05, 0.0, 0.0]"),
+        ("spherical", "", "[90.0, 0.0, 0.0]"),
+    ] {
+        assert_eq!(
+            complaint(kind, axis, cardan),
+            None,
+            "{kind} {axis} {cardan}"
+        );
+    }
+}
+
 #[test]
 fn redundant_joints_are_reported_and_solved() {
     let scene = changed(

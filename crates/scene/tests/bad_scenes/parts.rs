@@ -328,6 +328,47 @@ fn meshes_that_cannot_be_are_refused() {
     );
 }
 
+/// Programs that know no joints write 1e23 N/m for a rigid support.
+#[test]
+fn rigid_supports_are_refused_by_their_stiffness() {
+    let pendulum = text("scene_pendulum.toml");
+    let with = |table: &str| format!("{pendulum}\n{table}");
+    let bearing = "[[bearing]]\nname = \"b\"\nkind = \"linear\"\nbody_2 = \"rod\"\n";
+    for (table, key, parts) in [
+        (
+            format!("{bearing}radial_stiffness_N_per_mm = 1e14\n"),
+            "bearing.0.radial_stiffness_N_per_mm",
+            ["found 1e14", "up to 1e12", "kind = \"revolute\""],
+        ),
+        (
+            format!("{bearing}radial_stiffness_N_per_mm = 1e6\ntilt_stiffness_Nm_per_rad = 1e20\n"),
+            "bearing.0.tilt_stiffness_Nm_per_rad",
+            ["found", "1e15", "[[joint]]"],
+        ),
+        (
+            "[[bushing]]\nname = \"b\"\nbody_2 = \"rod\"\nstiffness_N_per_mm = [1.0, 1e14, 1.0]\n".to_owned(),
+            "bushing.0.stiffness_N_per_mm.1",
+            ["found 1e14", "up to 1e12", "[[joint]]"],
+        ),
+        (
+            "[[spring]]\nname = \"s\"\nbody_2 = \"rod\"\nat_1_mm = [0.0, 1.0, 0.0]\nstiffness_N_per_mm = 1e20\n".to_owned(),
+            "spring.0.stiffness_N_per_mm",
+            ["found 1", "1e15 N_per_mm", "a rigid support is a [[joint]]"],
+        ),
+    ] {
+        let complaint = build(&with(&table)).err().unwrap().to_string();
+        for part in [key].into_iter().chain(parts) {
+            assert!(complaint.contains(part), "`{part}` is not in\n{complaint}");
+        }
+    }
+    assert!(
+        build(&with(&format!(
+            "{bearing}radial_stiffness_N_per_mm = 1e12\n"
+        )))
+        .is_ok()
+    );
+}
+
 /// Angles that put teeth into each other are no start.
 #[test]
 fn teeth_that_stand_in_each_other_at_the_start_are_refused() {

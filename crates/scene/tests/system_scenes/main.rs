@@ -12,6 +12,7 @@ mod pair_stiffness;
 mod shafts;
 mod shipped;
 mod start;
+mod static_pairs;
 #[path = "../system_runs/mod.rs"]
 mod system_runs;
 mod tables;

@@ -12,6 +12,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::bodies::{Bodies, Frame, direction, vector};
 use super::parts::Parts;
+use super::stiffness::refuse_rigid;
 use crate::system::scene::SystemTables;
 use crate::system::tables::MM;
 use crate::system::tables::connection::{BearingKind, BearingTable, BushingTable, SpringTable};
@@ -45,6 +46,10 @@ pub(super) fn add(
     for (i, table) in tables.spring.iter().enumerate() {
         let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
         connections.add(("spring", i), "spring", named, |keys, ends| {
+            refuse_rigid(
+                keys,
+                &[("stiffness_N_per_mm", table.stiffness_N_per_mm, PER_MM)],
+            )?;
             let (spring, pair) = spring(table, keys, bodies, ends)?;
             Ok(spring.between(&table.name, pair))
         })?;
@@ -57,6 +62,8 @@ pub(super) fn add(
             named,
             |keys, ends| {
                 let frame = bodies.stated_frame(keys, ends[1], None, table.axis)?;
+                let stiffness = table.stiffness_Nm_per_rad;
+                refuse_rigid(keys, &[("stiffness_Nm_per_rad", stiffness, 1.0)])?;
                 let free_deg = table.free_angle_deg;
                 keys.require("free_angle_deg", free_deg, true, "a finite number")?;
                 let mut spring =
@@ -77,6 +84,22 @@ pub(super) fn add(
         let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
         connections.add(("bearing", i), "linear bearing", named, |keys, ends| {
             let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+            let (radial, axial) = (
+                table.radial_stiffness_N_per_mm,
+                table.axial_stiffness_N_per_mm,
+            );
+            refuse_rigid(
+                keys,
+                &[
+                    ("radial_stiffness_N_per_mm", radial, PER_MM),
+                    ("axial_stiffness_N_per_mm", axial, PER_MM),
+                    (
+                        "tilt_stiffness_Nm_per_rad",
+                        table.tilt_stiffness_Nm_per_rad,
+                        1.0,
+                    ),
+                ],
+            )?;
             Ok(bearing(table).between(&table.name, pair(bodies, ends, &frame)))
         })?;
     }
@@ -219,6 +242,22 @@ fn bearing(table: &BearingTable) -> LinearBearing {
 }
 
 fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {
+    let along = table.stiffness_N_per_mm.unwrap_or_default();
+    let about = table.stiffness_Nm_per_rad.unwrap_or_default();
+    let matrix = table.stiffness_matrix_SI.unwrap_or_default();
+    for i in 0..3 {
+        let diagonals = [
+            (&*format!("stiffness_N_per_mm.{i}"), along[i], PER_MM),
+            (&*format!("stiffness_Nm_per_rad.{i}"), about[i], 1.0),
+        ];
+        refuse_rigid(keys, &diagonals)?;
+    }
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            let key = format!("stiffness_matrix_SI.{i}.{j}");
+            refuse_rigid(keys, &[(&key, *entry, 1.0)])?;
+        }
+    }
     let diagonals = [
         ("stiffness_N_per_mm", table.stiffness_N_per_mm.is_some()),
         ("stiffness_Nm_per_rad", table.stiffness_Nm_per_rad.is_some()),

@@ -9,6 +9,7 @@
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
+//! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
@@ -29,6 +30,8 @@ mod ratings;
 mod shafts;
 mod start;
 mod start_speeds;
+mod stated_speeds;
+mod stiffness;
 
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
@@ -174,6 +177,7 @@ impl LoadedSystem {
         let moved = (&motions[..], &fastest_of as &_);
         start_speeds::settle_speeds(&mut fastest, holds, moved, &meshes, &mut Vec::new());
         mesh_frequency::refuse_long_steps(&self.scene, &meshes, [&bodies, &fastest])?;
+        stated_speeds::check(&tables.body, &bodies, &joints, document)?;
         start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
         // Gears have been turned: frames along their axes are the same, others follow.
         let joints = joints::place(&tables.joint, document, &bodies)?;

@@ -8,10 +8,6 @@ use serde::Deserialize;
 
 use super::run::Run;
 
-/// Newton tolerance of scenes where none is given: it changes the varying part of a mesh force at speed by 5e-6, steps of 50 to a mesh
-/// period by a tenth (docs/theory/gear_meshes.md, "Cost").
-const NEWTON_TOLERANCE: f64 = 1e-8;
-
 /// `[solver]` as it stands in the file. Used by runs that step through time.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -22,7 +18,7 @@ pub struct SolverTable {
     pub step_s: Option<f64>,
     /// Adaptive step, instead of `step_s`.
     pub adaptive: Option<AdaptiveTable>,
-    /// End of Newton's iteration: share of the step's own increment; 1e-8 where not given.
+    /// End of Newton's iteration: share of the step's own increment. Where not given, a tenth of the step's own error.
     pub newton_tolerance: Option<f64>,
     /// Newton iterations after which a step is given up; 20 where not given.
     pub most_iterations: Option<usize>,
@@ -117,14 +113,15 @@ impl SolverTable {
             keys.require("rho_infinity", rho, (0.0..=1.0).contains(&rho), "0 to 1")?;
             params.rho_infinity = rho;
         }
-        let tolerance = self.newton_tolerance.unwrap_or(NEWTON_TOLERANCE);
-        keys.require(
-            "newton_tolerance",
-            tolerance,
-            (1e-14..=1e-3).contains(&tolerance),
-            "1e-14 to 1e-3",
-        )?;
-        params.newton_tolerance = tolerance;
+        if let Some(tolerance) = self.newton_tolerance {
+            keys.require(
+                "newton_tolerance",
+                tolerance,
+                (1e-14..=1e-3).contains(&tolerance),
+                "1e-14 to 1e-3",
+            )?;
+            params.newton_tolerance = Some(tolerance);
+        }
         if let Some(most) = self.most_iterations {
             keys.require(
                 "most_iterations",
