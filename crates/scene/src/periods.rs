@@ -373,8 +373,8 @@ mod tests {
             let first = |same: &dyn Fn(usize) -> bool| (1..).find(|p| same(*p)).unwrap();
             let bodies = |p: usize| place(p, 0) == 0 && place(p, 1) == 0;
             assert_eq!(periods.contact(), first(&bodies));
-            for gear in 0..2 {
-                let tooth = |p: usize| p.is_multiple_of(teeth[gear]) && place(p, 1 - gear) == 0;
+            for (gear, &turn) in teeth.iter().enumerate() {
+                let tooth = |p: usize| p.is_multiple_of(turn) && place(p, 1 - gear) == 0;
                 assert_eq!(periods.of_tooth(gear + 1), first(&tooth));
             }
         }

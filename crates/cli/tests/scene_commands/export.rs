@@ -130,14 +130,15 @@ fn curves_and_contact_of_a_pair() {
     let shares: f64 = sum(&contact, "load_share_of_pair") / result.slices as f64;
     assert!((shares / (curves["te_m"].len() as f64) - 1.0).abs() < 1e-12);
     // Pressure where there is force, and there only; contact between base circle and tip over the face.
-    for row in 0..rows {
-        assert_eq!(
-            contact["force_N"][row] > 0.0,
-            contact["pressure_Pa"][row] > 0.0
-        );
-        assert!((0.0..1.0).contains(&contact["roll_1_rad"][row]));
-        assert!(contact["z_m"][row].abs() < 6e-3);
+    for (force, pressure) in contact["force_N"].iter().zip(&contact["pressure_Pa"]) {
+        assert_eq!(*force > 0.0, *pressure > 0.0);
     }
+    let within = |head: &str, range: std::ops::Range<f64>| {
+        assert_eq!(contact[head].len(), rows);
+        assert!(contact[head].iter().all(|x| range.contains(x)), "{head}");
+    };
+    within("roll_1_rad", 0.0..1.0);
+    within("z_m", -6e-3..6e-3);
     // Without --table the curves, and a note about the rest.
     let output = desk.path("y.csv");
     let answer = succeeds(&["export", argument(&file), "-o", argument(&output)]);

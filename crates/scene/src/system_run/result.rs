@@ -327,7 +327,7 @@ impl SystemResult {
             .then(|| take_sweep(tree, path))
             .transpose()?;
         let ratings = take_ratings(tree, path)?;
-        let (bodies, elements, eigen) = if kind == "eigen" {
+        let ([bodies, elements], eigen) = if kind == "eigen" {
             take_eigen(tree, path)?
         } else {
             Default::default()
@@ -416,10 +416,11 @@ fn take_sweep(tree: &mut DataTree, path: &Path) -> Result<SweepResult, FileError
     })
 }
 
+/// Names of bodies and elements, and the points.
 fn take_eigen(
     tree: &mut DataTree,
     path: &Path,
-) -> Result<(Vec<String>, Vec<String>, Vec<EigenResult>), FileError> {
+) -> Result<([Vec<String>; 2], Vec<EigenResult>), FileError> {
     let names = tree.take_text(path, "eigen/bodies")?;
     let bodies: Vec<String> = names.lines().map(str::to_owned).collect();
     // Files of older programs have no elements.
@@ -470,5 +471,5 @@ fn take_eigen(
                 .collect(),
         });
     }
-    Ok((bodies, elements, results))
+    Ok(([bodies, elements], results))
 }

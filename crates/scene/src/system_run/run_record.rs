@@ -187,7 +187,7 @@ impl RunRecord {
         }
     }
 
-    /// What is wrong with the energy of the run: its balance is off by more than [`MOST_ENERGY_ERROR`] of the work done.
+    /// What is wrong with the energy of the run: its balance is off by more than `MOST_ENERGY_ERROR` of the work done.
     pub fn energy_problem(&self) -> Option<String> {
         let relative = self.relative_energy_error();
         // Work that was not kept is not judged; an error that is no number is one.
