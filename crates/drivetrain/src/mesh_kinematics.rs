@@ -52,7 +52,9 @@ pub struct MeshKinematics {
     pub(crate) helix: Option<BaseHelix>,
     /// How far the roll angle on gear 1 changes from mid-face to the faces, tilted axes included \[rad\]; zero on spur teeth.
     slant_1_rad: f64,
-    /// r_b1 ξ₁ − r_b2 ξ₂ \[m\] in the middle of the path, where a spring that stands for the whole mesh has its gap; none where each pair has its own.
+    /// r_b1 ξ₁ − r_b2 ξ₂ \[m\] in the pitch point.
+    pitch_place_m: f64,
+    /// The same where a spring that stands for the whole mesh has its gap; none where each pair has its own.
     common_place_m: Option<f64>,
     /// Bound of what deviations add to both flanks together \[m\].
     pub(crate) most_added_m: f64,
@@ -103,6 +105,8 @@ impl MeshKinematics {
             along_face + LARGEST_MISALIGNMENT_RAD * h.tan.abs()
         });
         let (length, _) = line_of_action(&gears, centre_distance_m)?;
+        let [r1, r2] = [gears[0].base_radius_m, gears[1].base_radius_m];
+        let pitch_place_m = (r1 - r2) / (r1 + r2) * length;
         let edges = match ends {
             PathEnds::LineOfAction => TipEdges::default(),
             PathEnds::Extended => TipEdges::new(&gears, length, helix.map_or(1.0, |h| h.cos)),
@@ -120,6 +124,7 @@ impl MeshKinematics {
             edges,
             helix,
             slant_1_rad,
+            pitch_place_m,
             common_place_m: None,
             most_added_m,
         })
@@ -137,13 +142,9 @@ impl MeshKinematics {
         &self.layout
     }
 
-    /// Gives all pairs of teeth in a slice one gap, that of ideal flanks in the middle of the path: for a spring that stands for the whole mesh.
+    /// Gives all pairs of teeth in a slice one gap, that of ideal flanks in the pitch point: for a spring that stands for the whole mesh.
     pub(crate) fn share_one_gap(&mut self) {
-        let [r1, r2] = [0, 1].map(|i: usize| {
-            let gear = &self.gears[i];
-            gear.base_radius_m * gear.flank_end_roll_rad
-        });
-        self.common_place_m = Some(r1 - r2);
+        self.common_place_m = Some(self.pitch_place_m);
     }
 
     /// How the path ends.

@@ -81,6 +81,51 @@ fn a_spring_on_the_own_curve_has_the_pairs_transmission_error() {
     }
 }
 
+/// Mates of unequal width with other slices each: both computations agree as on equal ones, the narrower gear makes the pair softer, and one that is
+/// moved up or down along the axis by as much is softer alike, for these bodies are their own mirror images.
+#[test]
+fn mates_of_unequal_width_agree_with_the_static_scene() {
+    let pair = spur_pair();
+    let made = |gear, width, slices| pair_common::made_up_gear(gear, width, slices);
+    let wide = made(&pair.gear_1, 20e-3, 5);
+    let narrow = made(&pair.gear_2, 14e-3, 4);
+    let contact = |model_2: &gearmesh_model::ReducedGear, displacement_m: f64| {
+        let widths = [wide.face_width_m, model_2.face_width_m];
+        let lines = ContactLines {
+            pair: pair.clone(),
+            microgeometry_1: Microgeometry::default(),
+            microgeometry_2: Microgeometry::default(),
+            extension: None,
+            zone: gearmesh_contact::ContactZone::new(widths, displacement_m),
+        };
+        StaticContact::new(lines, &wide, model_2, pair_common::FRICTIONLESS).unwrap()
+    };
+    let te = |contact: &mut StaticContact, theta: f64, torque: f64| {
+        let state = contact.solve(theta, Drive::Torque(torque)).unwrap();
+        state.transmission_error_m
+    };
+    let models = [&wide, &narrow];
+    let local = gearmesh_contact::LocalContact::WeberBanaschek;
+    let teeth = ReducedTeeth::new(&pair, FlankSide::Right, models, local, 4000.0).unwrap();
+    let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
+    let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
+    let ends = PathEnds::LineOfAction;
+    let kinematics = MeshKinematics::new(gears, none, a, *teeth.layout(), ends).unwrap();
+    let mut mesh = GearMesh::new(kinematics, FlankSide::Right, teeth).unwrap();
+    let mut unequal = contact(&narrow, 0.0);
+    let mut equal = contact(&made(&pair.gear_2, 20e-3, 5), 0.0);
+    let [mut up, mut down] = [6e-3, -6e-3].map(|shift| contact(&narrow, shift));
+    for k in 0..12 {
+        let theta = 0.027 * f64::from(k);
+        let off = equilibrium(&mut mesh, &pair, theta, 2.0) - te(&mut unequal, theta, 2.0);
+        assert!(off.abs() < 1e-12, "{theta}: {off:e}");
+        let [full, part] = [&mut equal, &mut unequal].map(|contact| te(contact, theta, 200.0));
+        let [over, under] = [&mut up, &mut down].map(|contact| te(contact, theta, 200.0));
+        assert!(over < part && part < full && full < 0.0, "{full:e} {part:e} {over:e}");
+        assert!((over - under).abs() < 1e-9 * over.abs(), "{over:e} {under:e}");
+    }
+}
+
 /// A flank that stands back by f carries when its neighbours have given way by f: the unloaded transmission error shows the errors.
 #[test]
 fn pitch_errors_are_the_unloaded_transmission_error() {

@@ -7,7 +7,7 @@
 //! c′ falls with the fourth root of the load below 100 N/mm,   c_γα = c′ (0.75 ε_α + 0.25)
 //! ```
 //!
-//! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the middle of the path, which all pairs have in common, and knows no single
+//! in N/(mm·µm). The spring acts on the gap of the ideal flanks in the pitch point, which all pairs have in common, and knows no single
 //! tooth: flank errors are refused with it. Force and energy are functions of the pose alone, whatever pair of teeth is nearest: on tilted
 //! helical gears pairs differ in their gaps, and a spring that went from one to the next would make energy. Friction acts where the pair on
 //! the path is; on helical teeth each slice has its own phase of the sine. c_γα is a force over an arc of the base circle, both in the transverse plane: along the normal the spring is c_γα b/cos²β_b.

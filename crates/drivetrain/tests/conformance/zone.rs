@@ -187,7 +187,6 @@ fn a_revolution_of_tilted_gears_makes_no_energy() {
                 most = most.max(load.power.stored_j);
             }
             let a_pitch = work.abs() / pair.gear_1.teeth as f64;
-            println!("{name} {} {a_pitch:e} {most:e}", pair.is_helical());
             assert!(
                 a_pitch < tolerance * most,
                 "{name}: {a_pitch:e} J of {most:e} J"
