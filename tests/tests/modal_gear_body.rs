@@ -194,9 +194,10 @@ fn struck_it_rings_at_its_own_frequencies(scene: &Scene) {
     };
     let mut run = Simulation::new(builder.build().unwrap(), params).unwrap();
     let mut rings: Vec<Vec<f64>> = vec![Vec::new(); count];
-    let (mut out, mut touched) = ([0.0; 3], false);
+    let (mut out, mut touched) = (vec![0.0; run.system().channels().len()], false);
     run.run(4e-3, |step| {
-        step.system.sample(step.to, &[3], &mut out);
+        let count = [out.len()];
+        step.system.sample(step.to, &count, &mut out);
         let loaded = out[0] > 0.0;
         touched |= loaded;
         for (ring, eta) in rings.iter_mut().zip(&step.to.modal) {

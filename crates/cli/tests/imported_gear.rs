@@ -143,7 +143,7 @@ fn a_mesh_that_is_not_the_gear_is_wrong_input() {
             argument(&desk.path("model.h5")),
         ])
     };
-    refused(&reduce(&file), 2, &["body.vtu", "No such file"]);
+    refused(&reduce(&file), 2, &["body.vtu", "does not exist"]);
     let made = desk.file("made.toml", SOLID);
     succeeds(&[
         "mesh",

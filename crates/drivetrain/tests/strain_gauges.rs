@@ -6,7 +6,7 @@ mod mesh_common;
 use gearmesh_contact::AxialSpread;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
-use gearmesh_dynamics::Simulation;
+use gearmesh_dynamics::{Channel, Simulation};
 use gearmesh_geometry::FlankSide;
 use gearmesh_recovery::{LoadedSlice, grid_forces};
 use mesh_common::running_pair::*;
@@ -119,15 +119,20 @@ fn gauges_are_channels_of_the_mesh() {
             "strain_gear2_g0_method2_ustrain",
             "strain_gear2_g1_method1_ustrain",
             "strain_gear2_g1_method2_ustrain",
+            "tangential_force_1_N",
+            "radial_force_1_N",
+            "axial_force_1_N",
         ]
     );
     let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();
     let counts: Vec<usize> = run.system().elements().map(of).collect();
     let mut out = vec![f64::NAN; names.len()];
+    let is_strain = |(_, channel): &(String, Channel)| channel.name.starts_with("strain");
+    let first_strain = names.iter().position(is_strain).unwrap();
     let mut largest = [0.0_f64; 4];
     run.run(50.0 * STEP_S, |step| {
         step.system.sample(step.to, &counts, &mut out);
-        let strain = &out[out.len() - 4..];
+        let strain = &out[first_strain..first_strain + 4];
         for (largest, value) in largest.iter_mut().zip(strain) {
             *largest = largest.max(value.abs());
         }

@@ -177,10 +177,11 @@ fn a_struck_gear_rings_at_its_own_frequencies() {
     let mut run = Simulation::from_state(system, start, params).unwrap();
     let mut rings: Vec<Vec<f64>> = vec![Vec::new(); COUNT];
     let (mut touched, mut free_from) = (false, f64::NAN);
-    let mut forces = vec![0.0; 4];
+    let mut forces = vec![0.0; run.system().channels().len()];
     // Before gear 1 has crossed the backlash and strikes again.
     run.run(13e-3, |step| {
-        step.system.sample(step.to, &[4], &mut forces);
+        let count = [forces.len()];
+        step.system.sample(step.to, &count, &mut forces);
         let loaded = forces[0] + forces[1] > 0.0;
         touched |= loaded;
         if loaded {
