@@ -121,8 +121,14 @@ fn mates_of_unequal_width_agree_with_the_static_scene() {
         assert!(off.abs() < 1e-12, "{theta}: {off:e}");
         let [full, part] = [&mut equal, &mut unequal].map(|contact| te(contact, theta, 200.0));
         let [over, under] = [&mut up, &mut down].map(|contact| te(contact, theta, 200.0));
-        assert!(over < part && part < full && full < 0.0, "{full:e} {part:e} {over:e}");
-        assert!((over - under).abs() < 1e-9 * over.abs(), "{over:e} {under:e}");
+        assert!(
+            over < part && part < full && full < 0.0,
+            "{full:e} {part:e} {over:e}"
+        );
+        assert!(
+            (over - under).abs() < 1e-9 * over.abs(),
+            "{over:e} {under:e}"
+        );
     }
 }
 
