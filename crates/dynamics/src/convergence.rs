@@ -22,8 +22,8 @@ use crate::system::System;
 /// less than a fiftieth (tests/mechanisms).
 const SHARE: f64 = 0.003;
 
-/// Share of the step's own increment that is never exceeded: gears with modes above 20 kHz, driven through a mesh period in steps of 0.7
-/// ms, otherwise leave the iteration so early that the teeth pass through each other.
+/// Share of the step's own increment that is never exceeded: bodies with modes above 20 kHz, driven against each other in steps of 0.7
+/// ms, otherwise leave the iteration so early that they pass through each other.
 const MOST: f64 = 1e-8;
 
 /// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
