@@ -101,3 +101,79 @@ fn modes_are_chosen_by_frequency() {
         "{refused}"
     );
 }
+
+/// A static pair and a multibody mesh of reduced gears of unequal width with other slices each, the narrow one 1 mm off the middle: contact on the
+/// overlap only, one transmission error; faces that do not overlap are refused by the key.
+#[test]
+fn mates_of_unequal_width_touch_where_their_faces_overlap() {
+    let folder = tempfile::tempdir().unwrap();
+    let pair = made_up_gears::pair();
+    for (teeth, shift, profile, width_m, slices) in [
+        (30, 0.2, &pair.gear_1, 20e-3, 5),
+        (41, -0.1, &pair.gear_2, 14e-3, 4),
+    ] {
+        let toml = made_up_gears::gear_file(teeth, shift);
+        let toml = toml.replace(
+            "face_width_mm = 20.0",
+            &format!("face_width_mm = {:?}", 1e3 * width_m),
+        );
+        let model = gearmesh_model::ReducedGear {
+            input_toml: toml,
+            near_field: None,
+            ..made_up_gears::mesh_common::pair_common::made_up_gear(profile, width_m, slices)
+        };
+        let file = folder.path().join(format!("gear_{teeth}.h5"));
+        gearmesh_model::write_reduced_gear(&file, &model).unwrap();
+    }
+    let static_pair = |offset_mm: f64| {
+        let text = format!(
+            "title = \"unequal\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
+             axial_offset_mm = {offset_mm:?}\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n\
+             [run]\ntorques_Nm = [2.0]\npitches = 1\npoints_per_pitch = 8\n"
+        );
+        let document = gearmesh_geometry::input::InputDocument::new("pair.toml", text);
+        gearmesh_scene::load(gearmesh_scene::Scene::from_document(document, folder.path()).unwrap())
+    };
+    let refused = static_pair(-17.0).err().unwrap().to_string();
+    assert!(
+        refused.contains("axial_offset_mm") && refused.contains("side by side"),
+        "{refused}"
+    );
+    let loaded = static_pair(1.0).unwrap();
+    let found = gearmesh_scene::run(&loaded, &|_, _| ()).unwrap();
+    assert_eq!(found.slices, 4);
+    let places = found.places.as_ref().unwrap();
+    for (z, width) in places
+        .z_m
+        .iter()
+        .zip(&places.width_m)
+        .filter(|(_, w)| **w > 0.0)
+    {
+        assert!(
+            z - 0.5 * width > -6.0001e-3 && z + 0.5 * width < 8.0001e-3,
+            "{z} {width}"
+        );
+    }
+    let text = scene(
+        "[run]\nkind = \"static\"",
+        -5.0,
+        "",
+        "flanks = \"right\"\npath = \"line-of-action\"",
+    );
+    let text = text
+        .replace("106.8, 0.0, 0.0", "106.8, 0.0, 1.0")
+        .replace("-100.0", "-2.0");
+    let mut system = load(&text, folder.path()).unwrap().build().unwrap().system;
+    let start = system.start().clone();
+    let params = gearmesh_dynamics::StaticParams::default();
+    let state = gearmesh_dynamics::equilibrium(&mut system, &start, &params)
+        .unwrap()
+        .state;
+    let te = common::Outputs::at(&mut system, &state).value("mesh", "transmission_error_m");
+    let [least, most] =
+        [f64::min, f64::max].map(|of| found.te_m.iter().copied().reduce(of).unwrap());
+    assert!(
+        te > 1.2 * least && te < 0.8 * most && te < 0.0,
+        "{te:e} {least:e} {most:e}"
+    );
+}

@@ -5,10 +5,12 @@ use crate::commands::{periods, ratings, run_system};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
+use gearmesh_contact::ContactZone;
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
-use gearmesh_scene::{SceneFile, SceneResult, load, run as run_scene};
+use gearmesh_scene::{Scene, SceneFile, SceneResult, load, run as run_scene};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 use serde_json::json;
+use std::path::Path;
 
 /// Runs the command.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -71,7 +73,7 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     let mark = periods::mark(&result.contact_coverage);
     for (k, torque) in result.torque_nm.iter().enumerate() {
         let (te_mean, te_range) = transmission_error(result, k)?;
-        let width_mm = 1e3 * face_width_m(result)?;
+        let width_mm = 1e3 * zone_width_m(result)?;
         let per_width = |values: &[f64]| fourier(result.averaged(values, k), 0).0 / width_mm * 1e-6;
         let block = result.pressure_pa.len() / result.torque_nm.len();
         let pressure = result.pressure_pa[k * block..(k + 1) * block]
@@ -117,13 +119,18 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
     Ok(lines)
 }
 
-fn face_width_m(result: &SceneResult) -> Result<f64, Failure> {
+/// Width over which the faces overlap \[m\].
+fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
     use gearmesh_geometry::{GearDefinition, input::InputDocument};
-    let gear = GearDefinition::from_document(&InputDocument::new(
-        "gear in result",
-        result.gear_toml[0].clone(),
-    ))?;
-    Ok(gear.tooth.face_width_m)
+    let document = |name: &str, text: &str| InputDocument::new(name, text);
+    let width_m = |text: &String| -> Result<f64, Failure> {
+        let gear = GearDefinition::from_document(&document("gear in result", text))?;
+        Ok(gear.tooth.face_width_m)
+    };
+    let [gear_1, gear_2] = &result.gear_toml;
+    let scene = document("scene in result", &result.scene_toml);
+    let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
+    Ok(ContactZone::new([width_m(gear_1)?, width_m(gear_2)?], offset_m).width_m)
 }
 
 fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {

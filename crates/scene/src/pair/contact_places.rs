@@ -20,8 +20,8 @@ pub struct ContactPlaces {
 impl ContactPlaces {
     /// The places at driver angles.
     pub(super) fn new(loaded: &LoadedScene, angles_rad: &[f64], slots: usize) -> Self {
-        let slices = loaded.models[0].grid.slices;
-        let slice_width_m = loaded.models[0].face_width_m / slices as f64;
+        let (slices, slice_width_m) = (loaded.layout.slices, loaded.layout.width_m());
+        let zone = &loaded.layout.reference;
         let empty = vec![0.0; angles_rad.len() * slots * slices];
         let mut places = Self {
             roll_1_rad: empty.clone(),
@@ -32,7 +32,7 @@ impl ContactPlaces {
             for slice in loaded.slices_at(angle_rad) {
                 let at = (angle * slots + slice.line) * slices + slice.slice;
                 places.roll_1_rad[at] = slice.section.roll_1_rad;
-                places.z_m[at] = slice.z_m;
+                places.z_m[at] = zone.heights_m(slice.z_m)[0];
                 places.width_m[at] = slice_width_m * slice.share;
             }
         }

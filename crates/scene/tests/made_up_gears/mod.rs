@@ -19,7 +19,7 @@ use mesh_common::modal_gear::modal_gear;
 pub const YOUNG_PA: f64 = 210e9;
 
 /// The gear file whose teeth the made-up model has.
-fn gear_file(teeth: usize, profile_shift: f64) -> String {
+pub fn gear_file(teeth: usize, profile_shift: f64) -> String {
     format!(
         "name = \"made up {teeth}\"\n[tooth]\nteeth = {teeth}\nmodule_mm = 3.0\nprofile_shift = {profile_shift:?}\nrack_tip_radius = 0.25\n\
          thickness_allowance_mm = 0.1\nface_width_mm = 20.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 30.0\n[material]\n\
