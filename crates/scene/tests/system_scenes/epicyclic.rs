@@ -225,9 +225,8 @@ fn passed_teeth_of_a_result_are_counted_against_the_carrier() {
         "{}",
         passing.frequency_hz
     );
-    for gear in 0..2 {
-        let turns = expected / TEETH[gear] * 0.05;
-        let found = passing.revolutions[gear];
+    for (gear, (teeth, found)) in TEETH.into_iter().zip(passing.revolutions).enumerate() {
+        let turns = expected / teeth * 0.05;
         assert!((found / turns - 1.0).abs() < 1e-6, "{found} {turns}");
         assert!(
             passing.is_whole(gear + 1)
