@@ -112,8 +112,8 @@ pub(crate) fn write_atomically_from<E: From<FileError>>(
     }
     let prefix = temporary_prefix(path);
     remove_abandoned(staging, &prefix, suffix);
-    let mut temporary = locked_temporary(staging, &prefix, suffix)
-        .map_err(io("create a temporary file for"))?;
+    let mut temporary =
+        locked_temporary(staging, &prefix, suffix).map_err(io("create a temporary file for"))?;
     let temporary_path = temporary.path().to_owned();
     fill(&temporary_path, temporary.as_file_mut())?;
     temporary

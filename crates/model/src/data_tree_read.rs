@@ -383,7 +383,8 @@ mod tests {
                 let heap = bytes.windows(5).rposition(|b| b == b"GCOL\x01").unwrap();
                 let mut place = heap + 16;
                 while bytes[place..place + 2] != [0, 0] {
-                    let length = u64::from_le_bytes(bytes[place + 8..place + 16].try_into().unwrap());
+                    let length =
+                        u64::from_le_bytes(bytes[place + 8..place + 16].try_into().unwrap());
                     place += 16 + length.next_multiple_of(8) as usize;
                 }
                 bytes[place + 8..place + 16].fill(0);

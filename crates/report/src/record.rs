@@ -172,13 +172,12 @@ impl ReferenceRecord {
                 message,
             },
         )?;
-        let data =
-            parse_data(&record_bytes(&data_path)?, description.revolutions()).map_err(|source| {
-                RecordError::Data {
-                    path: data_path,
-                    source,
-                }
-            })?;
+        let data = parse_data(&record_bytes(&data_path)?, description.revolutions()).map_err(
+            |source| RecordError::Data {
+                path: data_path,
+                source,
+            },
+        )?;
         let revolutions = description.revolutions();
         Ok(Self {
             folder: folder.to_path_buf(),

@@ -10,13 +10,17 @@ use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::rating::sn_curve;
 use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
 use std::path::Path;
 
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let path = &arguments.file;
-    let ends_in = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    let ends_in = |ending: &str| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(ending))
+    };
     if ends_in("h5") || ends_in("hdf5") {
         return if format_of(path).map_err(Failure::input)? == REDUCED_GEAR_FORMAT.name {
             model(path)
@@ -94,6 +98,7 @@ fn scene(path: &Path, scene: SceneFile) -> Result<(), Failure> {
             let loaded = scene.load()?;
             console::unit_slips(loaded.unit_slips());
             let built = loaded.build()?;
+            RunJob::from_scene(loaded.clone())?;
             console::data(format!(
                 "{}: scene `{}`, sound: {} bodies, {} joints and motions, {} force elements",
                 path.display(),

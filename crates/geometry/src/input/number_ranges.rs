@@ -160,8 +160,14 @@ mod tests {
     #[test]
     fn control_characters_are_refused_wherever_they_stand() {
         for (text, place) in [
-            ("title = \"a\\u0000b\"", "title: found the control character U+0000"),
-            ("[[body]]\nname = \"\\u001b[2J\"", "body.0.name: found the control character U+001B"),
+            (
+                "title = \"a\\u0000b\"",
+                "title: found the control character U+0000",
+            ),
+            (
+                "[[body]]\nname = \"\\u001b[2J\"",
+                "body.0.name: found the control character U+001B",
+            ),
         ] {
             assert!(complaint(text).contains(place), "{}", complaint(text));
         }

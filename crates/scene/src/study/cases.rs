@@ -113,8 +113,7 @@ impl StudyScenes {
         for case in &cases {
             let made = varied(study, &scene, case, scene_folder)?;
             if !matches!(made.run, Run::Transient { .. }) {
-                let problem =
-                    "must be \"transient\" in the scene of a study, whose figures are those of a time";
+                let problem = "must be \"transient\" in the scene of a study, whose figures are those of a time";
                 return Err(made.document.error("run.kind", problem));
             }
             let same = |other: &SystemScene| other.document.text == made.document.text;

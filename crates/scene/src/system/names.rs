@@ -18,7 +18,10 @@ pub(crate) fn check_names(document: &InputDocument) -> Result<(), InputError> {
             continue;
         };
         for (i, item) in items.iter().enumerate() {
-            let name = item.get("name").into_iter().map(|name| ("name".to_owned(), name));
+            let name = item
+                .get("name")
+                .into_iter()
+                .map(|name| ("name".to_owned(), name));
             let listed = item.get("names").and_then(toml::Value::as_array);
             let listed = listed.into_iter().flatten().enumerate();
             let listed = listed.map(|(k, name)| (format!("names.{k}"), name));
@@ -80,10 +83,19 @@ mod tests {
     #[test]
     fn names_that_are_no_part_of_a_path_are_refused() {
         let judge = |name: &str| {
-            let text = format!("[[body]]\nname = \"a\"\n[[joint]]\nname = {}\n", toml::Value::from(name));
+            let text = format!(
+                "[[body]]\nname = \"a\"\n[[joint]]\nname = {}\n",
+                toml::Value::from(name)
+            );
             check_names(&InputDocument::new("s.toml", text)).map_err(|error| error.to_string())
         };
-        for name in ["shaft 1", "Ritzel, vorn", "a.b", "...", &"é".repeat(LONGEST)] {
+        for name in [
+            "shaft 1",
+            "Ritzel, vorn",
+            "a.b",
+            "...",
+            &"é".repeat(LONGEST),
+        ] {
             assert_eq!(judge(name), Ok(()), "{name}");
         }
         for (name, found) in [
