@@ -1,7 +1,7 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{reduce, run_system};
+use crate::commands::{reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_geometry::GearDefinition;
@@ -77,7 +77,7 @@ fn result(path: &Path) -> Result<(), Failure> {
         result.head.title,
         result.kind
     ));
-    let lines = run_system::table(&result)?;
+    let lines = system_table::table(&result)?;
     lines.into_iter().skip(1).for_each(console::data);
     problem.map_or(Ok(()), |text| Err(Failure::work(text)))
 }
