@@ -105,8 +105,8 @@ fn section_area(mesh: &GearMesh) -> f64 {
         .sum()
 }
 
-/// Sections turn without change of area; between two planes a node runs along a chord, so that the section in between is
-/// the turned one made smaller: by |1 − t + t e^{iΔ}|² = 1 − 2t(1 − t)(1 − cos Δ), in the mean by (1 − cos Δ)/3.
+/// Sections turn without change of area; between two planes a node runs along a chord, so that the section in between
+/// is the turned one made smaller: by |1 − t + t e^{iΔ}|² = 1 − 2t(1 − t)(1 − cos Δ), in the mean by (1 − cos Δ)/3.
 #[test]
 fn the_volume_is_that_of_the_spur_mesh_but_for_the_chords() {
     for helix_deg in [25.0, -25.0] {

@@ -60,8 +60,8 @@ pub(crate) fn verify_seal(path: &Path) -> Result<u64, FileError> {
     Ok(stored.length)
 }
 
-/// The digest of a gearmesh file's content as its seal states it, 64 hexadecimal digits; names the model a result was made
-/// from. Does not read the content.
+/// The digest of a gearmesh file's content as its seal states it, 64 hexadecimal digits; names the model a result was
+/// made from. Does not read the content.
 ///
 /// # Errors
 /// As for reading the file, except that an altered content is not noticed.

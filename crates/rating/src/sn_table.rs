@@ -138,8 +138,8 @@ impl SnCurve {
         table.curve()
     }
 
-    /// Reads the rows of a CSV file: head `cycles,stress_amplitude_MPa`, then two numbers a line; blank lines and lines that begin
-    /// with `#` are skipped. Rows are counted without them.
+    /// Reads the rows of a CSV file: head `cycles,stress_amplitude_MPa`, then two numbers a line; blank lines and lines
+    /// that begin with `#` are skipped. Rows are counted without them.
     ///
     /// # Errors
     /// [`SnTableError`], see its variants.

@@ -6,8 +6,9 @@
 //! *.tmp           the result or a checkpoint, while it is written
 //! ```
 //!
-//! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole checkpoint finds
-//! its rows; later ones are cut off and computed again, to the same bits. Decision: docs/decisions/0006-unfinished-runs.md.
+//! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole
+//! checkpoint finds its rows; later ones are cut off and computed again, to the same bits. Decision:
+//! docs/decisions/0006-unfinished-runs.md.
 
 use std::ffi::OsString;
 use std::io::ErrorKind;
