@@ -70,8 +70,8 @@ impl InputDocument {
     ///
     /// # Errors
     /// [`InputError`] with the line of a syntax error, or with line and key of an unknown key, a missing key, a wrong
-    /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit only is
-    /// answered with the right key.
+    /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit
+    /// only is answered with the right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         let parsed = self.glance()?;
         let table: toml::Table = self.glance()?;
