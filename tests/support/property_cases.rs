@@ -1,8 +1,8 @@
 //! How many cases a property test tries. A test program takes it in with
 //! `#[path = "…/tests/support/property_cases.rs"] mod property_cases;`.
 //!
-//! Ordinarily few, from a fixed seed, so that every run tries the same. `GEARMESH_PROPERTY_CASES=50` tries fifty times as
-//! many, from another seed each time. Proptest prints the simplest case that it finds to fail.
+//! Ordinarily few, from a fixed seed, so that every run tries the same. `GEARMESH_PROPERTY_CASES=50` tries fifty times
+//! as many, from another seed each time. Proptest prints the simplest case that it finds to fail.
 
 use proptest::prelude::ProptestConfig;
 use proptest::test_runner::RngSeed;

@@ -51,8 +51,8 @@ pub(crate) fn depth_m(tip: &ToothGeometry, mate: &ToothGeometry, centre_distance
     depth
 }
 
-/// Depth \[m\] of a point, given by its radius and polar angle, behind the right fillet of the tooth centred on +x, along
-/// the fillet's normal; negative in the tooth space, zero beyond the fillet's ends.
+/// Depth \[m\] of a point, given by its radius and polar angle, behind the right fillet of the tooth centred on +x,
+/// along the fillet's normal; negative in the tooth space, zero beyond the fillet's ends.
 fn depth_in_fillet_m(tooth: &ToothGeometry, radius_m: f64, polar_rad: f64) -> f64 {
     let radius_at = |t: f64| {
         let [x, y] = tooth.trochoid.point_m(t);

@@ -1,5 +1,5 @@
-//! The gears of pairs A and B (seed 004 in docs/sources.md) against the numbers stated for them, gears that cannot be, and
-//! what holds for gears, pairs and gear files of any numbers.
+//! The gears of pairs A and B (seed 004 in docs/sources.md) against the numbers stated for them, gears that cannot be,
+//! and what holds for gears, pairs and gear files of any numbers.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "../../../../tests/support/property_cases.rs"]

@@ -49,8 +49,8 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Centre distance without backlash by the textbook: inv α_w = inv α_t + 2 tan α_n (x₁ + x₂)/(z₁ + z₂), each allowance as
-/// so much less shift. None where the shifts are too negative for any.
+/// Centre distance without backlash by the textbook: inv α_w = inv α_t + 2 tan α_n (x₁ + x₂)/(z₁ + z₂), each allowance
+/// as so much less shift. None where the shifts are too negative for any.
 fn tight_centre_distance_m(gears: &[ToothDefinition; 2]) -> Option<f64> {
     let d = &gears[0];
     let (cos, tan_n) = (d.helix_angle_rad.cos(), d.pressure_angle_rad.tan());

@@ -192,7 +192,8 @@ proptest! {
 proptest! {
     #![proptest_config(cases(300))]
 
-    /// Half of the definitions at least must give a tooth, or these tests would say nothing; proptest gives up otherwise.
+    /// Half of the definitions at least must give a tooth, or these tests would say nothing; proptest gives up
+    /// otherwise.
     #[test]
     fn teeth_of_ordinary_racks_are_whole(d in ordinary()) {
         let tooth = ToothGeometry::new(&d);
