@@ -76,12 +76,40 @@ fn deviations(definition: impl Fn(usize) -> ToothDefinition) -> [f64; 3] {
     ]
 }
 
-/// The table seems to go back to layouts on paper with an addendum of 0.3 circular pitches (an inference); with that
-/// addendum, a dedendum of 1.25 and a rack tip radius of 0.3 modules ours lies within −4.2 and +2.9 %, +0.4 % in the
-/// mean. The addendum of one module of today has the load higher: −8.2 to −1.1 %. The fillet matters below 30 teeth:
-/// 0.1 modules of tip radius are worth 3 to 4 %.
+/// The table seems to go back to layouts on paper with an addendum of 0.3 circular pitches (an inference). No source
+/// says how exact it is; Lewis's own formula Y = π(0.154 − 0.912/z), for the same teeth, is off it by 5.3 % (root of
+/// the mean square) and up to 8.2 %. What judges ours is that spread of the two sources: with that addendum, a dedendum
+/// of 1.25 and a rack tip radius of 0.3 modules it is nearer to the table, −4.2 to +2.9 %, +0.4 % in the mean. Those
+/// figures are held to a tenth of a per cent as well, so that a change is seen. The addendum of one module of today has
+/// the load higher, so every tooth is weaker: −8.2 to −1.1 %. The fillet matters below 30 teeth: 0.1 modules of tip
+/// radius are worth 3 to 4 %.
 #[test]
 fn the_published_table() {
+    let formula = |teeth: usize| PI * (0.154 - 0.912 / teeth as f64);
+    let off_formula = |&(teeth, published): &(usize, f64)| formula(teeth) / published - 1.0;
+    let root_mean_square =
+        |all: &[f64]| (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt();
+    let of_formula: Vec<f64> = SHIGLEY.iter().map(off_formula).collect();
+    let factor = |addendum, teeth| {
+        lewis_factor(&ToothDefinition {
+            addendum,
+            rack_tip_radius: 0.3,
+            ..standard(teeth)
+        })
+    };
+    let ours: Vec<f64> = SHIGLEY
+        .iter()
+        .map(|&(teeth, published)| factor(0.3 * PI, teeth) / published - 1.0)
+        .collect();
+    let largest = |all: &[f64]| all.iter().fold(0.0, |worst: f64, x| worst.max(x.abs()));
+    assert!(
+        root_mean_square(&ours) < root_mean_square(&of_formula),
+        "{ours:?}"
+    );
+    assert!(largest(&ours) < largest(&of_formula), "{ours:?}");
+    for (teeth, _) in SHIGLEY {
+        assert!(factor(1.0, teeth) < factor(0.3 * PI, teeth), "z {teeth}");
+    }
     let with = |addendum, rack_tip_radius| {
         deviations(|teeth| ToothDefinition {
             addendum,
@@ -91,7 +119,7 @@ fn the_published_table() {
     };
     let lewis = with(0.3 * PI, 0.3);
     assert!(lewis[0] > -0.043 && lewis[2] < 0.030, "{lewis:?}");
-    assert!(lewis[1].abs() < 0.006, "{lewis:?}");
+    assert!(lewis[1].abs() < 0.005, "{lewis:?}");
     let today = with(1.0, 0.3);
     assert!(today[0] > -0.083 && today[2] < -0.010, "{today:?}");
     let sharp = with(1.0, 0.2);
@@ -101,7 +129,8 @@ fn the_published_table() {
 
 /// Lewis's formulas of 1892, y = 0.124 − 0.684/z for 14.5° (15° in his paper) and 0.154 − 0.912/z for 20°, Y = πy, from
 /// 12 to 300 teeth. With his addendum of 0.3 circular pitches, a dedendum of 1.157 and a tip radius of 0.25 modules
-/// ours lies within −4.6 and +3.9 %.
+/// ours lies within −4.6 and +3.9 %: two numbers for all teeth cannot follow the drawings any closer, they are up to 8
+/// % off the table above.
 #[test]
 fn the_formulas_of_lewis() {
     for (degrees, a, b) in [(14.5f64, 0.124, 0.684), (20.0, 0.154, 0.912)] {
