@@ -1,9 +1,10 @@
-//! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position; chains; any free system. One program, so that its
-//! libraries are linked once.
+//! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position; chains;
+//! force elements with coordinates of their own; any free system. One program, so that its libraries are linked once.
 #![allow(clippy::unwrap_used)] // test code
 
 mod andrews;
 mod five_bars;
+mod own_coordinates;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;
 mod random_systems;
@@ -13,4 +14,5 @@ mod sparse;
 mod problems {
     pub mod andrews;
     pub mod chain;
+    pub mod maxwell;
 }

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use gearmesh_dynamics::elements::SpringDamper;
 use gearmesh_dynamics::{
-    Body, BodyId, BodyMotion, DynamicsError, Joint, JointKind, Marker, MarkerPair, Params, Simulation, System,
+    Body, BodyId, BodyMotion, DynamicsError, Joint, JointKind, Marker, MarkerPair, Params,
+    Simulation, System,
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
