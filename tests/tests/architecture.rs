@@ -10,6 +10,9 @@ use std::process::Command;
 
 use serde_json::Value;
 
+#[path = "architecture/one_feature_set.rs"]
+mod one_feature_set;
+
 /// The crates of the offline side: meshing, finite elements, reduction.
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
@@ -352,7 +355,6 @@ enum Kinds {
     WithoutTests,
 }
 
-/// The packages of the workspace as `cargo metadata` lists them.
 /// What README's tutorial prints of a file is the file.
 #[test]
 fn the_tutorial_shows_the_files_that_are_shipped() {
@@ -366,6 +368,7 @@ fn the_tutorial_shows_the_files_that_are_shipped() {
     }
 }
 
+/// The packages of the workspace as `cargo metadata` lists them.
 fn packages() -> Vec<Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)

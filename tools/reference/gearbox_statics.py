@@ -19,7 +19,8 @@ from math import acos, atan, cos, radians, sin, sqrt, tan
 OUTPUT_TORQUE_NM = 1200.0
 NORMAL_PRESSURE_ANGLE = radians(20.0)
 
-# Shafts: place of the axis from the centre distances and the angles of the centre lines against x; bearings that locate and that float.
+# Shafts: place of the axis from the centre distances and the angles of the centre lines against x; bearings that locate
+# and that float.
 CENTRE_LINES_DEG = (0.0, 70.0, -10.0)
 BEARINGS_MM = ((0.0, 60.0), (0.0, 110.0), (50.0, 190.0), (95.0, 195.0))
 

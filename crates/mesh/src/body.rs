@@ -247,8 +247,8 @@ pub fn body_problem(
     })
 }
 
-/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the middle of
-/// the side after it.
+/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the
+/// middle of the side after it.
 fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
     match openings {
         Openings::Holes(h) => {
@@ -273,8 +273,8 @@ fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
     (x.hypot(y), y.atan2(x))
 }
 
-/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ... Sides
-/// are about `size` long; their middles stand between the nodes.
+/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
+/// Sides are about `size` long; their middles stand between the nodes.
 fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,

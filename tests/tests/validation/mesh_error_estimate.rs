@@ -1,4 +1,5 @@
-//! Validation of the mesh errors that `reduce` states: on the default mesh they cover the difference from quadratic elements.
+//! Validation of the mesh errors that `reduce` states: on the default mesh they cover the difference from quadratic
+//! elements.
 
 use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;
