@@ -14,8 +14,9 @@ use serde_json::Value;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 8] = [
+const ONLINE: [&str; 9] = [
     "contact",
+    "bearings",
     "dynamics",
     "drivetrain",
     "recovery",
@@ -26,7 +27,7 @@ const ONLINE: [&str; 8] = [
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 16] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("geometry", &[]),
     ("mesh", &["geometry"]),
     ("fe", &[]),
@@ -34,6 +35,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
+    ("bearings", &["geometry"]),
     ("recovery", &["model", "contact"]),
     (
         "drivetrain",
@@ -58,6 +60,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     (
         "cli",
         &[
+            "bearings",
             "geometry",
             "mesh",
             "fe",

@@ -4,6 +4,8 @@ use crate::arguments::CheckArguments;
 use crate::commands::{reduce, run_system};
 use crate::failure::Failure;
 use crate::{console, offline};
+use gearmesh_bearings::QuasiStaticBearing;
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{FileError, read_reduced_gear};
@@ -89,6 +91,15 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                 built.notes.iter().for_each(console::note);
             }
         }
+    } else if BearingFromFile::recognises(&document)? {
+        let found = BearingFromFile::from_document(&document)?;
+        QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
+        console::data(format!(
+            "{}: bearing `{}`, sound",
+            path.display(),
+            found.definition.name
+        ));
+        found.notes.iter().for_each(console::note);
     } else {
         let gear = GearDefinition::from_document(&document)?;
         offline::judge_gear(&gear, &document)?;
