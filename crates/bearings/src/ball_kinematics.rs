@@ -66,6 +66,8 @@ impl Sub for ByAngles {
     }
 }
 
+// The product rule adds.
+#[allow(clippy::suspicious_arithmetic_impl)]
 impl Mul for ByAngles {
     type Output = Self;
     fn mul(self, o: Self) -> Self {

@@ -287,13 +287,18 @@ impl QuasiStaticBearing {
     }
 
     /// Angular-contact bearings have no groove on the side away from their load: balls that climb there have left the bearing.
-    fn refuse_pulled_out(&self, pose: &RingPose, operation: &Operation) -> Result<(), BearingError> {
+    fn refuse_pulled_out(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+    ) -> Result<(), BearingError> {
         let (_, loads) = self.loads(pose, operation)?;
         for (row, elements) in self.rows.iter().zip(&loads.elements) {
             let Row::Ball(row) = row else { continue };
             let free = row.free_angle_rad;
             let climbs = |e: &ElementLoad| {
-                e.inner_load_n > 0.0 && e.inner_contact_angle_rad * free.signum() < -0.5 * free.abs()
+                e.inner_load_n > 0.0
+                    && e.inner_contact_angle_rad * free.signum() < -0.5 * free.abs()
             };
             if free != 0.0 && elements.iter().any(climbs) {
                 return Err(BearingError::PulledOut);

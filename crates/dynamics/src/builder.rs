@@ -9,7 +9,17 @@ use crate::error::DynamicsError;
 use crate::inertia::Inertia;
 use crate::joint::Joint;
 use crate::state::{BodyMotion, Layout, State};
+use crate::structure::Structure;
 use crate::system::{Slot, System};
+use crate::unknown::{Unknown, UnknownKind};
+
+impl System {
+    /// Begins a system.
+    #[must_use]
+    pub fn builder() -> SystemBuilder {
+        SystemBuilder::default()
+    }
+}
 
 /// Collects bodies, joints and force elements.
 #[derive(Default)]
@@ -66,25 +76,70 @@ impl SystemBuilder {
             }
         }
         self.check()?;
-        let layout = Layout::new(&self.bodies);
-        let start = State::start(&self.bodies, &layout);
-        let slots = self
+        let of_elements: Vec<Vec<Unknown>> = self
             .elements
-            .into_iter()
-            .map(|element| Slot::new(element, &layout));
+            .iter()
+            .map(|element| element.unknowns())
+            .collect();
+        self.check_unknowns(&of_elements)?;
+        let layout = Layout::new(&self.bodies, of_elements.concat());
+        let start = State::start(&self.bodies, &layout);
+        let mut slots: Vec<Slot> = Vec::new();
+        let mut first = 0;
+        for (element, own) in self.elements.into_iter().zip(&of_elements) {
+            slots.push(Slot::new(element, &layout, first..first + own.len()));
+            first += own.len();
+        }
+        let groups = slots.iter().flat_map(|slot| slot.groups(&layout));
+        let structure = Structure::new(&layout, &self.joints, groups);
+        for slot in &mut slots {
+            slot.find_places(&structure.square);
+        }
         let mut system = System {
             inertias: self.bodies.iter().map(Inertia::new).collect(),
-            slots: slots.collect(),
+            slots,
             motions: vec![BodyMotion::at_rest(); self.bodies.len() + 1],
             bodies: self.bodies,
             joints: self.joints,
             layout,
+            structure,
             kept: Vec::new(),
             redundant: Vec::new(),
             start,
         };
-        constraints::analyse(&mut system)?;
+        let found = constraints::analyse(&mut system)?;
+        system.begin_joints(&found.start);
+        system.kept = found.kept;
+        system.redundant = found.redundant;
+        system.start = found.start;
+        system.start_unknowns();
         Ok(system)
+    }
+
+    fn check_unknowns(&self, of_elements: &[Vec<Unknown>]) -> Result<(), DynamicsError> {
+        for (element, unknowns) in self.elements.iter().zip(of_elements) {
+            for unknown in unknowns {
+                let mass = match unknown.kind {
+                    UnknownKind::Inertial { mass } => Some(("mass", mass)),
+                    UnknownKind::Rate | UnknownKind::Equilibrium => None,
+                };
+                for (what, found) in mass.into_iter().chain([("scale", unknown.scale)]) {
+                    if !(found > 0.0 && found.is_finite()) {
+                        return Err(DynamicsError::Value {
+                            owner: format!(
+                                "force element `{}`, its `{}`",
+                                element.name(),
+                                unknown.name
+                            ),
+                            what,
+                            found,
+                            allowed: "positive and finite",
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), DynamicsError> {

@@ -14,7 +14,9 @@
 //!
 //! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
 
-use nalgebra::Vector3;
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
 
 use crate::convergence::{Convergence, Measured, Progress};
 use crate::equations::{At, Detail, Equations};
@@ -22,11 +24,12 @@ use crate::error::DynamicsError;
 use crate::joint::Joint;
 use crate::matrix::Matrix;
 use crate::rotation;
-use crate::saddle::Saddle;
-use crate::scheme::{Params, Scheme};
+use crate::saddle::{Saddle, SaddleForm};
+use crate::scheme::{LinearSolver, Params, Scheme};
 use crate::secants::Secants;
 use crate::state::State;
 use crate::system::System;
+use crate::unknown::UnknownKind;
 
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
@@ -53,6 +56,7 @@ pub(crate) struct Effort {
     pub iterations: u64,
     pub factorisations: u64,
     pub evaluations: u64,
+    pub pivotings: u64,
 }
 
 /// Why a step was given up.
@@ -77,8 +81,14 @@ pub(crate) struct Integrator {
     /// For the changes of step length, on the mass matrix itself.
     projector: Saddle,
     pub convergence: Convergence,
+    /// Masses of all degrees of freedom, zero where an equation has none.
+    pub masses: Vec<f64>,
+    /// What an error is multiplied by before it is compared with the tolerance of its kind.
+    pub error_scale: Vec<f64>,
     matrix: Matrix,
     turned: Matrix,
+    /// T of every body.
+    turns: Vec<Matrix3<f64>>,
     increment: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
@@ -89,24 +99,28 @@ pub(crate) struct Integrator {
 }
 
 impl Integrator {
-    pub(crate) fn new(system: &System, scheme: Scheme) -> Self {
+    pub(crate) fn new(system: &System, scheme: Scheme, solver: LinearSolver) -> Self {
         let (n, m) = (system.degrees_of_freedom(), system.equations());
         let diagonal = system.mass_diagonal();
+        let form = Arc::new(SaddleForm::new(&system.structure, &system.kept, solver));
         Self {
             scheme,
             equations: Equations::new(system),
-            saddle: Saddle::new(&diagonal, &system.kept),
+            saddle: Saddle::new(&diagonal, system.layout.massless(), &form),
             factored_step_s: f64::NAN,
-            projector: Saddle::new(&diagonal, &system.kept),
+            projector: Saddle::new(&diagonal, system.layout.massless(), &form),
             convergence: Convergence::new(system, &scheme),
-            matrix: Matrix::zeros(n, n),
-            turned: Matrix::zeros(n, m),
+            masses: system.masses(),
+            error_scale: (0..n).map(|dof| error_scale(system, dof)).collect(),
+            matrix: Matrix::zeros(&system.structure.square),
+            turned: Matrix::zeros(&system.structure.gradient),
+            turns: vec![Matrix3::identity(); system.bodies.len()],
             increment: vec![0.0; n],
             delta: vec![0.0; n],
             mu: vec![0.0; m],
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
-            secants: Secants::new(&diagonal, m),
+            secants: Secants::new(&system.masses(), m),
             effort: Effort::default(),
         }
     }
@@ -261,22 +275,26 @@ impl Integrator {
     fn factor(&mut self, system: &System, h: f64) -> bool {
         let (s, equations) = (self.scheme, &mut self.equations);
         self.turned.copy_from(&equations.gradient);
-        for start in system.layout.starts() {
+        for (start, t) in system.layout.starts().zip(&mut self.turns) {
             let turn = start + 3;
             let psi = Vector3::from_column_slice(&self.increment[turn..turn + 3]);
-            let t = rotation::tangent(&psi);
-            equations.stiffness.turn_columns(turn, &t);
-            self.turned.turn_rows(turn, &t);
+            *t = rotation::tangent(&psi);
+            equations.stiffness.turn_columns(turn, t);
         }
+        let turns = &self.turns;
+        self.turned
+            .turn_bodies(|start| turns[system.layout.locate(start).0]);
         let factors = [s.mass_factor(), s.gamma * h, s.beta * h * h];
         self.matrix.set_combination(
             factors,
             [&equations.mass, &equations.damping, &equations.stiffness],
         );
         self.effort.factorisations += 1;
+        let before = self.saddle.pivotings();
         let regular = self
             .saddle
             .factor(&self.matrix, &equations.gradient, &self.turned);
+        self.effort.pivotings += self.saddle.pivotings() - before;
         self.factored_step_s = if regular { h } else { f64::NAN };
         regular
     }
@@ -325,7 +343,8 @@ impl Integrator {
             load_factor: 1.0,
         };
         system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
-        let Equations { mass, gradient, .. } = &self.equations;
+        let Equations { mass, gradient, .. } = &mut self.equations;
+        system.hold_massless(mass);
         self.projector.factor(mass, gradient, gradient)
     }
 
@@ -365,8 +384,8 @@ impl Integrator {
         } else {
             let share = self.scheme.error_constant * step_s * step_s;
             for (equation, right) in self.right_joints.iter_mut().enumerate() {
-                let row = equations.gradient.column(equation).iter();
-                *right = share * row.zip(&point.jerk).map(|(b, j)| b * j).sum::<f64>();
+                let row = equations.gradient.entries(equation);
+                *right = share * row.map(|(dof, b)| b * point.jerk[dof]).sum::<f64>();
             }
         }
         self.right.fill(0.0);
@@ -380,5 +399,14 @@ impl Integrator {
             *velocity += change;
         }
         Ok(())
+    }
+}
+
+/// Coordinates in equilibrium have no error of their own: they follow the others.
+fn error_scale(system: &System, dof: usize) -> f64 {
+    match system.layout.unknown(dof) {
+        None => 1.0,
+        Some(unknown) if unknown.kind == UnknownKind::Equilibrium => 0.0,
+        Some(unknown) => 1.0 / unknown.scale,
     }
 }

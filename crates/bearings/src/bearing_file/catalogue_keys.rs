@@ -3,7 +3,7 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
-use super::{BearingFile, MM, RatingsTable, UM};
+use super::{BearingFile, MM, UM};
 use crate::catalogue::{CATALOGUE, CatalogueLine, CatalogueType, find};
 use crate::definition::{
     BallBearingKind, BallGeometry, BearingGeometry, RollerGeometry, RollerProfile,
@@ -185,7 +185,7 @@ fn line(
         &format!("more than the bore, {}", bore_m / MM),
     )?;
     let table = TableKeys::new(document, "ratings");
-    let ratings = file.ratings.clone().unwrap_or(RatingsTable::default());
+    let ratings = file.ratings.clone().unwrap_or_default();
     let rating = |key: &str, value: Option<f64>| {
         let value = table.needed(key, value, needed_by)?;
         table.require(key, value, value > 0.0, "more than 0")?;
