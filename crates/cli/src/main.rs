@@ -10,6 +10,7 @@ mod length_unit;
 mod memory;
 mod offline;
 mod output_name;
+mod overwriting;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -17,7 +18,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let outcome = interrupt::install().and_then(|()| match &arguments.command {
+    let sound = interrupt::install().and_then(|()| overwriting::refuse(&arguments.command));
+    let outcome = sound.and_then(|()| match &arguments.command {
         Command::Mesh(a) => commands::mesh::run(a),
         Command::Reduce(a) => commands::reduce::run(a),
         Command::Modes(a) => commands::modes::run(a),

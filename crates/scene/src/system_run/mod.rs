@@ -10,7 +10,7 @@
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
-//! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
+//! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
 mod column_names;
 mod column_statistics;
@@ -22,6 +22,7 @@ mod from_scene;
 mod in_time;
 mod job;
 mod mesh_pace;
+mod mesh_passing;
 mod mode_shares;
 mod part_folder;
 mod rating;
@@ -33,7 +34,7 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, rank, split_unit, varying};
+pub use column_names::{is_prominent, noticeable, rank, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
@@ -42,6 +43,7 @@ pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
+pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
 pub(crate) use recorder::element_column;
