@@ -64,6 +64,9 @@ pub struct MeshArguments {
     /// Unit of the coordinates in the file
     #[arg(long, value_enum, default_value = "m")]
     pub length_unit: LengthUnit,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -80,6 +83,9 @@ pub struct ReduceArguments {
     /// Do not reduce a coarser mesh to estimate the discretisation error
     #[arg(long)]
     pub no_error_estimate: bool,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -100,6 +106,9 @@ pub struct ModesArguments {
     /// Mesh file for the shapes, one point field a mode (.vtu, .msh, ...)
     #[arg(long)]
     pub shapes: Option<PathBuf>,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

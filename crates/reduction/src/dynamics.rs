@@ -50,6 +50,7 @@ pub fn dynamics(
     let Some(density) = gear.material.density_kg_per_m3 else {
         return Ok(result);
     };
+    progress.stage("mass");
     if gear.hub == HubSupport::Fixed && gear.modes.is_none() {
         result.rigid_body = Some(body.rigid_body(density)?);
         return Ok(result);

@@ -26,7 +26,7 @@ use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
-use crate::{ReductionError, Silent};
+use crate::{Progress, ReductionError, Within};
 use gearmesh_geometry::{ElementKind, GearDefinition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows};
@@ -118,13 +118,23 @@ pub fn estimate(
     c_hub: &[f64],
     c_tooth: &[f64],
     grid: &FlankGrid,
+    progress: &dyn Progress,
 ) -> Result<ErrorEstimate, ReductionError> {
     let fine = reduced_figures(gear, gauges, c_hub, c_tooth, grid);
     let one_step = gear.mesh.plane_strain || gear.mesh.element == ElementKind::Tet10;
     let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
     let mut meshes = vec![fine];
-    for &axial in steps {
-        meshes.push(mesh_figures(&coarsened(gear, axial), python, grid)?);
+    for (k, &axial) in steps.iter().enumerate() {
+        let progress = Within {
+            all: progress,
+            part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
+        };
+        meshes.push(mesh_figures(
+            &coarsened(gear, axial),
+            python,
+            grid,
+            &progress,
+        )?);
     }
     let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
         let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
@@ -180,8 +190,10 @@ fn mesh_figures(
     gear: &GearDefinition,
     python: &PythonEnvironment,
     grid: &FlankGrid,
+    progress: &dyn Progress,
 ) -> Result<Figures, ReductionError> {
-    let body = GearBody::new(gear, python, &Silent)?;
+    let body = GearBody::new(gear, python, progress)?;
+    progress.stage("solving");
     let count = grid.len();
     let side = gear.reduction.flanks[0];
     let loads = flank_loads(gear, &body.mesh, grid, 0, side);
@@ -201,7 +213,7 @@ fn mesh_figures(
         rows.push(row);
     }
     let rows: Vec<&SparseVector> = rows.iter().collect();
-    let all = body.readings(&rows, &normals, &Silent);
+    let all = body.readings(&rows, &normals, progress);
     // Normal loads of a row's own tooth; the line load stands on tooth 0.
     let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
     let deflection = |tooth: usize| {

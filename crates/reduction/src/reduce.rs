@@ -127,7 +127,7 @@ pub fn reduce(
             loaded_tooth,
             other_teeth,
             gauges: errors,
-        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
+        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid, progress)?;
         for (name, error) in [
             (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
             (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
