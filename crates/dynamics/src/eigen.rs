@@ -12,11 +12,13 @@
 //! −ω² those of the symmetric −ZᵀK̂Z. The equations are frozen at the given instant: exact at rest and for bodies that spin
 //! about an axis of symmetry; otherwise coefficients vary with the angle. Derivation: docs/theory/multibody.md.
 
+use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, Matrix3};
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
+use crate::krylov;
 use crate::matrix::Matrix;
 use crate::metric::Metric;
 use crate::rotation::skew;
@@ -64,14 +66,46 @@ impl NaturalMode {
     }
 }
 
-/// Eigenvalues with ω ≥ 0 about a state, by rising |s|. Free motions come out as s ≈ 0.
+/// Unknowns of motions and joints from which modes up to a frequency are sought by [`krylov`].
+const LARGE: usize = 400;
+
+/// Share of its frequency below which the growth of a mode found by Krylov vectors is rounding.
+const FOUND: f64 = 1e-9;
+
+/// The modes of [`natural_modes`] whose frequency is at most `most_hz`. In large systems they alone are sought, by Krylov vectors (`krylov.rs`), which
+/// leaves out motions that die out faster than e^(−2π `most_hz` t); a frequency that occurs more than four times may then lack members.
 ///
 /// # Errors
-/// [`DynamicsError::Eigen`], [`DynamicsError::Singular`] or the error of an element.
-pub fn natural_modes(
+/// As [`natural_modes`].
+pub fn natural_modes_up_to(
     system: &mut System,
     state: &State,
+    most_hz: f64,
 ) -> Result<Vec<NaturalMode>, DynamicsError> {
+    if system.degrees_of_freedom() + system.kept.len() >= LARGE {
+        let equations = about(system, state)?;
+        let limit = std::f64::consts::TAU * most_hz;
+        let found = krylov::eigenvalues_within(system, &equations, limit, state.time_s)?;
+        if let Some(found) = found {
+            let modes = found.into_iter().map(|found| NaturalMode {
+                growth_per_s: if found.re.abs() > FOUND * found.im {
+                    found.re
+                } else {
+                    0.0
+                },
+                angular_frequency_rad_per_s: found.im,
+                shape: scaled(found.shape),
+            });
+            return Ok(sorted(modes.collect()));
+        }
+    }
+    let mut modes = natural_modes(system, state)?;
+    modes.retain(|mode| mode.frequency_hz() <= most_hz);
+    Ok(modes)
+}
+
+/// The linearised equations about a state, rotations along world axes.
+fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
     let accelerations = system.accelerations(state)?;
     let mut equations = Equations::new(system);
     let at = At {
@@ -82,22 +116,43 @@ pub fn natural_modes(
     };
     system.evaluate(at, Detail::Tangents, &mut equations)?;
     turn_to_world(system, state, &mut equations);
-    let basis = null_space(system, &equations, state.time_s)?;
-    let reduced = |matrix: &Matrix| basis.tr_mul(&(matrix.to_dense() * &basis));
-    let stiffness = reduced(&equations.stiffness);
-    let damping = reduced(&equations.damping);
-    let scale = stiffness.amax().sqrt();
-    let asymmetry = (&stiffness - stiffness.transpose()).amax();
-    let mut modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
-        undamped(&stiffness, &basis)?
-    } else {
-        damped(&stiffness, &damping, scale, &basis)?
-    };
+    Ok(equations)
+}
+
+/// By rising |s|.
+fn sorted(mut modes: Vec<NaturalMode>) -> Vec<NaturalMode> {
     modes.sort_by(|a, b| {
         a.natural_angular_frequency_rad_per_s()
             .total_cmp(&b.natural_angular_frequency_rad_per_s())
     });
-    Ok(modes)
+    modes
+}
+
+/// Eigenvalues with ω ≥ 0 about a state, by rising |s|. Free motions come out as s ≈ 0.
+///
+/// # Errors
+/// [`DynamicsError::Eigen`], [`DynamicsError::Singular`] or the error of an element.
+pub fn natural_modes(
+    system: &mut System,
+    state: &State,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let equations = about(system, state)?;
+    let basis = null_space(system, &equations, state.time_s)?;
+    let reduced = |matrix: &Matrix| basis.tr_mul(&(matrix.to_dense() * &basis));
+    let stiffness = reduced(&equations.stiffness);
+    let damping = reduced(&equations.damping);
+    let massless = system.layout.massless().count();
+    if massless > 0 {
+        return with_massless(&stiffness, &damping, massless, &basis);
+    }
+    let scale = stiffness.amax().sqrt();
+    let asymmetry = (&stiffness - stiffness.transpose()).amax();
+    let modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
+        undamped(&stiffness, &basis)?
+    } else {
+        damped(&stiffness, &damping, scale, &basis)?
+    };
+    Ok(sorted(modes))
 }
 
 /// Share of each force element in the strain energy of some modes about a state, `[mode][element]`: |yᴴ K y| with the element's part of the
@@ -191,7 +246,7 @@ fn turn_to_world(system: &System, state: &State, equations: &mut Equations) {
     });
 }
 
-/// Z: motions that the joints allow, orthonormal in the mass matrix.
+/// Z: motions that the joints allow, orthonormal in the mass matrix, then coordinates without mass one by one.
 fn null_space(
     system: &System,
     equations: &Equations,
@@ -201,16 +256,28 @@ fn null_space(
         what: "the mass matrix",
         time_s,
     };
-    let metric = Metric::new(equations, system.layout.body_ranges()).ok_or_else(singular)?;
+    let metric = Metric::new(equations, system.layout.massive_ranges()).ok_or_else(singular)?;
     let n = equations.residual.len();
     let kept = &system.kept;
     let rows = metric.dense_columns(n, kept);
-    let q = Mat::from_fn(n, kept.len(), |i, j| rows[(i, j)])
+    // Coordinates without mass are in no joint: directions of their own, behind the others.
+    let massless: Vec<usize> = system.layout.massless().collect();
+    let massive: Vec<usize> = (0..n).filter(|dof| !massless.contains(dof)).collect();
+    let q = Mat::from_fn(massive.len(), kept.len(), |i, j| rows[(massive[i], j)])
         .qr()
         .compute_Q();
-    let mut basis = DMatrix::from_fn(n, n - kept.len(), |i, j| q[(i, kept.len() + j)]);
+    let moves = massive.len() - kept.len();
+    let mut basis = DMatrix::zeros(n, moves + massless.len());
+    for (i, &dof) in massive.iter().enumerate() {
+        for j in 0..moves {
+            basis[(dof, j)] = q[(i, kept.len() + j)];
+        }
+    }
     for column in basis.as_mut_slice().chunks_mut(n.max(1)) {
         metric.scale_back(column);
+    }
+    for (j, &dof) in massless.iter().enumerate() {
+        basis[(dof, moves + j)] = 1.0;
     }
     Ok(basis)
 }
@@ -224,6 +291,11 @@ fn shape(basis: &DMatrix<f64>, amplitude: impl Fn(usize) -> [f64; 2]) -> Vec<[f6
             place[1] += z * im;
         }
     }
+    scaled(shape)
+}
+
+/// The shape with its largest entry at 1 + 0i.
+fn scaled(mut shape: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let square = |a: &[f64; 2]| a[0] * a[0] + a[1] * a[1];
     let largest =
         shape.iter().copied().fold(
@@ -300,4 +372,79 @@ fn damped(
             shape: shape(basis, |k| [vectors[(k, j)].re, vectors[(k, j)].im]),
         });
     Ok(modes.collect())
+}
+
+/// A shift over the largest frequency without coupling, 1/s: no eigenvalue sits on it but by chance.
+const SHIFT: f64 = 0.1234567;
+
+/// Share of the largest 1/(s − shift) below which it stands for an equation without a rate: no motion of its own.
+const NO_RATE: f64 = 1e-9;
+
+/// With coordinates w without mass, the last `massless` of the basis. With x = (y, ẏ, w),
+///
+/// ```text
+/// [1 0  0    ]      [ 0     1     0    ]
+/// [0 1  C_yw ] ẋ =  [−K_yy −C_yy −K_yw ] x        E ẋ = A x
+/// [0 0  C_ww ]      [−K_wy −C_wy −K_ww ]
+/// ```
+///
+/// E is singular where w has no rate; the eigenvalues of (A − σE)⁻¹E are 1/(s − σ), and zero for what has none.
+fn with_massless(
+    stiffness: &DMatrix<f64>,
+    damping: &DMatrix<f64>,
+    massless: usize,
+    basis: &DMatrix<f64>,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let moves = stiffness.nrows() - massless;
+    let size = 2 * moves + massless;
+    let failed = || DynamicsError::Eigen { size };
+    // Place among y and w; true: among the rates of y.
+    let place = |i: usize| match i {
+        i if i < moves => (i, false),
+        i if i < 2 * moves => (i - moves, true),
+        i => (i - moves, false),
+    };
+    let equations = |i: usize| i >= moves;
+    let equal = |i: usize, j: usize| f64::from(u8::from(i == j));
+    let rates = Mat::from_fn(size, size, |i, j| match (place(i), place(j)) {
+        ((row, _), (column, false)) if equations(i) && column >= moves => damping[(row, column)],
+        _ if i < 2 * moves => equal(i, j),
+        _ => 0.0,
+    });
+    let forces = Mat::from_fn(size, size, |i, j| match (place(i), place(j)) {
+        ((row, _), (column, true)) if equations(i) => -damping[(row, column)],
+        ((row, _), (column, false)) if equations(i) => -stiffness[(row, column)],
+        ((row, _), (column, true)) => equal(row, column),
+        _ => 0.0,
+    });
+    let fastest = (0..moves)
+        .map(|i| stiffness[(i, i)].abs().sqrt().max(damping[(i, i)].abs()))
+        .fold(0.0, f64::max);
+    let shift = SHIFT * if fastest > 0.0 { fastest } else { 1.0 };
+    let shifted = Mat::from_fn(size, size, |i, j| forces[(i, j)] - shift * rates[(i, j)]);
+    let inverse = shifted.partial_piv_lu().solve(&rates);
+    let found = inverse.eigen().map_err(|_| failed())?;
+    let (values, vectors) = (found.S().column_vector(), found.U());
+    let size_of = |j: usize| values[j].re.hypot(values[j].im);
+    let largest = (0..size).map(size_of).fold(0.0, f64::max);
+    let modes = (0..size)
+        .filter(|&j| size_of(j) > NO_RATE * largest)
+        .map(|j| {
+            // 1/θ = θ̄/|θ|²
+            let square = size_of(j).powi(2);
+            let (re, im) = (values[j].re / square, -values[j].im / square);
+            (j, shift + re, im)
+        })
+        .filter(|(_, _, im)| *im >= 0.0)
+        .map(
+            |(j, growth_per_s, angular_frequency_rad_per_s)| NaturalMode {
+                growth_per_s,
+                angular_frequency_rad_per_s,
+                shape: shape(basis, |k| {
+                    let vector = vectors[(if k < moves { k } else { k + moves }, j)];
+                    [vector.re, vector.im]
+                }),
+            },
+        );
+    Ok(sorted(modes.collect()))
 }

@@ -140,9 +140,9 @@ impl CyclicInterface {
         y
     }
 
-    /// For loads of one sector, carried to its cuts \[R, L\] (rows) by condensation: q·u for each load q of the sector j
-    /// further on under each load p of the first one, `result[j][(q, p)]`, without what happens inside one sector with its
-    /// cuts held.
+    /// For loads of one sector, carried to its cuts \[R, L\] (rows) by condensation: q·u for each load q of the sector
+    /// j further on under each load p of the first one, `result[j][(q, p)]`, without what happens inside one sector
+    /// with its cuts held.
     ///
     /// # Panics
     /// If `loads` does not have the rows of both cuts.

@@ -88,7 +88,8 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
     Ok(best)
 }
 
-/// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle too.
+/// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle
+/// too.
 pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
     let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web);
     move |r: f64| {
@@ -256,8 +257,8 @@ pub fn body_problem(
     })
 }
 
-/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the middle of
-/// the side after it.
+/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the
+/// middle of the side after it.
 fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
     match openings {
         Openings::Holes(h) => {
@@ -282,8 +283,8 @@ fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
     (x.hypot(y), y.atan2(x))
 }
 
-/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ... Sides
-/// are about `size` long; their middles stand between the nodes.
+/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
+/// Sides are about `size` long; their middles stand between the nodes.
 fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,

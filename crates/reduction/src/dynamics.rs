@@ -28,7 +28,8 @@ pub struct Dynamics {
     pub solves: Option<usize>,
 }
 
-/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all gauges.
+/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all
+/// gauges.
 ///
 /// # Errors
 /// [`ReductionError`] when there are no modes in the range or the search does not converge.

@@ -1,21 +1,25 @@
-//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from coarser meshes.
+//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from coarser
+//! meshes.
 //!
-//! Coarser sections and coarser layers may change a figure in opposite senses: incompatible modes make coarse sections too soft, thick layers
-//! are too stiff. A mesh that is coarser in both would show their difference only. So a first mesh has longer elements in the section (by s = 1.5), a
-//! second one in the section and along the axis, and the sizes of both changes are added:
+//! Coarser sections and coarser layers may change a figure in opposite senses: incompatible modes make coarse sections
+//! too soft, thick layers are too stiff. A mesh that is coarser in both would show their difference only. So a first
+//! mesh has longer elements in the section (by s = 1.5), a second one in the section and along the axis, and the sizes
+//! of both changes are added:
 //!
 //! ```text
 //! error = S (|fine − sections| + |sections − both|)/(s^p − 1)
 //! ```
 //!
-//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain), S = 2. Deflections: smooth bodies converge with
-//! p = 2, at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see `gearmesh_mesh::layers`); p = 1 is taken, S = 3. S is the
-//! factor of safety of Roache's grid convergence index: 3 where two meshes tell nothing of the order, 1.25 where three have confirmed
-//! it. What is found against converged quadratic elements is up to 1.5 times the bare estimate of a gauge, 2.7 times that of a deflection:
-//! graded meshes are not similar to the last element. In plane strain, and of tetrahedra, which have no layers along the axis, one coarser
-//! mesh tells all.
+//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain), S = 2. Deflections:
+//! smooth bodies converge with p = 2, at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
+//! `gearmesh_mesh::layers`); p = 1 is taken, S = 3. S is the factor of safety of Roache's grid convergence index: 3
+//! where two meshes tell nothing of the order, 1.25 where three have confirmed it. What is found against converged
+//! quadratic elements is up to 1.5 times the bare estimate of a gauge, 2.7 times that of a deflection: graded meshes
+//! are not similar to the last element. In plane strain, and of tetrahedra, which have no layers along the axis, one
+//! coarser mesh tells all.
 //!
-//! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994) 405-413.
+//! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
+//! 405-413.
 
 use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;

@@ -1,17 +1,18 @@
 //! How much memory an offline job will take, before gmsh and the factorisations take it.
 //!
-//! Sizes of the mesh are those of [`MeshSize`]. What becomes of them was fitted to measured peaks (docs/theory/reduction.md): it tells gigabytes
-//! from tens of them, no more. Two times compete, the factorisation of the largest part and the checks with the mass at the end:
+//! Sizes of the mesh are those of [`MeshSize`]. What becomes of them was fitted to measured peaks
+//! (docs/theory/reduction.md): it tells gigabytes from tens of them, no more. Two times compete, the factorisation of
+//! the largest part and the checks with the mass at the end:
 //!
 //! ```text
-//! L     = 8 (14 d^(4/3) + own f²)                  d degrees of freedom of a sector's body, f of the foot of a tooth, `own` teeth a sector
-//! begin = a n + 8 own f² + 1.3 L                   n nodes of the gear
-//! end   = b n + L + 16 (N/2 + 1) c² + C_hub        c degrees of freedom of a cut, N sectors
+//! L     = 8 (14 d^(4/3) + own f²)              d degrees of freedom of a sector's body, f of the foot of a tooth
+//! begin = a n + 8 own f² + 1.3 L               n nodes of the gear, `own` teeth a sector
+//! end   = b n + L + 16 (N/2 + 1) c² + C_hub    c degrees of freedom of a cut, N sectors
 //! ```
 //!
 //! The condensed feet are dense blocks in the sector's matrix and stay so in its factor.
-//! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular finite element mesh*,
-//! SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
+//! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular
+//! finite element mesh*, SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
 
 use gearmesh_geometry::{ElementKind, GearDefinition, MeshSettings, ModeRange, Symmetry};
 use gearmesh_mesh::MeshSize;

@@ -148,7 +148,8 @@ impl SectorSubstructure {
         &self.cuts
     }
 
-    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of [`SectorSubstructure::body_nodes`].
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of
+    /// [`SectorSubstructure::body_nodes`].
     pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
         self.body_stiffness.as_ref()
     }

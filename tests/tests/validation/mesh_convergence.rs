@@ -1,5 +1,5 @@
-//! Validation on gear 2 of seed 004: what a finer mesh changes in the numbers that people read, and the trend of the
-//! seed's table 3.
+//! Validation on gear 2 of pair A (seed 004 in docs/sources.md): what a finer mesh changes in the numbers that people
+//! read, and the trend of the seed's table 3.
 
 use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;
@@ -63,8 +63,9 @@ fn deflection(gear: &ReducedGear, radius_m: f64, at_tooth: usize) -> f64 {
     global + local
 }
 
-/// Coarse against fine, element lengths apart by 1.5 (the coarse fillet is the default's): compliance within 2 %, strain at the gauges within 3 %, and the
-/// program's own estimate made from the fine mesh alone is of the size of the true change, not of another.
+/// Coarse against fine, element lengths apart by 1.5 (the coarse fillet is the default's): compliance within 2 %,
+/// strain at the gauges within 3 %, and the program's own estimate made from the fine mesh alone is of the size of the
+/// true change, not of another.
 #[test]
 fn a_finer_mesh_changes_little() {
     let coarse = coarse();

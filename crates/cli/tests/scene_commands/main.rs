@@ -6,6 +6,7 @@
     missing_docs
 )]
 
+mod bearing;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]

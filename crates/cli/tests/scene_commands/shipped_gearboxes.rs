@@ -1,4 +1,5 @@
-//! The shipped gearboxes of reduced gears, on coarse meshes: `reduce` for each gear, `run`, and every bearing carries what hand statics say.
+//! The shipped gearboxes of reduced gears, on coarse meshes: `reduce` for each gear, `run`, and every bearing carries
+//! what hand statics say.
 
 use crate::common::{Desk, argument, changed, succeeds};
 use gearmesh_scene::system_run::SystemResult;
@@ -13,8 +14,8 @@ fn shipped(name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// Long elements (flank, fillet, body in modules, axis in face widths), few loads: where the teeth carry hardly depends on them, and the
-/// bearings feel nothing else.
+/// Long elements (flank, fillet, body in modules, axis in face widths), few loads: where the teeth carry hardly depends
+/// on them, and the bearings feel nothing else.
 fn coarse(gear: &str) -> String {
     let value = |key: &str| -> f64 {
         let line = gear.lines().find(|line| line.starts_with(key)).unwrap();
@@ -35,8 +36,8 @@ fn coarse(gear: &str) -> String {
         "right"
     };
     format!(
-        "{sound}[reduction]\nslices = {slices}\nroll_stations = 4\nflanks = [\"{side}\"]\n[mesh]\nflank_mm = {}\nfillet_mm = {}\n\
-         body_mm = {}\naxial_mm = {}\n",
+        "{sound}[reduction]\nslices = {slices}\nroll_stations = 4\nflanks = [\"{side}\"]\n\
+         [mesh]\nflank_mm = {}\nfillet_mm = {}\nbody_mm = {}\naxial_mm = {}\n",
         flank * module,
         fillet * module,
         body * module,

@@ -40,13 +40,19 @@ fn stiffnesses_are_of_one_order() {
     };
     let standard = iso.mesh_n_per_m2(pair.contact_ratio()) * WIDTH;
     let found: Vec<f64> = CONFORMING.iter().map(|name| mean(name)).collect();
+    // `impact` has its stiffness by a parameter, and the gears of `hybrid` are those of the contact tests, made up by a
+    // formula: only its order can be asked of them. What real gears give is in tests/tests/validation.
     for (name, stiffness) in CONFORMING.iter().zip(&found) {
         let ratio = stiffness / standard;
         assert!(
-            (0.4..2.5).contains(&ratio),
+            (0.5..2.0).contains(&ratio),
             "{name}: {stiffness:e}, ISO 6336 gives {standard:e}; all {found:?}"
         );
     }
+    // `analytic` has no number that could be chosen: elastic teeth on an elastic ring against ISO's formula for gears
+    // of this kind, solid discs of steel.
+    let analytic = found[2] / standard;
+    assert!((0.9..1.1).contains(&analytic), "{analytic}, all {found:?}");
     // The spring's mean is its parameter.
     assert!((found[1] / 3e8 - 1.0).abs() < 1e-3, "{}", found[1]);
 }
@@ -77,9 +83,10 @@ fn one_spring_never_stands_on_a_tip_edge() {
         let nearest = found
             .lines
             .iter()
-            .min_by(|a, b| off(a.middle.roll_rad[0]).total_cmp(&off(b.middle.roll_rad[0])))
+            .map(|line| &found.sections[line.section])
+            .min_by(|a, b| off(a.roll_rad[0]).total_cmp(&off(b.roll_rad[0])))
             .unwrap();
-        beyond += usize::from(!nearest.middle.walks(1));
+        beyond += usize::from(!nearest.walks(1));
     }
     assert!(beyond > 0, "the case that this test is for does not occur");
 }
