@@ -36,6 +36,14 @@ pub enum ContactError {
         "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
     )]
     HelicalExtension,
+    /// All flanks that could bear the load at this position are gone.
+    #[error(
+        "at driver angle {angle_deg:.4} deg no flank is left to touch: the teeth that would carry the load there are broken off; gears turn on until others touch, which a multibody scene shows"
+    )]
+    NoFlanks {
+        /// Driver angle.
+        angle_deg: f64,
+    },
     /// No local law.
     #[error("at driver angle {angle_deg:.4} deg: {cause}")]
     LocalLaw {

@@ -12,6 +12,8 @@
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
+//! | errors and faults of single flanks | [`FlankDeviations`] | `flank_deviations.rs` |
+//! | gears that stand beside their axes | [`Runout`] | `runout.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces of slices at given separations | [`SliceContact`] | `slice_contact.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
@@ -32,12 +34,14 @@ pub mod contact_slices;
 pub mod contact_zone;
 pub mod crack_rows;
 pub mod flank_deflection;
+pub mod flank_deviations;
 pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod placed_slice;
 pub mod roll_shares;
+pub mod runout;
 pub mod slice_compliance;
 pub mod slice_contact;
 pub mod slice_spread;
@@ -50,8 +54,10 @@ pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_slices::ContactSlice;
 pub use contact_zone::{ContactZone, SliceLayout};
+pub use flank_deviations::FlankDeviations;
 pub use local_contact::LocalContact;
 pub use roll_shares::{RollHats, RollPlace};
+pub use runout::{GearSeat, Placement, Runout};
 pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
 pub use static_contact::{ContactOptions, ContactState, StaticContact};

@@ -14,6 +14,7 @@ use crate::nlcp::{
 };
 use crate::placed_slice::PlacedSlice;
 use crate::roll_shares::RollPlace;
+use crate::runout::Placement;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
 use crate::station_blocks::LineBlock;
 use gearmesh_geometry::FlankSide;
@@ -141,6 +142,11 @@ impl SliceContact {
     /// Rigid kinematics of the pair.
     pub fn lines(&self) -> &ContactLines {
         &self.lines
+    }
+
+    /// Puts the gears into their places.
+    pub fn place(&mut self, placement: &Placement) {
+        self.lines.place(placement);
     }
 
     /// Largest number of slices at once.

@@ -5,17 +5,24 @@
 //! Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without friction)
 //! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
 //!
+//! Errors of single flanks open gaps (flank_deviations.rs), gears beside their axes move the teeth (runout.rs).
+//!
 //! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms are
 //! b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
 
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_slices::ContactSlice;
+use crate::flank_deviations::FlankDeviations;
 use crate::hertz;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
+use crate::runout::{Placement, Runout};
 use crate::slice_contact::{Given, Separations, SliceContact};
 use gearmesh_model::ReducedGear;
+
+/// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
+const NO_FLANK_M: f64 = 1.0;
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +66,8 @@ pub struct ContactState {
 pub struct StaticContact {
     slices: SliceContact,
     friction: Option<Friction>,
+    deviations: FlankDeviations,
+    runout: Option<Runout>,
     active: Vec<ContactLine>,
     touching: Vec<ContactSlice>,
     forces: Vec<f64>,
@@ -84,6 +93,8 @@ impl StaticContact {
         Ok(Self {
             slices,
             friction: options.friction,
+            deviations: FlankDeviations::default(),
+            runout: None,
             active: Vec::with_capacity(capacity),
             touching: Vec::with_capacity(capacity),
             forces: Vec::with_capacity(capacity),
@@ -92,6 +103,20 @@ impl StaticContact {
             lever_2: Vec::with_capacity(capacity),
             lever_1: Vec::with_capacity(capacity),
         })
+    }
+
+    /// Adds errors and faults of single flanks.
+    #[must_use]
+    pub fn with_deviations(mut self, deviations: FlankDeviations) -> Self {
+        self.deviations = deviations;
+        self
+    }
+
+    /// Lets the gears stand beside, or tilted to, the axes about which they turn.
+    #[must_use]
+    pub fn with_runout(mut self, runout: Runout) -> Self {
+        self.runout = Some(runout);
+        self
     }
 
     /// Slices per contact line.
@@ -152,13 +177,25 @@ impl StaticContact {
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
+        let placement = (self.runout).map_or_else(Placement::default, |runout| {
+            runout.at(&self.slices.lines().pair, driver_angle_rad)
+        });
+        self.slices.place(&placement);
         let lines = self.slices.lines();
-        lines.at(driver_angle_rad, &mut self.active);
+        lines.at(driver_angle_rad + placement.ahead_rad, &mut self.active);
         let (centres, width) = (self.slices.slice_centres_m(), self.slices.slice_width_m());
         self.touching.clear();
         for line in self.active.iter().enumerate() {
             lines.push_slices(line, centres, width, &mut self.touching);
         }
+        let side = lines.pair.flank;
+        let angle_deg = driver_angle_rad.to_degrees();
+        let bases = [
+            lines.pair.gear_1.base_radius_m,
+            lines.pair.gear_2.base_radius_m,
+        ];
+        let mut some_flank = false;
+        let transverse = lines.pair.base_helix_angle_rad().cos();
         self.separation.clear();
         self.closing.clear();
         self.lever_1.clear();
@@ -167,19 +204,31 @@ impl StaticContact {
             let line = &slice.section;
             let friction = self.friction.map_or(0.0, |f| f.ratio(line.path_m));
             let [lever_1, lever_2] = lines.lever_arms_m(line, friction);
-            self.separation.push(lines.separation_m(line, slice.z_m));
-            self.closing.push(lines.closing(line));
-            self.lever_1.push(lever_1);
-            self.lever_2.push(lever_2);
+            let [arm_1, arm_2] = placement.arms_m.map(|arm| transverse * arm);
+            let closing = lines.closing(line) + arm_2 / bases[1];
+            let heights = lines.zone.heights_m(slice.z_m);
+            let deviation = self.deviations.opening_m(line, side, heights);
+            some_flank |= deviation.is_finite();
+            // Gears beside their axes stand as rigid flanks leave them; the gap is linear in the approach about there.
+            self.separation.push(
+                lines.separation_m(line, slice.z_m)
+                    + deviation.min(NO_FLANK_M)
+                    + closing * placement.opening_m,
+            );
+            self.closing.push(closing);
+            self.lever_1.push(lever_1 + arm_1);
+            self.lever_2.push(lever_2 + arm_2);
         }
-        let base_2 = lines.pair.gear_2.base_radius_m;
+        if !some_flank {
+            return Err(ContactError::NoFlanks { angle_deg });
+        }
+        let base_2 = bases[1];
         let axial_share_1 = lines.axial_share_1();
         let scale_force = match drive {
             Drive::Torque(torque) => torque.abs() / (base_2 * self.touching.len() as f64),
             Drive::TransmissionError(_) => 0.0,
         };
         let floor = FLOOR_FRACTION * scale_force.max(1.0);
-        let angle_deg = driver_angle_rad.to_degrees();
         (self.slices.prepare(&self.active, &self.touching, floor))
             .map_err(|(cause, _)| ContactError::LocalLaw { angle_deg, cause })?;
         let separations = Separations {

@@ -1,7 +1,7 @@
 //! `gearmesh run` on a multibody scene: runs it, resumes it, prints its figures.
 
 use crate::arguments::RunArguments;
-use crate::commands::ratings;
+use crate::commands::{mesh_axes, ratings};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -86,7 +86,7 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     lines.extend(match &result.kind[..] {
         "transient" => columns(result)?,
         "speed-sweep" => sweep(result),
-        "static" => equilibria(result)?,
+        "static" => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
         _ => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
     lines.extend(ratings::lines(&result.ratings));

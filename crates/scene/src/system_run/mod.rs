@@ -21,6 +21,7 @@ mod error;
 mod from_scene;
 mod in_time;
 mod job;
+mod mesh_misalignment;
 mod mesh_pace;
 mod mode_shares;
 mod part_folder;
@@ -42,6 +43,7 @@ pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
+pub use mesh_misalignment::MeshAxes;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
 pub(crate) use recorder::element_column;
