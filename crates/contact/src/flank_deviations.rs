@@ -35,8 +35,9 @@ impl FlankDeviations {
         self.of_gears.iter().all(Vec::is_empty)
     }
 
-    /// How far they open the gap of a line's section \[m\], along the normal; infinite where one of the flanks is not there. What is removed
-    /// from a tip edge opens the gap by its component, cos δ. `heights_m` are the section's places from the gears' own mid-faces.
+    /// How far they open the gap of a line's section \[m\], along the normal; infinite where one of the flanks is not
+    /// there. What is removed from a tip edge opens the gap by its component, cos δ. `heights_m` are the section's
+    /// places from the gears' own mid-faces.
     #[must_use]
     pub fn opening_m(&self, line: &ContactLine, side: FlankSide, heights_m: [f64; 2]) -> f64 {
         let places = [

@@ -1,17 +1,20 @@
-//! Gears that stand beside, or tilted to, the axes about which they turn: runout and wobble of a pair in static positions.
+//! Gears that stand beside, or tilted to, the axes about which they turn: runout and wobble of a pair in static
+//! positions.
 //!
-//! Gear k's axis stands at e_k from the axis of its body and turns with it, so that the gears have the distance and direction
-//! d = (a, 0) + e₂ − e₁ = a′ (cos β, sin β), seen along gear 1's z with the driver turning clockwise (the mirror image on left flanks).
-//! With cos α′ = R/a′, R = r_b1 + r_b2, and tooth 0 of each gear at the place that conventions.md gives it,
+//! Gear k's axis stands at e_k from the axis of its body and turns with it, so that the gears have the distance and
+//! direction d = (a, 0) + e₂ − e₁ = a′ (cos β, sin β), seen along gear 1's z with the driver turning clockwise (the
+//! mirror image on left flanks). With cos α′ = R/a′, R = r_b1 + r_b2, and tooth 0 of each gear at the place that
+//! conventions.md gives it,
 //!
 //! ```text
 //! ξ₁ = tan α + θ₁ + β + α′ − α          as of a pair at a′ whose driver stands at θ₁ + β − (inv α′ − inv α)
-//! g  = R (inv α′ − inv α − β) + TE       ideal flanks; to first order the displacement along the line of action, w·(e₂ − e₁)
+//! g  = R (inv α′ − inv α − β) + TE       ideal flanks; to first order w·(e₂ − e₁) + TE
 //! ```
 //!
-//! with w the direction of the force on gear 2, (sin α′, −cos α′) turned by β. Torques are those about the bodies' axes: the lever arms grow by
-//! e₂ × w on gear 2 and by −e₁ × w on gear 1, which are the derivatives of g by the angles. Tilted axes misalign the pair by an amount that turns with them.
-//! Gear 2's angle is that of rigid ideal flanks, TE = −opening, about which the gap is linear in TE; what deflection turns e₂ further is some 10⁻⁴ of it.
+//! with w the direction of the force on gear 2, (sin α′, −cos α′) turned by β. Torques are those about the bodies'
+//! axes: the lever arms grow by e₂ × w on gear 2 and by −e₁ × w on gear 1, which are the derivatives of g by the
+//! angles. Tilted axes misalign the pair by an amount that turns with them. Gear 2's angle is that of rigid ideal
+//! flanks, TE = −opening, about which the gap is linear in TE; what deflection turns e₂ further is some 10⁻⁴ of it.
 
 use crate::contact_lines::ContactLines;
 use crate::tip_contact::PathExtension;

@@ -1,5 +1,5 @@
-//! Deviations of the flanks from the ideal involute: material removed, tooth by tooth. The kinds other than the microgeometry are in the
-//! drivetrain crate, `errors/`.
+//! Deviations of the flanks from the ideal involute: material removed, tooth by tooth. The kinds other than the
+//! microgeometry are in the drivetrain crate, `errors/`.
 
 use crate::definition::FlankSide;
 use crate::microgeometry::Microgeometry;
@@ -37,14 +37,14 @@ impl Removed {
     };
 }
 
-/// A kind of gear error. The depth opens the gap of every slice it meets, and its slope turns the contact normal, so that a
-/// depth without steps keeps an undamped mesh conservative.
+/// A kind of gear error. The depth opens the gap of every slice it meets, and its slope turns the contact normal, so
+/// that a depth without steps keeps an undamped mesh conservative.
 pub trait FlankError: Send + Sync {
     /// Material removed at a point.
     fn removed(&self, at: FlankPoint) -> Removed;
 
-    /// Bound of the material added anywhere \[m\], zero or positive, infinite where none is known: flanks that stay farther apart
-    /// are not looked at.
+    /// Bound of the material added anywhere \[m\], zero or positive, infinite where none is known: flanks that stay
+    /// farther apart are not looked at.
     fn most_added_m(&self) -> f64;
 }
 

@@ -199,8 +199,8 @@ impl GearPair {
         Ok(pair)
     }
 
-    /// Puts the gears at another centre distance, above the sum of the base radii, with other axis errors: working pressure angle and
-    /// start of the path follow.
+    /// Puts the gears at another centre distance, above the sum of the base radii, with other axis errors: working
+    /// pressure angle and start of the path follow.
     pub fn move_to(&mut self, centre_distance_m: f64, misalignment: Misalignment) {
         let [base_1, base_2] = [self.gear_1.base_radius_m, self.gear_2.base_radius_m];
         let sum = base_1 + base_2;

@@ -101,7 +101,8 @@ fn friction_reaches_method_2() {
     }
 }
 
-/// Errors and eccentricity decide forces and places of the contacts; strain is read again from the forces, at these places.
+/// Errors and eccentricity decide forces and places of the contacts; strain is read again from the forces, at these
+/// places.
 #[test]
 fn strain_of_a_pair_with_errors_is_read_again() {
     let desk = Desk::new();

@@ -17,7 +17,8 @@ impl LoadedScene {
                 .all(|(&angle, &count)| self.lines_at(angle).1.len() == count as usize)
     }
 
-    /// Largest number of contact lines at once at these driver angles \[rad\]; gears beside their axes may stand closer together than the pair.
+    /// Largest number of contact lines at once at these driver angles \[rad\]; gears beside their axes may stand closer
+    /// together than the pair.
     pub(super) fn line_slots(&self, angles_rad: &[f64]) -> usize {
         let ideal = self.lines.most_pairs();
         if self.runout.is_none() {

@@ -1,7 +1,8 @@
-//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs` says what will
-//! be computed, `flank_effects.rs` makes errors and eccentricities of it, `taken_misalignment.rs` takes the axes from a gearbox's result,
-//! `run.rs` computes, `contacts.rs` says where the teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps and
-//! stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
+//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
+//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
+//! `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
+//! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps and stores, `rating.rs` judges,
+//! `warnings.rs` tells where the model's assumptions are strained.
 
 mod contact_places;
 mod contacts;

@@ -87,7 +87,8 @@ struct MeshTable {
     model: MeshModel,
     /// Local contact; "calibrated" where not given.
     local: Option<LocalTable>,
-    /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are not modelled at rest.
+    /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
+    /// not modelled at rest.
     path: Option<PathTable>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,

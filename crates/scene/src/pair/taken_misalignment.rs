@@ -1,4 +1,5 @@
-//! `pair.misalignment_from`: the axes of a pair as a static run of its gearbox has found them, with shafts and bearings that give way.
+//! `pair.misalignment_from`: the axes of a pair as a static run of its gearbox has found them, with shafts and bearings
+//! that give way.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +27,8 @@ impl MisalignmentFrom {
     /// The misalignment of a pair with so many teeth in contact on these flanks, and a note of what was taken.
     ///
     /// # Errors
-    /// [`InputError`] at the key, when the result has no such mesh or point, other teeth, or its mesh carries on the other flanks.
+    /// [`InputError`] at the key, when the result has no such mesh or point, other teeth, or its mesh carries on the
+    /// other flanks.
     pub(super) fn take(
         &self,
         keys: &TableKeys<'_>,

@@ -12,8 +12,8 @@ use super::result::SystemResult;
 pub struct MeshAxes {
     /// Distance of the gears' origins across gear 1's axis \[m\].
     pub centre_distance_m: f64,
-    /// Slopes of gear 2's axis against gear 1's, per length of z: along the line of centres from gear 1 to gear 2, and across it
-    /// (z of gear 1 × that line) \[rad\].
+    /// Slopes of gear 2's axis against gear 1's, per length of z: along the line of centres from gear 1 to gear 2, and
+    /// across it (z of gear 1 × that line) \[rad\].
     pub slopes_rad: [f64; 2],
 }
 
@@ -32,8 +32,8 @@ impl MeshAxes {
         }
     }
 
-    /// Inclination and deviation of a pair in contact on these flanks: the axis that moves away across the line of centres opens the right
-    /// flanks where it moves backwards, the left ones where it moves forwards.
+    /// Inclination and deviation of a pair in contact on these flanks: the axis that moves away across the line of
+    /// centres opens the right flanks where it moves backwards, the left ones where it moves forwards.
     #[must_use]
     pub fn misalignment(&self, flank: FlankSide) -> Misalignment {
         Misalignment {
@@ -44,8 +44,8 @@ impl MeshAxes {
 }
 
 impl SystemResult {
-    /// The axes of a mesh's gears at a row; `swapped` takes gear 2 of the mesh for gear 1. None where the result does not have the places of
-    /// both bodies at that row.
+    /// The axes of a mesh's gears at a row; `swapped` takes gear 2 of the mesh for gear 1. None where the result does
+    /// not have the places of both bodies at that row.
     ///
     /// # Errors
     /// [`FileError`] when the file cannot be read.

@@ -1,4 +1,5 @@
-//! Scenes of a `[pair]` against static runs of the same gears as bodies: errors and faults, eccentricity, axes that lean.
+//! Scenes of a `[pair]` against static runs of the same gears as bodies: errors and faults, eccentricity, axes that
+//! lean.
 
 use std::path::Path;
 
@@ -120,7 +121,6 @@ impl Twin {
 
     fn agrees(&self, tolerance_m: f64, least_effect_m: f64) {
         let (difference, effect) = self.difference();
-        println!("{difference:e} m of {effect:e} m");
         assert!(effect > least_effect_m, "{effect:e}");
         assert!(difference < tolerance_m, "{difference:e} m of {effect:e} m");
     }
@@ -155,7 +155,8 @@ fn pitch_errors_are_those_of_the_bodies() {
     }
 }
 
-/// The bodies' mesh turns the normals where the depth has a slope, which moves lever arms; at a small load that moves little.
+/// The bodies' mesh turns the normals where the depth has a slope, which moves lever arms; at a small load that moves
+/// little.
 #[test]
 fn faults_are_those_of_the_bodies() {
     for (effects, least_effects_m) in [
@@ -212,7 +213,6 @@ fn eccentricity_is_that_of_the_bodies() {
              eccentricity_2 = { tilt_mrad = 0.5, tilt_direction_deg = 30.0 }",
         ];
         let [(small, _), (large, effect)] = tilts.map(|effects| twin(effects).difference());
-        println!("{small:e} and {large:e} m of {effect:e} m");
         // r_b2 t^2/2, both axes leaning by t/2.
         let second_order_m = 0.5 * pair().gear_2.base_radius_m * 1e-3_f64.powi(2);
         assert!(
@@ -223,8 +223,8 @@ fn eccentricity_is_that_of_the_bodies() {
     }
 }
 
-/// A wheel on a bearing that tilts: the pair that takes its misalignment from there has its transmission error, one with aligned axes has not. The lead of
-/// gear 1 is not even, so that the sign of the misalignment counts.
+/// A wheel on a bearing that tilts: the pair that takes its misalignment from there has its transmission error, one
+/// with aligned axes has not. The lead of gear 1 is not even, so that the sign of the misalignment counts.
 #[test]
 fn misalignment_is_taken_from_a_gearbox() {
     let folder = tempfile::tempdir().unwrap();
@@ -290,10 +290,6 @@ fn misalignment_is_taken_from_a_gearbox() {
         -1e3 * found.deviation_rad
     );
     let mirrored = run(&scene(&keys).unwrap(), &|_, _| ()).unwrap();
-    println!(
-        "{te:e} {:e} {:e} {:e}",
-        result.te_m[0], aligned.te_m[0], mirrored.te_m[0]
-    );
     let differs = |other: &SceneResult| (other.te_m[0] - te).abs();
     assert!(differs(&result) < 1e-8, "{te:e} {:e}", result.te_m[0]);
     assert!(differs(&aligned) > 5e-8 && differs(&mirrored) > 1e-6);
@@ -378,7 +374,8 @@ fn the_path_is_extended_where_nothing_is_said() {
     assert!(plan("edge_radius_um = 50.0").0.contains("radius of 50 um"));
 }
 
-/// One faulty tooth, or an axis beside the body's: the gear repeats after a revolution only. A deviation of all teeth leaves the period of one pitch.
+/// One faulty tooth, or an axis beside the body's: the gear repeats after a revolution only. A deviation of all teeth
+/// leaves the period of one pitch.
 #[test]
 fn errors_of_single_teeth_set_the_period() {
     let folder = tempfile::tempdir().unwrap();
