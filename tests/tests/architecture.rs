@@ -302,6 +302,19 @@ enum Kinds {
 }
 
 /// The packages of the workspace as `cargo metadata` lists them.
+/// What README's tutorial prints of a file is the file.
+#[test]
+fn the_tutorial_shows_the_files_that_are_shipped() {
+    let readme = read(&root().join("README.md"));
+    for name in ["pinion.toml", "pair.toml"] {
+        let file = read(&root().join("fe_models/first_pair").join(name));
+        assert!(
+            readme.contains(&format!("```toml\n{file}```")),
+            "{name} is not what README.md shows"
+        );
+    }
+}
+
 fn packages() -> Vec<Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)

@@ -21,3 +21,4 @@ mod schema_page;
 pub mod signal;
 pub mod stress_picture;
 pub mod study;
+pub mod system_table;

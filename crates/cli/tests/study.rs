@@ -27,7 +27,7 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     let told = succeeds(&command).stdout;
     assert!(told.starts_with("Torque, from 0 s on\n"), "{told}");
     let line = |name: &str| told.lines().find(|line| line.starts_with(name)).unwrap();
-    for (name, last) in [("as it is", "4.000000e0"), ("torque = 4.0", "8.000000e0")] {
+    for (name, last) in [("as it is", "4.000"), ("torque = 4.0", "8.000")] {
         assert!(line(name).ends_with(last), "{told}");
     }
     let names = common::names_in(&out);

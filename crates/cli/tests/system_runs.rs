@@ -224,26 +224,32 @@ fn every_kind_of_run_is_printed_checked_and_reported() {
     }
 }
 
-/// Two gears by a linear mesh: √(k/m_eq), k = K, m_eq = J₁J₂/(J₁ r₂² + J₂ r₁²) with base radii.
-#[test]
-fn two_gears_have_the_closed_form_frequency() {
+/// Moments of inertia \[kg m²\] of two gears, stiffness \[N/m\] of a pair of teeth, torque \[N m\].
+const INERTIAS: [f64; 2] = [5e-3, 2e-2];
+const STIFFNESS: f64 = 3e8;
+const TORQUE: f64 = 40.0;
+
+/// Base radii \[m\] of the two gears.
+fn base_radii() -> [f64; 2] {
+    [30.0, 40.0].map(|z| 0.5 * z * 3e-3 * 20.0_f64.to_radians().cos())
+}
+
+/// Two gears on fixed axes under balanced torques; `run` is the table of the run and what it needs.
+fn two_gears(desk: &Desk, run: &str) -> std::path::PathBuf {
     let gear = |teeth: usize| {
         format!(
             "name = \"gear\"\n[tooth]\nteeth = {teeth}\nmodule_mm = 3.0\nface_width_mm = 20.0\n[blank]\nkind = \"solid\"\nbore_diameter_mm = 20.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\n"
         )
     };
-    let desk = Desk::new();
     desk.file("one.toml", gear(30));
     desk.file("two.toml", gear(40));
-    let (j1, j2, k) = (5e-3_f64, 2e-2, 3e8);
-    let [r1, r2] = [30.0, 40.0].map(|z| 0.5 * z * 3e-3 * 20.0_f64.to_radians().cos());
-    let torque = 40.0;
-    let scene = desk.file(
+    let [j1, j2] = INERTIAS;
+    let [r1, r2] = base_radii();
+    desk.file(
         "scene.toml",
         format!(
             r#"title = "Two gears"
-[run]
-kind = "eigen"
+{run}
 [[body]]
 name = "one"
 gear = "one.toml"
@@ -266,7 +272,7 @@ body_2 = "two"
 [[load]]
 name = "drive"
 body = "one"
-torque_Nm = -{torque}
+torque_Nm = -{TORQUE}
 [[load]]
 name = "brake"
 body = "two"
@@ -280,10 +286,18 @@ flanks = "right"
 stiffness_N_per_mm_e = {}
 exponent = 1.0
 "#,
-            torque * r2 / r1,
-            k * 1e-3
+            TORQUE * r2 / r1,
+            STIFFNESS * 1e-3
         ),
-    );
+    )
+}
+
+/// Two gears by a linear mesh: √(k/m_eq), k = K, m_eq = J₁J₂/(J₁ r₂² + J₂ r₁²) with base radii.
+#[test]
+fn two_gears_have_the_closed_form_frequency() {
+    let desk = Desk::new();
+    let scene = two_gears(&desk, "[run]\nkind = \"eigen\"");
+    let ([j1, j2], [r1, r2], k) = (INERTIAS, base_radii(), STIFFNESS);
     let output = desk.path("result.h5");
     let json = succeeds(&["run", argument(&scene), "-o", argument(&output), "--json"]).json();
     let modes = json["points"][0]["modes"].as_array().unwrap();
@@ -295,6 +309,58 @@ exponent = 1.0
         (pairs - pairs.round()).abs() < 2e-6 * pairs && (1.0..3.0).contains(&pairs.round()),
         "{found} {single}"
     );
+}
+
+/// The first lines of the console, and the first figures of the page, are transmission error and tooth force: r_b of the driver times the
+/// normal force is its torque.
+#[test]
+fn transmission_error_and_mesh_force_come_first() {
+    let desk = Desk::new();
+    let force = TORQUE / base_radii()[0];
+    for (kind, run) in [
+        ("static", "[run]\nkind = \"static\""),
+        (
+            "speed-sweep",
+            "[run]\nkind = \"speed-sweep\"\nmotion = \"driver\"\nfrom_rpm = -60.0\nto_rpm = -90.0\nspeeds = 2\nsettle_s = 0.05\nmeasure_s = 0.05\n[solver]\nstep_s = 1e-4\nstart = \"equilibrium\"\n[output]\ninterval_s = 1e-3\n[[motion]]\nname = \"driver\"\njoint = \"axle one\"\nspeed_rpm = -60.0",
+        ),
+    ] {
+        let scene = two_gears(&desk, run);
+        let (output, page) = (desk.path(&format!("{kind}.h5")), desk.path("page.html"));
+        let told = succeeds(&["run", argument(&scene), "-o", argument(&output)]).stdout;
+        let mut lines = told.lines().skip(1);
+        assert!(lines.next().unwrap().contains(if kind == "static" {
+            "value"
+        } else {
+            "transmission_error"
+        }));
+        succeeds(&["report", argument(&output), "-o", argument(&page)]);
+        let html = std::fs::read_to_string(&page).unwrap();
+        let first = &html[html.find("<dt>").unwrap()..];
+        if kind == "static" {
+            assert!(
+                lines
+                    .next()
+                    .unwrap()
+                    .starts_with("elements/mesh/transmission_error"),
+                "{told}"
+            );
+            let normal: Vec<&str> = lines.next().unwrap().split_whitespace().collect();
+            assert_eq!(
+                normal[..2],
+                ["elements/mesh/normal_force_right", "N"],
+                "{told}"
+            );
+            let found: f64 = normal[2].parse().unwrap();
+            assert!((found / force - 1.0).abs() < 1e-3, "{found} {force}");
+            assert!(first.starts_with("<dt>mesh: TE</dt>"));
+        } else {
+            assert!(first.starts_with("<dt>mesh: largest TE peak to peak</dt>"));
+            assert!(
+                first.contains("<dt>mesh: largest normal force</dt>")
+                    && first.contains(" rpm, down")
+            );
+        }
+    }
 }
 
 /// Steps far too long for a stiff spring let its energy vanish: the run says so and ends with 1, its result is kept and is not sound.

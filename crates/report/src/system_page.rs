@@ -15,7 +15,7 @@ mod sweep;
 mod transient;
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::system_run::{MeshPassing, SystemResult};
 
 use self::columns::mesh_frequencies;
 use crate::page::{Section, Text};
@@ -44,19 +44,23 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
 }
 
 fn overview(r: &SystemResult) -> Result<Section, FileError> {
-    let mut figures = transient::key_figures(r);
+    let mut figures = match (&r.sweep, &r.kind[..]) {
+        (Some(sweep), _) => sweep::key_figures(sweep),
+        (None, "static") => equilibria::key_figures(r)?,
+        _ => transient::key_figures(r),
+    };
+    for (name, hz) in mesh_frequencies(r)? {
+        figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
+    }
     if r.record.is_some() {
         let error = r.relative_energy_error().unwrap_or(f64::NAN);
         figures = figures.figure("energy error", format!("{error:.1e}"), "of the work done");
-    }
-    for (name, hz) in mesh_frequencies(r)? {
-        figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
     }
     let mut section = Section::new(r.head.title.clone());
     if let Some(problem) = r.problem() {
         section = section.push(Text::note(problem));
     }
-    if r.record.is_some() {
+    if !figures.is_empty() {
         section = section.push(figures);
     }
     if r.kind == "transient" {
@@ -66,16 +70,24 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
             }
         }
     }
-    if !r.head.notes.is_empty() {
-        section = section.push(Text::preformatted(r.head.notes.join("\n")));
+    let passings = r.mesh_passings()?;
+    if !passings.is_empty() {
+        let lines: Vec<String> = passings.iter().map(MeshPassing::in_words).collect();
+        section = section.push(Text::preformatted(lines.join("\n")));
     }
     Ok(section)
 }
 
+/// What was computed: assumptions, input files, the scene.
 fn provenance(r: &SystemResult) -> Section {
     let mut section = Section::new(format!("{}: scene", r.head.title)).push(Text::paragraph(
         format!("gearmesh {}, computed {}.", r.version, r.created_utc),
     ));
+    if !r.head.notes.is_empty() {
+        let text = "What was assumed, and what follows from the scene:";
+        section = section.push(Text::paragraph(text));
+        section = section.push(Text::preformatted(r.head.notes.join("\n")));
+    }
     if !r.head.inputs.is_empty() {
         section = section.push(Text::preformatted(r.head.inputs.join("\n")));
     }

@@ -1,7 +1,7 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{reduce, run_system};
+use crate::commands::{reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_geometry::GearDefinition;
@@ -37,7 +37,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
                             result.head.title,
                             result.kind
                         ));
-                        run_system::table(&result)?
+                        system_table::table(&result)?
                             .into_iter()
                             .skip(1)
                             .for_each(console::data);

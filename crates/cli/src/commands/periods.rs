@@ -5,7 +5,7 @@ use gearmesh_scene::periods::Coverage;
 use serde_json::{Value, json};
 
 /// What stands behind a line whose figures a longer run may change.
-const MARK: &str = "  incomplete";
+pub const MARK: &str = "  incomplete";
 
 /// Mark of a line of means and extremes.
 pub fn mark(coverage: &Coverage) -> &'static str {

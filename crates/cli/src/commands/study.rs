@@ -4,7 +4,9 @@ use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
+use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::study::{CaseResult, Selected, Study, run_study};
+use gearmesh_scene::system_run::split_unit;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
@@ -63,20 +65,30 @@ fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
         study.tables.title, study.tables.from_s
     )];
     for (k, column) in study.tables.columns.iter().enumerate() {
+        let (stem, unit) = split_unit(column);
+        let found = cases
+            .iter()
+            .filter_map(|result| result.figures.as_ref().ok());
+        let largest = found.fold(0.0_f64, |most, columns| {
+            let figures = columns[k].figures;
+            most.max(figures.least.abs()).max(figures.largest.abs())
+        });
+        let (factor, unit) = usual_unit(unit, largest);
+        lines.push(format!("{stem} {unit}").trim_end().to_owned());
         lines.push(format!(
-            "{column:width$} {:>14} {:>14} {:>14} {:>14}",
-            "mean", "deviation", "pk-pk", "largest"
+            "{:width$} {:>11} {:>11} {:>11} {:>11}",
+            "case", "mean", "deviation", "pk-pk", "largest"
         ));
         for (name, result) in names.iter().zip(cases) {
             lines.push(match &result.figures {
                 Ok(columns) => {
                     let figures = columns[k].figures;
                     format!(
-                        "{name:width$} {:>14.6e} {:>14.6e} {:>14.6e} {:>14.6e}",
-                        figures.mean,
-                        figures.deviation,
-                        figures.peak_to_peak(),
-                        figures.largest
+                        "{name:width$} {:>11} {:>11} {:>11} {:>11}",
+                        short(factor * figures.mean),
+                        short(factor * figures.deviation),
+                        short(factor * figures.peak_to_peak()),
+                        short(factor * figures.largest)
                     )
                 }
                 Err(problem) => format!("{name:width$} failed: {problem}"),

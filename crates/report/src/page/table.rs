@@ -130,6 +130,11 @@ impl KeyFigures {
         Self::default()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.figures.is_empty()
+    }
+
     /// Adds a figure: what it is, its value, its unit.
     #[must_use]
     pub fn figure(

@@ -40,23 +40,13 @@ pub(super) fn readable(name: &str) -> String {
     }
 }
 
-/// Mean mesh frequencies: teeth times speed of gear 1 about its axis.
+/// Mean mesh frequencies of the meshes that turned.
 pub(super) fn mesh_frequencies(r: &SystemResult) -> Result<Vec<(String, f64)>, FileError> {
-    let mut found = Vec::new();
-    for mesh in &r.head.meshes {
-        for (body, teeth) in mesh.bodies.iter().zip(mesh.teeth) {
-            let name = format!("bodies/{body}/angular_velocity_z_rad_per_s");
-            let place = r.rows.columns().iter().position(|c| c.name == name);
-            if let Some(figures) = place.and_then(|place| r.statistics.get(place)) {
-                let hz = teeth as f64 * figures.mean.abs() / TAU;
-                if hz > 0.0 {
-                    found.push((mesh.name.clone(), hz));
-                }
-                break;
-            }
-        }
-    }
-    Ok(found)
+    let meshes = r.mesh_passings()?.into_iter();
+    let turning = meshes.filter(|mesh| mesh.frequency_hz > 0.0);
+    Ok(turning
+        .map(|mesh| (mesh.mesh.name, mesh.frequency_hz))
+        .collect())
 }
 
 /// Columns that make one chart: title, unit, and the columns with the names of their curves.

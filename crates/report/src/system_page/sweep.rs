@@ -1,12 +1,17 @@
 //! Curves of a speed sweep, up and down.
 
+use std::f64::consts::TAU;
+
 use gearmesh_scene::system_run::{
-    Figures, SweepResult, SystemResult, is_prominent, rank, split_unit,
+    Figures, SweepResult, SystemResult, Window, is_prominent, rank, split_unit,
 };
 
 use super::columns::{MOST_CHARTS, quantity, readable, scaled, speed_axis};
 use super::transient::run_table;
-use crate::page::{Axis, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text};
+use crate::page::{
+    Axis, KeyFigures, LineChart, LineSeries, LineStyle, Section, SeriesColour, Text,
+};
+use crate::short_number::{short, usual_unit};
 
 /// What is drawn over the speed: name and value.
 type Figure = (&'static str, fn(&Figures) -> f64);
@@ -18,6 +23,65 @@ struct Curve {
     place: usize,
     style: LineStyle,
     values: Vec<f64>,
+}
+
+/// Meshes whose figures head a page.
+const MOST_MESHES: usize = 4;
+
+/// Where transmission error and forces of each mesh swing most, and where a bearing's force is largest.
+pub(super) fn key_figures(sweep: &SweepResult) -> KeyFigures {
+    let mut figures = KeyFigures::new();
+    // The window in which a figure of a column is largest.
+    let peak = |column: usize, value: fn(&Figures) -> f64| {
+        let windows = sweep.windows.iter().zip(&sweep.figures);
+        let values = windows.map(|(window, figures)| (window, value(&figures[column])));
+        values.max_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let at = |window: &Window| {
+        let way = if window.up { "up" } else { "down" };
+        format!(
+            "at {} rpm, {way}",
+            short(window.speed_rad_per_s * 60.0 / TAU)
+        )
+    };
+    let mut push = |label: String, name: &str, found: Option<(&Window, f64)>| {
+        if let Some((window, value)) = found {
+            let (factor, unit) = usual_unit(split_unit(name).1, value.abs());
+            let figure = std::mem::take(&mut figures).figure(
+                label,
+                short(factor * value),
+                format!("{unit} {}", at(window)),
+            );
+            figures = figure;
+        }
+    };
+    let named = || sweep.columns.iter().enumerate();
+    let owner = |name: &str| name.split('/').nth(1).unwrap_or_default().to_owned();
+    let meshes = named().filter(|(_, name)| name.ends_with("/transmission_error_m"));
+    for (column, name) in meshes.take(MOST_MESHES) {
+        let mesh = owner(name);
+        push(
+            format!("{mesh}: largest TE peak to peak"),
+            name,
+            peak(column, Figures::peak_to_peak),
+        );
+        let sides =
+            named().filter(|(_, name)| name.starts_with(&format!("elements/{mesh}/normal_force_")));
+        let forces = sides.filter_map(|(column, name)| Some((name, peak(column, |f| f.largest)?)));
+        if let Some((name, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+            push(format!("{mesh}: largest normal force"), name, Some(force));
+        }
+    }
+    let radial = named().filter(|(_, name)| name.ends_with("/force_radial_N"));
+    let forces = radial.filter_map(|(column, name)| Some((name, peak(column, |f| f.largest)?)));
+    if let Some((name, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+        push(
+            format!("largest bearing force: {}", owner(name)),
+            name,
+            Some(force),
+        );
+    }
+    figures
 }
 
 pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {

@@ -60,7 +60,7 @@ pub(super) fn key_figures(r: &SystemResult) -> KeyFigures {
 }
 
 /// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
-const LAST_RANK: u8 = 5;
+pub(super) const LAST_RANK: u8 = 5;
 
 /// Meshes, bearings and speeds at a glance, and folded all other force elements.
 pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> {
@@ -82,13 +82,17 @@ pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> 
     let mut found = r.summaries(is_prominent)?;
     found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
     found.sort_by_key(|column| rank(&column.name));
+    let passings = r.mesh_passings()?;
     for column in found {
         let (name, unit) = split_unit(&column.name);
         let f = column.figures;
         let (factor, unit) = usual_unit(unit, f.least.abs().max(f.largest.abs()));
         let place = usize::from(rank(&column.name) > LAST_RANK);
+        let incomplete = passings
+            .iter()
+            .any(|mesh| mesh.leaves_incomplete(&column.name));
         tables[place].push_row([
-            readable(name),
+            readable(name) + if incomplete { " (incomplete)" } else { "" },
             unit.to_owned(),
             short(factor * f.mean),
             short(factor * f.deviation),
@@ -138,7 +142,7 @@ pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
     let interval_s = r.interval_s()?;
     let meshes = mesh_frequencies(r)?;
     let mut section = Section::new(format!("{}: spectra", r.head.title)).push(Text::paragraph(
-        "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over the whole run.",
+        "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over that half.",
     ));
     let mut charts = 0;
     for group in groups(r, varies(r)) {

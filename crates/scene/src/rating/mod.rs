@@ -7,7 +7,7 @@
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
 //! | what came out, in memory and in result files | [`RatingResult`] | `result.rs` |
 //!
-//! Where histories and forces come from is said by each kind of scene: `system/build/ratings.rs` and `system_run/rating.rs` take
+//! Where histories and forces come from is said by each kind of scene: `system/assembly/ratings.rs` and `system_run/rating.rs` take
 //! columns of a run in time, `pair/rating.rs` the positions of a pair. Equations: docs/theory/rating.md.
 
 mod fatigue_job;

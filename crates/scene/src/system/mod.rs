@@ -3,11 +3,11 @@
 //! | step | type | file |
 //! | --- | --- | --- |
 //! | read and check the file | [`SystemScene`] | `scene.rs`, `tables/` |
-//! | read the gears that it names | [`LoadedSystem`] | `build/gears.rs` |
-//! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `build/` |
+//! | read the gears that it names | [`LoadedSystem`] | `assembly/gears.rs` |
+//! | a multibody system with the names of its parts | [`BuiltSystem`] | `built.rs`, `assembly/` |
 //! | what will be computed | [`SystemPlan`] | `plan.rs` |
 
-pub mod build;
+pub mod assembly;
 pub mod built;
 mod complaint;
 pub(crate) mod names;
@@ -15,8 +15,8 @@ pub mod plan;
 pub mod scene;
 pub mod tables;
 
-pub use build::{LoadedSystem, Variation};
-pub(crate) use build::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
+pub use assembly::{LoadedSystem, Variation};
+pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };

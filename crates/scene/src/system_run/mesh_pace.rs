@@ -1,6 +1,6 @@
 //! Whether the steps of a run follow its meshes, at speeds that nobody could know before.
 //!
-//! What the scene states is checked before the run (system/build/mesh_frequency.rs); a gear that runs up under its loads, or an adaptive step
+//! What the scene states is checked before the run (system/assembly/mesh_frequency.rs); a gear that runs up under its loads, or an adaptive step
 //! that grows, is seen here.
 
 use std::f64::consts::TAU;

@@ -10,7 +10,7 @@
 //! | how an unfinished run is kept and resumed | [`PartFolder`] | `part_folder.rs`, `stored_checkpoint.rs` |
 //! | the result file | [`SystemResult`] | `result.rs`, `run_record.rs` |
 //! | what is judged after the run | [`RatingResult`](crate::rating::RatingResult) | `rating.rs` |
-//! | its figures at a glance | [`ColumnSummary`] | `summary.rs`, `column_names.rs` |
+//! | its figures at a glance, what of each period it saw | [`ColumnSummary`], [`MeshPassing`] | `summary.rs`, `column_names.rs`, `mesh_passing.rs` |
 
 mod column_names;
 mod column_statistics;
@@ -23,6 +23,7 @@ mod in_time;
 mod job;
 mod mesh_misalignment;
 mod mesh_pace;
+mod mesh_passing;
 mod mode_shares;
 mod part_folder;
 mod rating;
@@ -44,6 +45,7 @@ pub use job::{
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
 pub use mesh_misalignment::MeshAxes;
+pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
 pub(crate) use recorder::element_column;

@@ -111,6 +111,11 @@ pub(crate) fn element_column(element: &str, channel: &str) -> String {
     format!("elements/{}/{channel}", plain(element))
 }
 
+/// Name of the column of a body's channel.
+pub(crate) fn body_column(body: &str, channel: &str) -> String {
+    format!("bodies/{}/{channel}", plain(body))
+}
+
 impl Recorder {
     /// A recorder that begins at a state. `abscissas` describes the first columns.
     pub fn new(

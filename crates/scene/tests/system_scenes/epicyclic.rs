@@ -209,3 +209,38 @@ fn speeds_that_miss_a_kinematic_ratio_are_refused() {
     }
     build(&stated("planet", &stated("sun", &text, -600.0), 683.333333)).unwrap();
 }
+
+/// What a reader of the result is told of the mesh is counted against the carrier, as before the run: the sun passes z_s |ω_s − ω_c|/2π teeth
+/// a second, and the planet makes its revolutions in the carrier.
+#[test]
+fn passed_teeth_of_a_result_are_counted_against_the_carrier() {
+    let (sun, carrier) = (-2400.0, 1500.0);
+    let drives = motion("sun axis", sun) + &motion("carrier axis", carrier);
+    let result = run(&scene(KINEMATIC, &drives));
+    let passing = &result.mesh_passings().unwrap()[0];
+    let expected = TEETH[0] * (carrier - sun) / 60.0;
+    // The first rows hold the start of the integrator; the carrier's turn is summed over rows.
+    assert!(
+        (passing.frequency_hz / expected - 1.0).abs() < 1e-6,
+        "{}",
+        passing.frequency_hz
+    );
+    for (gear, (teeth, found)) in TEETH.into_iter().zip(passing.revolutions).enumerate() {
+        let turns = expected / teeth * 0.05;
+        assert!((found / turns - 1.0).abs() < 1e-6, "{found} {turns}");
+        assert!(
+            passing.is_whole(gear + 1)
+                && !passing.leaves_incomplete("elements/mesh/strain_gear1_root")
+        );
+    }
+    let drives = motion("sun axis", -600.0) + &motion("carrier axis", 0.0);
+    let result = run(&scene(KINEMATIC, &drives));
+    let passing = &result.mesh_passings().unwrap()[0];
+    assert!(passing.leaves_incomplete("elements/mesh/strain_gear2_root_method1_ustrain"));
+    assert!(!passing.leaves_incomplete("elements/mesh/transmission_error_m"));
+    assert!(
+        passing
+            .in_words()
+            .contains("0.417 of `planet`; less than a revolution of `sun` and `planet`")
+    );
+}

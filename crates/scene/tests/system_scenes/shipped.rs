@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_geometry::GearDefinition;
 use gearmesh_scene::SceneFile;
 use gearmesh_scene::system::{Run, SystemPlan};
 use gearmesh_scene::system_run::RunCost;
@@ -113,4 +114,31 @@ fn shipped_scenes_are_built() {
             "dynamics_two_stage.toml"
         ]
     );
+}
+
+/// The scenes of README's tutorial are read, and name the models that its commands make of the gear files beside them.
+#[test]
+fn the_scenes_of_the_tutorial_name_its_gears() {
+    let folder = fe_models().join("first_pair");
+    let model = |name: &str| {
+        let gear = GearDefinition::read(&folder.join(name).with_extension("toml")).unwrap();
+        (folder.join(name).with_extension("h5"), gear)
+    };
+    let [(pinion, first), (wheel, second)] = ["pinion", "wheel"].map(model);
+    assert_eq!([first.tooth.teeth, second.tooth.teeth], [23, 40]);
+    assert_eq!(first.gauges[0].name, "root");
+    let SceneFile::Pair(pair) = SceneFile::read(&folder.join("pair.toml")).unwrap() else {
+        panic!("pair.toml is a pair");
+    };
+    assert_eq!([pair.gear_1, pair.gear_2], [pinion, wheel]);
+    let SceneFile::System(drive) = SceneFile::read(&folder.join("drive.toml")).unwrap() else {
+        panic!("drive.toml is a multibody scene");
+    };
+    let gears: Vec<_> = drive
+        .tables
+        .body
+        .iter()
+        .flat_map(|body| body.gear.clone())
+        .collect();
+    assert_eq!(gears.len(), 2);
 }
