@@ -198,7 +198,6 @@ impl ForceElement for MeshElement {
         let motion = self.motion(view);
         let tangents = loads.wants_tangents();
         self.update(view, &motion, tangents)?;
-        self.mesh.remember();
         let mesh = self.mesh.load();
         loads.power = mesh.power;
         let force = motion.generalised_force(&mesh.load);
@@ -215,8 +214,10 @@ impl ForceElement for MeshElement {
         Ok(())
     }
 
+    /// The forces of the last evaluation, which led to this motion, become the start of the next solutions.
     fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
+        self.mesh.remember();
         Ok(self.mesh.refuse_overlap(&Pose::from(&motion))?)
     }
 

@@ -9,7 +9,16 @@ use crate::error::DynamicsError;
 use crate::inertia::Inertia;
 use crate::joint::Joint;
 use crate::state::{BodyMotion, Layout, State};
+use crate::structure::Structure;
 use crate::system::{Slot, System};
+
+impl System {
+    /// Begins a system.
+    #[must_use]
+    pub fn builder() -> SystemBuilder {
+        SystemBuilder::default()
+    }
+}
 
 /// Collects bodies, joints and force elements.
 #[derive(Default)]
@@ -68,22 +77,33 @@ impl SystemBuilder {
         self.check()?;
         let layout = Layout::new(&self.bodies);
         let start = State::start(&self.bodies, &layout);
-        let slots = self
+        let mut slots: Vec<Slot> = self
             .elements
             .into_iter()
-            .map(|element| Slot::new(element, &layout));
+            .map(|element| Slot::new(element, &layout))
+            .collect();
+        let groups = slots.iter().flat_map(Slot::groups);
+        let structure = Structure::new(&layout, &self.joints, groups);
+        for slot in &mut slots {
+            slot.find_places(&structure.square);
+        }
         let mut system = System {
             inertias: self.bodies.iter().map(Inertia::new).collect(),
-            slots: slots.collect(),
+            slots,
             motions: vec![BodyMotion::at_rest(); self.bodies.len() + 1],
             bodies: self.bodies,
             joints: self.joints,
             layout,
+            structure,
             kept: Vec::new(),
             redundant: Vec::new(),
             start,
         };
-        constraints::analyse(&mut system)?;
+        let found = constraints::analyse(&mut system)?;
+        system.begin_joints(&found.start);
+        system.kept = found.kept;
+        system.redundant = found.redundant;
+        system.start = found.start;
         Ok(system)
     }
 

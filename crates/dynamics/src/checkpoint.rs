@@ -15,7 +15,7 @@ use crate::system::System;
 pub struct Checkpoint {
     /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (13).
     pub scalars: Vec<f64>,
-    /// steps, rejected, unconverged, iterations, factorisations, evaluations, steps of the present length.
+    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length.
     pub counts: Vec<u64>,
     /// x, y, z of every body \[m\].
     pub positions_m: Vec<f64>,
@@ -29,10 +29,9 @@ pub struct Checkpoint {
     pub reactions: Vec<f64>,
     /// Angles and offsets of joints, then the internal states of elements.
     pub internal: Vec<f64>,
-    /// Factors of the iteration matrix, the scales of its joint rows and the gradients of the joints when it was made.
-    pub factors: Vec<f64>,
-    /// Their permutation.
-    pub permutation: Vec<u64>,
+    /// The iteration matrix that was factorised last, the scales of its joint rows, where it is sparse the matrix for which pivots were chosen, and the
+    /// gradients of the joints when it was made.
+    pub matrix: Vec<f64>,
 }
 
 impl Simulation {
@@ -57,7 +56,9 @@ impl Simulation {
         for slot in &self.system.slots {
             slot.element.save(&mut internal);
         }
-        let (values, permutation, row_scale) = self.integrator.saddle.factors();
+        let mut matrix = Vec::new();
+        self.integrator.saddle.save(&mut matrix);
+        matrix.extend_from_slice(self.integrator.equations.gradient.values());
         let vectors = [
             &point.state.velocity,
             &point.acceleration,
@@ -72,6 +73,7 @@ impl Simulation {
                 info.unconverged,
                 info.iterations,
                 info.factorisations,
+                info.pivotings,
                 info.evaluations,
                 self.steps_alike,
             ],
@@ -91,13 +93,7 @@ impl Simulation {
             velocities: vectors.into_iter().flatten().copied().collect(),
             reactions: point.lambda.clone(),
             internal,
-            factors: [
-                values,
-                row_scale,
-                self.integrator.equations.gradient.values(),
-            ]
-            .concat(),
-            permutation: permutation.iter().map(|&i| i as u64).collect(),
+            matrix,
         }
     }
 
@@ -113,9 +109,12 @@ impl Simulation {
         params.validate()?;
         let start = system.start().clone();
         system.begin(&start);
-        let mut integrator = Integrator::new(&system, Scheme::new(params.rho_infinity));
-        let (values, permutation, row_scale) = integrator.saddle.factors();
-        let sizes = (values.len(), permutation.len(), row_scale.len());
+        let mut integrator = Integrator::new(
+            &system,
+            Scheme::new(params.rho_infinity),
+            params.linear_solver,
+        );
+        let saved_matrix = integrator.saddle.saved();
         let gradients = integrator.equations.gradient.values().len();
         let (n, bodies) = (system.degrees_of_freedom(), system.bodies().len());
         let mut saved = Vec::new();
@@ -126,15 +125,14 @@ impl Simulation {
         let c = checkpoint;
         for (what, found, expected) in [
             ("scalars", c.scalars.len(), 20),
-            ("counts", c.counts.len(), 7),
+            ("counts", c.counts.len(), 8),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
             ("modal", c.modal.len(), start.modal.len()),
             ("velocities", c.velocities.len(), 4 * n),
             ("reactions", c.reactions.len(), system.equations()),
             ("internal", c.internal.len(), of_joints + saved.len()),
-            ("factors", c.factors.len(), sizes.0 + sizes.2 + gradients),
-            ("permutation", c.permutation.len(), sizes.1),
+            ("matrix", c.matrix.len(), saved_matrix + gradients),
         ] {
             if found != expected {
                 return Err(DynamicsError::Checkpoint {
@@ -144,19 +142,8 @@ impl Simulation {
                 });
             }
         }
-        let permutation: Vec<usize> = c.permutation.iter().map(|&i| i as usize).collect();
-        let mut sorted = permutation.clone();
-        sorted.sort_unstable();
-        if sorted.iter().enumerate().any(|(place, &i)| place != i) {
-            return Err(DynamicsError::Checkpoint {
-                what: "permutation (distinct)",
-                found: sorted.len(),
-                expected: sizes.1,
-            });
-        }
-        let (factors, rest) = c.factors.split_at(sizes.0);
-        let (row_scale, gradient) = rest.split_at(sizes.2);
-        integrator.saddle.restore(factors, &permutation, row_scale);
+        let (matrix, gradient) = c.matrix.split_at(saved_matrix);
+        integrator.saddle.restore(matrix);
         integrator.equations.gradient.set(gradient);
         integrator.factored_step_s = c.scalars[2];
         integrator.effort = Effort::default();
@@ -191,7 +178,8 @@ impl Simulation {
                 unconverged: c.counts[2],
                 iterations: c.counts[3],
                 factorisations: c.counts[4],
-                evaluations: c.counts[5],
+                pivotings: c.counts[5],
+                evaluations: c.counts[6],
                 step_range_s: (c.scalars[3], c.scalars[4]),
                 largest_violation: c.scalars[5],
                 largest_violation_rate: c.scalars[6],
@@ -202,7 +190,7 @@ impl Simulation {
             integrator,
             now,
             step_s: c.scalars[1],
-            steps_alike: c.counts[6],
+            steps_alike: c.counts[7],
         })
     }
 }

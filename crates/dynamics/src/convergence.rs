@@ -108,9 +108,8 @@ impl Convergence {
         }
         for &equation in kept {
             let mu = step.mu[equation];
-            let column = step.gradient.column(equation);
-            for (push, b) in self.pushed.iter_mut().zip(column) {
-                *push += mu * b;
+            for (dof, b) in step.gradient.entries(equation) {
+                self.pushed[dof] += mu * b;
             }
         }
         let mut most = [(0.0_f64, 0); KINDS];

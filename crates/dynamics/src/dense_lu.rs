@@ -8,6 +8,9 @@ use faer::linalg::lu::partial_pivoting::factor;
 use faer::{MatMut, Par, Spec};
 use nalgebra::{DMatrixView, DVectorViewMut};
 
+/// Least pivot over the largest: the matrix is scaled, a pivot at the level of rounding is none.
+pub(crate) const PIVOT: f64 = 1e-15;
+
 /// A square matrix of fixed size, then its factors.
 pub(crate) struct DenseLu {
     size: usize,
@@ -59,8 +62,7 @@ impl DenseLu {
             least = least.min(pivot);
             largest = largest.max(pivot);
         }
-        // The matrix is scaled: a pivot at the level of rounding is none.
-        least > 1e-15 * largest
+        least > PIVOT * largest
     }
 
     /// Solves in place.
@@ -77,17 +79,6 @@ impl DenseLu {
         // Pivots do not vanish: `factor` has seen them.
         factors.solve_lower_triangular_with_diag_mut(&mut x, 1.0);
         factors.solve_upper_triangular_mut(&mut x);
-    }
-
-    /// Factors and permutation, for a checkpoint.
-    pub(crate) fn factors(&self) -> (&[f64], &[usize]) {
-        (&self.values, &self.forward)
-    }
-
-    /// Goes on with stored factors; both arrays have the sizes that [`Self::factors`] gives.
-    pub(crate) fn restore(&mut self, values: &[f64], forward: &[usize]) {
-        self.values.copy_from_slice(values);
-        self.forward.copy_from_slice(forward);
     }
 }
 

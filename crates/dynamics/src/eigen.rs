@@ -15,10 +15,10 @@
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, Matrix3};
 
-use crate::constraints::Metric;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
+use crate::metric::Metric;
 use crate::rotation::skew;
 use crate::state::State;
 use crate::system::{Slot, System};
@@ -83,10 +83,7 @@ pub fn natural_modes(
     system.evaluate(at, Detail::Tangents, &mut equations)?;
     turn_to_world(system, state, &mut equations);
     let basis = null_space(system, &equations, state.time_s)?;
-    let reduced = |matrix: &Matrix| {
-        let full = DMatrix::from_column_slice(matrix.rows(), matrix.columns(), matrix.values());
-        basis.tr_mul(&(full * &basis))
-    };
+    let reduced = |matrix: &Matrix| basis.tr_mul(&(matrix.to_dense() * &basis));
     let stiffness = reduced(&equations.stiffness);
     let damping = reduced(&equations.damping);
     let scale = stiffness.amax().sqrt();
@@ -140,11 +137,12 @@ pub fn strain_shares(
                 });
                 pairs
                     .map(|(local, place)| {
-                        let column = slot.loads.by_position.column(local);
+                        let tangent = &slot.loads.by_position;
                         let rows = slot.places.iter().flat_map(|rows| {
                             (0..rows.count).map(move |i| (rows.local + i, rows.system + i))
                         });
-                        let force: f64 = rows.map(|(row, at)| column[row] * y[at]).sum();
+                        let force: f64 =
+                            rows.map(|(row, at)| tangent.get(row, local) * y[at]).sum();
                         -force * y[place]
                     })
                     .sum()
@@ -175,17 +173,22 @@ fn turn_to_world(system: &System, state: &State, equations: &mut Equations) {
             matrix.turn_columns(turn, &to_body);
             matrix.turn_rows(turn, &to_body);
         }
-        equations.gradient.turn_rows(turn, &to_body);
         let own = nalgebra::Vector3::from_column_slice(&state.velocity[turn..turn + 3]);
         let spin = skew(&(to_body.transpose() * own));
-        for row in 0..equations.mass.rows() {
-            let m = [0, 1, 2].map(|k| equations.mass.get(row, turn + k));
+        let masses = &equations.mass;
+        for &row in masses.pattern().column(turn) {
+            let m = [0, 1, 2].map(|k| masses.get(row, turn + k));
             for k in 0..3 {
                 let value: f64 = (0..3).map(|l| m[l] * spin[(l, k)]).sum();
                 equations.damping.add(row, turn + k, -value);
             }
         }
     }
+    equations.gradient.turn_bodies(|start| {
+        let (body, _) = system.layout.locate(start);
+        let rotation = state.orientations[body].to_rotation_matrix();
+        rotation.matrix().transpose()
+    });
 }
 
 /// Z: motions that the joints allow, orthonormal in the mass matrix.
@@ -198,15 +201,17 @@ fn null_space(
         what: "the mass matrix",
         time_s,
     };
-    let metric = Metric::new(equations).ok_or_else(singular)?;
-    let n = equations.mass.rows();
+    let metric = Metric::new(equations, system.layout.body_ranges()).ok_or_else(singular)?;
+    let n = equations.residual.len();
     let kept = &system.kept;
-    let rows = metric.rows();
-    let q = Mat::from_fn(n, kept.len(), |i, j| rows[(i, kept[j])])
+    let rows = metric.dense_columns(n, kept);
+    let q = Mat::from_fn(n, kept.len(), |i, j| rows[(i, j)])
         .qr()
         .compute_Q();
     let mut basis = DMatrix::from_fn(n, n - kept.len(), |i, j| q[(i, kept.len() + j)]);
-    metric.scale_back(&mut basis);
+    for column in basis.as_mut_slice().chunks_mut(n.max(1)) {
+        metric.scale_back(column);
+    }
     Ok(basis)
 }
 

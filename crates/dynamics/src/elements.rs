@@ -30,14 +30,16 @@ pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad};
 pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 
 use crate::body::{BodyId, GROUND};
 use crate::error::{DynamicsError, ElementFailure};
 use crate::matrix::Matrix;
+use crate::pattern::Pattern;
 use crate::relative_motion::PairTangent;
-use crate::state::{BodyMotion, Layout};
-use crate::system::motion_of;
+use crate::state::{BodyMotion, Layout, motion_of};
 
 /// All that an element may look at: time, and the motion of its bodies.
 #[derive(Debug, Clone, Copy)]
@@ -107,11 +109,11 @@ pub struct Loads {
 }
 
 impl Loads {
-    pub(crate) fn new(size: usize) -> Self {
+    pub(crate) fn new(pattern: &Arc<Pattern>) -> Self {
         Self {
-            force: vec![0.0; size],
-            by_position: Matrix::zeros(size, size),
-            by_velocity: Matrix::zeros(size, size),
+            force: vec![0.0; pattern.rows()],
+            by_position: Matrix::zeros(pattern),
+            by_velocity: Matrix::zeros(pattern),
             tangents: false,
             power: Power::default(),
         }
@@ -161,11 +163,9 @@ impl Loads {
             (&mut self.by_velocity, by_velocity),
         ] {
             for (column, values) in values.as_slice().chunks_exact(12).enumerate() {
-                let target = matrix.column_mut(places[column / 6] + column % 6);
+                let column = places[column / 6] + column % 6;
                 for (place, half) in places.iter().zip(values.chunks_exact(6)) {
-                    for (entry, value) in target[*place..].iter_mut().zip(half) {
-                        *entry += value;
-                    }
+                    matrix.add_column(*place, column, half);
                 }
             }
         }

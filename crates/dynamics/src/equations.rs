@@ -5,14 +5,14 @@
 //! φ(q) − offset − f(t) = 0,   B = ∂φ/∂q            violation, one entry for each equation of a joint
 //! ```
 
-use nalgebra::{Matrix3, SVector};
+use nalgebra::SVector;
 
 use crate::body::BodyId;
 use crate::error::DynamicsError;
 use crate::inertia::{Motion, Tangents};
 use crate::matrix::Matrix;
-use crate::state::State;
-use crate::system::{System, motion_of, view};
+use crate::state::{State, motion_of};
+use crate::system::{System, view};
 
 /// Whether tangents are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub(crate) struct Equations {
 impl Equations {
     pub(crate) fn new(system: &System) -> Self {
         let (n, m) = (system.degrees_of_freedom(), system.equations());
-        let square = Matrix::zeros(n, n);
+        let square = Matrix::zeros(&system.structure.square);
         Self {
             residual: vec![0.0; n],
             violation: vec![0.0; m],
@@ -57,7 +57,7 @@ impl Equations {
             mass: square.clone(),
             damping: square.clone(),
             stiffness: square,
-            gradient: Matrix::zeros(n, m),
+            gradient: Matrix::zeros(&system.structure.gradient),
         }
     }
 }
@@ -164,10 +164,9 @@ impl System {
                             let (Some(row), Some(column)) = (row, column) else {
                                 continue;
                             };
-                            for (k, l) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-                                let block: Matrix3<f64> =
-                                    tangent.fixed_view::<3, 3>(6 * i + k, 6 * j + l).into();
-                                out.stiffness.add3(row + k, column + l, &block);
+                            for k in 0..6 {
+                                let values = &tangent.as_slice()[12 * (6 * j + k) + 6 * i..][..6];
+                                out.stiffness.add_column(*row, column + k, values);
                             }
                         }
                     }
@@ -199,17 +198,10 @@ impl System {
             }
             if detail == Detail::Tangents {
                 slot.tangent_calls += 1;
-                for columns in &slot.places {
-                    for j in 0..columns.count {
-                        let (from, to) = (columns.local + j, columns.system + j);
-                        let by_position = slot.loads.by_position.column(from);
-                        let by_velocity = slot.loads.by_velocity.column(from);
-                        for rows in &slot.places {
-                            rows.subtract(by_position, out.stiffness.column_mut(to));
-                            rows.subtract(by_velocity, out.damping.column_mut(to));
-                        }
-                    }
-                }
+                let (loads, places) = (&slot.loads, &slot.matrix_places);
+                out.stiffness
+                    .subtract_at(loads.by_position.values(), places);
+                out.damping.subtract_at(loads.by_velocity.values(), places);
             }
         }
         Ok(())
@@ -255,10 +247,7 @@ fn add_gradient(
 ) {
     for (start, half) in starts.iter().zip(values.as_slice().chunks(6)) {
         if let Some(start) = start {
-            let target = &mut gradient.column_mut(column)[*start..start + 6];
-            for (place, value) in target.iter_mut().zip(half) {
-                *place += value;
-            }
+            gradient.add_column(*start, column, half);
         }
     }
 }

@@ -199,12 +199,13 @@ impl Inertia {
             out.mass.add_pair(turn, mode, r);
             out.mass.add(mode, mode, 1.0);
             out.damping
-                .add_column(x, mode, &(2.0 * (rotation * (spin * t))));
-            out.damping.add_column(turn, mode, &(spin * r));
+                .add_column(x, mode, (2.0 * (rotation * (spin * t))).as_slice());
+            out.damping.add_column(turn, mode, (spin * r).as_slice());
             out.damping.add(mode, mode, self.damping[i]);
             out.stiffness
-                .add_column(x, mode, &(rotation * (turning * t)));
-            out.stiffness.add_column(turn, mode, &t.cross(&own));
+                .add_column(x, mode, (rotation * (turning * t)).as_slice());
+            out.stiffness
+                .add_column(turn, mode, t.cross(&own).as_slice());
             out.stiffness.add_row(mode, turn, &t.cross(&own));
             out.stiffness.add(mode, mode, self.stiffness[i]);
         }

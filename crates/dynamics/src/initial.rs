@@ -5,9 +5,12 @@
 //! [B  0 ] [λ] = [f̈ − (dB/dt) v                  ]
 //! ```
 
+use std::sync::Arc;
+
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
-use crate::saddle::Saddle;
+use crate::saddle::{Saddle, SaddleForm};
+use crate::scheme::LinearSolver;
 use crate::state::State;
 use crate::system::System;
 
@@ -93,7 +96,8 @@ impl System {
     /// [`DynamicsError::Singular`], or the error of a force element.
     pub fn accelerations(&mut self, state: &State) -> Result<Accelerations, DynamicsError> {
         let mut equations = Equations::new(self);
-        let mut saddle = Saddle::new(&self.mass_diagonal(), &self.kept);
+        let form = SaddleForm::new(&self.structure, &self.kept, LinearSolver::Automatic);
+        let mut saddle = Saddle::new(&self.mass_diagonal(), &Arc::new(form));
         accelerations(self, state, &mut equations, &mut saddle)
     }
 

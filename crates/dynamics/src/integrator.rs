@@ -14,7 +14,9 @@
 //!
 //! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
 
-use nalgebra::Vector3;
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
 
 use crate::convergence::{Convergence, Measured, Progress};
 use crate::equations::{At, Detail, Equations};
@@ -22,8 +24,8 @@ use crate::error::DynamicsError;
 use crate::joint::Joint;
 use crate::matrix::Matrix;
 use crate::rotation;
-use crate::saddle::Saddle;
-use crate::scheme::{Params, Scheme};
+use crate::saddle::{Saddle, SaddleForm};
+use crate::scheme::{LinearSolver, Params, Scheme};
 use crate::secants::Secants;
 use crate::state::State;
 use crate::system::System;
@@ -53,6 +55,7 @@ pub(crate) struct Effort {
     pub iterations: u64,
     pub factorisations: u64,
     pub evaluations: u64,
+    pub pivotings: u64,
 }
 
 /// Why a step was given up.
@@ -79,6 +82,8 @@ pub(crate) struct Integrator {
     pub convergence: Convergence,
     matrix: Matrix,
     turned: Matrix,
+    /// T of every body.
+    turns: Vec<Matrix3<f64>>,
     increment: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
@@ -89,18 +94,20 @@ pub(crate) struct Integrator {
 }
 
 impl Integrator {
-    pub(crate) fn new(system: &System, scheme: Scheme) -> Self {
+    pub(crate) fn new(system: &System, scheme: Scheme, solver: LinearSolver) -> Self {
         let (n, m) = (system.degrees_of_freedom(), system.equations());
         let diagonal = system.mass_diagonal();
+        let form = Arc::new(SaddleForm::new(&system.structure, &system.kept, solver));
         Self {
             scheme,
             equations: Equations::new(system),
-            saddle: Saddle::new(&diagonal, &system.kept),
+            saddle: Saddle::new(&diagonal, &form),
             factored_step_s: f64::NAN,
-            projector: Saddle::new(&diagonal, &system.kept),
+            projector: Saddle::new(&diagonal, &form),
             convergence: Convergence::new(system, &scheme),
-            matrix: Matrix::zeros(n, n),
-            turned: Matrix::zeros(n, m),
+            matrix: Matrix::zeros(&system.structure.square),
+            turned: Matrix::zeros(&system.structure.gradient),
+            turns: vec![Matrix3::identity(); system.bodies.len()],
             increment: vec![0.0; n],
             delta: vec![0.0; n],
             mu: vec![0.0; m],
@@ -261,22 +268,26 @@ impl Integrator {
     fn factor(&mut self, system: &System, h: f64) -> bool {
         let (s, equations) = (self.scheme, &mut self.equations);
         self.turned.copy_from(&equations.gradient);
-        for start in system.layout.starts() {
+        for (start, t) in system.layout.starts().zip(&mut self.turns) {
             let turn = start + 3;
             let psi = Vector3::from_column_slice(&self.increment[turn..turn + 3]);
-            let t = rotation::tangent(&psi);
-            equations.stiffness.turn_columns(turn, &t);
-            self.turned.turn_rows(turn, &t);
+            *t = rotation::tangent(&psi);
+            equations.stiffness.turn_columns(turn, t);
         }
+        let turns = &self.turns;
+        self.turned
+            .turn_bodies(|start| turns[system.layout.locate(start).0]);
         let factors = [s.mass_factor(), s.gamma * h, s.beta * h * h];
         self.matrix.set_combination(
             factors,
             [&equations.mass, &equations.damping, &equations.stiffness],
         );
         self.effort.factorisations += 1;
+        let before = self.saddle.pivotings();
         let regular = self
             .saddle
             .factor(&self.matrix, &equations.gradient, &self.turned);
+        self.effort.pivotings += self.saddle.pivotings() - before;
         self.factored_step_s = if regular { h } else { f64::NAN };
         regular
     }
@@ -365,8 +376,8 @@ impl Integrator {
         } else {
             let share = self.scheme.error_constant * step_s * step_s;
             for (equation, right) in self.right_joints.iter_mut().enumerate() {
-                let row = equations.gradient.column(equation).iter();
-                *right = share * row.zip(&point.jerk).map(|(b, j)| b * j).sum::<f64>();
+                let row = equations.gradient.entries(equation);
+                *right = share * row.map(|(dof, b)| b * point.jerk[dof]).sum::<f64>();
             }
         }
         self.right.fill(0.0);

@@ -5,7 +5,7 @@
 //! | how is a system put together | [`SystemBuilder`] | `builder.rs` |
 //! | what is a body, rigid or with modes | [`Body`], [`Modes`] | `body.rs`, `inertia.rs` |
 //! | which motions do joints leave, prescribe or couple | [`Joint`], [`JointKind`], [`Motion`] | `joint.rs` |
-//! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs` |
+//! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs`, `metric.rs` |
 //! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
 //! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs`, `polar_angle.rs` |
 //! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
@@ -16,13 +16,14 @@
 //! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs` |
 //!
 //! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
-//! reaction is at hand. Matrices are dense: meant for up to some hundred degrees of freedom. A step of two bodies on bearings takes
-//! some microseconds and allocates nothing. The theory is in docs/theory/multibody.md.
+//! reaction is at hand. Matrices hold what bodies, joints and elements connect, and are factorised as dense or sparse ones, whichever is faster
+//! (`structure.rs`, `saddle.rs`): a step of two bodies on bearings takes some microseconds, one of a thousand bodies some milliseconds, and
+//! neither allocates. The theory is in docs/theory/multibody.md.
 
 pub mod body;
 pub mod builder;
 pub mod checkpoint;
-pub mod constraints;
+mod constraints;
 mod convergence;
 mod dense_lu;
 pub mod eigen;
@@ -35,7 +36,10 @@ pub mod initial;
 mod integrator;
 pub mod joint;
 mod matrix;
+mod metric;
+mod pattern;
 mod polar_angle;
+mod redundancy;
 pub mod relative_angle;
 pub mod relative_motion;
 pub mod rotation;
@@ -43,8 +47,10 @@ mod saddle;
 pub mod scheme;
 mod secants;
 pub mod simulation;
+mod sparse_lu;
 pub mod state;
 pub mod statics;
+mod structure;
 pub mod system;
 pub mod table;
 #[cfg(test)]
@@ -55,15 +61,15 @@ mod unbalanced;
 pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;
 pub use checkpoint::Checkpoint;
-pub use constraints::Redundancy;
 pub use eigen::{NaturalMode, natural_modes, strain_shares};
 pub use elements::{Channel, ForceElement, Loads, Power, View};
 pub use energy::{Energy, EnergyBalance};
 pub use error::{DynamicsError, ElementFailure};
 pub use initial::Accelerations;
 pub use joint::{Joint, JointKind, Motion};
+pub use redundancy::Redundancy;
 pub use relative_motion::{Marker, MarkerPair, RelativeMotion};
-pub use scheme::{AdaptiveStep, Params, StepControl};
+pub use scheme::{AdaptiveStep, LinearSolver, Params, StepControl};
 pub use simulation::{Accepted, OutputGrid, RunInfo, Simulation};
 pub use state::{BodyMotion, Layout, State};
 pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium, next_equilibrium};

@@ -56,6 +56,18 @@ impl Scheme {
     }
 }
 
+/// How the linear system of a step is solved. Results agree to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LinearSolver {
+    /// Whichever takes less time for the size and the connections of the system.
+    #[default]
+    Automatic,
+    /// As a dense matrix.
+    Dense,
+    /// As a sparse matrix.
+    Sparse,
+}
+
 /// How long steps are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepControl {
@@ -99,6 +111,8 @@ pub struct Params {
     pub newton_tolerance: Option<f64>,
     /// Newton iterations after which a step is given up. Default 20; three are usual.
     pub most_iterations: usize,
+    /// How the linear system is solved. Default: whichever is faster.
+    pub linear_solver: LinearSolver,
 }
 
 impl Params {
@@ -110,6 +124,7 @@ impl Params {
             step: StepControl::Fixed { step_s },
             newton_tolerance: None,
             most_iterations: 20,
+            linear_solver: LinearSolver::Automatic,
         }
     }
 

@@ -25,6 +25,9 @@ pub struct RunInfo {
     pub iterations: u64,
     /// Factorisations of the iteration matrix.
     pub factorisations: u64,
+    /// Those among them of a sparse matrix that chose pivots and found the pattern of the factors; the others kept both. Zero where the
+    /// matrix is solved as a dense one.
+    pub pivotings: u64,
     /// Evaluations of the equations: calls of each active force element.
     pub evaluations: u64,
     /// Shortest and longest accepted step \[s\].
@@ -151,7 +154,11 @@ impl Simulation {
         params.validate()?;
         system.begin(&state);
         constraints::project_velocity(&mut system, &mut state)?;
-        let mut integrator = Integrator::new(&system, Scheme::new(params.rho_infinity));
+        let mut integrator = Integrator::new(
+            &system,
+            Scheme::new(params.rho_infinity),
+            params.linear_solver,
+        );
         let step_s = params.first_step_s();
         let (equations, saddle) = integrator.for_start();
         let first = initial::accelerations(&mut system, &state, equations, saddle)?;
@@ -318,6 +325,7 @@ impl Simulation {
         self.info.iterations += effort.iterations;
         self.info.factorisations += effort.factorisations;
         self.info.evaluations += effort.evaluations;
+        self.info.pivotings += effort.pivotings;
     }
 
     fn accept(&mut self, h: f64, next_step_s: f64) -> Result<(), DynamicsError> {

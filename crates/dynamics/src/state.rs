@@ -73,6 +73,11 @@ impl Layout {
         self.starts[..self.bodies()].iter().copied()
     }
 
+    /// Degrees of freedom of every body.
+    pub(crate) fn body_ranges(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        self.starts.windows(2).map(|ends| ends[0]..ends[1])
+    }
+
     /// Body and place within it of a degree of freedom.
     pub(crate) fn locate(&self, dof: usize) -> (usize, usize) {
         let body = self.starts.partition_point(|&start| start <= dof) - 1;
@@ -210,6 +215,11 @@ impl BodyMotion {
             angular_velocity_rad_per_s: Vector3::new(v[3], v[4], v[5]),
         }
     }
+}
+
+/// Motion of a body, of all motions with the ground's at the end.
+pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> &BodyMotion {
+    &motions[body.0.min(motions.len() - 1)]
 }
 
 #[cfg(test)]

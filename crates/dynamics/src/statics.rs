@@ -342,8 +342,10 @@ fn correct(
     // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
     let noise = ROUNDING
         * (0..n).fold(0.0_f64, |most, j| {
-            let column = equations.stiffness.column(j).iter().zip(&mass);
-            let stiffest = column.fold(0.0_f64, |most, (k, d)| most.max((d * k * mass[j]).abs()));
+            let column = equations.stiffness.entries(j);
+            let stiffest = column.fold(0.0_f64, |most, (i, k)| {
+                most.max((mass[i] * k * mass[j]).abs())
+            });
             most.max(stiffest)
                 .max((equations.residual[j] * mass[j] * mass[j]).abs())
         });

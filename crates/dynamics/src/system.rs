@@ -1,21 +1,27 @@
 //! The system: bodies, joints and force elements put together. Its equations are in `equations.rs`.
 
+use std::sync::Arc;
+
 use crate::body::{Body, BodyId, GROUND};
-use crate::builder::SystemBuilder;
-use crate::constraints::Redundancy;
 use crate::elements::{Channel, ForceElement, Loads, View};
 use crate::energy::Energy;
 use crate::error::DynamicsError;
 use crate::inertia::Inertia;
 use crate::integrator::Point;
 use crate::joint::Joint;
-use crate::state::{BodyMotion, Layout, State};
+use crate::matrix::NOWHERE;
+use crate::pattern::Pattern;
+use crate::redundancy::Redundancy;
+use crate::state::{BodyMotion, Layout, State, motion_of};
+use crate::structure::Structure;
 
 /// A force element at its place in the system.
 pub(crate) struct Slot {
     pub element: Box<dyn ForceElement>,
     /// Where the degrees of freedom of its bodies stand; the ground has none.
     pub places: Vec<Place>,
+    /// For each entry of its tangents, where it stands in the system's matrices.
+    pub matrix_places: Vec<usize>,
     pub loads: Loads,
     pub force_calls: u64,
     pub tangent_calls: u64,
@@ -60,6 +66,36 @@ impl Slot {
         }
     }
 
+    /// Degrees of freedom of the system that it couples with each other.
+    pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
+        let places = self.places.iter();
+        vec![
+            places
+                .flat_map(|place| place.system..place.system + place.count)
+                .collect(),
+        ]
+    }
+
+    /// Finds where its tangents go in matrices of a pattern.
+    pub(crate) fn find_places(&mut self, square: &Pattern) {
+        let own = self.loads.by_position.pattern();
+        let mut system = vec![None; own.columns()];
+        for place in &self.places {
+            for i in 0..place.count {
+                system[place.local + i] = Some(place.system + i);
+            }
+        }
+        let mut found = Vec::with_capacity(own.len());
+        for (column, of_column) in system.iter().enumerate() {
+            for &row in own.column(column) {
+                let place = system[row].zip(*of_column);
+                let place = place.and_then(|(row, column)| square.place(row, column));
+                found.push(place.unwrap_or(NOWHERE));
+            }
+        }
+        self.matrix_places = found;
+    }
+
     pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
         let (mut places, mut local) = (Vec::new(), 0);
         for &body in element.bodies() {
@@ -73,10 +109,13 @@ impl Slot {
             }
             local += count;
         }
+        let all: Vec<usize> = (0..local).collect();
+        let pattern = Arc::new(Pattern::of_groups(local, std::iter::once(&all[..])));
         Self {
             element,
-            loads: Loads::new(local),
+            loads: Loads::new(&pattern),
             places,
+            matrix_places: Vec::new(),
             force_calls: 0,
             tangent_calls: 0,
         }
@@ -99,6 +138,7 @@ pub struct System {
     pub(crate) bodies: Vec<Body>,
     pub(crate) inertias: Vec<Inertia>,
     pub(crate) layout: Layout,
+    pub(crate) structure: Structure,
     pub(crate) joints: Vec<Joint>,
     pub(crate) slots: Vec<Slot>,
     pub(crate) motions: Vec<BodyMotion>,
@@ -109,12 +149,6 @@ pub struct System {
 }
 
 impl System {
-    /// Begins a system.
-    #[must_use]
-    pub fn builder() -> SystemBuilder {
-        SystemBuilder::default()
-    }
-
     /// Degrees of freedom of all bodies, joints not counted.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
@@ -353,11 +387,6 @@ impl System {
         };
         format!("body `{}`, {what}", self.bodies[body].name)
     }
-}
-
-/// Motion of a body, of all motions with the ground's at the end.
-pub(crate) fn motion_of(motions: &[BodyMotion], body: BodyId) -> &BodyMotion {
-    &motions[body.0.min(motions.len() - 1)]
 }
 
 pub(crate) fn view<'a>(

@@ -14,9 +14,8 @@ pub(crate) fn pushing(system: &System, equations: &Equations, lambda: &[f64]) ->
         slot.add_magnitudes(&mut sums);
     }
     for (equation, lambda) in lambda.iter().enumerate() {
-        let column = equations.gradient.column(equation);
-        for (sum, b) in sums.iter_mut().zip(column) {
-            *sum += (lambda * b).abs();
+        for (dof, b) in equations.gradient.entries(equation) {
+            sums[dof] += (lambda * b).abs();
         }
     }
     sums
@@ -40,7 +39,7 @@ pub(crate) fn most_unbalanced(system: &System, equations: &Equations, lambda: &[
         let own = first..first + joint.equations();
         let force: f64 = own
             .clone()
-            .map(|equation| -lambda[equation] * equations.gradient.column(equation)[dof])
+            .map(|equation| -lambda[equation] * equations.gradient.get(dof, equation))
             .sum();
         pushes.push((joint.name(), force));
         first = own.end;

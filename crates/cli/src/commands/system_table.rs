@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::system_run::{
     ColumnSummary, EigenResult, MeshPassing, RunRecord, SystemResult, is_overdamped, is_prominent,
-    rank, shares_in_words, split_unit,
+    noticeable, rank, shares_in_words, split_unit,
 };
 
 use crate::commands::periods::MARK;
@@ -74,7 +74,13 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut found = result.summaries(is_prominent).map_err(Failure::work)?;
     let passings = result.mesh_passings().map_err(Failure::work)?;
     let all = found.len();
-    found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
+    let mut shown = {
+        let extremes = found
+            .iter()
+            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
+        noticeable(extremes).into_iter()
+    };
+    found.retain(|_| shown.next().unwrap_or(false));
     found.sort_by_key(|column| rank(&column.name));
     let stems = found.iter().map(|column| split_unit(&column.name).0);
     let width = stems
@@ -108,7 +114,7 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     if shown < all {
         let zero = all - found.len();
         lines.push(format!(
-            "and {} more, {zero} of them zero throughout",
+            "and {} more, {zero} of them zero but for rounding",
             all - shown
         ));
     }
@@ -172,17 +178,22 @@ fn last_parts(name: &str) -> String {
 
 /// One line a column: the value where there is one equilibrium, mean and extremes over several.
 fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
-    let all = result.rows.columns();
     let mut found = Vec::new();
-    for column in all {
-        let is_turn = column.name.ends_with("/turn_rad");
-        if is_prominent(&column.name) || is_turn {
+    for column in result.rows.columns() {
+        if is_prominent(&column.name) || column.name.ends_with("/turn_rad") {
             let values = result.rows.read(&column.name).map_err(Failure::work)?;
-            if values.iter().any(|value| *value != 0.0) {
-                found.push((&column.name, values));
-            }
+            found.push((&column.name, values));
         }
     }
+    let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut shown = {
+        let extremes = found
+            .iter()
+            .map(|(name, values)| (name.as_str(), least(values), largest(values)));
+        noticeable(extremes).into_iter()
+    };
+    found.retain(|_| shown.next().unwrap_or(false));
     found.sort_by_key(|(name, _)| rank(name));
     let stems = found.iter().map(|(name, _)| split_unit(name).0);
     let width = stems
@@ -199,8 +210,7 @@ fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{:width$} {:<7}{head}", "column", "unit")];
     for (name, values) in found.iter().take(MOST_LINES) {
         let (stem, unit) = split_unit(name);
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (least, largest) = (least(values), largest(values));
         let (factor, unit) = usual_unit(unit, least.abs().max(largest.abs()));
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let figures = [mean, least, largest, largest - least];

@@ -4,8 +4,10 @@
 
 mod andrews;
 mod five_bars;
+mod sparse;
 
 #[path = "../problems"]
 mod problems {
     pub mod andrews;
+    pub mod chain;
 }

@@ -1,7 +1,7 @@
 //! Static series over an angle or a load factor.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
+use gearmesh_scene::system_run::{SystemResult, noticeable, rank, split_unit};
 
 use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
 use super::transient::LAST_RANK;
@@ -41,20 +41,21 @@ impl Values<'_> {
     }
 }
 
-/// Channels of force elements that are not zero throughout, those first that a reader asks for first.
+/// Channels of force elements that are not zero but for rounding, those first that a reader asks for first.
 fn channels(r: &SystemResult) -> Result<Vec<Values<'_>>, FileError> {
     let mut found = Vec::new();
     for column in r.rows.columns() {
         if column.name.starts_with("elements/") {
             let values = r.rows.read(&column.name)?;
-            if values.iter().any(|value| *value != 0.0) {
-                found.push(Values {
-                    name: &column.name,
-                    values,
-                });
-            }
+            let name = &column.name;
+            found.push(Values { name, values });
         }
     }
+    let mut shown = {
+        let extremes = found.iter().map(|c| (c.name, c.least(), c.largest()));
+        noticeable(extremes).into_iter()
+    };
+    found.retain(|_| shown.next().unwrap_or(false));
     found.sort_by_key(|column| rank(column.name));
     Ok(found)
 }

@@ -1,7 +1,9 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{RunRecord, SystemResult, is_prominent, rank, split_unit};
+use gearmesh_scene::system_run::{
+    RunRecord, SystemResult, is_prominent, noticeable, rank, split_unit,
+};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{
@@ -80,7 +82,13 @@ pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> 
             .column("dominant Hz", Align::Right)
     });
     let mut found = r.summaries(is_prominent)?;
-    found.retain(|column| column.figures.least != 0.0 || column.figures.largest != 0.0);
+    let mut shown = {
+        let extremes = found
+            .iter()
+            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
+        noticeable(extremes).into_iter()
+    };
+    found.retain(|_| shown.next().unwrap_or(false));
     found.sort_by_key(|column| rank(&column.name));
     let passings = r.mesh_passings()?;
     for column in found {

@@ -72,17 +72,34 @@ pub fn is_prominent(name: &str) -> bool {
     name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
 }
 
+/// Which columns are other than zero by more than rounding, measured by the largest value that has their unit. A column is its name with its
+/// least and largest value.
+pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
+    let scales = scales(columns.clone());
+    columns
+        .map(|(name, least, most)| {
+            least.abs().max(most.abs()) > ROUNDING * scales[split_unit(name).1]
+        })
+        .collect()
+}
+
 /// Which columns vary by more than rounding, measured by the largest value that has their unit. A column is its name with its least and
 /// largest value.
 pub fn varying<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
-    let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
-    for (name, least, most) in columns.clone() {
-        let scale = largest.entry(split_unit(name).1).or_default();
+    let scales = scales(columns.clone());
+    columns
+        .map(|(name, least, most)| most - least > ROUNDING * scales[split_unit(name).1])
+        .collect()
+}
+
+/// Largest magnitude of each unit.
+fn scales<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)>) -> BTreeMap<&'a str, f64> {
+    let mut largest = BTreeMap::new();
+    for (name, least, most) in columns {
+        let scale: &mut f64 = largest.entry(split_unit(name).1).or_default();
         *scale = scale.max(least.abs()).max(most.abs());
     }
-    columns
-        .map(|(name, least, most)| most - least > ROUNDING * largest[split_unit(name).1])
-        .collect()
+    largest
 }
 
 #[cfg(test)]
@@ -128,5 +145,7 @@ mod tests {
             ("z_N", -1e-17, 1e-17),
         ];
         assert_eq!(varying(columns.into_iter()), [true, false, true, true]);
+        let still = [("x_m", 0.3, 0.3), ("y_m", -1e-17, 1e-17), ("n", 0.0, 0.0)];
+        assert_eq!(noticeable(still.into_iter()), [true, false, false]);
     }
 }

@@ -35,7 +35,7 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, rank, split_unit, varying};
+pub use column_names::{is_prominent, noticeable, rank, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;

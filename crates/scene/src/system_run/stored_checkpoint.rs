@@ -38,8 +38,7 @@ pub fn to_tree(checkpoint: &Checkpoint, recorded: &Recorded) -> DataTree {
         ("simulation/velocities", c.velocities.clone()),
         ("simulation/reactions", c.reactions.clone()),
         ("simulation/internal", c.internal.clone()),
-        ("simulation/factors", c.factors.clone()),
-        ("simulation/permutation", counts(&c.permutation)),
+        ("simulation/matrix", c.matrix.clone()),
         ("recorded/progress", progress.to_vec()),
         ("recorded/angles", r.angles.clone()),
         ("recorded/statistics", r.statistics[0].clone()),
@@ -72,8 +71,7 @@ pub fn from_tree(tree: &mut DataTree, path: &Path) -> Result<(Checkpoint, Record
         velocities: take("simulation/velocities")?,
         reactions: take("simulation/reactions")?,
         internal: take("simulation/internal")?,
-        factors: take("simulation/factors")?,
-        permutation: counts(take("simulation/permutation")?),
+        matrix: take("simulation/matrix")?,
     };
     let [next_sample, wall_s, closed]: [f64; 3] =
         take("recorded/progress")?.try_into().unwrap_or([0.0; 3]);
