@@ -38,7 +38,7 @@ pub enum Command {
     Export(ExportArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
-    /// Check a gear file, scene, model or result
+    /// Check a gear file, scene, study, S-N table, record, model or result
     Check(CheckArguments),
     /// Run a multibody scene again and again with some of its keys changed
     Study(StudyArguments),
@@ -376,6 +376,21 @@ pub enum SignalAnalysis {
     },
 }
 
+impl SignalAnalysis {
+    /// The series that is analysed; none where only names are listed.
+    pub fn series(&self) -> Option<&SeriesArguments> {
+        match self {
+            Self::Columns { .. } => None,
+            Self::Statistics { series }
+            | Self::Spectrum { series, .. }
+            | Self::Sidebands { series, .. }
+            | Self::Envelope { series, .. }
+            | Self::Average { series, .. }
+            | Self::Map { series, .. } => Some(series),
+        }
+    }
+}
+
 /// Which series, and where the outcome goes.
 #[derive(Debug, Args)]
 pub struct SeriesArguments {
@@ -436,7 +451,7 @@ pub enum WindowKind {
 /// `gearmesh check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// Gear file, scene, model or result
+    /// Gear file, scene, study, S-N table, record (or its folder), model or result
     pub file: PathBuf,
 }
 

@@ -52,6 +52,13 @@ impl From<gearmesh_geometry::InputError> for Failure {
     }
 }
 
+/// Of a file that is being written; files that are read are the input's fault.
+impl From<gearmesh_model::FileError> for Failure {
+    fn from(error: gearmesh_model::FileError) -> Self {
+        Self::work(error)
+    }
+}
+
 impl From<gearmesh_scene::RunError> for Failure {
     fn from(error: gearmesh_scene::RunError) -> Self {
         if error.is_input() {

@@ -9,6 +9,7 @@ mod interrupt;
 mod length_unit;
 mod offline;
 mod output_name;
+mod overwriting;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -16,7 +17,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let outcome = interrupt::install().and_then(|()| match &arguments.command {
+    let sound = interrupt::install().and_then(|()| overwriting::refuse(&arguments.command));
+    let outcome = sound.and_then(|()| match &arguments.command {
         Command::Mesh(a) => commands::mesh::run(a),
         Command::Reduce(a) => commands::reduce::run(a),
         Command::Modes(a) => commands::modes::run(a),

@@ -4,11 +4,11 @@ use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use crate::length_unit::LengthUnit;
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{InputDocument, MOST_MESH_BYTES, demand_readable};
 use gearmesh_geometry::{ElementKind, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_mesh::{ElementShape, GearMesh};
-use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_mesh};
+use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{
@@ -33,11 +33,14 @@ pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
 
 /// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like those of another unit.
 pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
-    if let Some(body) = &gear.blank.meshed
-        && !body.file.is_file()
-    {
-        let problem = format!("the mesh file {} does not exist", body.file.display());
-        return Err(document.error("blank.file", problem).into());
+    if let Some(body) = &gear.blank.meshed {
+        let shown = body.file.display();
+        if !body.file.exists() {
+            let problem = format!("the mesh file {shown} does not exist");
+            return Err(document.error("blank.file", problem).into());
+        }
+        demand_readable(&body.file, MOST_MESH_BYTES)
+            .map_err(|error| document.error("blank.file", format!("{shown} {error}")))?;
     }
     console::unit_slips(document.unit_slips());
     Ok(())
@@ -149,34 +152,29 @@ pub fn export_mesh(
     let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");
     write_mesh(&exchange, &data).map_err(Failure::work)?;
-    // Written beside and renamed, so that a killed run leaves the old file or none.
-    let name = output
-        .file_name()
-        .and_then(|n| n.to_str())
-        .ok_or_else(|| Failure::input(format!("{}: not a file name", output.display())))?;
-    let part = format!(".part-{}-{name}", std::process::id());
-    let part = Scratch::new(output.with_file_name(part));
-    let beside = part.path();
-    let written = python()?.run(
-        &format!("writing {}", output.display()),
-        EXPORT,
-        &[
-            &exchange.display().to_string(),
-            &beside.display().to_string(),
-            unit.name(),
-            if gear.mesh.element == ElementKind::Hex8Incompatible {
-                "yes"
-            } else {
-                "no"
-            },
-        ],
-        b"",
-    );
+    let incompatible_modes = if gear.mesh.element == ElementKind::Hex8Incompatible {
+        "yes"
+    } else {
+        "no"
+    };
     let blame = |error: PythonError| match error {
         PythonError::Failed { code: Some(2), .. } => Failure::input(error),
         _ => Failure::work(error),
     };
-    let left_out = written.map_err(blame)?;
+    let mut left_out = Vec::new();
+    write_by(output, |beside| {
+        let task = format!("writing {}", output.display());
+        let arguments = [
+            &*exchange.display().to_string(),
+            &*beside.display().to_string(),
+            unit.name(),
+            incompatible_modes,
+        ];
+        left_out = python()?
+            .run(&task, EXPORT, &arguments, b"")
+            .map_err(blame)?;
+        Ok::<(), Failure>(())
+    })?;
     let left_out = String::from_utf8_lossy(&left_out);
     let names: Vec<&str> = left_out.split_whitespace().collect();
     if !names.is_empty() {
@@ -192,7 +190,7 @@ pub fn export_mesh(
             names[..names.len().min(MOST_NAMES)].join(", ")
         ));
     }
-    std::fs::rename(beside, output).map_err(|e| Failure::work(format!("{}: {e}", output.display())))
+    Ok(())
 }
 
 /// Which computed position a field is made for.

@@ -33,7 +33,7 @@ fn help_names_all_commands() {
       report      Write a report page
       export      Export a result as a table: CSV, Parquet or MATLAB
       signal      Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
-      check       Check a gear file, scene, model or result
+      check       Check a gear file, scene, study, S-N table, record, model or result
       study       Run a multibody scene again and again with some of its keys changed
       schema      Print the JSON Schema of scene, study or gear files
       demo        Make gear pairs A and B from definition to report

@@ -1,11 +1,17 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
+mod csv_rows;
 mod number_ranges;
+mod readable_file;
 mod table_keys;
 mod unit_slips;
 mod wording;
 
+pub use csv_rows::{CsvRows, shown_field};
 pub use number_ranges::NumberRange;
+pub use readable_file::{
+    MOST_MESH_BYTES, MOST_TEXT_BYTES, UnreadableFile, demand_readable, read_bytes,
+};
 pub use table_keys::TableKeys;
 
 use serde::de::DeserializeOwned;
@@ -41,20 +47,26 @@ impl InputDocument {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`InputError`] when the file cannot be read or is not UTF-8.
+    /// [`InputError`] when the file cannot be read, is no regular file, has more than [`MOST_TEXT_BYTES`] or is not UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let file = path.display().to_string();
-        std::fs::read_to_string(path)
-            .map(|text| Self {
-                file: file.clone(),
-                text,
-            })
-            .map_err(|cause| InputError {
-                file,
-                line: None,
-                key: String::new(),
-                problem: format!("cannot read the file: {cause}"),
-            })
+        let complaint = |line, problem| InputError {
+            file: file.clone(),
+            line,
+            key: String::new(),
+            problem,
+        };
+        let bytes = read_bytes(path, MOST_TEXT_BYTES)
+            .map_err(|cause| complaint(None, cause.to_string()))?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { file, text }),
+            Err(error) => {
+                let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+                let line = 1 + sound.iter().filter(|b| **b == b'\n').count();
+                let problem = "bytes that are no UTF-8 text; save the file as UTF-8";
+                Err(complaint(Some(line), problem.to_owned()))
+            }
+        }
     }
 
     /// Wraps text that is already in memory.

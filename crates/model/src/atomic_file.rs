@@ -1,6 +1,7 @@
-//! Writing beside and renaming: a killed run or a full disk leaves the old file or none.
+//! Writing beside and renaming: a killed run or a full disk leaves the old file or none. Outputs are never links: what a link points to
+//! is not overwritten.
 
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::Write;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -10,7 +11,7 @@ use crate::file_error::FileError;
 /// Writes a text file.
 ///
 /// # Errors
-/// [`FileError::NotARegularFile`], [`FileError::Io`]; `path` is then as it was.
+/// [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as it was.
 pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
     write_bytes(path, text.as_bytes())
 }
@@ -18,7 +19,7 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
 /// Writes a file of bytes.
 ///
 /// # Errors
-/// [`FileError::NotARegularFile`], [`FileError::Io`]; `path` is then as it was.
+/// [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as it was.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_atomically(path, |_, file| {
         file.write_all(bytes).map_err(|source| FileError::Io {
@@ -28,6 +29,9 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         })
     })
 }
+
+/// What names of temporary files end in, where nothing else is asked for.
+pub(crate) const TEMPORARY_SUFFIX: &str = ".tmp";
 
 /// Held while a file is being written and renamed.
 static WRITING: Mutex<()> = Mutex::new(());
@@ -52,24 +56,40 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 /// `path` is as it was.
 ///
 /// # Errors
-/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::Io`].
+/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`].
 pub(crate) fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&Path, &mut File) -> Result<(), FileError>,
 ) -> Result<(), FileError> {
-    write_atomically_from(folder_of(path), path, fill)
+    write_atomically_from((folder_of(path), TEMPORARY_SUFFIX), path, fill)
 }
 
-/// [`write_atomically`] with the temporary file in another folder of the same file system: one killed while writing
-/// leaves it there.
+/// Lets something else write a file, under a temporary name in the folder of `path` that has the same ending, and gives it its name when it
+/// is whole. The temporary file is there already, empty.
+///
+/// # Errors
+/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as it was.
+pub fn write_by<E: From<FileError>>(
+    path: &Path,
+    fill: impl FnOnce(&Path) -> Result<(), E>,
+) -> Result<(), E> {
+    let ending = path.extension().unwrap_or_default();
+    let suffix = format!(".{}", ending.to_string_lossy());
+    write_atomically_from((folder_of(path), &suffix), path, |temporary, _| {
+        fill(temporary)
+    })
+}
+
+/// [`write_atomically`] with the temporary file in another folder of the same file system, under a name that ends in `suffix`: one killed
+/// while writing leaves it there, until the same file is written again.
 ///
 /// # Errors
 /// Those of [`write_atomically`].
-pub(crate) fn write_atomically_from(
-    staging: &Path,
+pub(crate) fn write_atomically_from<E: From<FileError>>(
+    (staging, suffix): (&Path, &str),
     path: &Path,
-    fill: impl FnOnce(&Path, &mut File) -> Result<(), FileError>,
-) -> Result<(), FileError> {
+    fill: impl FnOnce(&Path, &mut File) -> Result<(), E>,
+) -> Result<(), E> {
     let io = |action| {
         move |source| FileError::Io {
             path: path.to_owned(),
@@ -78,23 +98,22 @@ pub(crate) fn write_atomically_from(
         }
     };
     let _held = wait_for_writes();
-    // A rename would replace a device such as /dev/null by a file.
-    if path.metadata().is_ok_and(|found| !found.is_file()) {
-        return Err(FileError::NotARegularFile {
-            path: path.to_owned(),
-        });
+    // A rename would replace a device such as /dev/null by a file, and a link by a file beside what it points to.
+    match path.symlink_metadata() {
+        Ok(found) if found.is_symlink() => {
+            let path = path.to_owned();
+            return Err(FileError::OutputIsALink { path }.into());
+        }
+        Ok(found) if !found.is_file() => {
+            let path = path.to_owned();
+            return Err(FileError::NotARegularFile { path }.into());
+        }
+        _ => {}
     }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".gearmesh-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        // The usual rights under the user's umask instead of a temporary file's 0600.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut temporary = builder
-        .tempfile_in(staging)
-        .map_err(io("create a temporary file for"))?;
+    let prefix = temporary_prefix(path);
+    remove_abandoned(staging, &prefix, suffix);
+    let mut temporary =
+        locked_temporary(staging, &prefix, suffix).map_err(io("create a temporary file for"))?;
     let temporary_path = temporary.path().to_owned();
     fill(&temporary_path, temporary.as_file_mut())?;
     temporary
@@ -112,4 +131,102 @@ pub(crate) fn write_atomically_from(
             .map_err(io("force to the disk the folder of"))?;
     }
     Ok(())
+}
+
+/// What names of temporary files begin with: the same for all writes of one file name.
+fn temporary_prefix(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    let digest = blake3::hash(name.as_encoded_bytes()).to_hex();
+    format!(".gearmesh-{}-", &digest[..16])
+}
+
+/// A temporary file, locked while it is being written: one without a lock belongs to a process that was killed.
+fn locked_temporary(
+    staging: &Path,
+    prefix: &str,
+    suffix: &str,
+) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(prefix).suffix(suffix);
+    #[cfg(unix)]
+    {
+        // The usual rights under the user's umask instead of a temporary file's 0600.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    loop {
+        let temporary = builder.tempfile_in(staging)?;
+        // Another process may take it for abandoned before it is locked. Where a file system knows no locks nothing is.
+        let taken = match temporary.as_file().try_lock() {
+            Ok(()) => !temporary.path().exists(),
+            Err(TryLockError::WouldBlock) => true,
+            Err(TryLockError::Error(_)) => false,
+        };
+        if !taken {
+            return Ok(temporary);
+        }
+    }
+}
+
+/// Removes what killed writes of the same file have left in a folder.
+fn remove_abandoned(folder: &Path, prefix: &str, suffix: &str) {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if !(name.starts_with(prefix) && name.ends_with(suffix)) {
+            continue;
+        }
+        let is_free = File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok());
+        if is_free {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_a_killed_write_left_goes_with_the_next_one_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mine, other) = (folder.path().join("a.txt"), folder.path().join("b.txt"));
+        // A killed process keeps its file and loses its lock.
+        let left = |path: &Path| {
+            let prefix = temporary_prefix(path);
+            let file = locked_temporary(folder.path(), &prefix, TEMPORARY_SUFFIX).unwrap();
+            file.keep().unwrap().1
+        };
+        let (abandoned, others) = (left(&mine), left(&other));
+        let prefix = temporary_prefix(&mine);
+        let at_work = locked_temporary(folder.path(), &prefix, TEMPORARY_SUFFIX).unwrap();
+        write_text(&mine, "new").unwrap();
+        assert!(!abandoned.exists() && others.exists() && at_work.path().exists());
+        drop(at_work);
+        write_text(&other, "new").unwrap();
+        assert_eq!(names(folder.path()), ["a.txt", "b.txt"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_written_through_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        std::fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        let refused = write_text(&link, "new");
+        assert!(matches!(refused, Err(FileError::OutputIsALink { .. })));
+        assert_eq!(std::fs::read(&file).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["file", "link"]);
+    }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Dataset, File};
 
-use crate::atomic_file::write_atomically_from;
+use crate::atomic_file::{TEMPORARY_SUFFIX, write_atomically_from};
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::data_tree_file::{hdf5_error, missing};
 use crate::data_tree_read::{Reader, open_tree};
@@ -66,7 +66,8 @@ pub fn write_columns(
     named.check_names(path)?;
     tree.check_numbers(path)?;
     let staging = log.folder().to_owned();
-    write_atomically_from(&staging, path, |temporary, handle| {
+    let staging = (staging.as_path(), TEMPORARY_SUFFIX);
+    write_atomically_from(staging, path, |temporary, handle| {
         tree.fill(path, temporary, format, |file| {
             let mut datasets = Vec::with_capacity(columns.len());
             for column in columns {

@@ -22,14 +22,29 @@ impl DataTree {
     }
 }
 
-/// Checks seal, format, version and where the arrays are; returns the open file.
-pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileError> {
+/// What a gearmesh file is: the [`FileFormat::name`] it was written with.
+///
+/// # Errors
+/// As [`DataTree::read`], except that any format and version will do.
+pub fn format_of(path: &Path) -> Result<String, FileError> {
+    let (file, _) = open_sealed_tree(path)?;
+    Reader { path }.text_attribute(&file, "format")
+}
+
+/// Checks the seal; returns the open file and its length.
+fn open_sealed_tree(path: &Path) -> Result<(File, u64), FileError> {
     let file_bytes = verify_seal(path)?;
-    let reader = Reader { path };
     let file = File::with_options()
         .with_fapl(|access| access.file_locking(false))
         .open(path)
         .map_err(hdf5_error(path, "open"))?;
+    Ok((file, file_bytes))
+}
+
+/// Checks seal, format, version and where the arrays are; returns the open file.
+pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileError> {
+    let (file, file_bytes) = open_sealed_tree(path)?;
+    let reader = Reader { path };
     let found = reader.text_attribute(&file, "format")?;
     if found != format.name {
         return Err(FileError::WrongFormat {
@@ -50,6 +65,9 @@ pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileEr
     check_own_storage(path, &file, file_bytes)?;
     Ok(file)
 }
+
+/// Most axes of an array, HDF5's own limit: memory for their labels is asked for before they are read.
+const MOST_AXES: usize = 32;
 
 pub(crate) struct Reader<'a> {
     pub path: &'a Path,
@@ -153,10 +171,12 @@ impl Reader<'_> {
         if dataset.is_scalar() {
             return Ok(Vec::new());
         }
-        let labels = dataset
-            .attr("axisLabels")
-            .and_then(|attribute| attribute.read_raw::<VarLenUnicode>());
-        let labels = labels.map_err(|_| self.bad_attribute(dataset, "axisLabels"))?;
+        let labels = dataset.attr("axisLabels");
+        let labels = labels
+            .ok()
+            .filter(|labels| labels.size() <= MOST_AXES)
+            .and_then(|labels| labels.read_raw::<VarLenUnicode>().ok());
+        let labels = labels.ok_or_else(|| self.bad_attribute(dataset, "axisLabels"))?;
         labels
             .iter()
             .map(|label| self.utf8(label, || format!("axisLabels of \"{}\"", dataset.name())))
@@ -220,6 +240,16 @@ mod tests {
     const NOT_UTF8: (&str, &[u8; 8]) = ("damaged.", b"damage\xff.");
 
     fn read_back(make: impl FnOnce(&File)) -> FileError {
+        read_back_changed(make, |bytes| {
+            for place in 0..bytes.len() {
+                if bytes[place..].starts_with(NOT_UTF8.0.as_bytes()) {
+                    bytes[place..place + NOT_UTF8.1.len()].copy_from_slice(NOT_UTF8.1);
+                }
+            }
+        })
+    }
+
+    fn read_back_changed(make: impl FnOnce(&File), change: impl FnOnce(&mut [u8])) -> FileError {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tree.h5");
         let file = File::with_options()
@@ -232,11 +262,7 @@ mod tests {
         make(&file);
         file.close().unwrap();
         let mut bytes = std::fs::read(&path).unwrap();
-        for place in 0..bytes.len() {
-            if bytes[place..].starts_with(NOT_UTF8.0.as_bytes()) {
-                bytes[place..place + NOT_UTF8.1.len()].copy_from_slice(NOT_UTF8.1);
-            }
-        }
+        change(&mut bytes);
         std::fs::write(&path, bytes).unwrap();
         let mut handle = std::fs::OpenOptions::new()
             .read(true)
@@ -346,6 +372,25 @@ mod tests {
             matches!(&error, FileError::NotUtf8 { item, byte: 6, .. } if item.contains("title")),
             "{error}"
         );
+    }
+
+    /// Free space at the end of the texts that states a length of zero.
+    #[test]
+    fn texts_that_libhdf5_would_read_for_ever_are_refused() {
+        let error = read_back_changed(
+            |_| (),
+            |bytes| {
+                let heap = bytes.windows(5).rposition(|b| b == b"GCOL\x01").unwrap();
+                let mut place = heap + 16;
+                while bytes[place..place + 2] != [0, 0] {
+                    let length =
+                        u64::from_le_bytes(bytes[place + 8..place + 16].try_into().unwrap());
+                    place += 16 + length.next_multiple_of(8) as usize;
+                }
+                bytes[place + 8..place + 16].fill(0);
+            },
+        );
+        assert!(matches!(error, FileError::BrokenTexts { .. }), "{error}");
     }
 
     #[test]

@@ -36,6 +36,18 @@ pub enum FileError {
         /// The output path.
         path: PathBuf,
     },
+    /// The input path names a folder, a device or a pipe.
+    #[error("{} is no regular file; give a file made by gearmesh", path.display())]
+    NotReadable {
+        /// The input path.
+        path: PathBuf,
+    },
+    /// The output path is a symbolic link.
+    #[error("{} is a symbolic link, and nothing is written through links; name the file itself", path.display())]
+    OutputIsALink {
+        /// The output path.
+        path: PathBuf,
+    },
     /// The file does not begin with the seal that every gearmesh file has.
     #[error("{} was not written by gearmesh ({found}); give a file made by gearmesh", path.display())]
     NotAGearmeshFile {
@@ -62,6 +74,14 @@ pub enum FileError {
         path: PathBuf,
         /// What differs.
         difference: String,
+    },
+    /// The lengths of texts in the file lead nowhere: libhdf5 would read for ever.
+    #[error("{} has a table of texts at byte {place} whose lengths do not lead to its end; make the file again", path.display())]
+    BrokenTexts {
+        /// The file.
+        path: PathBuf,
+        /// Where the table begins.
+        place: u64,
     },
     /// A gearmesh file of another kind.
     #[error("{} is a \"{found}\" file, but a \"{expected}\" file is needed here", path.display())]

@@ -41,12 +41,14 @@ mod row_log;
 mod seal;
 #[doc(hidden)]
 pub mod synthetic;
+mod text_heap;
 mod timestamp;
 
-pub use atomic_file::{wait_for_writes, write_bytes, write_text};
+pub use atomic_file::{wait_for_writes, write_by, write_bytes, write_text};
 pub use cell_kind::CellKind;
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
+pub use data_tree_read::format_of;
 pub use file_error::FileError;
 pub use mesh_data::{EXPORT_ENDINGS, Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};

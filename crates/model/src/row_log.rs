@@ -50,6 +50,24 @@ impl RowLog {
         Ok(log)
     }
 
+    /// Whether the file that is open still stands under its name. The process that had the log before may have removed it between
+    /// its being opened and locked here.
+    pub fn has_its_name(&self) -> bool {
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt;
+            match (self.file.metadata(), self.path.metadata()) {
+                (Ok(open), Ok(named)) => (open.dev(), open.ino()) == (named.dev(), named.ino()),
+                _ => false,
+            }
+        }
+        // Elsewhere an open file cannot be removed.
+        #[cfg(not(unix))]
+        {
+            self.path.exists()
+        }
+    }
+
     fn open(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
         let io = |action| Self::io(path, action);
         let file = OpenOptions::new()
@@ -68,7 +86,8 @@ impl RowLog {
             }
             Err(TryLockError::Error(source)) => return Err(io("lock")(source)),
         }
-        let needed = rows * (columns * NUMBER_BYTES) as u64;
+        // The count comes from a file.
+        let needed = rows.saturating_mul((columns * NUMBER_BYTES) as u64);
         let found = file.metadata().map_err(io("inspect"))?.len();
         if found < needed {
             return Err(FileError::ShortLog {

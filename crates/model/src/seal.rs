@@ -12,6 +12,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use crate::file_error::FileError;
+use crate::text_heap::{HeapFinder, first_broken};
 
 /// Length of the user block; the smallest that HDF5 allows.
 pub(crate) const SEAL_BYTES: u64 = 512;
@@ -32,7 +33,7 @@ pub(crate) fn write_seal(file: &mut File, path: &Path) -> Result<(), FileError> 
         }
     };
     let length = file.metadata().map_err(io("inspect"))?.len();
-    let digest = digest_of_body(file).map_err(io("read back"))?;
+    let digest = digest_of_body(file, |_| ()).map_err(io("read back"))?;
     let mut block = seal_text(length, &digest).into_bytes();
     block.resize(SEAL_BYTES as usize, 0);
     file.seek(SeekFrom::Start(0))
@@ -40,21 +41,36 @@ pub(crate) fn write_seal(file: &mut File, path: &Path) -> Result<(), FileError> 
         .map_err(io("write"))
 }
 
-/// Checks length and content of a file against its seal; returns the length.
+/// Checks length and content of a file against its seal, and that libhdf5 can walk through its texts; returns the length.
 ///
 /// # Errors
-/// [`FileError::Io`], [`FileError::NotAGearmeshFile`], [`FileError::Truncated`], [`FileError::Altered`].
+/// [`FileError::Io`], [`FileError::NotReadable`], [`FileError::NotAGearmeshFile`], [`FileError::Truncated`], [`FileError::Altered`],
+/// [`FileError::BrokenTexts`].
 pub(crate) fn verify_seal(path: &Path) -> Result<u64, FileError> {
     let (mut file, stored) = open_sealed(path)?;
-    let digest = digest_of_body(&mut file).map_err(|source| FileError::Io {
+    let io = |source| FileError::Io {
         path: path.to_owned(),
         action: "read",
         source,
-    })?;
+    };
+    let mut heaps = HeapFinder::new(SEAL_BYTES);
+    let digest = digest_of_body(&mut file, |block| heaps.pass(block)).map_err(io)?;
     if digest != stored.digest {
         return Err(FileError::Altered {
             path: path.to_owned(),
             difference: format!("its digest is {digest}, was {}", stored.digest),
+        });
+    }
+    if !has_usual_sizes(&mut file).map_err(io)? {
+        return Err(FileError::NotAGearmeshFile {
+            path: path.to_owned(),
+            found: "its HDF5 head is not that of gearmesh's writer",
+        });
+    }
+    if let Some(place) = first_broken(&mut file, &heaps.places, stored.length).map_err(io)? {
+        return Err(FileError::BrokenTexts {
+            path: path.to_owned(),
+            place,
         });
     }
     Ok(stored.length)
@@ -88,6 +104,12 @@ fn open_sealed(path: &Path) -> Result<(File, Seal), FileError> {
             source,
         }
     };
+    // Looked at before it is opened: to open a pipe is to wait for its other end.
+    if !path.metadata().map_err(io("open"))?.is_file() {
+        return Err(FileError::NotReadable {
+            path: path.to_owned(),
+        });
+    }
     let mut file = File::open(path).map_err(io("open"))?;
     let found_bytes = file.metadata().map_err(io("inspect"))?.len();
     let mut block = Vec::new();
@@ -149,15 +171,31 @@ fn parse_seal(block: &[u8]) -> Option<Seal> {
     (seal_text(length, &digest) == text).then_some(Seal { length, digest })
 }
 
-/// Digest of everything after the seal, in hexadecimal.
-fn digest_of_body(file: &mut File) -> std::io::Result<String> {
+/// Whether the HDF5 superblock follows the seal and says that addresses and lengths have eight bytes, as the walk through the texts takes them.
+fn has_usual_sizes(file: &mut File) -> std::io::Result<bool> {
+    let mut head = Vec::new();
+    file.seek(SeekFrom::Start(SEAL_BYTES))?;
+    file.take(16).read_to_end(&mut head)?;
+    // Versions 0 and 1 have the two sizes from byte 13 on, later ones from byte 9 on.
+    let sizes = match head.get(8) {
+        Some(0 | 1) => head.get(13..15),
+        _ => head.get(9..11),
+    };
+    Ok(head.starts_with(b"\x89HDF\r\n\x1a\n") && sizes == Some(&[8, 8]))
+}
+
+/// Digest of everything after the seal, in hexadecimal; `pass` sees every block.
+fn digest_of_body(file: &mut File, mut pass: impl FnMut(&[u8])) -> std::io::Result<String> {
     file.seek(SeekFrom::Start(SEAL_BYTES))?;
     let mut hasher = blake3::Hasher::new();
     let mut buffer = vec![0; 1 << 20];
     loop {
         match file.read(&mut buffer)? {
             0 => return Ok(hasher.finalize().to_hex().to_string()),
-            count => drop(hasher.update(&buffer[..count])),
+            count => {
+                hasher.update(&buffer[..count]);
+                pass(&buffer[..count]);
+            }
         }
     }
 }

@@ -107,6 +107,11 @@ pub struct SnCurve {
 }
 
 impl SnCurve {
+    /// The points, cycles growing.
+    pub fn points(&self) -> &[SnPoint] {
+        &self.points
+    }
+
     /// A curve through points with growing cycles and falling amplitudes.
     ///
     /// # Errors

@@ -1,10 +1,7 @@
-//! S-N tables in files: TOML arrays or CSV, megapascals in the key or head.
+//! S-N tables in files: TOML arrays, megapascals in the key.
 
 use crate::sn_curve::{AboveTable, BelowTable, SnCurve, SnError, SnPoint};
 use serde::Deserialize;
-
-/// The head of a CSV table.
-const CSV_HEAD: [&str; 2] = ["cycles", "stress_amplitude_MPa"];
 
 /// Why a file is no S-N table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -30,22 +27,6 @@ pub enum SnTableError {
         "below = \"slope\" and slope_below belong together: give both, or another rule and no slope_below"
     )]
     SlopeBelow,
-    /// Another head.
-    #[error("line {line}: head `{found}`; allowed is `cycles,stress_amplitude_MPa`")]
-    Head {
-        /// Line, from 1.
-        line: usize,
-        /// What stands there.
-        found: String,
-    },
-    /// A row that is no pair of numbers.
-    #[error("line {line}: `{found}`; a row is two numbers: cycles, stress amplitude in MPa")]
-    Row {
-        /// Line, from 1.
-        line: usize,
-        /// What stands there.
-        found: String,
-    },
     /// The rows are no S-N curve.
     #[error(transparent)]
     Curve(#[from] SnError),
@@ -133,49 +114,8 @@ impl SnCurve {
     /// [`SnTableError`], see its variants.
     pub fn from_toml(text: &str) -> Result<Self, SnTableError> {
         let table: SnTable = toml::from_str(text).map_err(|e| SnTableError::Toml {
-            reason: e.to_string().trim_end().to_owned(),
+            reason: e.message().trim_end().to_owned(),
         })?;
         table.curve()
     }
-
-    /// Reads the rows of a CSV file: head `cycles,stress_amplitude_MPa`, then two numbers a line; blank lines and lines that begin
-    /// with `#` are skipped. Rows are counted without them.
-    ///
-    /// # Errors
-    /// [`SnTableError`], see its variants.
-    pub fn from_csv(
-        text: &str,
-        above: AboveTable,
-        below: BelowTable,
-    ) -> Result<Self, SnTableError> {
-        let mut lines = text
-            .lines()
-            .enumerate()
-            .map(|(i, line)| (i + 1, line.trim()))
-            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let (line, head) = lines.next().unwrap_or((1, ""));
-        if !head.split(',').map(str::trim).eq(CSV_HEAD) {
-            return Err(SnTableError::Head {
-                line,
-                found: head.to_owned(),
-            });
-        }
-        let points = lines
-            .map(|(line, row)| {
-                point(row).ok_or_else(|| SnTableError::Row {
-                    line,
-                    found: row.to_owned(),
-                })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self::new(&points, above, below)?)
-    }
-}
-
-fn point(row: &str) -> Option<SnPoint> {
-    let (cycles, mpa) = row.split_once(',')?;
-    Some(SnPoint {
-        cycles: cycles.trim().parse().ok()?,
-        amplitude_pa: mpa.trim().parse::<f64>().ok()? * 1e6,
-    })
 }

@@ -10,14 +10,12 @@
 use crate::pair_orders::Shaft;
 use crate::quantity::{Quantity, Unit};
 use crate::record_data::{DataError, parse_data};
+use gearmesh_geometry::input::{MOST_TEXT_BYTES, UnreadableFile, read_bytes};
 use gearmesh_signal::{AngleSeries, AngleSeriesError, ShaftPeriod};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
-
-/// Largest file that is read, so that a wrong path does not fill the memory.
-const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
 
 /// Most revolutions of a record: the rig's 5000 pulses a turn fill the memory beyond.
 const MOST_REVOLUTIONS: usize = 1000;
@@ -30,16 +28,8 @@ pub enum RecordError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The file is far larger than any record.
-    #[error("{}: {bytes} bytes; a record's file has at most {LARGEST_FILE_BYTES}", path.display())]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-        /// Its size.
-        bytes: u64,
+        /// Why.
+        source: UnreadableFile,
     },
     /// `record.toml` is no TOML, lacks a key, or has a value of the wrong kind.
     #[error("{}:{line}:{column}: {message}", path.display())]
@@ -182,13 +172,12 @@ impl ReferenceRecord {
                 message,
             },
         )?;
-        let data =
-            parse_data(&read_bytes(&data_path)?, description.revolutions()).map_err(|source| {
-                RecordError::Data {
-                    path: data_path,
-                    source,
-                }
-            })?;
+        let data = parse_data(&record_bytes(&data_path)?, description.revolutions()).map_err(
+            |source| RecordError::Data {
+                path: data_path,
+                source,
+            },
+        )?;
         let revolutions = description.revolutions();
         Ok(Self {
             folder: folder.to_path_buf(),
@@ -232,23 +221,15 @@ impl ReferenceRecord {
     }
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
-    let io = |source| RecordError::Io {
+fn record_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
+    read_bytes(path, MOST_TEXT_BYTES).map_err(|source| RecordError::Io {
         path: path.to_path_buf(),
         source,
-    };
-    let bytes = std::fs::metadata(path).map_err(io)?.len();
-    if bytes > LARGEST_FILE_BYTES {
-        return Err(RecordError::TooLarge {
-            path: path.to_path_buf(),
-            bytes,
-        });
-    }
-    std::fs::read(path).map_err(io)
+    })
 }
 
 fn read_text(path: &Path) -> Result<String, RecordError> {
-    String::from_utf8(read_bytes(path)?).map_err(|e| {
+    String::from_utf8(record_bytes(path)?).map_err(|e| {
         let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
         let (line, column) = line_and_column(&String::from_utf8_lossy(before), before.len());
         RecordError::Toml {

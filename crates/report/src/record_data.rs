@@ -2,6 +2,7 @@
 
 use crate::quantity::Quantity;
 use crate::record::RecordColumn;
+use gearmesh_geometry::input::{CsvRows, shown_field};
 
 /// The heads that are understood, for error messages.
 const ALLOWED_HEADS: &str = "te_um_<T>Nm or strain_<gauge>_ustrain_<T>Nm, for example te_um_50Nm or strain_t0_tension_ustrain_50Nm";
@@ -20,13 +21,11 @@ pub enum DataError {
     NoHead,
     /// The first column is not the angle.
     #[error(
-        "{line}: column 1 is '{found}'; the first column must be angle_deg, the angle of the record's shaft"
+        "{line}: column 1 is not angle_deg, the angle of the record's shaft; is it another file?"
     )]
     FirstColumn {
         /// Line of the heads.
         line: usize,
-        /// Head found.
-        found: String,
     },
     /// A head that is not understood.
     #[error("{line}: column {column} is '{found}'; allowed is {ALLOWED_HEADS}")]
@@ -131,21 +130,13 @@ pub(crate) fn parse_data(bytes: &[u8], revolutions: usize) -> Result<Data, DataE
             .count()
             + 1,
     })?;
-    // Spreadsheet programs put a byte order mark in front.
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(i, line)| (i + 1, line.trim()))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-
-    let (head_line, head) = lines.next().ok_or(DataError::NoHead)?;
-    let heads: Vec<&str> = head.split(',').map(str::trim).collect();
+    let mut rows = CsvRows::new(text);
+    let (head_line, heads) = rows.next().ok_or(DataError::NoHead)?;
+    let heads: Vec<&str> = heads.iter().collect();
     let mut columns = parse_heads(head_line, &heads)?;
 
     let mut angle_deg: Vec<f64> = Vec::new();
-    for (line, text) in lines {
-        let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    for (line, fields) in rows {
         if fields.len() != heads.len() {
             return Err(DataError::FieldCount {
                 line,
@@ -153,13 +144,13 @@ pub(crate) fn parse_data(bytes: &[u8], revolutions: usize) -> Result<Data, DataE
                 expected: heads.len(),
             });
         }
-        let angle = number(line, 0, &heads, fields[0])?;
+        let angle = number(line, 0, &heads, &fields[0])?;
         check_angle(line, angle, &angle_deg, revolutions)?;
         angle_deg.push(angle);
         for (i, column) in columns.iter_mut().enumerate() {
             column
                 .values
-                .push(number(line, i + 1, &heads, fields[i + 1])? / column.quantity.unit().per_si);
+                .push(number(line, i + 1, &heads, &fields[i + 1])? / column.quantity.unit().per_si);
         }
     }
     if angle_deg.is_empty() {
@@ -173,14 +164,11 @@ pub(crate) fn parse_data(bytes: &[u8], revolutions: usize) -> Result<Data, DataE
 
 fn parse_heads(line: usize, heads: &[&str]) -> Result<Vec<RecordColumn>, DataError> {
     if heads[0] != "angle_deg" {
-        return Err(DataError::FirstColumn {
-            line,
-            found: heads[0].to_string(),
-        });
+        return Err(DataError::FirstColumn { line });
     }
     let mut columns: Vec<RecordColumn> = Vec::new();
     for (i, head) in heads.iter().enumerate().skip(1) {
-        let (column, found) = (i + 1, (*head).to_string());
+        let (column, found) = (i + 1, shown_field(head));
         let Some((quantity, torque_nm)) = parse_head(head) else {
             return Err(DataError::Head {
                 line,
@@ -199,7 +187,7 @@ fn parse_heads(line: usize, heads: &[&str]) -> Result<Vec<RecordColumn>, DataErr
             });
         }
         columns.push(RecordColumn {
-            name: found,
+            name: (*head).to_string(),
             quantity,
             torque_nm,
             values: Vec::new(),
@@ -247,7 +235,7 @@ fn number(line: usize, index: usize, heads: &[&str], field: &str) -> Result<f64,
             line,
             column: index + 1,
             head: heads[index].to_string(),
-            found: field.chars().take(40).collect(),
+            found: shown_field(field),
         })
 }
 
@@ -303,7 +291,7 @@ mod tests {
     #[test]
     fn errors_name_line_column_found_and_allowed() {
         assert!(refused("").contains("no head"));
-        assert!(refused("angle,te_um_50Nm\n").starts_with("1: column 1 is 'angle'"));
+        assert!(refused("angle,te_um_50Nm\n").starts_with("1: column 1 is not angle_deg"));
         assert!(
             refused("# x\nangle_deg,te_mm_50Nm\n")
                 .starts_with("2: column 2 is 'te_mm_50Nm'; allowed")

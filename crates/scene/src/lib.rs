@@ -5,20 +5,24 @@
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
-//! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`] tells them apart, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
+//! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`] tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
 //! them again and again with keys that vary.
 
+mod named_files;
 pub mod pair;
 pub mod periods;
 pub mod rating;
+mod result_file;
 pub mod scene_file;
 pub mod schema;
 pub mod study;
 pub mod system;
 pub mod system_run;
 
+pub use named_files::named_files;
 pub use pair::{
     ContactPlaces, LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries,
     load, run,
 };
-pub use scene_file::SceneFile;
+pub use result_file::ResultFile;
+pub use scene_file::{InputKind, SceneFile};

@@ -19,24 +19,60 @@ pub enum SceneFile {
     System(Box<SystemScene>),
 }
 
-/// The tables that tell the kinds of files apart.
+/// The tables and keys that tell the kinds of files apart.
 #[derive(Deserialize)]
+#[allow(non_snake_case)]
 struct Marks {
     pair: Option<IgnoredAny>,
     body: Option<IgnoredAny>,
     tooth: Option<IgnoredAny>,
+    scene: Option<IgnoredAny>,
+    parameter: Option<IgnoredAny>,
+    cycles: Option<IgnoredAny>,
+    stress_amplitude_MPa: Option<IgnoredAny>,
+    angle_origin: Option<IgnoredAny>,
 }
 
-impl SceneFile {
-    /// Whether a document is meant as a scene: it has `[pair]` or `[[body]]`.
+/// What a TOML file is meant as; the kind decides which complaints its reader sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputKind {
+    /// Has `[pair]` or `[[body]]`.
+    Scene,
+    /// Has `scene` or `[[parameter]]`.
+    Study,
+    /// Has `cycles` or `stress_amplitude_MPa`.
+    SnTable,
+    /// Description of a reference record: has `angle_origin`.
+    Record,
+    /// Anything else.
+    Gear,
+}
+
+impl InputKind {
+    /// Tells a document's kind.
     ///
     /// # Errors
     /// [`InputError`] for a document that is no TOML.
-    pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
+    pub fn of(document: &InputDocument) -> Result<Self, InputError> {
         let marks: Marks = document.glance()?;
-        Ok(marks.pair.is_some() || marks.body.is_some())
+        let any = |marks: &[&Option<IgnoredAny>]| marks.iter().any(|mark| mark.is_some());
+        Ok(if any(&[&marks.pair, &marks.body]) {
+            Self::Scene
+        } else if any(&[&marks.tooth]) {
+            Self::Gear
+        } else if any(&[&marks.scene, &marks.parameter]) {
+            Self::Study
+        } else if any(&[&marks.cycles, &marks.stress_amplitude_MPa]) {
+            Self::SnTable
+        } else if any(&[&marks.angle_origin]) {
+            Self::Record
+        } else {
+            Self::Gear
+        })
     }
+}
 
+impl SceneFile {
     /// Reads and checks a scene file.
     ///
     /// # Errors

@@ -3,18 +3,16 @@
 use crate::arguments::CompareArguments;
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_model::FileError;
 use gearmesh_report::system_comparison::{SystemSelection, compare_system};
 use gearmesh_report::{ReferenceRecord, comparison_table, scene_comparison::compare_scene};
-use gearmesh_scene::SceneResult;
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::ResultFile;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(a: &CompareArguments) -> Result<(), Failure> {
     let record = || ReferenceRecord::read(&a.reference).map_err(Failure::input);
-    let (title, record, comparisons) = match SystemResult::open(&a.result) {
-        Ok(result) => {
+    let (title, record, comparisons) = match ResultFile::open(&a.result).map_err(Failure::input)? {
+        ResultFile::System(result) => {
             let record = record()?;
             let start_angle_deg = a.start_angle_deg.unwrap_or(0.0);
             if !start_angle_deg.is_finite() {
@@ -30,14 +28,12 @@ pub fn run(a: &CompareArguments) -> Result<(), Failure> {
             let found = compare_system(&result, &record, &selection).map_err(Failure::input)?;
             (result.head.title, record, found)
         }
-        Err(FileError::WrongFormat { .. }) => {
-            let result = SceneResult::read(&a.result).map_err(Failure::input)?;
+        ResultFile::Pair(result) => {
             refuse_options_of_systems(a)?;
             let record = record()?;
             let found = compare_scene(&result, &record).map_err(Failure::input)?;
             (result.title, record, found)
         }
-        Err(error) => return Err(Failure::input(error)),
     };
     if a.json {
         let list = serde_json::to_value(&comparisons).map_err(Failure::work)?;

@@ -4,12 +4,12 @@ use crate::arguments::ExportArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_model::{FileError, write_bytes};
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_model::write_bytes;
 use gearmesh_report::export::{
     ExportError, Table, csv_text, mat_bytes, pair_tables, parquet_bytes, study_table, system_tables,
 };
-use gearmesh_scene::SceneResult;
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_scene::ResultFile;
 use std::path::Path;
 
 /// Runs the command.
@@ -67,19 +67,14 @@ fn tables_of(path: &Path) -> Result<Vec<Table>, Failure> {
         } else {
             path.to_owned()
         };
-        let text = std::fs::read_to_string(&file)
-            .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
+        let text = InputDocument::read(&file)?.text;
         let table = study_table(&text)
             .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
         return Ok(vec![table]);
     }
-    match SystemResult::open(path) {
-        Ok(result) => system_tables(&result).map_err(blame),
-        Err(FileError::WrongFormat { .. }) => {
-            let result = SceneResult::read(path).map_err(Failure::input)?;
-            Ok(pair_tables(&result))
-        }
-        Err(error) => Err(Failure::input(error)),
+    match ResultFile::open(path).map_err(Failure::input)? {
+        ResultFile::System(result) => system_tables(&result).map_err(blame),
+        ResultFile::Pair(result) => Ok(pair_tables(&result)),
     }
 }
 

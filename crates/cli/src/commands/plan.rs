@@ -4,7 +4,7 @@ use crate::arguments::PlanArguments;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_scene::system::SystemPlan;
-use gearmesh_scene::system_run::RunCost;
+use gearmesh_scene::system_run::{RunCost, RunJob};
 use gearmesh_scene::{SceneFile, load};
 use serde_json::json;
 
@@ -15,6 +15,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
             let loaded = load(*scene)?;
             loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
+            loaded.contact().map_err(Failure::input)?;
             let plan = loaded.plan();
             let figures = json!({"lines": plan.lines, "positions": plan.positions, "unknowns": plan.unknowns, "proposal": plan.proposal});
             (plan.lines, figures)
@@ -22,6 +23,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
             console::unit_slips(loaded.unit_slips());
+            // What the run would refuse is refused here.
+            RunJob::from_scene(loaded.clone())?;
             let plan = SystemPlan::new(&loaded.scene, loaded.build()?)?
                 .with_cost(&loaded.scene, RunCost::timed(&loaded)?);
             let figures = json!({

@@ -5,14 +5,14 @@ use crate::commands::periods;
 use crate::failure::Failure;
 use crate::length_unit::LengthUnit;
 use crate::offline::{self, FieldCase};
-use crate::{console, console::StageBar, output_name};
+use crate::{console, console::StageBar, output_name, overwriting};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load, run as scene_run};
 use gearmesh_signal::statistics::peak_to_peak;
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs the command.
 pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
@@ -21,6 +21,10 @@ pub fn run(a: &RecoverArguments) -> Result<(), Failure> {
         output_name::demand_mesh(path)?;
     }
     let mut result = SceneResult::read(&a.result).map_err(Failure::input)?;
+    let models = result.model_files.clone().map(PathBuf::from);
+    for output in std::iter::once(&a.output).chain(&a.field_output) {
+        overwriting::apart(output, &models)?;
+    }
     let loaded = scene_of(&result, &a.result)?;
     let all: Vec<(usize, usize)> = (1..=2)
         .flat_map(|gear| (0..loaded.models[gear - 1].gauges.len()).map(move |k| (gear, k)))

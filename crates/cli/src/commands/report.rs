@@ -6,12 +6,12 @@ use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_model::{FileError, write_text};
+use gearmesh_model::write_text;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::overlay::{overlaid_pairs, overlaid_systems};
 use gearmesh_report::page::Page;
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
-use gearmesh_scene::SceneResult;
+use gearmesh_scene::ResultFile;
 use gearmesh_scene::system_run::SystemResult;
 use std::path::{Path, PathBuf};
 
@@ -30,22 +30,20 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
     // Of pairs, of multibody results.
     let mut names = [Vec::new(), Vec::new()];
     for (k, path) in a.results.iter().enumerate() {
-        match SystemResult::open(path) {
-            Ok(result) => {
+        let result = match ResultFile::open(path).map_err(Failure::input)? {
+            ResultFile::System(result) => {
                 if !a.reference.is_empty() {
                     return Err(Failure::input(format!(
                         "--reference: {} is the result of a multibody scene, which no record is compared with; leave it out",
                         path.display()
                     )));
                 }
-                systems.push(result);
+                systems.push(*result);
                 names[1].push(files[k].clone());
                 continue;
             }
-            Err(FileError::WrongFormat { .. }) => {}
-            Err(error) => return Err(Failure::input(error)),
-        }
-        let result = SceneResult::read(path).map_err(Failure::input)?;
+            ResultFile::Pair(result) => *result,
+        };
         let record = match a.reference.get(k) {
             Some(folder) => Some(ReferenceRecord::read(folder).map_err(Failure::input)?),
             None => None,

@@ -6,6 +6,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod files;
 mod gear_files;
 mod models;
 mod pair_scenes;

@@ -107,7 +107,7 @@ impl NumberRange {
     }
 }
 
-/// The first number of a document that is out of its range: dotted key and what is wrong.
+/// The first number of a document that is out of its range, or text that holds a control character: dotted key and what is wrong.
 pub(super) fn first_problem(table: &toml::Table) -> Option<(String, String)> {
     let (key, mut problem) = table
         .iter()
@@ -132,8 +132,18 @@ fn problem_below(value: &toml::Value, path: &str, range: NumberRange) -> Option<
         toml::Value::Table(table) => table
             .iter()
             .find_map(|(key, value)| below(key, value, range.within(key))),
+        toml::Value::String(text) => Some((path.to_string(), control_character(text)?)),
         _ => None,
     }
+}
+
+/// What is wrong with a text that no terminal should be sent, and HDF5 cannot hold where it is NUL.
+fn control_character(text: &str) -> Option<String> {
+    let bad = |c: &char| c.is_control() && !matches!(c, '\n' | '\r' | '\t');
+    let found = u32::from(text.chars().find(bad)?);
+    Some(format!(
+        "found the control character U+{found:04X}; allowed is text with spaces, tabs and line breaks"
+    ))
 }
 
 #[cfg(test)]
@@ -145,6 +155,22 @@ mod tests {
     fn complaint(text: &str) -> String {
         let document = InputDocument::new("g.toml", text);
         document.parse::<toml::Table>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn control_characters_are_refused_wherever_they_stand() {
+        for (text, place) in [
+            (
+                "title = \"a\\u0000b\"",
+                "title: found the control character U+0000",
+            ),
+            (
+                "[[body]]\nname = \"\\u001b[2J\"",
+                "body.0.name: found the control character U+001B",
+            ),
+        ] {
+            assert!(complaint(text).contains(place), "{}", complaint(text));
+        }
     }
 
     #[test]

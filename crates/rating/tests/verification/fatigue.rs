@@ -113,10 +113,7 @@ fn tables_that_are_none_name_the_row() {
 #[test]
 fn tables_in_files() {
     let toml = "cycles = [1e3, 1e5, 2e6]\nstress_amplitude_MPa = [900, 520, 300]\nbelow = \"haibach\"\nabove = \"first-slope\"\n";
-    let csv = "# shot-peened\ncycles, stress_amplitude_MPa\n1e3, 900\n\n1e5,520\n2e6,300\n";
     let from_toml = SnCurve::from_toml(toml).unwrap();
-    let from_csv = SnCurve::from_csv(csv, AboveTable::FirstSlope, BelowTable::Haibach).unwrap();
-    assert_eq!(from_toml, from_csv);
     assert_eq!(from_toml.cycles_to_failure(300e6), Ok(2e6));
 
     let bad = |text: &str| SnCurve::from_toml(text).unwrap_err();
@@ -142,25 +139,6 @@ fn tables_in_files() {
     let unknown = bad(&format!("{toml}knee = 3.0\n")).to_string();
     assert!(unknown.contains("knee"), "{unknown}");
     assert!(matches!(bad("cycles = 3"), SnTableError::Toml { .. }));
-
-    let bad = |text: &str| {
-        SnCurve::from_csv(text, AboveTable::Refuse, BelowTable::LastSlope).unwrap_err()
-    };
-    assert!(matches!(bad(""), SnTableError::Head { line: 1, .. }));
-    assert!(matches!(
-        bad("cycles,stress_MPa\n1,2\n"),
-        SnTableError::Head { line: 1, .. }
-    ));
-    for row in ["520", "1e5,520,3", "1e5;520", "1e5,abc"] {
-        assert!(matches!(
-            bad(&csv.replace("1e5,520", row)),
-            SnTableError::Row { line: 5, .. }
-        ));
-    }
-    assert!(matches!(
-        bad(&csv.replace("520", "NaN")),
-        SnTableError::Curve(SnError::NotPositive { row: 2, .. })
-    ));
 }
 
 /// Constant amplitude: D = n/N exactly, and the life that follows.

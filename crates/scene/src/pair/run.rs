@@ -184,6 +184,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         microgeometry_1: gear_1.microgeometry,
         microgeometry_2: gear_2.microgeometry,
     };
+    refuse_too_many_forces(&scene, lines.most_pairs() * layout.slices)?;
     Ok(LoadedScene {
         scene,
         models,
@@ -225,6 +226,26 @@ impl LoadedScene {
             .map(|k| self.scene.start_rad + step * k as f64)
             .collect()
     }
+}
+
+/// Most slice forces of a result: 1 GB, and as much again for the pressures, in memory until it is written.
+const MOST_FORCES: usize = 1 << 27;
+
+/// Told before the run, which would fill the memory.
+fn refuse_too_many_forces(scene: &Scene, slices_in_contact: usize) -> Result<(), InputError> {
+    let positions = scene.positions().saturating_mul(scene.torques_nm.len());
+    let forces = positions.saturating_mul(slices_in_contact);
+    if forces <= MOST_FORCES {
+        return Ok(());
+    }
+    let problem = format!(
+        "{} pitches of {} points at {} torques are {positions} positions of {slices_in_contact} slice forces, allowed are {} positions",
+        scene.pitches,
+        scene.points_per_pitch,
+        scene.torques_nm.len(),
+        MOST_FORCES / slices_in_contact.max(1)
+    );
+    Err(scene.document.error("run.pitches", problem))
 }
 
 /// Curves of one torque.

@@ -15,7 +15,14 @@ pub fn read_sn_table(path: &Path, keys: &TableKeys<'_>) -> Result<SnCurve, Input
         let problem = format!("the S-N table {} does not exist", path.display());
         return Err(keys.error("sn_table", problem));
     }
-    let document = InputDocument::read(path)?;
+    sn_curve(&InputDocument::read(path)?)
+}
+
+/// The curve of an S-N table that is already in memory.
+///
+/// # Errors
+/// [`InputError`].
+pub fn sn_curve(document: &InputDocument) -> Result<SnCurve, InputError> {
     let table: SnTable = document.parse()?;
     table
         .curve()

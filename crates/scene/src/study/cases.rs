@@ -19,6 +19,9 @@ use crate::system_run::{
 /// Wall time between checkpoints of a case.
 const CHECKPOINTS: Duration = Duration::from_secs(60);
 
+/// Wall time between two looks at a case that another study has in hand.
+const WAITING: Duration = Duration::from_millis(200);
+
 /// Digits of the digest in a file's name.
 const NAME_DIGITS: usize = 16;
 
@@ -85,6 +88,49 @@ pub struct StudyOutcome {
     pub stopped: bool,
 }
 
+/// The scenes that the cases of a study come to.
+pub struct StudyScenes {
+    /// The cases.
+    pub cases: Vec<Case>,
+    /// The scenes, each once.
+    pub scenes: Vec<SystemScene>,
+    /// Scene of each case.
+    scene_of: Vec<usize>,
+}
+
+impl StudyScenes {
+    /// Makes the scenes of all cases: a wrong key is told before the first run, not after it.
+    ///
+    /// # Errors
+    /// [`InputError`] for the first scene that is wrong.
+    pub fn new(study: &Study) -> Result<Self, InputError> {
+        let path = study.folder.join(&study.tables.scene);
+        let scene = InputDocument::read(&path)?;
+        let scene_folder = path.parent().unwrap_or(Path::new(""));
+        let cases = study.cases();
+        let mut scenes: Vec<SystemScene> = Vec::new();
+        let mut scene_of = Vec::with_capacity(cases.len());
+        for case in &cases {
+            let made = varied(study, &scene, case, scene_folder)?;
+            if !matches!(made.run, Run::Transient { .. }) {
+                let problem = "must be \"transient\" in the scene of a study, whose figures are those of a time";
+                return Err(made.document.error("run.kind", problem));
+            }
+            let same = |other: &SystemScene| other.document.text == made.document.text;
+            let place = scenes.iter().position(same).unwrap_or(scenes.len());
+            if place == scenes.len() {
+                scenes.push(made);
+            }
+            scene_of.push(place);
+        }
+        Ok(Self {
+            cases,
+            scenes,
+            scene_of,
+        })
+    }
+}
+
 /// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder. `progress` is told how many of how many
 /// are done.
 ///
@@ -96,27 +142,11 @@ pub fn run_study(
     stop: &AtomicBool,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<StudyOutcome, StudyError> {
-    let path = study.folder.join(&study.tables.scene);
-    let scene = InputDocument::read(&path)?;
-    let scene_folder = path.parent().unwrap_or(Path::new(""));
-    let cases = study.cases();
-    // A wrong key is told before the first run, not after it. Cases that come to the same scene are run once.
-    let mut scenes: Vec<SystemScene> = Vec::new();
-    let mut scene_of = Vec::with_capacity(cases.len());
-    for case in &cases {
-        let made = varied(study, &scene, case, scene_folder)?;
-        if !matches!(made.run, Run::Transient { .. }) {
-            let problem =
-                "must be \"transient\" in the scene of a study, whose figures are those of a time";
-            return Err(made.document.error("run.kind", problem).into());
-        }
-        let same = |other: &SystemScene| other.document.text == made.document.text;
-        let place = scenes.iter().position(same).unwrap_or(scenes.len());
-        if place == scenes.len() {
-            scenes.push(made);
-        }
-        scene_of.push(place);
-    }
+    let StudyScenes {
+        cases,
+        scenes,
+        scene_of,
+    } = StudyScenes::new(study)?;
     std::fs::create_dir_all(folder).map_err(|source| StudyError::Folder {
         path: folder.to_owned(),
         source,
@@ -153,8 +183,24 @@ pub fn run_study(
     })
 }
 
-/// Runs a case unless its result is there already; none if it was stopped.
+/// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
 fn run_case(
+    scene: SystemScene,
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<PathBuf>, StudyError> {
+    loop {
+        match run_unless_there(scene.clone(), folder, stop) {
+            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
+                std::thread::sleep(WAITING);
+            }
+            outcome => return outcome,
+        }
+    }
+}
+
+/// Runs a case unless its result is there already; none if it was stopped.
+fn run_unless_there(
     scene: SystemScene,
     folder: &Path,
     stop: &AtomicBool,

@@ -13,6 +13,6 @@ mod cases;
 mod study_file;
 mod varied_scene;
 
-pub use cases::{CaseResult, Selected, StudyError, StudyOutcome, run_study};
+pub use cases::{CaseResult, Selected, StudyError, StudyOutcome, StudyScenes, run_study};
 pub use study_file::{Case, Design, ParameterTable, Setting, Study, StudyTables};
 pub use varied_scene::varied;

@@ -1,4 +1,54 @@
-//! Names that a scene does not know.
+//! Names of a scene's parts: what a name may be, and names that the scene does not know.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
+
+/// Longest name, in characters.
+const LONGEST: usize = 100;
+
+/// Demands that the names of all parts can stand in the names of columns, which are paths in a result file. Told before the run, which
+/// would otherwise fail when it writes.
+///
+/// # Errors
+/// [`InputError`] at the first name that cannot.
+pub(crate) fn check_names(document: &InputDocument) -> Result<(), InputError> {
+    let tables: toml::Table = document.glance()?;
+    for (kind, value) in &tables {
+        let Some(items) = value.as_array() else {
+            continue;
+        };
+        for (i, item) in items.iter().enumerate() {
+            let name = item
+                .get("name")
+                .into_iter()
+                .map(|name| ("name".to_owned(), name));
+            let listed = item.get("names").and_then(toml::Value::as_array);
+            let listed = listed.into_iter().flatten().enumerate();
+            let listed = listed.map(|(k, name)| (format!("names.{k}"), name));
+            for (key, name) in name.chain(listed) {
+                if let Some(problem) = name.as_str().and_then(name_problem) {
+                    return Err(document.error(&format!("{kind}.{i}.{key}"), problem));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn name_problem(name: &str) -> Option<String> {
+    let length = name.chars().count();
+    let found = match name {
+        "" => "an empty name".to_owned(),
+        "." | ".." => format!("`{name}`"),
+        _ if length > LONGEST => format!("a name of {length} characters"),
+        _ if name.contains('/') => format!("`{name}`"),
+        _ if name.chars().any(char::is_control) => "a line break or tab".to_owned(),
+        _ => return None,
+    };
+    Some(format!(
+        "found {found}; names become parts of columns: allowed are 1 to {LONGEST} characters without / and line breaks, but not . and .."
+    ))
+}
 
 /// Similarity (Jaro-Winkler, 0 to 1) from which a known name is offered as the one that was meant.
 const SIMILAR: f64 = 0.8;
@@ -26,8 +76,44 @@ pub(crate) fn unknown<S: AsRef<str>>(what: &str, found: &str, known: &[S]) -> St
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_are_no_part_of_a_path_are_refused() {
+        let judge = |name: &str| {
+            let text = format!(
+                "[[body]]\nname = \"a\"\n[[joint]]\nname = {}\n",
+                toml::Value::from(name)
+            );
+            check_names(&InputDocument::new("s.toml", text)).map_err(|error| error.to_string())
+        };
+        for name in [
+            "shaft 1",
+            "Ritzel, vorn",
+            "a.b",
+            "...",
+            &"é".repeat(LONGEST),
+        ] {
+            assert_eq!(judge(name), Ok(()), "{name}");
+        }
+        for (name, found) in [
+            ("..", "found `..`;"),
+            (".", "found `.`;"),
+            ("", "an empty name"),
+            ("a/b", "found `a/b`;"),
+            ("a\nb", "a line break"),
+            (&"x".repeat(65_535), "a name of 65535 characters"),
+        ] {
+            let complaint = judge(name).unwrap_err();
+            let begins = "s.toml:4: joint.0.name: found";
+            assert!(
+                complaint.starts_with(begins) && complaint.contains(found),
+                "{complaint}"
+            );
+        }
+    }
 
     #[test]
     fn the_nearest_name_is_offered() {

@@ -116,6 +116,7 @@ impl SystemScene {
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let tables: SystemTables = document.parse()?;
+        super::names::check_names(&document)?;
         if tables.body.is_empty() {
             return Err(document.error("body", "is empty; a scene has at least one body"));
         }

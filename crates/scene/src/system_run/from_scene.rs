@@ -1,9 +1,10 @@
 //! What a scene file asks for, as a job.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gearmesh_dynamics::{DynamicsError, Interpolation, Motion, System, Table, TimeFunction};
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
 use gearmesh_model::{bytes_digest, file_digest};
 
 use super::error::SystemRunError;
@@ -13,6 +14,7 @@ use super::job::{
 };
 use super::recorder::Selection;
 use super::speed_plan::SpeedPlan;
+use crate::named_files::named_files;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
@@ -239,30 +241,16 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
 
 /// Names and digests of all files that a scene names.
 fn inputs(text: &str, folder: &Path) -> Vec<String> {
-    fn collect(value: &toml::Value, folder: &Path, found: &mut Vec<String>) {
-        match value {
-            toml::Value::String(name) => {
-                let path = folder.join(name);
-                if !name.is_empty() && path.is_file() {
-                    // The seal of a model names its content; anything else is read.
-                    let digest = file_digest(&path)
-                        .ok()
-                        .or_else(|| std::fs::read(&path).ok().map(|bytes| bytes_digest(&bytes)));
-                    found.push(format!("{name} {}", digest.unwrap_or_default()));
-                }
-            }
-            toml::Value::Array(values) => values.iter().for_each(|v| collect(v, folder, found)),
-            toml::Value::Table(table) => table.values().for_each(|v| collect(v, folder, found)),
-            _ => {}
-        }
-    }
-    let mut found = Vec::new();
-    if let Ok(table) = text.parse::<toml::Table>() {
-        collect(&toml::Value::Table(table), folder, &mut found);
-    }
-    found.sort();
-    found.dedup();
-    found
+    let digest = |(name, path): (String, PathBuf)| {
+        // The seal of a model names its content; anything else is read.
+        let sealed = file_digest(&path).ok();
+        let digest = sealed.or_else(|| {
+            let bytes = read_bytes(&path, MOST_TEXT_BYTES).ok()?;
+            Some(bytes_digest(&bytes))
+        });
+        format!("{name} {}", digest.unwrap_or_default())
+    };
+    named_files(text, folder).into_iter().map(digest).collect()
 }
 
 /// What `[output]` names; all of a kind where it names none.

@@ -6,6 +6,9 @@
 //! *.tmp           the result or a checkpoint, while it is written
 //! ```
 //!
+//! Who has rows.log open and locked owns the folder. A run that ends removes the files while it holds the lock; another that has opened
+//! rows.log meanwhile sees that its file has no name any more and begins again.
+//!
 //! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole checkpoint finds
 //! its rows; later ones are cut off and computed again, to the same bits. Decision: docs/decisions/0006-unfinished-runs.md.
 
@@ -21,6 +24,12 @@ const FORMAT: FileFormat = FileFormat {
     name: "gearmesh-checkpoint",
     version: 1,
 };
+
+const CHECKPOINT_FILE: &str = "checkpoint.h5";
+const ROWS_FILE: &str = "rows.log";
+
+/// How often a folder is opened that others remove meanwhile.
+const MOST_ATTEMPTS: usize = 20;
 
 const IDENTITY: &str = "run";
 const ROWS: &str = "rows";
@@ -55,28 +64,63 @@ impl PartFolder {
         columns: usize,
         restart: bool,
     ) -> Result<(Self, Option<DataTree>), SystemRunError> {
-        // Better told now than after the run.
-        if output.metadata().is_ok_and(|found| !found.is_file()) {
-            let path = output.to_owned();
-            return Err(FileError::NotARegularFile { path }.into());
-        }
         let folder = Self::beside(output);
-        std::fs::create_dir_all(&folder).map_err(failed(&folder, "make the folder"))?;
-        let (checkpoint, rows) = (folder.join("checkpoint.h5"), folder.join("rows.log"));
+        // Better told now than after the run.
+        for path in [output, &folder] {
+            let path = path.to_owned();
+            match path.symlink_metadata() {
+                Ok(found) if found.is_symlink() => {
+                    return Err(FileError::OutputIsALink { path }.into());
+                }
+                Ok(found) if path == output && !found.is_file() => {
+                    return Err(FileError::NotARegularFile { path }.into());
+                }
+                _ => {}
+            }
+        }
+        let mut attempts = 0;
+        loop {
+            attempts += 1;
+            std::fs::create_dir_all(&folder).map_err(failed(&folder, "make the folder"))?;
+            let opened = Self::open_folder(&folder, identity, columns, restart);
+            let is_last = attempts == MOST_ATTEMPTS;
+            match opened {
+                Ok((part, saved)) if part.log.has_its_name() => return Ok((part, saved)),
+                Err(error) if is_last || !is_gone(&error) => return Err(error),
+                Ok(_) if is_last => {
+                    let path = folder.join(ROWS_FILE);
+                    return Err(FileError::InUse { path }.into());
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn open_folder(
+        folder: &Path,
+        identity: &str,
+        columns: usize,
+        restart: bool,
+    ) -> Result<(Self, Option<DataTree>), SystemRunError> {
+        let (checkpoint, rows) = (folder.join(CHECKPOINT_FILE), folder.join(ROWS_FILE));
         let make = |log| Self {
-            folder: folder.clone(),
+            folder: folder.to_owned(),
             identity: identity.to_owned(),
             log,
         };
         if restart || !checkpoint.exists() {
             let part = make(RowLog::create(&rows, columns)?);
-            remove_file(&checkpoint)?;
+            if part.log.has_its_name() {
+                remove_file(&checkpoint)?;
+                part.clear()?;
+            }
             return Ok((part, None));
         }
         let damaged = |source| SystemRunError::Checkpoint { source };
         let mut tree = DataTree::read(&checkpoint, &FORMAT).map_err(damaged)?;
         if tree.attributes.get(IDENTITY).map(String::as_str) != Some(identity) {
-            return Err(SystemRunError::OtherRun { path: folder });
+            let path = folder.to_owned();
+            return Err(SystemRunError::OtherRun { path });
         }
         let count = tree.take_scalar(&checkpoint, ROWS).map_err(damaged)? as u64;
         let digest = tree.attributes.remove(DIGEST).unwrap_or_default();
@@ -108,7 +152,7 @@ impl PartFolder {
             .insert(DIGEST.to_owned(), self.log.digest()?);
         tree.attributes
             .insert(IDENTITY.to_owned(), self.identity.clone());
-        tree.write(&self.folder.join("checkpoint.h5"), &FORMAT)
+        tree.write(&self.folder.join(CHECKPOINT_FILE), &FORMAT)
     }
 
     /// Removes the folder: the result is written.
@@ -116,11 +160,47 @@ impl PartFolder {
     /// # Errors
     /// [`SystemRunError::Folder`].
     pub fn finish(self) -> Result<(), SystemRunError> {
-        let folder = self.folder.clone();
-        drop(self);
         // First, so that a process killed meanwhile leaves no checkpoint without its rows.
-        remove_file(&folder.join("checkpoint.h5"))?;
-        std::fs::remove_dir_all(&folder).map_err(failed(&folder, "remove the folder"))
+        remove_file(&self.folder.join(CHECKPOINT_FILE))?;
+        self.clear()?;
+        // Still locked: who opens it now waits for nobody and finds it gone.
+        remove_file(&self.folder.join(ROWS_FILE))?;
+        match std::fs::remove_dir(&self.folder) {
+            // The next run has begun already, or something else was put there.
+            Err(error)
+                if !matches!(
+                    error.kind(),
+                    ErrorKind::DirectoryNotEmpty | ErrorKind::NotFound
+                ) =>
+            {
+                Err(failed(&self.folder, "remove the folder")(error))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Removes what a killed write has left in the folder; nobody else writes there.
+    fn clear(&self) -> Result<(), SystemRunError> {
+        let entries = std::fs::read_dir(&self.folder);
+        let entries = entries.map_err(failed(&self.folder, "list the folder"))?;
+        for entry in entries.flatten() {
+            let path = entry.path();
+            if path.extension().is_some_and(|ending| ending == "tmp") {
+                remove_file(&path)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file of the folder was removed while it was being opened.
+fn is_gone(error: &SystemRunError) -> bool {
+    match error {
+        SystemRunError::File(FileError::Io { source, .. })
+        | SystemRunError::Checkpoint {
+            source: FileError::Io { source, .. },
+        } => source.kind() == ErrorKind::NotFound,
+        _ => false,
     }
 }
 
@@ -141,5 +221,68 @@ fn failed(
         path,
         action,
         source,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// Runs that start as others end: each gets the folder for itself or is told that it is in use, and nothing is left.
+    #[test]
+    fn runs_that_begin_as_others_end_are_clean() {
+        let desk = tempfile::tempdir().unwrap();
+        let output = desk.path().join("result.h5");
+        let (owners, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let one_run = || match PartFolder::open(&output, "same", 1, false) {
+            Ok((mut part, _)) => {
+                assert_eq!(owners.fetch_add(1, Ordering::SeqCst), 0, "two owners");
+                part.log().append(&[1.0]).unwrap();
+                part.save(DataTree::default()).unwrap();
+                owners.fetch_sub(1, Ordering::SeqCst);
+                part.finish().unwrap();
+                finished.fetch_add(1, Ordering::SeqCst);
+            }
+            Err(SystemRunError::File(FileError::InUse { .. })) => {}
+            Err(error) => panic!("{error}"),
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| (0..40).for_each(|_| one_run()));
+            }
+        });
+        assert!(finished.load(Ordering::SeqCst) >= 40);
+        assert_eq!(std::fs::read_dir(desk.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn what_a_killed_write_left_goes() {
+        let desk = tempfile::tempdir().unwrap();
+        let output = desk.path().join("result.h5");
+        let folder = PartFolder::beside(&output);
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(folder.join(".gearmesh-x.tmp"), "half").unwrap();
+        let (part, _) = PartFolder::open(&output, "same", 1, false).unwrap();
+        assert!(!folder.join(".gearmesh-x.tmp").exists());
+        std::fs::write(folder.join("notes.txt"), "mine").unwrap();
+        part.finish().unwrap();
+        let left: Vec<_> = std::fs::read_dir(&folder).unwrap().collect();
+        assert_eq!(left.len(), 1, "what is not gearmesh's stays");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_behind_a_link_is_refused() {
+        let (desk, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let output = desk.path().join("result.h5");
+        std::os::unix::fs::symlink(other.path(), PartFolder::beside(&output)).unwrap();
+        let refused = PartFolder::open(&output, "same", 1, false);
+        assert!(matches!(
+            refused.err(),
+            Some(SystemRunError::File(FileError::OutputIsALink { .. }))
+        ));
+        assert_eq!(std::fs::read_dir(other.path()).unwrap().count(), 0);
     }
 }

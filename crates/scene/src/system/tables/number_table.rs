@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{InputDocument, NumberRange};
+use gearmesh_geometry::input::{CsvRows, InputDocument, NumberRange, shown_field};
 
 /// Columns of a file.
 #[derive(Debug, Clone)]
@@ -26,10 +26,8 @@ impl NumberTable {
             key: key.to_string(),
             problem,
         };
-        let mut rows = (document.text.lines().zip(1..))
-            .map(|(text, line)| (text.trim(), line))
-            .filter(|(text, _)| !text.is_empty() && !text.starts_with('#'));
-        let (head, head_line) = rows.next().ok_or_else(|| {
+        let mut rows = CsvRows::new(&document.text);
+        let (head_line, found) = rows.next().ok_or_else(|| {
             complaint(
                 None,
                 "",
@@ -39,16 +37,26 @@ impl NumberTable {
                 ),
             )
         })?;
-        let found: Vec<&str> = head.split(',').map(str::trim).collect();
+        let known = |wanted: &str| found.iter().position(|head| head == wanted);
+        // Without any of the heads it may be any file: nothing of it is printed.
+        if heads.iter().all(|wanted| known(wanted).is_none()) {
+            let problem = "the first line names none of the wanted columns; is it another file?";
+            return Err(complaint(
+                Some(head_line),
+                &heads.join(", "),
+                problem.to_owned(),
+            ));
+        }
         let places = heads
             .iter()
             .map(|wanted| {
-                found.iter().position(|head| head == wanted).ok_or_else(|| {
-                    complaint(
-                        Some(head_line),
-                        wanted,
-                        format!("there is no such column; the file has {}", found.join(", ")),
-                    )
+                known(wanted).ok_or_else(|| {
+                    let listed: Vec<String> = found.iter().map(shown_field).collect();
+                    let problem = format!(
+                        "there is no such column; the file has {}",
+                        listed.join(", ")
+                    );
+                    complaint(Some(head_line), wanted, problem)
                 })
             })
             .collect::<Result<Vec<_>, _>>()?;
@@ -58,8 +66,7 @@ impl NumberTable {
             heads: heads.iter().map(|head| (*head).to_string()).collect(),
             columns: vec![Vec::new(); heads.len()],
         };
-        for (text, line) in rows {
-            let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+        for (line, fields) in rows {
             if fields.len() != found.len() {
                 return Err(complaint(
                     Some(line),
@@ -69,7 +76,7 @@ impl NumberTable {
             }
             for ((column, &place), head) in table.columns.iter_mut().zip(&places).zip(heads) {
                 let value = fields[place].parse::<f64>().map_err(|_| {
-                    let found = fields[place];
+                    let found = shown_field(&fields[place]);
                     let problem =
                         format!("found '{found}', allowed is a number such as -12.5 or 3e-2");
                     complaint(Some(line), head, problem)
