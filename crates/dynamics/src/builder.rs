@@ -11,6 +11,7 @@ use crate::joint::Joint;
 use crate::state::{BodyMotion, Layout, State};
 use crate::structure::Structure;
 use crate::system::{Slot, System};
+use crate::unknown::{Unknown, UnknownKind};
 
 impl System {
     /// Begins a system.
@@ -75,14 +76,21 @@ impl SystemBuilder {
             }
         }
         self.check()?;
-        let layout = Layout::new(&self.bodies);
-        let start = State::start(&self.bodies, &layout);
-        let mut slots: Vec<Slot> = self
+        let of_elements: Vec<Vec<Unknown>> = self
             .elements
-            .into_iter()
-            .map(|element| Slot::new(element, &layout))
+            .iter()
+            .map(|element| element.unknowns())
             .collect();
-        let groups = slots.iter().flat_map(Slot::groups);
+        self.check_unknowns(&of_elements)?;
+        let layout = Layout::new(&self.bodies, of_elements.concat());
+        let start = State::start(&self.bodies, &layout);
+        let mut slots: Vec<Slot> = Vec::new();
+        let mut first = 0;
+        for (element, own) in self.elements.into_iter().zip(&of_elements) {
+            slots.push(Slot::new(element, &layout, first..first + own.len()));
+            first += own.len();
+        }
+        let groups = slots.iter().flat_map(|slot| slot.groups(&layout));
         let structure = Structure::new(&layout, &self.joints, groups);
         for slot in &mut slots {
             slot.find_places(&structure.square);
@@ -104,7 +112,34 @@ impl SystemBuilder {
         system.kept = found.kept;
         system.redundant = found.redundant;
         system.start = found.start;
+        system.start_unknowns();
         Ok(system)
+    }
+
+    fn check_unknowns(&self, of_elements: &[Vec<Unknown>]) -> Result<(), DynamicsError> {
+        for (element, unknowns) in self.elements.iter().zip(of_elements) {
+            for unknown in unknowns {
+                let mass = match unknown.kind {
+                    UnknownKind::Inertial { mass } => Some(("mass", mass)),
+                    UnknownKind::Rate | UnknownKind::Equilibrium => None,
+                };
+                for (what, found) in mass.into_iter().chain([("scale", unknown.scale)]) {
+                    if !(found > 0.0 && found.is_finite()) {
+                        return Err(DynamicsError::Value {
+                            owner: format!(
+                                "force element `{}`, its `{}`",
+                                element.name(),
+                                unknown.name
+                            ),
+                            what,
+                            found,
+                            allowed: "positive and finite",
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), DynamicsError> {

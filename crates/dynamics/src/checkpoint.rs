@@ -23,6 +23,8 @@ pub struct Checkpoint {
     pub quaternions: Vec<f64>,
     /// Modal coordinates.
     pub modal: Vec<f64>,
+    /// Coordinates of elements.
+    pub unknowns: Vec<f64>,
     /// v, v̇, a and v̈, one after the other.
     pub velocities: Vec<f64>,
     /// λ
@@ -90,6 +92,7 @@ impl Simulation {
                 .flat_map(|q| [q.w, q.i, q.j, q.k])
                 .collect(),
             modal: point.state.modal.clone(),
+            unknowns: point.state.unknowns.clone(),
             velocities: vectors.into_iter().flatten().copied().collect(),
             reactions: point.lambda.clone(),
             internal,
@@ -129,6 +132,7 @@ impl Simulation {
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
             ("modal", c.modal.len(), start.modal.len()),
+            ("unknowns", c.unknowns.len(), start.unknowns.len()),
             ("velocities", c.velocities.len(), 4 * n),
             ("reactions", c.reactions.len(), system.equations()),
             ("internal", c.internal.len(), of_joints + saved.len()),
@@ -161,6 +165,7 @@ impl Simulation {
                     .collect(),
                 orientations: c.quaternions.chunks(4).map(quaternion).collect(),
                 modal: c.modal.clone(),
+                unknowns: c.unknowns.clone(),
                 velocity: vector(0),
             },
             acceleration: vector(1),

@@ -37,7 +37,7 @@ fn evaluate(
         load_factor: 1.0,
     };
     system.evaluate_without_elements(at, Detail::Tangents, equations);
-    Metric::new(equations, system.layout.body_ranges()).ok_or(DynamicsError::Singular {
+    Metric::new(equations, system.layout.massive_ranges()).ok_or(DynamicsError::Singular {
         what: "the mass matrix",
         time_s: state.time_s,
     })

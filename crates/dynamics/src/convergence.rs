@@ -30,8 +30,8 @@ const MOST: f64 = 1e-8;
 /// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
 const ROUNDING: f64 = 1e-15;
 
-/// Kinds of degrees of freedom: places, rotations, modal coordinates. Tolerances go by kind.
-pub(crate) const KINDS: usize = 3;
+/// Kinds of degrees of freedom: places, rotations, modal coordinates, coordinates of elements over their scale. Tolerances go by kind.
+pub(crate) const KINDS: usize = 4;
 
 /// A step as far as it has come.
 pub(crate) struct Progress<'a> {
@@ -71,6 +71,8 @@ pub(crate) struct Convergence {
     /// Size of the system \[m\] and square root of its heaviest mass: how far a turn moves places, and modal coordinates per place.
     reach: (f64, f64),
     pub inverse_mass: Vec<f64>,
+    /// 1 for degrees of freedom of bodies, 1/scale for coordinates of elements.
+    pub per_scale: Vec<f64>,
     pushed: Vec<f64>,
     /// `SHARE` · D β/γ
     share_of_error: f64,
@@ -79,14 +81,27 @@ pub(crate) struct Convergence {
 impl Convergence {
     pub(crate) fn new(system: &System, scheme: &Scheme) -> Self {
         let n = system.degrees_of_freedom();
-        let kinds = (0..n).map(|dof| (system.layout.locate(dof).1 / 3).min(2));
+        let layout = &system.layout;
+        let kinds = (0..n).map(|dof| match layout.unknown(dof) {
+            Some(_) => 3,
+            None => (layout.locate(dof).1 / 3).min(2),
+        });
+        let per_scale = (0..n).map(|dof| layout.unknown(dof).map_or(1.0, |u| 1.0 / u.scale));
         let size = system.size_m();
         let masses = system.bodies.iter().map(|body| body.mass_kg);
         let root_mass = masses.fold(0.0_f64, f64::max).sqrt();
-        let inverse_mass = system.mass_diagonal().into_iter().map(|mass| 1.0 / mass);
+        // No joint pushes on what has no mass.
+        let inverse = |mass: f64| if mass > 0.0 { 1.0 / mass } else { 0.0 };
+        let inverse_mass = system.masses().into_iter().map(inverse);
         Self {
             kinds: kinds.collect(),
-            floor: [ROUNDING * size, ROUNDING, ROUNDING * size * root_mass],
+            per_scale: per_scale.collect(),
+            floor: [
+                ROUNDING * size,
+                ROUNDING,
+                ROUNDING * size * root_mass,
+                ROUNDING,
+            ],
             revolved: 1.0,
             reach: (size, root_mass),
             inverse_mass: inverse_mass.collect(),
@@ -116,7 +131,7 @@ impl Convergence {
         let mut sum = 0.0;
         let corrections = step.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
         for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
-            let correction = delta.abs().max((inverse * push).abs());
+            let correction = delta.abs().max((inverse * push).abs()) * self.per_scale[dof];
             // What is no number would be lost in the maximum.
             sum += delta + push;
             if correction > most[kind].0 {
@@ -153,8 +168,9 @@ impl Convergence {
         let h = step.step_s;
         let mut largest = [0.0_f64; KINDS];
         let accelerations = step.new_acceleration.iter().zip(step.acceleration);
-        for (((new, old), jerk), &kind) in accelerations.zip(step.jerk).zip(&self.kinds) {
-            largest[kind] = largest[kind].max((new - old - h * jerk).abs());
+        let kinds = self.kinds.iter().zip(&self.per_scale);
+        for (((new, old), jerk), (&kind, scale)) in accelerations.zip(step.jerk).zip(kinds) {
+            largest[kind] = largest[kind].max((new - old - h * jerk).abs() * scale);
         }
         self.shared(largest.map(|bend| h * h * bend))
     }
@@ -163,8 +179,9 @@ impl Convergence {
     fn moved(&self, step: &Progress<'_>) -> [f64; KINDS] {
         let mut largest = [0.0_f64; KINDS];
         let moves = step.increment.iter().zip(step.velocity);
-        for ((increment, velocity), &kind) in moves.zip(&self.kinds) {
-            let moved = increment.abs().max(step.step_s * velocity.abs());
+        let kinds = self.kinds.iter().zip(&self.per_scale);
+        for ((increment, velocity), (&kind, scale)) in moves.zip(kinds) {
+            let moved = increment.abs().max(step.step_s * velocity.abs()) * scale;
             largest[kind] = largest[kind].max(moved);
         }
         self.shared(largest)
@@ -176,6 +193,7 @@ impl Convergence {
         let (arm, root_mass) = self.reach;
         size[0] = size[0].max(arm * size[1]);
         size[2] = size[2].max(root_mass * size[0]);
+        size[3] = size[3].max(size[1]);
         size
     }
 }

@@ -12,6 +12,7 @@
 //! −ω² those of the symmetric −ZᵀK̂Z. The equations are frozen at the given instant: exact at rest and for bodies that spin
 //! about an axis of symmetry; otherwise coefficients vary with the angle. Derivation: docs/theory/multibody.md.
 
+use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, Matrix3};
 
@@ -86,6 +87,10 @@ pub fn natural_modes(
     let reduced = |matrix: &Matrix| basis.tr_mul(&(matrix.to_dense() * &basis));
     let stiffness = reduced(&equations.stiffness);
     let damping = reduced(&equations.damping);
+    let massless = system.layout.massless().count();
+    if massless > 0 {
+        return with_massless(&stiffness, &damping, massless, &basis);
+    }
     let scale = stiffness.amax().sqrt();
     let asymmetry = (&stiffness - stiffness.transpose()).amax();
     let mut modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
@@ -191,7 +196,7 @@ fn turn_to_world(system: &System, state: &State, equations: &mut Equations) {
     });
 }
 
-/// Z: motions that the joints allow, orthonormal in the mass matrix.
+/// Z: motions that the joints allow, orthonormal in the mass matrix, then coordinates without mass one by one.
 fn null_space(
     system: &System,
     equations: &Equations,
@@ -201,16 +206,28 @@ fn null_space(
         what: "the mass matrix",
         time_s,
     };
-    let metric = Metric::new(equations, system.layout.body_ranges()).ok_or_else(singular)?;
+    let metric = Metric::new(equations, system.layout.massive_ranges()).ok_or_else(singular)?;
     let n = equations.residual.len();
     let kept = &system.kept;
     let rows = metric.dense_columns(n, kept);
-    let q = Mat::from_fn(n, kept.len(), |i, j| rows[(i, j)])
+    // Coordinates without mass are in no joint: directions of their own, behind the others.
+    let massless: Vec<usize> = system.layout.massless().collect();
+    let massive: Vec<usize> = (0..n).filter(|dof| !massless.contains(dof)).collect();
+    let q = Mat::from_fn(massive.len(), kept.len(), |i, j| rows[(massive[i], j)])
         .qr()
         .compute_Q();
-    let mut basis = DMatrix::from_fn(n, n - kept.len(), |i, j| q[(i, kept.len() + j)]);
+    let moves = massive.len() - kept.len();
+    let mut basis = DMatrix::zeros(n, moves + massless.len());
+    for (i, &dof) in massive.iter().enumerate() {
+        for j in 0..moves {
+            basis[(dof, j)] = q[(i, kept.len() + j)];
+        }
+    }
     for column in basis.as_mut_slice().chunks_mut(n.max(1)) {
         metric.scale_back(column);
+    }
+    for (j, &dof) in massless.iter().enumerate() {
+        basis[(dof, moves + j)] = 1.0;
     }
     Ok(basis)
 }
@@ -300,4 +317,84 @@ fn damped(
             shape: shape(basis, |k| [vectors[(k, j)].re, vectors[(k, j)].im]),
         });
     Ok(modes.collect())
+}
+
+/// A shift over the largest frequency without coupling, 1/s: no eigenvalue sits on it but by chance.
+const SHIFT: f64 = 0.1234567;
+
+/// Share of the largest 1/(s − shift) below which it stands for an equation without a rate: no motion of its own.
+const NO_RATE: f64 = 1e-9;
+
+/// With coordinates w without mass, the last `massless` of the basis. With x = (y, ẏ, w),
+///
+/// ```text
+/// [1 0  0    ]      [ 0     1     0    ]
+/// [0 1  C_yw ] ẋ =  [−K_yy −C_yy −K_yw ] x        E ẋ = A x
+/// [0 0  C_ww ]      [−K_wy −C_wy −K_ww ]
+/// ```
+///
+/// E is singular where w has no rate; the eigenvalues of (A − σE)⁻¹E are 1/(s − σ), and zero for what has none.
+fn with_massless(
+    stiffness: &DMatrix<f64>,
+    damping: &DMatrix<f64>,
+    massless: usize,
+    basis: &DMatrix<f64>,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let moves = stiffness.nrows() - massless;
+    let size = 2 * moves + massless;
+    let failed = || DynamicsError::Eigen { size };
+    // Place among y and w; true: among the rates of y.
+    let place = |i: usize| match i {
+        i if i < moves => (i, false),
+        i if i < 2 * moves => (i - moves, true),
+        i => (i - moves, false),
+    };
+    let equations = |i: usize| i >= moves;
+    let equal = |i: usize, j: usize| f64::from(u8::from(i == j));
+    let rates = Mat::from_fn(size, size, |i, j| match (place(i), place(j)) {
+        ((row, _), (column, false)) if equations(i) && column >= moves => damping[(row, column)],
+        _ if i < 2 * moves => equal(i, j),
+        _ => 0.0,
+    });
+    let forces = Mat::from_fn(size, size, |i, j| match (place(i), place(j)) {
+        ((row, _), (column, true)) if equations(i) => -damping[(row, column)],
+        ((row, _), (column, false)) if equations(i) => -stiffness[(row, column)],
+        ((row, _), (column, true)) => equal(row, column),
+        _ => 0.0,
+    });
+    let fastest = (0..moves)
+        .map(|i| stiffness[(i, i)].abs().sqrt().max(damping[(i, i)].abs()))
+        .fold(0.0, f64::max);
+    let shift = SHIFT * if fastest > 0.0 { fastest } else { 1.0 };
+    let shifted = Mat::from_fn(size, size, |i, j| forces[(i, j)] - shift * rates[(i, j)]);
+    let inverse = shifted.partial_piv_lu().solve(&rates);
+    let found = inverse.eigen().map_err(|_| failed())?;
+    let (values, vectors) = (found.S().column_vector(), found.U());
+    let size_of = |j: usize| values[j].re.hypot(values[j].im);
+    let largest = (0..size).map(size_of).fold(0.0, f64::max);
+    let modes = (0..size)
+        .filter(|&j| size_of(j) > NO_RATE * largest)
+        .map(|j| {
+            // 1/θ = θ̄/|θ|²
+            let square = size_of(j).powi(2);
+            let (re, im) = (values[j].re / square, -values[j].im / square);
+            (j, shift + re, im)
+        })
+        .filter(|(_, _, im)| *im >= 0.0)
+        .map(
+            |(j, growth_per_s, angular_frequency_rad_per_s)| NaturalMode {
+                growth_per_s,
+                angular_frequency_rad_per_s,
+                shape: shape(basis, |k| {
+                    let vector = vectors[(if k < moves { k } else { k + moves }, j)];
+                    [vector.re, vector.im]
+                }),
+            },
+        );
+    let mut modes: Vec<NaturalMode> = modes.collect();
+    modes.sort_by(|a, b| {
+        a.natural_angular_frequency_rad_per_s()
+            .total_cmp(&b.natural_angular_frequency_rad_per_s())
+    });
+    Ok(modes)
 }

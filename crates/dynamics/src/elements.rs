@@ -40,6 +40,7 @@ use crate::matrix::Matrix;
 use crate::pattern::Pattern;
 use crate::relative_motion::PairTangent;
 use crate::state::{BodyMotion, Layout, motion_of};
+use crate::unknown::Unknown;
 
 /// All that an element may look at: time, and the motion of its bodies.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +54,8 @@ pub struct View<'a> {
     pub(crate) modal: &'a [f64],
     pub(crate) velocity: &'a [f64],
     pub(crate) layout: &'a Layout,
+    pub(crate) unknowns: &'a [f64],
+    pub(crate) unknown_rates: &'a [f64],
 }
 
 impl View<'_> {
@@ -80,6 +83,18 @@ impl View<'_> {
             Some(start) => &self.velocity[start + 6..start + self.layout.size(body)],
         }
     }
+
+    /// Coordinates of this element, in the order of [`ForceElement::unknowns`].
+    #[must_use]
+    pub fn unknowns(&self) -> &[f64] {
+        self.unknowns
+    }
+
+    /// Their rates.
+    #[must_use]
+    pub fn unknown_rates(&self) -> &[f64] {
+        self.unknown_rates
+    }
 }
 
 /// Energy and power of an element, for the energy balance.
@@ -95,7 +110,8 @@ pub struct Power {
 
 /// What an element returns: generalised force on its bodies, and tangents where wanted.
 ///
-/// Local order: the degrees of freedom of the first body of [`ForceElement::bodies`], then of the second and so on; of each the
+/// Local order: the degrees of freedom of the first body of [`ForceElement::bodies`], then of the second and so on, then the element's own
+/// coordinates, whose place holds Q of their equation ([`crate::UnknownKind`]); [`Loads::starts`] says where each begins. Of a body there are the
 /// force on the reference point (world axes \[N\]), the moment about it (body axes \[N·m\]) and the modal forces \[√kg·m/s²\]. The
 /// ground has six places, whose content is dropped. Tangents are ∂force/∂increments and ∂force/∂velocities, row: force.
 #[derive(Debug)]
@@ -104,17 +120,19 @@ pub struct Loads {
     pub(crate) by_position: Matrix,
     pub(crate) by_velocity: Matrix,
     pub(crate) tangents: bool,
+    starts: Vec<usize>,
     /// Energy and power at this motion; zero unless set.
     pub power: Power,
 }
 
 impl Loads {
-    pub(crate) fn new(pattern: &Arc<Pattern>) -> Self {
+    pub(crate) fn new(pattern: &Arc<Pattern>, starts: Vec<usize>) -> Self {
         Self {
             force: vec![0.0; pattern.rows()],
             by_position: Matrix::zeros(pattern),
             by_velocity: Matrix::zeros(pattern),
             tangents: false,
+            starts,
             power: Power::default(),
         }
     }
@@ -127,6 +145,23 @@ impl Loads {
             self.by_position.clear();
             self.by_velocity.clear();
         }
+    }
+
+    /// Where the degrees of freedom of each body begin, and behind them where the element's own coordinates do.
+    #[must_use]
+    pub fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// Where the element's own coordinates begin.
+    #[must_use]
+    pub fn first_unknown(&self) -> usize {
+        self.starts.last().copied().unwrap_or_default()
+    }
+
+    /// Whether something was written where the element has stated that nothing depends on anything.
+    pub(crate) fn is_outside_couplings(&self) -> bool {
+        self.by_position.is_left() || self.by_velocity.is_left()
     }
 
     /// Whether tangents are asked for; writing them otherwise is wasted time, but allowed.
@@ -209,7 +244,7 @@ pub struct Channel {
     pub name: String,
 }
 
-/// A force that acts on some bodies.
+/// A force that acts on some bodies, with coordinates of its own where it has any (docs/extending.md).
 ///
 /// `evaluate` must depend on the view and on what was kept by the last `commit` only: it is called many times a step, also for
 /// motions that are then given up.
@@ -219,6 +254,22 @@ pub trait ForceElement: Send {
 
     /// The bodies it acts on, in the order of the local degrees of freedom.
     fn bodies(&self) -> &[BodyId];
+
+    /// Coordinates that the element owns. They are solved with the motion of the bodies, saved in checkpoints, and part of equilibria and natural
+    /// modes.
+    fn unknowns(&self) -> Vec<Unknown> {
+        Vec::new()
+    }
+
+    /// Where its coordinates start, given the start of its bodies; all are zero before. Those in equilibrium are solved from there.
+    fn start_unknowns(&self, _view: &View<'_>, _values: &mut [f64], _rates: &mut [f64]) {}
+
+    /// Groups of local degrees of freedom of which each may depend on each other; none: all depend on all. `starts` is that of
+    /// [`Loads::starts`]. An element with many coordinates states the few that meet (a ball: its own, and the rings' six each), so that its part of
+    /// the matrix is sparse. Tangents outside the groups are an error.
+    fn couplings(&self, _starts: &[usize]) -> Vec<Vec<usize>> {
+        Vec::new()
+    }
 
     /// Adds force, and tangents where [`Loads::wants_tangents`], at a motion.
     ///

@@ -13,6 +13,7 @@ use crate::inertia::{Motion, Tangents};
 use crate::matrix::Matrix;
 use crate::state::{State, motion_of};
 use crate::system::{System, view};
+use crate::unknown::UnknownKind;
 
 /// Whether tangents are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,6 +91,7 @@ impl System {
             out.gradient.clear();
         }
         self.add_inertia(at, detail, out);
+        self.add_unknowns(at, detail, out);
         self.add_joints(at, detail, out);
     }
 
@@ -116,6 +118,27 @@ impl System {
                         stiffness: &mut out.stiffness,
                     },
                 );
+            }
+        }
+    }
+
+    /// Left-hand sides of the equations of elements' own coordinates: m ü, u̇ or nothing.
+    fn add_unknowns(&self, at: At<'_>, detail: Detail, out: &mut Equations) {
+        for (dof, unknown) in self.layout.unknown_dofs() {
+            match unknown.kind {
+                UnknownKind::Inertial { mass } => {
+                    out.residual[dof] += mass * at.acceleration[dof];
+                    if detail == Detail::Tangents {
+                        out.mass.add(dof, dof, mass);
+                    }
+                }
+                UnknownKind::Rate => {
+                    out.residual[dof] += at.state.velocity[dof];
+                    if detail == Detail::Tangents {
+                        out.damping.add(dof, dof, 1.0);
+                    }
+                }
+                UnknownKind::Equilibrium => {}
             }
         }
     }
@@ -186,8 +209,9 @@ impl System {
         for slot in &mut self.slots {
             slot.loads.begin(detail == Detail::Tangents);
             slot.force_calls += 1;
+            let own = slot.own(&view, at.state);
             slot.element
-                .evaluate(&view, &mut slot.loads)
+                .evaluate(&own, &mut slot.loads)
                 .map_err(|source| DynamicsError::Element {
                     element: slot.element.name().to_owned(),
                     time_s: at.state.time_s,
@@ -198,6 +222,11 @@ impl System {
             }
             if detail == Detail::Tangents {
                 slot.tangent_calls += 1;
+                if slot.loads.is_outside_couplings() {
+                    return Err(DynamicsError::Couplings {
+                        element: slot.element.name().to_owned(),
+                    });
+                }
                 let (loads, places) = (&slot.loads, &slot.matrix_places);
                 out.stiffness
                     .subtract_at(loads.by_position.values(), places);

@@ -135,6 +135,30 @@ pub enum DynamicsError {
         /// Its own error.
         source: ElementFailure,
     },
+    /// An element wrote a tangent outside of what it says depends on each other.
+    #[error(
+        "force element `{element}` has a tangent outside the groups that its `couplings` states: add the degrees of freedom that depend on each other \
+         to one group"
+    )]
+    Couplings {
+        /// Name of the element.
+        element: String,
+    },
+    /// Coordinates of an element without mass have no start.
+    #[error(
+        "force element `{element}`: its coordinates without mass find no equilibrium at t = {time_s} s: {left:.3e} times their scale is left after \
+         {iterations} iterations; start them closer to it"
+    )]
+    UnknownStart {
+        /// Name of the element.
+        element: String,
+        /// When \[s\].
+        time_s: f64,
+        /// Last correction over the scale.
+        left: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
     /// The step does not converge.
     #[error(
         "no convergence at t = {time_s} s with a step of {step_s:.3e} s: after {iterations} iterations the correction is {ratio:.2e} times \

@@ -9,10 +9,13 @@ use std::sync::Arc;
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
+use crate::matrix::Matrix;
 use crate::saddle::{Saddle, SaddleForm};
 use crate::scheme::LinearSolver;
 use crate::state::State;
 use crate::system::System;
+use crate::unknown::{Unknown, UnknownKind};
+use crate::unknown_start::settle_unknowns;
 
 /// Accelerations and reactions at one motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +43,12 @@ pub(crate) fn accelerations(
         load_factor: 1.0,
     };
     system.evaluate(at, Detail::Tangents, equations)?;
-    let forces: Vec<f64> = equations.residual.iter().map(|r| -r).collect();
+    let mut forces: Vec<f64> = equations.residual.iter().map(|r| -r).collect();
+    // What has no mass has no acceleration here; that of a run follows from differences.
+    system.hold_massless(&mut equations.mass);
+    for dof in system.layout.massless() {
+        forces[dof] = 0.0;
+    }
     let rates = system.gradient_rate(state);
     let right: Vec<f64> = system
         .prescribed(state.time_s)
@@ -60,11 +68,12 @@ pub(crate) fn accelerations(
     })
 }
 
-/// v̈ by a central difference of [`accelerations`] along the motion, ± `step_s`: an error of the second order in the step.
+/// v̈ by a central difference of [`accelerations`] along the motion, ± `step_s`: an error of the second order in the step. Coordinates without mass get
+/// their accelerations, and those in equilibrium their rates, by differences, too.
 pub(crate) fn jerk(
     system: &mut System,
-    state: &State,
-    acceleration: &[f64],
+    state: &mut State,
+    acceleration: &mut [f64],
     step_s: f64,
     equations: &mut Equations,
     saddle: &mut Saddle,
@@ -74,18 +83,34 @@ pub(crate) fn jerk(
         let increment: Vec<f64> = state
             .velocity
             .iter()
-            .zip(acceleration)
+            .zip(&*acceleration)
             .map(|(v, a)| time * (v + 0.5 * time * a))
             .collect();
         moved.set_moved(state, &increment, &system.layout);
         moved.time_s = state.time_s + time;
-        for (v, a) in moved.velocity.iter_mut().zip(acceleration) {
+        for (v, a) in moved.velocity.iter_mut().zip(&*acceleration) {
             *v += time * a;
         }
-        accelerations(system, &moved, equations, saddle)
+        settle_unknowns(system, &mut moved)?;
+        let found = accelerations(system, &moved, equations, saddle)?;
+        Ok::<_, DynamicsError>((found.acceleration, moved))
     };
     let (before, after) = (along(-step_s)?, along(step_s)?);
-    let pairs = after.acceleration.iter().zip(&before.acceleration);
+    for (i, (dof, unknown)) in system.layout.unknown_dofs().enumerate() {
+        let [least, here, most] = [&before.1, &*state, &after.1].map(|state| state.unknowns[i]);
+        match unknown.kind {
+            UnknownKind::Inertial { .. } => {}
+            UnknownKind::Rate => {
+                acceleration[dof] =
+                    (after.1.velocity[dof] - before.1.velocity[dof]) / (2.0 * step_s);
+            }
+            UnknownKind::Equilibrium => {
+                state.velocity[dof] = (most - least) / (2.0 * step_s);
+                acceleration[dof] = (most - 2.0 * here + least) / (step_s * step_s);
+            }
+        }
+    }
+    let pairs = after.0.iter().zip(&before.0);
     Ok(pairs.map(|(a, b)| (a - b) / (2.0 * step_s)).collect())
 }
 
@@ -97,15 +122,46 @@ impl System {
     pub fn accelerations(&mut self, state: &State) -> Result<Accelerations, DynamicsError> {
         let mut equations = Equations::new(self);
         let form = SaddleForm::new(&self.structure, &self.kept, LinearSolver::Automatic);
-        let mut saddle = Saddle::new(&self.mass_diagonal(), &Arc::new(form));
+        let mut saddle = Saddle::new(
+            &self.mass_diagonal(),
+            self.layout.massless(),
+            &Arc::new(form),
+        );
         accelerations(self, state, &mut equations, &mut saddle)
     }
 
-    /// Diagonal of the mass matrix, which does not change with the motion.
-    pub(crate) fn mass_diagonal(&self) -> Vec<f64> {
-        self.inertias
+    /// Diagonal of the mass matrix, which does not change with the motion; zero where an equation has no mass.
+    pub(crate) fn masses(&self) -> Vec<f64> {
+        let bodies = self
+            .inertias
             .iter()
-            .flat_map(crate::inertia::Inertia::diagonal)
+            .flat_map(crate::inertia::Inertia::diagonal);
+        bodies
+            .chain(self.layout.unknowns().iter().map(Unknown::mass))
             .collect()
+    }
+
+    /// The same with masses in place of the zeros that make a coordinate over its scale weigh as much as a turn of the heaviest body at the size
+    /// of the system: for scales.
+    pub(crate) fn mass_diagonal(&self) -> Vec<f64> {
+        let heaviest = self
+            .bodies
+            .iter()
+            .fold(0.0_f64, |most, b| most.max(b.mass_kg));
+        let inertia = heaviest * self.size_m().powi(2);
+        let mut masses = self.masses();
+        for (dof, unknown) in self.layout.unknown_dofs() {
+            if unknown.mass() == 0.0 {
+                masses[dof] = inertia / (unknown.scale * unknown.scale);
+            }
+        }
+        masses
+    }
+
+    /// Gives coordinates without mass one of 1, so that a matrix of masses and joints is regular; they then do not move in it.
+    pub(crate) fn hold_massless(&self, mass: &mut Matrix) {
+        for dof in self.layout.massless() {
+            mass.add(dof, dof, 1.0);
+        }
     }
 }

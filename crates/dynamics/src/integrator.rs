@@ -29,6 +29,7 @@ use crate::scheme::{LinearSolver, Params, Scheme};
 use crate::secants::Secants;
 use crate::state::State;
 use crate::system::System;
+use crate::unknown::UnknownKind;
 
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
@@ -80,6 +81,10 @@ pub(crate) struct Integrator {
     /// For the changes of step length, on the mass matrix itself.
     projector: Saddle,
     pub convergence: Convergence,
+    /// Masses of all degrees of freedom, zero where an equation has none.
+    pub masses: Vec<f64>,
+    /// What an error is multiplied by before it is compared with the tolerance of its kind.
+    pub error_scale: Vec<f64>,
     matrix: Matrix,
     turned: Matrix,
     /// T of every body.
@@ -101,10 +106,12 @@ impl Integrator {
         Self {
             scheme,
             equations: Equations::new(system),
-            saddle: Saddle::new(&diagonal, &form),
+            saddle: Saddle::new(&diagonal, system.layout.massless(), &form),
             factored_step_s: f64::NAN,
-            projector: Saddle::new(&diagonal, &form),
+            projector: Saddle::new(&diagonal, system.layout.massless(), &form),
             convergence: Convergence::new(system, &scheme),
+            masses: system.masses(),
+            error_scale: (0..n).map(|dof| error_scale(system, dof)).collect(),
             matrix: Matrix::zeros(&system.structure.square),
             turned: Matrix::zeros(&system.structure.gradient),
             turns: vec![Matrix3::identity(); system.bodies.len()],
@@ -113,7 +120,7 @@ impl Integrator {
             mu: vec![0.0; m],
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
-            secants: Secants::new(&diagonal, m),
+            secants: Secants::new(&system.masses(), m),
             effort: Effort::default(),
         }
     }
@@ -336,7 +343,8 @@ impl Integrator {
             load_factor: 1.0,
         };
         system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
-        let Equations { mass, gradient, .. } = &self.equations;
+        let Equations { mass, gradient, .. } = &mut self.equations;
+        system.hold_massless(mass);
         self.projector.factor(mass, gradient, gradient)
     }
 
@@ -391,5 +399,14 @@ impl Integrator {
             *velocity += change;
         }
         Ok(())
+    }
+}
+
+/// Coordinates in equilibrium have no error of their own: they follow the others.
+fn error_scale(system: &System, dof: usize) -> f64 {
+    match system.layout.unknown(dof) {
+        None => 1.0,
+        Some(unknown) if unknown.kind == UnknownKind::Equilibrium => 0.0,
+        Some(unknown) => 1.0 / unknown.scale,
     }
 }

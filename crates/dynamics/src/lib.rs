@@ -8,6 +8,7 @@
 //! | which joint equations are redundant, which contradict each other | [`Redundancy`] | `constraints.rs`, `metric.rs` |
 //! | which forces are there, and how is one added from another crate | [`elements`], [`ForceElement`] | `elements.rs` |
 //! | how do two markers move against each other, with all derivatives | [`MarkerPair`], [`RelativeMotion`] | `relative_motion.rs`, `relative_angle.rs`, `polar_angle.rs` |
+//! | which coordinates may an element have of its own | [`Unknown`] | `unknown.rs`, `unknown_start.rs` |
 //! | functions of time | [`TimeFunction`], [`Table`] | `time_function.rs`, `table.rs` |
 //! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `convergence.rs`, `scheme.rs` |
 //! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
@@ -57,6 +58,8 @@ pub mod table;
 mod tangent_tests;
 pub mod time_function;
 mod unbalanced;
+mod unknown;
+mod unknown_start;
 
 pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;
@@ -76,3 +79,4 @@ pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium, next_equi
 pub use system::{Calls, System};
 pub use table::{Interpolation, Table};
 pub use time_function::{Derivatives, TimeFunction};
+pub use unknown::{Unknown, UnknownKind};

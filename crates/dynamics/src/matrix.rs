@@ -32,6 +32,11 @@ impl Matrix {
         self.outside = false;
     }
 
+    /// Whether something other than zero was added outside the pattern since the matrix was cleared.
+    pub(crate) fn is_left(&self) -> bool {
+        self.outside
+    }
+
     /// Entry, zero outside the pattern.
     pub(crate) fn get(&self, row: usize, column: usize) -> f64 {
         let place = self.pattern.place(row, column);

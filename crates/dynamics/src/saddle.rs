@@ -9,6 +9,8 @@
 //! The caller multiplies the equations of motion by βh² and takes μ = βh² δλ, so that nothing grows as h → 0. Source:
 //! C. L. Bottasso, D. Dopico, L. Trainelli, Multibody Syst. Dyn. 19 (2008) 3-20.
 //!
+//! Coordinates of elements without mass have a column scale from their own, and a row scale that makes the largest of their row 1.
+//!
 //! The matrix has entries where bodies meet in a joint or an element. Small or full ones are factorised as dense matrices, others as sparse
 //! ones, [`LinearSolver::Automatic`]. Where the two cross was measured: docs/decisions/0010-sparse-system-matrix.md.
 
@@ -80,13 +82,16 @@ impl SaddleForm {
 
 enum Factors {
     Dense(DenseLu),
-    Sparse(SparseLu),
+    Sparse(Box<SparseLu>),
 }
 
 /// Factors and scales.
 pub(crate) struct Saddle {
     form: Arc<SaddleForm>,
     scale: Vec<f64>,
+    /// Scales of equations; those of the unknowns but where an equation has no mass, whose size is then read off the matrix.
+    left: Vec<f64>,
+    massless: Vec<usize>,
     row_scale: Vec<f64>,
     values: Vec<f64>,
     factors: Factors,
@@ -94,15 +99,22 @@ pub(crate) struct Saddle {
 }
 
 impl Saddle {
-    /// For `mass_diagonal` of all degrees of freedom.
-    pub(crate) fn new(mass_diagonal: &[f64], form: &Arc<SaddleForm>) -> Self {
+    /// For `mass_diagonal` of all degrees of freedom; `massless` of them have equations without mass.
+    pub(crate) fn new(
+        mass_diagonal: &[f64],
+        massless: impl Iterator<Item = usize>,
+        form: &Arc<SaddleForm>,
+    ) -> Self {
         let size = form.pattern.columns();
+        let scale: Vec<f64> = mass_diagonal.iter().map(|m| 1.0 / m.sqrt()).collect();
         Self {
-            scale: mass_diagonal.iter().map(|m| 1.0 / m.sqrt()).collect(),
+            left: scale.clone(),
+            massless: massless.collect(),
+            scale,
             row_scale: vec![1.0; form.kept.len()],
             values: vec![0.0; form.pattern.len()],
             factors: match &form.ordered {
-                Some(ordered) => Factors::Sparse(SparseLu::new(ordered)),
+                Some(ordered) => Factors::Sparse(Box::new(SparseLu::new(ordered))),
                 None => Factors::Dense(DenseLu::new(size)),
             },
             work: vec![0.0; size],
@@ -118,12 +130,20 @@ impl Saddle {
     /// Factorises; `gradient` is Bᵀ and `turned` B̄ᵀ, one column for each equation. `false` if the matrix is singular.
     pub(crate) fn factor(&mut self, a: &Matrix, gradient: &Matrix, turned: &Matrix) -> bool {
         let (n, scale) = (self.scale.len(), &self.scale);
+        for &dof in &self.massless {
+            // The largest of its row is 1.
+            let row = a.pattern().column(dof).iter();
+            let size = row.map(|&j| (a.get(dof, j) * scale[j]).abs());
+            let most = size.fold(0.0, f64::max);
+            self.left[dof] = if most > 0.0 { 1.0 / most } else { 1.0 };
+        }
+        let left = &self.left;
         let starts = self.form.pattern.starts();
         for j in 0..n {
             let (rows, entries) = a.column(j);
             let places = self.values[starts[j]..].iter_mut();
             for ((place, entry), &row) in places.zip(entries).zip(rows) {
-                *place = scale[row] * entry * scale[j];
+                *place = left[row] * entry * scale[j];
             }
         }
         for (i, &equation) in self.form.kept.iter().enumerate() {
@@ -176,7 +196,7 @@ impl Saddle {
         let n = self.scale.len();
         let kept = &self.form.kept;
         let (upper, lower) = self.work.split_at_mut(n);
-        for ((place, value), d) in upper.iter_mut().zip(r).zip(&self.scale) {
+        for ((place, value), d) in upper.iter_mut().zip(r).zip(&self.left) {
             *place = value * d;
         }
         for ((place, &equation), sigma) in lower.iter_mut().zip(kept).zip(&self.row_scale) {
@@ -200,6 +220,7 @@ impl Saddle {
     pub(crate) fn save(&self, out: &mut Vec<f64>) {
         out.extend_from_slice(&self.values);
         out.extend_from_slice(&self.row_scale);
+        out.extend(self.massless.iter().map(|&dof| self.left[dof]));
         if let Factors::Sparse(lu) = &self.factors {
             out.extend_from_slice(lu.pivoted());
             // Before the first factors there are none.
@@ -210,13 +231,17 @@ impl Saddle {
     /// Length of what [`Self::save`] appends.
     pub(crate) fn saved(&self) -> usize {
         let matrices = if self.is_sparse() { 2 } else { 1 };
-        matrices * self.values.len() + self.row_scale.len()
+        matrices * self.values.len() + self.row_scale.len() + self.massless.len()
     }
 
     /// Factorises what was saved, which gives the same bits as when it was made.
     pub(crate) fn restore(&mut self, saved: &[f64]) {
         let (values, rest) = saved.split_at(self.values.len());
-        let (row_scale, pivoted) = rest.split_at(self.row_scale.len());
+        let (row_scale, rest) = rest.split_at(self.row_scale.len());
+        let (left, pivoted) = rest.split_at(self.massless.len());
+        for (&dof, value) in self.massless.iter().zip(left) {
+            self.left[dof] = *value;
+        }
         self.values.copy_from_slice(values);
         self.row_scale.copy_from_slice(row_scale);
         if let Factors::Sparse(lu) = &mut self.factors {

@@ -11,6 +11,7 @@ use crate::integrator::{Integrator, Point, StepFailure};
 use crate::scheme::{AdaptiveStep, Params, Scheme, StepControl};
 use crate::state::State;
 use crate::system::System;
+use crate::unknown_start::settle_unknowns;
 
 /// What a run has needed and how exact it was.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -154,6 +155,7 @@ impl Simulation {
         params.validate()?;
         system.begin(&state);
         constraints::project_velocity(&mut system, &mut state)?;
+        settle_unknowns(&mut system, &mut state)?;
         let mut integrator = Integrator::new(
             &system,
             Scheme::new(params.rho_infinity),
@@ -161,13 +163,13 @@ impl Simulation {
         );
         let step_s = params.first_step_s();
         let (equations, saddle) = integrator.for_start();
-        let first = initial::accelerations(&mut system, &state, equations, saddle)?;
+        let mut first = initial::accelerations(&mut system, &state, equations, saddle)?;
         system.refresh(&state);
         let energy = system.energy(&state, &first.lambda);
         let jerk = initial::jerk(
             &mut system,
-            &state,
-            &first.acceleration,
+            &mut state,
+            &mut first.acceleration,
             step_s,
             equations,
             saddle,
@@ -179,7 +181,7 @@ impl Simulation {
             jerk,
             state,
         };
-        let work_rate_w = system.work_rate_w(&now, &integrator.convergence.inverse_mass);
+        let work_rate_w = system.work_rate_w(&now, &integrator.masses);
         integrator.retune(&mut system, &mut now, 0.0, step_s)?;
         Ok(Self {
             other: now.clone(),
@@ -340,8 +342,8 @@ impl Simulation {
         std::mem::swap(&mut self.now, &mut self.other);
         self.system.commit(&self.now.state)?;
         let energy = self.system.energy(&self.now.state, &self.now.lambda);
-        let inverse_mass = &self.integrator.convergence.inverse_mass;
-        let work_rate_w = self.system.work_rate_w(&self.now, inverse_mass);
+        let masses = &self.integrator.masses;
+        let work_rate_w = self.system.work_rate_w(&self.now, masses);
         self.info.energy.advance(energy, work_rate_w, h);
         self.info.steps += 1;
         self.steps_alike += 1;
@@ -367,12 +369,16 @@ impl Simulation {
             limits.translation_tolerance_m,
             limits.rotation_tolerance_rad,
             limits.modal_tolerance,
+            limits.rotation_tolerance_rad,
         ];
         let weight = self.integrator.scheme.error_constant.abs() * h * h;
         let pairs = self.other.acceleration.iter().zip(&self.now.acceleration);
         let ratios = pairs
             .zip(&self.integrator.convergence.kinds)
-            .map(|((new, old), &kind)| weight * (new - old).abs() / tolerance[kind]);
+            .zip(&self.integrator.error_scale)
+            .map(|(((new, old), &kind), scale)| {
+                weight * (new - old).abs() * scale / tolerance[kind]
+            });
         // The floor keeps the growth of the step finite where nothing accelerates.
         ratios.fold(1e-9, f64::max)
     }

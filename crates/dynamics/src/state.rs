@@ -1,7 +1,8 @@
 //! Positions and velocities of all bodies, and how they move along an increment.
 //!
 //! Degrees of freedom of a body, in this order: velocity of the reference point (world axes, 3), angular velocity (body
-//! axes, 3), rates of the modal coordinates. The configuration is ℝ³ × SO(3) × ℝᵐ; an increment Δ = (Δx, Δψ, Δη) acts as
+//! axes, 3), rates of the modal coordinates. Behind all bodies come the coordinates u that force elements own, which move by plain addition as
+//! modal coordinates do. The configuration of a body is ℝ³ × SO(3) × ℝᵐ; an increment Δ = (Δx, Δψ, Δη) acts as
 //!
 //! ```text
 //! x ← x + Δx,      q ← q exp(Δψ),      η ← η + Δη
@@ -11,29 +12,60 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::body::{Body, BodyId, GROUND};
 use crate::rotation;
+use crate::unknown::{Unknown, UnknownKind};
 
 /// Where the numbers of each body stand.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// First degree of freedom of each body, and the total at the end.
+    /// First degree of freedom of each body, and the end of the last one.
     starts: Vec<usize>,
+    /// Coordinates of elements, whose degrees of freedom follow.
+    unknowns: Vec<Unknown>,
 }
 
 impl Layout {
-    pub(crate) fn new(bodies: &[Body]) -> Self {
+    pub(crate) fn new(bodies: &[Body], unknowns: Vec<Unknown>) -> Self {
         let mut starts = vec![0];
         let mut total = 0;
         for body in bodies {
             total += 6 + body.mode_count();
             starts.push(total);
         }
-        Self { starts }
+        Self { starts, unknowns }
     }
 
-    /// Degrees of freedom of the whole system, constraints not counted.
+    /// Degrees of freedom of the whole system, coordinates of elements included, constraints not counted.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
+        self.first_unknown() + self.unknowns.len()
+    }
+
+    /// First degree of freedom that belongs to an element: the end of those of all bodies.
+    #[must_use]
+    pub fn first_unknown(&self) -> usize {
         self.starts[self.starts.len() - 1]
+    }
+
+    /// Coordinates that elements own, in the order of their degrees of freedom.
+    #[must_use]
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// The coordinate of an element behind a degree of freedom; `None` for those of bodies.
+    pub(crate) fn unknown(&self, dof: usize) -> Option<&Unknown> {
+        self.unknowns.get(dof.checked_sub(self.first_unknown())?)
+    }
+
+    /// Coordinates of elements with their degrees of freedom.
+    pub(crate) fn unknown_dofs(&self) -> impl Iterator<Item = (usize, &Unknown)> + '_ {
+        (self.first_unknown()..).zip(&self.unknowns)
+    }
+
+    /// Degrees of freedom of equations without mass.
+    pub(crate) fn massless(&self) -> impl Iterator<Item = usize> + '_ {
+        let dofs = self.unknown_dofs();
+        dofs.filter_map(|(dof, unknown)| (unknown.mass() == 0.0).then_some(dof))
     }
 
     /// Number of bodies.
@@ -60,7 +92,7 @@ impl Layout {
 
     /// Modal coordinates of all bodies together.
     pub(crate) fn modal_coordinates(&self) -> usize {
-        self.degrees_of_freedom() - 6 * self.bodies()
+        self.first_unknown() - 6 * self.bodies()
     }
 
     /// First modal coordinate of a body in [`State::modal`].
@@ -73,12 +105,16 @@ impl Layout {
         self.starts[..self.bodies()].iter().copied()
     }
 
-    /// Degrees of freedom of every body.
-    pub(crate) fn body_ranges(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
-        self.starts.windows(2).map(|ends| ends[0]..ends[1])
+    /// Degrees of freedom of every body, then those of single masses inside elements.
+    pub(crate) fn massive_ranges(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let bodies = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
+        let unknowns = self
+            .unknown_dofs()
+            .filter(|(_, unknown)| unknown.mass() > 0.0);
+        bodies.chain(unknowns.map(|(dof, _)| dof..dof + 1))
     }
 
-    /// Body and place within it of a degree of freedom.
+    /// Body and place within it of a degree of freedom of a body.
     pub(crate) fn locate(&self, dof: usize) -> (usize, usize) {
         let body = self.starts.partition_point(|&start| start <= dof) - 1;
         (body, dof - self.starts[body])
@@ -98,6 +134,8 @@ pub struct State {
     pub modal: Vec<f64>,
     /// Velocities, one for each degree of freedom (module page).
     pub velocity: Vec<f64>,
+    /// Coordinates of force elements, in the order of the elements.
+    pub unknowns: Vec<f64>,
 }
 
 impl State {
@@ -115,6 +153,7 @@ impl State {
             orientations: bodies.iter().map(|body| body.orientation).collect(),
             modal: vec![0.0; layout.modal_coordinates()],
             velocity,
+            unknowns: vec![0.0; layout.unknowns.len()],
         }
     }
 
@@ -129,6 +168,10 @@ impl State {
             for (i, change) in d[6..].iter().enumerate() {
                 self.modal[first + i] = from.modal[first + i] + change;
             }
+        }
+        let changes = &increment[layout.first_unknown()..];
+        for ((place, old), change) in self.unknowns.iter_mut().zip(&from.unknowns).zip(changes) {
+            *place = old + change;
         }
     }
 
@@ -174,6 +217,17 @@ impl State {
                 self.modal[first + i] = a + value;
                 self.velocity[start + 6 + i] = rate;
             }
+        }
+        for (i, (dof, unknown)) in layout.unknown_dofs().enumerate() {
+            let change = to.unknowns[i] - from.unknowns[i];
+            // The rate of a coordinate in equilibrium is a by-product: along a line.
+            let rates = match unknown.kind {
+                UnknownKind::Equilibrium => (change / h, change / h),
+                _ => (from.velocity[dof], to.velocity[dof]),
+            };
+            let (value, rate) = hermite(change, rates.0, rates.1);
+            self.unknowns[i] = from.unknowns[i] + value;
+            self.velocity[dof] = rate;
         }
     }
 }
@@ -229,7 +283,7 @@ mod tests {
     #[test]
     fn interpolation_meets_both_ends_and_its_own_rate() {
         let bodies = [Body::rigid("a", 1.0, [1.0; 3])];
-        let layout = Layout::new(&bodies);
+        let layout = Layout::new(&bodies, Vec::new());
         let mut from = State::start(&bodies, &layout);
         from.velocity = vec![1.0, -2.0, 0.5, 0.3, -0.9, 4.0];
         let mut to = from.clone();

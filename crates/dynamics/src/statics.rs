@@ -29,6 +29,10 @@ const ROUNDING: f64 = 1e-14;
 /// Load along a free direction, as a share of all that pushes along it, that counts as balanced.
 const BALANCED: f64 = 1e-9;
 
+/// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is rounding, such as what a body turned
+/// by rounding has of a load beside its direction.
+const FELT: f64 = 1e-5;
+
 /// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small: rounding, over a stiffness that is
 /// hardly there.
 const AT_REST: f64 = 1e-12;
@@ -150,8 +154,11 @@ fn follow(
     params: &StaticParams,
 ) -> Result<Equilibrium, DynamicsError> {
     let mut equations = Equations::new(system);
+    let mut start = from.clone();
+    // Nothing inside an element moves at rest.
+    start.velocity[system.layout.first_unknown()..].fill(0.0);
     let mut found = Equilibrium {
-        state: from.clone(),
+        state: start,
         // Reactions at release, so that the stiffness of tensioned joints is there from the first iteration.
         lambda: system.accelerations(from)?.lambda,
         iterations: 0,
@@ -339,10 +346,14 @@ fn correct(
         .iter()
         .map(|mass| 1.0 / mass.sqrt())
         .collect();
+    let weighs: Vec<bool> = system.masses().iter().map(|mass| *mass > 0.0).collect();
     // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
     let noise = ROUNDING
         * (0..n).fold(0.0_f64, |most, j| {
-            let column = equations.stiffness.entries(j);
+            if !weighs[j] {
+                return most;
+            }
+            let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
             let stiffest = column.fold(0.0_f64, |most, (i, k)| {
                 most.max((mass[i] * k * mass[j]).abs())
             });
@@ -350,7 +361,14 @@ fn correct(
                 .max((equations.residual[j] * mass[j] * mass[j]).abs())
         });
     let entry = |i: usize, j: usize| match (i < n, j < n) {
-        (true, true) if (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise => 0.0,
+        // What has no mass is not measured by it.
+        (true, true)
+            if weighs[i]
+                && weighs[j]
+                && (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise =>
+        {
+            0.0
+        }
         (true, true) => equations.stiffness.get(i, j),
         (true, false) => equations.gradient.get(i, kept[j - n]),
         (false, true) => equations.gradient.get(j, kept[i - n]),
@@ -397,6 +415,7 @@ fn correct(
         share: Vec::new(),
         load: Vec::new(),
     };
+    let most_push = pushing.iter().fold(0.0_f64, |most, push| most.max(*push));
     for k in 0..total {
         let along: f64 = (0..total).map(|i| u[(i, k)] * right(i)).sum();
         if s[k] > FREE * s[0] {
@@ -418,6 +437,7 @@ fn correct(
             .sum();
         let pushes = motion.iter().zip(pushing);
         let all: f64 = pushes.map(|(x, push)| (x * push).abs()).sum();
+        let all = all.max(FELT * most_push);
         correction
             .share
             .push(if all > 0.0 { load.abs() / all } else { 0.0 });
@@ -470,8 +490,11 @@ fn measure(system: &System, increment: &[f64], size: f64) -> (f64, usize) {
         .iter()
         .enumerate()
         .fold((0.0, 0), |(most, place), (dof, d)| {
-            let rotation = (3..6).contains(&system.layout.locate(dof).1);
-            let here = if rotation { d.abs() } else { d.abs() / size };
+            let here = match system.layout.unknown(dof) {
+                Some(unknown) => d.abs() / unknown.scale,
+                None if (3..6).contains(&system.layout.locate(dof).1) => d.abs(),
+                None => d.abs() / size,
+            };
             if here > most {
                 (here, dof)
             } else {

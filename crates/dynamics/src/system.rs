@@ -1,5 +1,6 @@
 //! The system: bodies, joints and force elements put together. Its equations are in `equations.rs`.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::body::{Body, BodyId, GROUND};
@@ -20,6 +21,10 @@ pub(crate) struct Slot {
     pub element: Box<dyn ForceElement>,
     /// Where the degrees of freedom of its bodies stand; the ground has none.
     pub places: Vec<Place>,
+    /// Its own coordinates among those of all elements.
+    pub unknowns: Range<usize>,
+    /// Local degrees of freedom that depend on each other.
+    groups: Vec<Vec<usize>>,
     /// For each entry of its tangents, where it stands in the system's matrices.
     pub matrix_places: Vec<usize>,
     pub loads: Loads,
@@ -66,25 +71,38 @@ impl Slot {
         }
     }
 
-    /// Degrees of freedom of the system that it couples with each other.
-    pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
-        let places = self.places.iter();
-        vec![
-            places
-                .flat_map(|place| place.system..place.system + place.count)
-                .collect(),
-        ]
+    /// Degrees of freedom of the system that it couples with each other. Those of a body's rigid motion come together.
+    pub(crate) fn groups(&self, layout: &Layout) -> Vec<Vec<usize>> {
+        let system = self.system_dofs();
+        let of_group = |group: &Vec<usize>| -> Vec<usize> {
+            let dofs = group.iter().filter_map(|&local| system[local]);
+            dofs.flat_map(|dof| {
+                let body = (layout.unknown(dof).is_none()).then(|| layout.locate(dof));
+                match body {
+                    Some((_, place)) if place < 6 => dof - place..dof - place + 6,
+                    _ => dof..dof + 1,
+                }
+            })
+            .collect()
+        };
+        self.groups.iter().map(of_group).collect()
     }
 
-    /// Finds where its tangents go in matrices of a pattern.
-    pub(crate) fn find_places(&mut self, square: &Pattern) {
-        let own = self.loads.by_position.pattern();
-        let mut system = vec![None; own.columns()];
+    /// For each local degree of freedom that of the system; none for the ground's.
+    fn system_dofs(&self) -> Vec<Option<usize>> {
+        let mut system = vec![None; self.loads.by_position.pattern().columns()];
         for place in &self.places {
             for i in 0..place.count {
                 system[place.local + i] = Some(place.system + i);
             }
         }
+        system
+    }
+
+    /// Finds where its tangents go in matrices of a pattern.
+    pub(crate) fn find_places(&mut self, square: &Pattern) {
+        let own = self.loads.by_position.pattern();
+        let system = self.system_dofs();
         let mut found = Vec::with_capacity(own.len());
         for (column, of_column) in system.iter().enumerate() {
             for &row in own.column(column) {
@@ -96,28 +114,55 @@ impl Slot {
         self.matrix_places = found;
     }
 
-    pub(crate) fn new(element: Box<dyn ForceElement>, layout: &Layout) -> Self {
-        let (mut places, mut local) = (Vec::new(), 0);
-        for &body in element.bodies() {
-            let count = layout.size(body);
-            if let Some(system) = layout.start(body) {
-                places.push(Place {
-                    local,
-                    system,
-                    count,
-                });
-            }
+    /// `unknowns`: its own coordinates among those of all elements.
+    pub(crate) fn new(
+        element: Box<dyn ForceElement>,
+        layout: &Layout,
+        unknowns: Range<usize>,
+    ) -> Self {
+        let (mut places, mut starts, mut local) = (Vec::new(), Vec::new(), 0);
+        let mut add = |system: Option<usize>, count: usize| {
+            places.extend(system.map(|system| Place {
+                local,
+                system,
+                count,
+            }));
+            starts.push(local);
             local += count;
+        };
+        for &body in element.bodies() {
+            add(layout.start(body), layout.size(body));
         }
-        let all: Vec<usize> = (0..local).collect();
-        let pattern = Arc::new(Pattern::of_groups(local, std::iter::once(&all[..])));
+        add(
+            Some(layout.first_unknown() + unknowns.start),
+            unknowns.len(),
+        );
+        let mut groups = element.couplings(&starts);
+        if groups.is_empty() {
+            groups.push((0..local).collect());
+        }
+        let inside = groups.iter().map(Vec::as_slice);
+        let pattern = Arc::new(Pattern::of_groups(local, inside));
         Self {
             element,
-            loads: Loads::new(&pattern),
+            loads: Loads::new(&pattern, starts),
             places,
+            unknowns,
+            groups,
             matrix_places: Vec::new(),
             force_calls: 0,
             tangent_calls: 0,
+        }
+    }
+
+    /// The view of the system as the element sees it.
+    pub(crate) fn own<'a>(&self, view: &View<'a>, state: &'a State) -> View<'a> {
+        let first = view.layout.first_unknown();
+        let dofs = first + self.unknowns.start..first + self.unknowns.end;
+        View {
+            unknowns: &state.unknowns[self.unknowns.clone()],
+            unknown_rates: &state.velocity[dofs],
+            ..*view
         }
     }
 }
@@ -249,7 +294,8 @@ impl System {
         let mut rest = out;
         for (slot, &count) in self.slots.iter_mut().zip(counts) {
             let (own, after) = rest.split_at_mut(count);
-            slot.element.sample(&view, own);
+            let seen = slot.own(&view, state);
+            slot.element.sample(&seen, own);
             rest = after;
         }
     }
@@ -275,7 +321,8 @@ impl System {
         self.begin_joints(state);
         let view = view(&self.motions, &self.layout, state, 1.0);
         for slot in &mut self.slots {
-            slot.element.begin(&view);
+            let own = slot.own(&view, state);
+            slot.element.begin(&own);
         }
     }
 
@@ -291,7 +338,8 @@ impl System {
         }
         let view = view(&self.motions, &self.layout, state, 1.0);
         for slot in &mut self.slots {
-            let committed = slot.element.commit(&view);
+            let own = slot.own(&view, state);
+            let committed = slot.element.commit(&own);
             committed.map_err(|source| DynamicsError::Element {
                 element: slot.element.name().to_owned(),
                 time_s: state.time_s,
@@ -329,6 +377,9 @@ impl System {
             energy.dissipated_w += slot.loads.power.dissipated_w;
             energy.supplied_w += slot.loads.power.supplied_w;
         }
+        for (dof, unknown) in self.layout.unknown_dofs() {
+            energy.kinetic_j += 0.5 * unknown.mass() * state.velocity[dof].powi(2);
+        }
         for (lambda, motion) in lambda.iter().zip(self.prescribed(state.time_s)) {
             energy.supplied_w -= lambda * motion.rate;
         }
@@ -336,7 +387,7 @@ impl System {
     }
 
     /// Rate of the work done, whatever its sign \[W\] (`energy.rs`), at an evaluated motion.
-    pub(crate) fn work_rate_w(&self, point: &Point, inverse_mass: &[f64]) -> f64 {
+    pub(crate) fn work_rate_w(&self, point: &Point, masses: &[f64]) -> f64 {
         let mut rate = 0.0;
         for (body, inertia) in self.inertias.iter().enumerate() {
             let start = self.layout.start(BodyId(body)).unwrap_or_default();
@@ -351,9 +402,7 @@ impl System {
             rate += (lambda * motion.rate).abs();
         }
         let moves = point.acceleration.iter().zip(&point.state.velocity);
-        let of_each = moves
-            .zip(inverse_mass)
-            .map(|((a, v), inverse)| (a * v).abs() / inverse);
+        let of_each = moves.zip(masses).map(|((a, v), mass)| (mass * a * v).abs());
         rate + of_each.sum::<f64>()
     }
 
@@ -379,6 +428,15 @@ impl System {
 
     /// Body and direction of a degree of freedom, in words.
     pub(crate) fn describe(&self, dof: usize) -> String {
+        if let Some(unknown) = self.layout.unknown(dof) {
+            let number = dof - self.layout.first_unknown();
+            let owner = self
+                .slots
+                .iter()
+                .find(|slot| slot.unknowns.contains(&number));
+            let owner = owner.map_or("", |slot| slot.element.name());
+            return format!("force element `{owner}`, its `{}`", unknown.name);
+        }
         let (body, place) = self.layout.locate(dof);
         let what = match place {
             0..=2 => format!("translation along {}", ["x", "y", "z"][place]),
@@ -402,5 +460,7 @@ pub(crate) fn view<'a>(
         modal: &state.modal,
         velocity: &state.velocity,
         layout,
+        unknowns: &[],
+        unknown_rates: &[],
     }
 }

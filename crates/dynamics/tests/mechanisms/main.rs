@@ -4,10 +4,12 @@
 
 mod andrews;
 mod five_bars;
+mod own_coordinates;
 mod sparse;
 
 #[path = "../problems"]
 mod problems {
     pub mod andrews;
     pub mod chain;
+    pub mod maxwell;
 }
