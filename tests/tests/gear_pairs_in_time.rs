@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, StaticContact};
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, TimeFunction};

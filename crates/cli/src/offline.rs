@@ -213,7 +213,7 @@ pub fn field_of(
     case: FieldCase,
 ) -> Result<Field, Failure> {
     let model = &loaded.models[case.gear - 1];
-    let slices = loaded.slices_at(result.angle_rad[case.angle]);
+    let slices = loaded.patches_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);
     let loads = loaded.loaded_slices(case.gear, &slices, forces);
     let forces: Vec<GridForce> = grid_forces(&model.grid, &loaded.spreads[case.gear - 1], loads)

@@ -1,6 +1,6 @@
 //! Errors and faults of single flanks, beside the microgeometry that all teeth have.
 
-use crate::contact_lines::ContactLine;
+use crate::contact_patch::ContactPatch;
 use gearmesh_geometry::FlankSide;
 use gearmesh_geometry::flank_error::{FlankError, FlankPoint};
 use std::fmt;
@@ -35,26 +35,20 @@ impl FlankDeviations {
         self.of_gears.iter().all(Vec::is_empty)
     }
 
-    /// How far they open the gap of a line's section \[m\], along the normal; infinite where one of the flanks is not
-    /// there. What is removed from a tip edge opens the gap by its component, cos δ. `heights_m` are the section's
-    /// places from the gears' own mid-faces.
+    /// How far they open the gap of a patch on flanks of this side \[m\], along the normal; infinite where one of the
+    /// flanks is not there. What is removed from a tip edge opens the gap by its component, cos δ.
     #[must_use]
-    pub fn opening_m(&self, line: &ContactLine, side: FlankSide, heights_m: [f64; 2]) -> f64 {
-        let places = [
-            (line.tooth_1, line.roll_1_rad, heights_m[0]),
-            (line.tooth_2, line.roll_2_rad, heights_m[1]),
-        ];
+    pub fn opening_m(&self, patch: &ContactPatch, side: FlankSide) -> f64 {
         let of_gear = |gear: usize| {
-            let (tooth, roll_rad, z_m) = places[gear];
             let at = FlankPoint {
-                tooth,
+                tooth: patch.teeth[gear],
                 side,
-                roll_rad,
-                z_m,
+                roll_rad: patch.places[gear].u,
+                z_m: patch.places[gear].v,
             };
             let removed = |error: &Arc<dyn FlankError>| error.removed(at).depth_m;
             let depth: f64 = self.of_gears[gear].iter().map(removed).sum();
-            line.tilt_rad(gear).cos() * depth
+            patch.tilt_rad(gear).cos() * depth
         };
         of_gear(0) + of_gear(1)
     }

@@ -321,6 +321,14 @@ impl GearPair {
         a * b / ((a + b) * self.base_helix_angle_rad().cos())
     }
 
+    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ + ρ₂))/ξ_i.
+    pub fn relative_radius_growth(&self, roll_rad: [f64; 2]) -> [f64; 2] {
+        let rho_1 = self.gear_1.base_radius_m * roll_rad[0];
+        let rho_2 = self.gear_2.base_radius_m * roll_rad[1];
+        let sum = rho_1 + rho_2;
+        [rho_2 / (sum * roll_rad[0]), rho_1 / (sum * roll_rad[1])]
+    }
+
     /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and
     /// distance `path_m` from the pitch point along the line of action \[m\]:
     /// (z ∓ s tan β_b)(δ_inclination sin α_w + δ_deviation cos α_w), − on right flanks with a right-hand gear 1.

@@ -45,9 +45,9 @@ fn sliced(model: &ReducedGear, local: LocalContact) -> Vec<f64> {
     let compliance = SliceCompliance::new(model, Flank::Right, local).unwrap();
     let n = compliance.slices();
     let roll = involute::roll_angle_rad(CONTACT.radius_m, model.base_radius_m);
-    let place = compliance.place(roll);
-    let mut c = vec![0.0; n * n];
-    compliance.line_block((0, &place), (0, &place), &mut c);
+    let place = compliance.on_tooth(0, roll);
+    let between = compliance.between(&place, &place);
+    let mut c: Vec<f64> = (0..n * n).map(|k| between.value([k / n, k % n])).collect();
     if local == LocalContact::Calibrated {
         let depth_m = compliance.local_depth_m(roll, 1.0);
         let own = 2.0 * (1.0 - POISSON * POISSON) / (PI * YOUNG)

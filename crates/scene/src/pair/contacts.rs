@@ -2,7 +2,7 @@
 
 use super::result::SceneResult;
 use super::run::LoadedScene;
-use gearmesh_contact::{ContactError, ContactLine, ContactLines, ContactSlice, StaticContact};
+use gearmesh_contact::{ContactError, ContactLine, ContactLines, ContactPatch, StaticContact};
 use gearmesh_recovery::LoadedSlice;
 use std::borrow::Cow;
 
@@ -28,15 +28,15 @@ impl LoadedScene {
         counts.fold(ideal, usize::max)
     }
 
-    /// The slices that touch or may touch at a driver angle.
-    pub fn slices_at(&self, driver_angle_rad: f64) -> Vec<ContactSlice> {
-        let (centres, width) = (self.layout.centres_m(), self.layout.width_m());
+    /// The patches that touch or may touch at a driver angle.
+    pub fn patches_at(&self, driver_angle_rad: f64) -> Vec<ContactPatch> {
+        let friction = self.scene.contact.friction;
         let (placed, lines) = self.lines_at(driver_angle_rad);
-        let mut slices = Vec::new();
+        let mut patches = Vec::new();
         for line in lines.iter().enumerate() {
-            placed.push_slices(line, &centres, width, &mut slices);
+            placed.push_patches(line, &self.layout, friction, &mut patches);
         }
-        slices
+        patches
     }
 
     /// The kinematics with the gears where they stand at a driver angle, and the contact lines there.
@@ -56,30 +56,20 @@ impl LoadedScene {
         (Cow::Owned(placed), lines)
     }
 
-    /// Slices with their forces `[line][slice]` as gear 1 or gear 2 bears them.
+    /// Patches with their forces `[line][slice]` as gear 1 or gear 2 bears them.
     pub fn loaded_slices<'a>(
         &'a self,
         gear: usize,
-        slices: &'a [ContactSlice],
+        patches: &'a [ContactPatch],
         forces_n: &'a [f64],
     ) -> impl Iterator<Item = LoadedSlice> + 'a {
         let count = self.layout.slices;
-        slices.iter().map(move |slice| {
-            let line = &slice.section;
-            let (tooth, roll_rad) = if gear == 1 {
-                (line.tooth_1, line.roll_1_rad)
-            } else {
-                (line.tooth_2, line.roll_2_rad)
-            };
-            let friction = self.scene.contact.friction;
-            let ratio = friction.map_or(0.0, |f| f.ratio(line.path_m));
-            LoadedSlice {
-                tooth,
-                slice: slice.slice,
-                roll_rad,
-                components: line.force_components(gear - 1, ratio),
-                force_n: forces_n[slice.line * count + slice.slice],
-            }
+        patches.iter().map(move |patch| LoadedSlice {
+            tooth: patch.teeth[gear - 1],
+            slice: patch.slice,
+            roll_rad: patch.places[gear - 1].u,
+            components: patch.force_components(gear - 1),
+            force_n: forces_n[patch.line * count + patch.slice],
         })
     }
 

@@ -9,10 +9,9 @@ use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
 use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
-use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
-    AxialSpread, ContactError, ContactLines, ContactSlice, FlankDeviations, PathExtension, Runout,
-    SliceLayout, StaticContact,
+    AxialSpread, ContactError, ContactLines, ContactPatch, Drive, FlankDeviations, PathExtension,
+    Runout, SliceLayout, StaticContact,
 };
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
@@ -43,10 +42,7 @@ pub enum RunError {
 impl RunError {
     /// True when the input is to blame, not the computation.
     pub fn is_input(&self) -> bool {
-        !matches!(
-            self,
-            Self::Contact(ContactError::Nlcp { .. } | ContactError::LocalLaw { .. })
-        )
+        !matches!(self, Self::Contact(cause) if cause.is_computation())
     }
 }
 
@@ -416,8 +412,8 @@ fn solve_torque(
         let first = k * slots * slices;
         c.force[first..first + forces.len()].copy_from_slice(forces);
         let mut heaviest = (0.0, 1.0);
-        for on_line in contact.active_slices().chunk_by(|a, b| a.line == b.line) {
-            let force = |s: &ContactSlice| contact.force_n(s);
+        for on_line in contact.patches().chunk_by(|a, b| a.line == b.line) {
+            let force = |s: &ContactPatch| contact.force_n(s);
             let sum: f64 = on_line.iter().map(force).sum();
             if sum > heaviest.0 {
                 // Largest over mean line load; a slice partly on the path counts with its share.
@@ -426,7 +422,7 @@ fn solve_torque(
                 heaviest = (sum, largest * length / sum);
             }
         }
-        for (number, slice) in contact.active_slices().iter().enumerate() {
+        for (number, slice) in contact.patches().iter().enumerate() {
             let (half_width, pressure) = contact.hertz(number, contact.force_n(slice));
             c.pressure[first + slice.line * slices + slice.slice] = pressure;
             worst[0] = worst[0].max(half_width / least_distance);
@@ -459,10 +455,10 @@ pub fn strain(
         return Ok(Vec::new());
     }
     let flank = flank_of(loaded.scene.flank);
-    let slices_at: Vec<Vec<ContactSlice>> = result
+    let patches_at: Vec<Vec<ContactPatch>> = result
         .angle_rad
         .iter()
-        .map(|&angle| loaded.slices_at(angle))
+        .map(|&angle| loaded.patches_at(angle))
         .collect();
     gauges
         .par_iter()
@@ -474,7 +470,7 @@ pub fn strain(
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
                     let forces = result.position_forces(torque, angle);
-                    reader.read(loaded.loaded_slices(gear, &slices_at[angle], forces))
+                    reader.read(loaded.loaded_slices(gear, &patches_at[angle], forces))
                 })
                 .collect();
             Ok(StrainSeries {

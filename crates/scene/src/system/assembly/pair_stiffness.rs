@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
-    ContactLines, ContactOptions, PathExtension, StaticContact, mesh_stiffness::MeshStiffness,
+    ContactLines, ContactOptions, Drive, PathExtension, StaticContact,
+    mesh_stiffness::MeshStiffness,
 };
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::InputDocument;
