@@ -1,4 +1,5 @@
-//! Meshes of the gears of seed 004 and of a drilled one: counts, sets, volume and quality.
+//! Meshes of the gears of pairs A and B (seed 004 in docs/sources.md) and of a drilled one: counts, sets, volume and
+//! quality.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_geometry::input::InputDocument;
@@ -188,7 +189,8 @@ fn slots_that_do_not_divide_the_teeth_and_drilled_holes() {
     });
 }
 
-/// The estimate made before meshing: how far off it is. Blocks of teeth are counted, the free mesh of the body is guessed.
+/// The estimate made before meshing: how far off it is. Blocks of teeth are counted, the free mesh of the body is
+/// guessed.
 #[test]
 fn the_size_of_a_mesh_is_known_before_it_is_made() {
     let holes = "[blank.holes]\ncount = 6\npitch_circle_diameter_mm = 88.0\ndiameter_mm = 20.0\n";

@@ -1,15 +1,16 @@
 //! How much memory an offline job will take, before gmsh and the factorisations take it.
 //!
-//! Sizes of the mesh are those of [`MeshSize`]. What becomes of them was fitted to measured peaks (docs/theory/reduction.md): it tells gigabytes
-//! from tens of them, no more. Two times compete, the factorisation of the largest part and the checks with the mass at the end:
+//! Sizes of the mesh are those of [`MeshSize`]. What becomes of them was fitted to measured peaks
+//! (docs/theory/reduction.md): it tells gigabytes from tens of them, no more. Two times compete, the factorisation of
+//! the largest part and the checks with the mass at the end:
 //!
 //! ```text
 //! begin = a n + 16 own f²/2 + 1.3 · 8 · 18 d^(4/3)         n nodes of the gear, f degrees of freedom at the foot of a tooth,
 //! end   = b n + 8 · 18 d^(4/3) + 16 (N/2 + 1) c² + C_hub   d of the part, c of a cut, N sectors with `own` teeth each
 //! ```
 //!
-//! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular finite element mesh*,
-//! SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
+//! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular
+//! finite element mesh*, SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
 
 use gearmesh_geometry::{ElementKind, GearDefinition, MeshSettings, ModeRange, Symmetry};
 use gearmesh_mesh::MeshSize;

@@ -3,7 +3,12 @@
 //! The normal tests make a few hundred cases of each target, always the same ones. With `GEARMESH_FUZZ_SECONDS` each target goes on for that
 //! time with cases that no run has had; how to: docs/fuzzing.md. A case that fails is kept in `target/fuzz-findings`; mended, it becomes a file
 //! in `regressions/TARGET`, which every run begins with.
-#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    missing_docs
+)]
 
 mod files;
 mod mutation;

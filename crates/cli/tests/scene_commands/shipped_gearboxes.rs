@@ -1,4 +1,5 @@
-//! The shipped gearboxes of reduced gears, on coarse meshes: `reduce` for each gear, `run`, and every bearing carries what hand statics say.
+//! The shipped gearboxes of reduced gears, on coarse meshes: `reduce` for each gear, `run`, and every bearing carries
+//! what hand statics say.
 
 use crate::common::{Desk, argument, changed, succeeds};
 use gearmesh_scene::system_run::SystemResult;
@@ -13,7 +14,8 @@ fn shipped(name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// Elements as long as a module allows, few loads: where the teeth carry hardly depends on them, and the bearings feel nothing else.
+/// Elements as long as a module allows, few loads: where the teeth carry hardly depends on them, and the bearings feel
+/// nothing else.
 fn coarse(gear: &str) -> String {
     let value = |key: &str| -> f64 {
         let line = gear.lines().find(|line| line.starts_with(key)).unwrap();
