@@ -8,6 +8,7 @@ pub mod compliance;
 pub mod demo;
 pub mod export;
 pub mod mesh;
+pub mod mesh_axes;
 pub mod modes;
 pub mod periods;
 pub mod plan;

@@ -24,6 +24,7 @@ pitches = 6
 points_per_pitch = {POINTS}
 [mesh]
 model = \"hybrid\"
+path = \"line-of-action\"
 "
     )
 }

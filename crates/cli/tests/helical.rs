@@ -119,6 +119,10 @@ fn both_hands_run_through_the_whole_chain() {
     drop(other_desk);
     at_rest_between_axles(&desk, &a, axial);
 
+    // Where nothing is said: tip edges of helical teeth are not modelled at rest.
+    let plain = desk.file("plain.toml", scene(""));
+    let plan = succeeds(&["plan", argument(&plain)]).stdout;
+    assert!(plan.contains("path `line-of-action`"), "{plan}");
     let extended = desk.file("extended.toml", scene("path = \"extended\""));
     let unwanted = desk.path("unwanted.h5");
     let answer = gearmesh(&["run", argument(&extended), "-o", argument(&unwanted)]);

@@ -36,6 +36,12 @@ pub enum ContactError {
         "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
     )]
     HelicalExtension,
+    /// All flanks that could bear the load at this position are gone.
+    #[error(
+        "no flank is left to touch: the teeth that would carry the load there are broken off; gears turn on until others touch, \
+         which a multibody scene shows"
+    )]
+    NoFlanks,
     /// More patches than there is memory for.
     #[error("{found} slices face each other, more than the {most} that the pair was prepared for")]
     TooMany {

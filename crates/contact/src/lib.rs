@@ -12,6 +12,8 @@
 //! | the same of a calibrated model | | `calibrated_field.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
 //! | which patches of an involute pair touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
+//! | errors and faults of single flanks | [`FlankDeviations`] | `flank_deviations.rs` |
+//! | gears that stand beside their axes | [`Runout`] | `runout.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces of patches at given gaps | [`SliceContact`] | `slice_contact.rs` |
 //! | what drives them | [`Drive`] | `drive.rs` |
@@ -34,12 +36,14 @@ pub mod contact_zone;
 pub mod crack_rows;
 pub mod drive;
 pub mod flank_deflection;
+pub mod flank_deviations;
 pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod placed_slice;
 pub mod profile_shares;
+pub mod runout;
 pub mod slice_compliance;
 pub mod slice_contact;
 pub mod slice_spread;
@@ -53,8 +57,10 @@ pub use contact_lines::{ContactLine, ContactLines, Friction};
 pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 pub use contact_zone::{ContactZone, SliceLayout};
 pub use drive::Drive;
+pub use flank_deviations::FlankDeviations;
 pub use local_contact::LocalContact;
 pub use profile_shares::{ProfileHats, ProfilePlace};
+pub use runout::{GearSeat, Placement, Runout};
 pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
 pub use static_contact::{ContactOptions, ContactState, StaticContact};

@@ -5,6 +5,8 @@
 //! Beyond the ends of the path a tip edge touches: there x closes the gap at the rate w_i = b_i/r_b2 (without friction)
 //! and the compliance of the tip tooth is that of the force's component along its own flank's normal.
 //!
+//! Errors of single flanks open gaps (flank_deviations.rs), gears beside their axes move the teeth (runout.rs).
+//!
 //! Helical teeth: gaps are measured along the normal, so that the approach closes them at w_i = cos β_b, the lever arms are
 //! b_i = r_b2 cos β_b + μ_i ρ₂, every slice has its own roll angle, and the forces have an axial part, ∓F sin β_b.
 
@@ -12,12 +14,17 @@ use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_patch::ContactPatch;
 use crate::drive::Drive;
+use crate::flank_deviations::FlankDeviations;
 use crate::hertz;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
+use crate::runout::{Placement, Runout};
 use crate::slice_contact::SliceContact;
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
+
+/// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
+const NO_FLANK_M: f64 = 1.0;
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +60,8 @@ pub struct StaticContact {
     lines: ContactLines,
     slices: SliceContact,
     friction: Option<Friction>,
+    deviations: FlankDeviations,
+    runout: Option<Runout>,
     active: Vec<ContactLine>,
     patches: Vec<ContactPatch>,
     forces: Vec<f64>,
@@ -78,7 +87,8 @@ impl StaticContact {
         };
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
         let placed = (options.local, lines.zone.displacement_m);
-        let most_lines = lines.most_pairs();
+        // Gears beside their axes may stand closer together than the pair.
+        let most_lines = lines.most_pairs() + 1;
         let slices = SliceContact::of_gears([gear_1, gear_2], (teeth, flank), placed, most_lines)?;
         lines.zone = slices.layout().reference;
         let capacity = slices.capacity();
@@ -86,10 +96,26 @@ impl StaticContact {
             lines,
             slices,
             friction: options.friction,
+            deviations: FlankDeviations::default(),
+            runout: None,
             active: Vec::with_capacity(capacity),
             patches: Vec::with_capacity(capacity),
             forces: Vec::with_capacity(capacity),
         })
+    }
+
+    /// Adds errors and faults of single flanks.
+    #[must_use]
+    pub fn with_deviations(mut self, deviations: FlankDeviations) -> Self {
+        self.deviations = deviations;
+        self
+    }
+
+    /// Lets the gears stand beside, or tilted to, the axes about which they turn.
+    #[must_use]
+    pub fn with_runout(mut self, runout: Runout) -> Self {
+        self.runout = Some(runout);
+        self
     }
 
     /// Slices per contact line.
@@ -150,18 +176,46 @@ impl StaticContact {
             })
     }
 
+    /// Lets errors of single flanks and the places of the gears on their bodies act on the patches.
+    fn displace_patches(&mut self, placement: &Placement) -> Result<(), ContactError> {
+        let pair = &self.lines.pair;
+        let transverse = pair.base_helix_angle_rad().cos();
+        let [arm_1, arm_2] = placement.arms_m.map(|arm| transverse * arm);
+        let mut some_flank = false;
+        for patch in &mut self.patches {
+            let deviation = self.deviations.opening_m(patch, pair.flank);
+            some_flank |= deviation.is_finite();
+            let balance = &mut patch.balance;
+            balance.closing += arm_2 / pair.gear_2.base_radius_m;
+            balance.levers_m[0] += arm_1;
+            balance.levers_m[1] += arm_2;
+            // Gears beside their axes stand as rigid flanks leave them; the gap is linear in the approach about there.
+            patch.gap_m += deviation.min(NO_FLANK_M) + balance.closing * placement.opening_m;
+        }
+        if some_flank {
+            Ok(())
+        } else {
+            Err(ContactError::NoFlanks)
+        }
+    }
+
     fn solve_at(
         &mut self,
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
+        let placement = (self.runout).map_or_else(Placement::default, |runout| {
+            runout.at(&self.lines.pair, driver_angle_rad)
+        });
+        self.lines.place(&placement);
         let (lines, layout) = (&self.lines, self.slices.layout());
-        lines.at(driver_angle_rad, &mut self.active);
+        lines.at(driver_angle_rad + placement.ahead_rad, &mut self.active);
         self.patches.clear();
         for line in self.active.iter().enumerate() {
             lines.push_patches(line, layout, self.friction, &mut self.patches);
         }
         let base_2 = lines.pair.gear_2.base_radius_m;
+        self.displace_patches(&placement)?;
         let scale_force = match drive {
             Drive::Torque(torque) => torque.abs() / (base_2 * self.patches.len() as f64),
             Drive::TransmissionError(_) => 0.0,

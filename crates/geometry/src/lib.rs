@@ -9,6 +9,7 @@
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
+//! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
 //!
 //! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
@@ -18,6 +19,7 @@
 pub mod body_outline;
 pub mod definition;
 pub mod fillet;
+pub mod flank_error;
 pub mod gear_file;
 pub mod input;
 pub mod involute;

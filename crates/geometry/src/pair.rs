@@ -223,6 +223,19 @@ impl GearPair {
         Ok(pair)
     }
 
+    /// Puts the gears at another centre distance, above the sum of the base radii, with other axis errors: working
+    /// pressure angle and start of the path follow.
+    pub fn move_to(&mut self, centre_distance_m: f64, misalignment: Misalignment) {
+        let [base_1, base_2] = [self.gear_1.base_radius_m, self.gear_2.base_radius_m];
+        let sum = base_1 + base_2;
+        self.centre_distance_m = centre_distance_m;
+        self.misalignment = misalignment;
+        self.working_pressure_angle_rad = (sum / centre_distance_m).acos();
+        let line = sum * self.working_pressure_angle_rad.tan();
+        self.roll_start_1_rad =
+            ((line - base_2 * self.gear_2.flank_end_roll_rad) / base_1).max(0.0);
+    }
+
     /// The same pair with contact on the flanks of the given side.
     pub fn on_flanks(self, flank: FlankSide) -> Self {
         Self { flank, ..self }

@@ -53,10 +53,21 @@ pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failur
         format!("scene inside {}", path.display()),
         result.scene_toml.clone(),
     );
-    let mut scene = Scene::from_document(document, Path::new(""))?;
+    let mut scene = Scene::from_document(document, Path::new(""))?.with_known_forces();
     scene.gear_1 = result.model_files[0].clone().into();
     scene.gear_2 = result.model_files[1].clone().into();
-    let loaded = load(scene)?;
+    let mut loaded = load(scene.clone())?;
+    if scene.path_by_default && !loaded.has_lines_of(result) {
+        // Written when the rigid path was the default.
+        scene.edge_radius_m = None;
+        loaded = load(scene)?;
+    }
+    if !loaded.has_lines_of(result) {
+        return Err(Failure::input(format!(
+            "the scene inside {} does not give its contact lines; run the scene again",
+            path.display()
+        )));
+    }
     for (k, model) in loaded.models.iter().enumerate() {
         if model.input_toml != result.gear_toml[k] {
             return Err(Failure::input(format!(

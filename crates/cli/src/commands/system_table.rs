@@ -9,7 +9,7 @@ use gearmesh_scene::system_run::{
 };
 
 use crate::commands::periods::MARK;
-use crate::commands::ratings;
+use crate::commands::{mesh_axes, ratings};
 use crate::failure::Failure;
 
 /// Lines of the table of columns; all are in the JSON and in the file.
@@ -27,7 +27,7 @@ pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     lines.extend(match &result.kind[..] {
         "transient" => columns(result)?,
         "speed-sweep" => sweep(result),
-        "static" => equilibria(result)?,
+        "static" => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
         _ => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
     lines.extend(ratings::lines(&result.ratings));

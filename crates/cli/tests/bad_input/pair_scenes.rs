@@ -148,8 +148,8 @@ fn an_edge_radius_that_is_not_used_or_not_possible_is_refused() {
     );
     scene_refused(
         (
-            "model = \"hybrid\"",
-            "model = \"hybrid\"\npath = \"extended\"\nedge_radius_um = 0",
+            "path = \"line-of-action\"",
+            "path = \"extended\"\nedge_radius_um = 0",
         ),
         "edge_radius_um",
         &["found 0", "1 to 1000"],

@@ -151,8 +151,13 @@ pub struct Workshop {
 impl Workshop {
     /// A scene of both gears in a folder of its own: solid drives thin rim, three pitches.
     ///
-    /// `further` is put at the end of the table \[mesh\].
+    /// `further` is put at the end of the table \[mesh\]; the path is the line of action unless it names one.
     pub fn scene(&self, further: &str) -> String {
+        let path = if further.contains("path =") {
+            ""
+        } else {
+            "path = \"line-of-action\"\n"
+        };
         format!(
             r#"title = "small pair"
 [pair]
@@ -168,7 +173,7 @@ gear_2 = ["tension"]
 [mesh]
 model = "hybrid"
 local = "weber-banaschek"
-{further}"#,
+{path}{further}"#,
             self.solid.display(),
             self.thin.display()
         )

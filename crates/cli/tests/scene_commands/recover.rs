@@ -5,7 +5,7 @@ use crate::common::{
     succeeds, workshop,
 };
 use crate::{largest, recovered};
-use gearmesh_scene::StrainSeries;
+use gearmesh_scene::{SceneResult, StrainSeries};
 use std::process::Command;
 
 /// Recovers a scene whose driven gear has the element `element`.
@@ -99,6 +99,29 @@ fn friction_reaches_method_2() {
             with.name
         );
     }
+}
+
+/// Errors and eccentricity decide forces and places of the contacts; strain is read again from the forces, at these
+/// places.
+#[test]
+fn strain_of_a_pair_with_errors_is_read_again() {
+    let desk = Desk::new();
+    desk.file("lead.csv", "z_mm,removed_um\n-6,0\n6,4\n");
+    let effects = "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]\n\
+                   errors_2 = [{ kind = \"spall\", tooth = 17, side = \"right\", radii_mm = [27.0, 28.0], z_mm = [-6, 6], depth_um = 6.0 }]\n\
+                   eccentricity_2 = { offset_um = 30.0, direction_deg = 40.0 }\n";
+    let (result, _) = run_scene(&desk, effects);
+    let plan = succeeds(&["plan", argument(&desk.path("scene.toml"))]).stdout;
+    for part in ["gear 1: deviation", "gear 2: spall, eccentricity"] {
+        assert!(plan.contains(part), "`{part}` is not in {plan}");
+    }
+    let first = SceneResult::read(&result).unwrap();
+    let again = recovered(&desk, &result);
+    let tension = again.iter().find(|s| s.name == "tension").unwrap();
+    assert_eq!(tension.method_2, first.strain[0].method_2);
+    let (plain, _) = run_scene(&desk, "");
+    let plain = SceneResult::read(&plain).unwrap();
+    assert!(largest_difference(&plain.te_m, &first.te_m) > 1e-6);
 }
 
 #[test]

@@ -1,14 +1,19 @@
-//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs`
-//! says what will be computed, `run.rs` computes, `coverage.rs` says how much of each period that sees, `result.rs`
-//! keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
+//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
+//! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
+//! `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
+//! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps and stores, `rating.rs` judges,
+//! `warnings.rs` tells where the model's assumptions are strained.
 
 mod contact_places;
+mod contacts;
 mod coverage;
+mod flank_effects;
 pub mod plan;
 pub mod rating;
 pub mod result;
 pub mod run;
 pub mod scene_file;
+pub mod taken_misalignment;
 pub mod warnings;
 
 pub use contact_places::ContactPlaces;

@@ -2,6 +2,7 @@
 
 use super::rating::PairRating;
 use super::run::LoadedScene;
+use gearmesh_geometry::Misalignment;
 
 /// Size and effects of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +91,24 @@ impl Plan {
                 (gear.crack.as_ref())
                     .map(|crack| format!("fault      gear {number}: {}", crack.description())),
             );
+        }
+        for (number, (errors, seat)) in [1, 2]
+            .into_iter()
+            .zip(scene.errors.iter().zip(&scene.eccentricity))
+        {
+            let kinds: Vec<&str> = (errors.iter().map(|error| error.kind()))
+                .chain(seat.map(|_| "eccentricity"))
+                .collect();
+            if !kinds.is_empty() {
+                text.push(format!("errors     gear {number}: {}", kinds.join(", ")));
+            }
+        }
+        if pair.misalignment != Misalignment::default() {
+            text.push(format!(
+                "axes       inclination {:.6} mrad, deviation {:.6} mrad",
+                pair.misalignment.inclination_rad * 1e3,
+                pair.misalignment.deviation_rad * 1e3
+            ));
         }
         let gauges = scene.gauges_1.len() + scene.gauges_2.len();
         text.push(if gauges == 0 {

@@ -1,6 +1,7 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
 use super::contact_places::ContactPlaces;
+use super::flank_effects;
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
@@ -9,13 +10,13 @@ use super::warnings::{Assumption, Warnings};
 use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
 use gearmesh_contact::{
-    AxialSpread, ContactError, ContactLines, ContactPatch, Drive, PathExtension, SliceLayout,
-    StaticContact,
+    AxialSpread, ContactError, ContactLines, ContactPatch, Drive, FlankDeviations, PathExtension,
+    Runout, SliceLayout, StaticContact,
 };
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
-use gearmesh_recovery::{GaugeReader, LoadedSlice};
+use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -58,6 +59,10 @@ pub struct LoadedScene {
     pub layout: SliceLayout,
     /// Where their forces sit on gear 1 and gear 2.
     pub spreads: [AxialSpread; 2],
+    /// Errors and faults of single flanks.
+    pub deviations: FlankDeviations,
+    /// Gears beside their axes.
+    pub runout: Option<Runout>,
     /// Gauges to read: gear (1 or 2) and index in the model.
     pub gauges: Vec<(usize, usize)>,
     /// After how many pitches what repeats.
@@ -78,7 +83,7 @@ fn flank_of(side: FlankSide) -> Flank {
 ///
 /// # Errors
 /// [`RunError`] when a model is missing or broken, the gears do not run together, or a gauge does not exist.
-pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
+pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
     let read = |key: &str, path: &Path| -> Result<(ReducedGear, GearDefinition), RunError> {
         if !path.exists() {
             let problem = format!(
@@ -96,6 +101,13 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     };
     let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
     let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    if let Some(from) = &scene.misalignment_from {
+        let keys = TableKeys::new(&scene.document, "pair");
+        let pair = ([gear_1.profile.teeth, gear_2.profile.teeth], scene.flank);
+        let (misalignment, note) = from.take(&keys, &scene.folder, pair)?;
+        scene.misalignment = misalignment;
+        scene.notes.push(note);
+    }
     let pair = GearPair::new(
         gear_1.profile.clone(),
         gear_2.profile.clone(),
@@ -104,6 +116,9 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     )
     .map_err(|e| scene.document.error("pair", e))?
     .on_flanks(scene.flank);
+    if pair.is_helical() && scene.path_by_default {
+        scene.edge_radius_m = None;
+    }
     if pair.is_helical() && scene.edge_radius_m.is_some() {
         let problem = "found \"extended\" with helical gears, whose tip edges are not modelled; allowed is \"line-of-action\"";
         return Err(scene.document.error("mesh.path", problem).into());
@@ -149,7 +164,15 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
     let layout = SliceLayout::of_models([&models[0], &models[1]], scene.axial_offset_m);
     (layout.check()).map_err(|e| scene.document.error("pair.axial_offset_mm", e))?;
     let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
-    let periods = PairPeriods::of([&gear_1, &gear_2]);
+    let deviations = flank_effects::deviations(&scene, [&gear_1, &gear_2])?;
+    let runout = flank_effects::runout(&scene, &pair)?;
+    let mut periods = PairPeriods::of([&gear_1, &gear_2]);
+    for gear in [1, 2]
+        .into_iter()
+        .filter(|gear| scene.tells_teeth_apart(*gear))
+    {
+        periods = periods.with_unlike_teeth(gear);
+    }
     let lines = ContactLines {
         pair,
         extension,
@@ -164,6 +187,8 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
         lines,
         layout,
         spreads,
+        deviations,
+        runout,
         gauges,
         periods,
         ratings,
@@ -196,47 +221,6 @@ impl LoadedScene {
         (0..self.scene.positions())
             .map(|k| self.scene.start_rad + step * k as f64)
             .collect()
-    }
-
-    /// The patches that touch or may touch at a driver angle.
-    pub fn patches_at(&self, driver_angle_rad: f64) -> Vec<ContactPatch> {
-        let friction = self.scene.contact.friction;
-        let (mut lines, mut patches) = (Vec::new(), Vec::new());
-        self.lines.at(driver_angle_rad, &mut lines);
-        for line in lines.iter().enumerate() {
-            (self.lines).push_patches(line, &self.layout, friction, &mut patches);
-        }
-        patches
-    }
-
-    /// Patches with their forces `[line][slice]` as gear 1 or gear 2 bears them.
-    pub fn loaded_slices<'a>(
-        &'a self,
-        gear: usize,
-        patches: &'a [ContactPatch],
-        forces_n: &'a [f64],
-    ) -> impl Iterator<Item = LoadedSlice> + 'a {
-        let count = self.layout.slices;
-        patches.iter().map(move |patch| LoadedSlice {
-            tooth: patch.teeth[gear - 1],
-            slice: patch.slice,
-            roll_rad: patch.places[gear - 1].u,
-            components: patch.force_components(gear - 1),
-            force_n: forces_n[patch.line * count + patch.slice],
-        })
-    }
-
-    /// A contact problem of this scene.
-    ///
-    /// # Errors
-    /// [`ContactError`] when the models do not fit each other.
-    pub fn contact(&self) -> Result<StaticContact, ContactError> {
-        StaticContact::new(
-            self.lines.clone(),
-            &self.models[0],
-            &self.models[1],
-            self.scene.contact,
-        )
     }
 }
 
@@ -290,7 +274,7 @@ pub fn run(
     let scene = &loaded.scene;
     let angles = loaded.angles_rad();
     let clock = Instant::now();
-    let slots = loaded.lines.most_pairs();
+    let slots = loaded.line_slots(&angles);
     let done = std::sync::atomic::AtomicUsize::new(0);
     let contact = loaded.contact()?;
     let curves: Vec<TorqueCurves> = scene
@@ -306,9 +290,8 @@ pub fn run(
     let contact_seconds = clock.elapsed().as_secs_f64();
 
     let (mut pair, mut pair_count) = (Vec::new(), Vec::new());
-    let mut lines = Vec::new();
     for &angle in &angles {
-        loaded.lines.at(angle, &mut lines);
+        let (_, lines) = loaded.lines_at(angle);
         pair_count.push(lines.len() as u32);
         pair.extend((0..slots).map(|k| lines.get(k).map_or(0.0, |l| l.pair as f64)));
     }

@@ -1,7 +1,10 @@
 //! The scene file: a gear pair, its models, torques, angle range and gauges.
 
+use super::taken_misalignment::MisalignmentFrom;
 use crate::rating::RatingTable;
+use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::FrictionTable;
+use crate::system::tables::gear_mesh::EccentricityTable;
 use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{FlankSide, InputError, Misalignment};
@@ -44,11 +47,11 @@ struct PairTable {
     #[serde(default)]
     axial_offset_mm: f64,
     /// Axis error in the plane of the axes; 0 where not given.
-    #[serde(default)]
-    inclination_mrad: f64,
+    inclination_mrad: Option<f64>,
     /// Axis error across the plane of the axes; 0 where not given.
-    #[serde(default)]
-    deviation_mrad: f64,
+    deviation_mrad: Option<f64>,
+    /// Axis errors as a static run of the gearbox has found them, instead of the two.
+    misalignment_from: Option<MisalignmentFrom>,
 }
 
 fn default_flank() -> FlankSide {
@@ -84,12 +87,23 @@ struct MeshTable {
     model: MeshModel,
     /// Local contact; "calibrated" where not given.
     local: Option<LocalTable>,
-    /// Ends of the path of contact; "line-of-action" where not given.
+    /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
+    /// not modelled at rest.
     path: Option<PathTable>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,
     /// Tooth friction; none where not given.
     friction: Option<FrictionTable>,
+    /// Errors and faults of gear 1.
+    #[serde(default)]
+    errors_1: Vec<FlankErrorTable>,
+    /// Errors and faults of gear 2.
+    #[serde(default)]
+    errors_2: Vec<FlankErrorTable>,
+    /// Place of gear 1 on its body: runout and wobble.
+    eccentricity_1: Option<EccentricityTable>,
+    /// Place of gear 2 on its body.
+    eccentricity_2: Option<EccentricityTable>,
 }
 
 /// Radius of a tip edge where the scene states none, in micrometres: a deburred edge.
@@ -136,12 +150,20 @@ pub struct Scene {
     pub axial_offset_m: f64,
     /// Hand of the flanks in contact, on both gears.
     pub flank: FlankSide,
-    /// Axis errors.
+    /// Axis errors that the scene states.
     pub misalignment: Misalignment,
+    /// Result from which they are taken instead.
+    pub misalignment_from: Option<MisalignmentFrom>,
+    /// Errors and faults of gear 1 and gear 2.
+    pub errors: [Vec<FlankErrorTable>; 2],
+    /// Places of gear 1 and gear 2 on their bodies.
+    pub eccentricity: [Option<EccentricityTable>; 2],
     /// Local contact and friction.
     pub contact: ContactOptions,
     /// Radius of the tip edges \[m\] where the path is `extended`; none where it is `line-of-action`.
     pub edge_radius_m: Option<f64>,
+    /// Whether the scene leaves the path open: `extended` but for helical teeth.
+    pub path_by_default: bool,
     /// Torques on gear 2 \[N·m\].
     pub torques_nm: Vec<f64>,
     /// First driver angle \[rad\].
@@ -204,6 +226,13 @@ impl Scene {
             ("pair.inclination_mrad", pair.inclination_mrad),
             ("pair.deviation_mrad", pair.deviation_mrad),
         ] {
+            if value.is_some() && pair.misalignment_from.is_some() {
+                return Err(document.error(
+                    key,
+                    "is stated and taken from a result (misalignment_from); remove one of the two",
+                ));
+            }
+            let value = value.unwrap_or(0.0);
             require(
                 key,
                 value,
@@ -253,7 +282,7 @@ impl Scene {
             }
         };
         let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
-            (Some(PathTable::Extended), radius) => {
+            (Some(PathTable::Extended) | None, radius) => {
                 let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
                 require(
                     "mesh.edge_radius_um",
@@ -263,13 +292,13 @@ impl Scene {
                 )?;
                 Some(radius * 1e-6)
             }
-            (Some(PathTable::LineOfAction) | None, Some(_)) => {
+            (Some(PathTable::LineOfAction), Some(_)) => {
                 return Err(document.error(
                     "mesh.edge_radius_um",
                     "is not used on the line of action; set mesh.path = \"extended\" or leave it out",
                 ));
             }
-            (Some(PathTable::LineOfAction) | None, None) => None,
+            (Some(PathTable::LineOfAction), None) => None,
         };
         Ok(Self {
             title: table.title,
@@ -279,9 +308,12 @@ impl Scene {
             axial_offset_m: pair.axial_offset_mm * 1e-3,
             flank: pair.flank,
             misalignment: Misalignment {
-                inclination_rad: pair.inclination_mrad * 1e-3,
-                deviation_rad: pair.deviation_mrad * 1e-3,
+                inclination_rad: pair.inclination_mrad.unwrap_or(0.0) * 1e-3,
+                deviation_rad: pair.deviation_mrad.unwrap_or(0.0) * 1e-3,
             },
+            misalignment_from: pair.misalignment_from.clone(),
+            errors: [table.mesh.errors_1, table.mesh.errors_2],
+            eccentricity: [table.mesh.eccentricity_1, table.mesh.eccentricity_2],
             contact: ContactOptions {
                 local: match table.mesh.local {
                     Some(LocalTable::None) => LocalContact::None,
@@ -292,6 +324,7 @@ impl Scene {
                 friction,
             },
             edge_radius_m,
+            path_by_default: table.mesh.path.is_none() && table.mesh.edge_radius_um.is_none(),
             torques_nm: table.run.torques_Nm,
             start_rad: table.run.start_deg.to_radians(),
             pitches: table.run.pitches,
@@ -303,6 +336,25 @@ impl Scene {
             notes: note.into_iter().collect(),
             document,
         })
+    }
+
+    /// Whether teeth of a gear (1 or 2) differ by its errors or its place: it repeats after a revolution only.
+    #[must_use]
+    pub fn tells_teeth_apart(&self, gear: usize) -> bool {
+        self.eccentricity[gear - 1].is_some()
+            || self.errors[gear - 1]
+                .iter()
+                .any(FlankErrorTable::tells_teeth_apart)
+    }
+
+    /// The scene without what only decides the forces: for reading results, which have them.
+    #[must_use]
+    pub fn with_known_forces(self) -> Self {
+        Self {
+            misalignment_from: None,
+            errors: [Vec::new(), Vec::new()],
+            ..self
+        }
     }
 
     /// Number of positions.

@@ -21,6 +21,7 @@ mod error;
 mod from_scene;
 mod in_time;
 mod job;
+mod mesh_misalignment;
 mod mesh_pace;
 mod mesh_passing;
 mod mode_shares;
@@ -43,6 +44,7 @@ pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,
 };
+pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;

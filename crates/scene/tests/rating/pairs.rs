@@ -19,6 +19,7 @@ centre_distance_mm = 106.8
 [mesh]
 model = "hybrid"
 local = "weber-banaschek"
+path = "line-of-action"
 [run]
 torques_Nm = [100.0, 200.0]
 pitches = 41

@@ -9,6 +9,7 @@ mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]
 mod made_up_gears;
 mod pair_stiffness;
+mod pairs_at_rest;
 mod shafts;
 mod shipped;
 mod start;

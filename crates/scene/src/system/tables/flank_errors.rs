@@ -183,6 +183,11 @@ impl FlankErrorTable {
         }
     }
 
+    /// Whether it is not the same on all teeth.
+    pub(crate) fn tells_teeth_apart(&self) -> bool {
+        !matches!(self, Self::Deviation { tooth: None, .. })
+    }
+
     /// The tooth that has it; none where all may have.
     fn tooth(&self) -> Option<usize> {
         match self {

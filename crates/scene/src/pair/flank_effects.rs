@@ -1,0 +1,75 @@
+//! `mesh.errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` of a pair: the tables are those of gear meshes.
+
+use std::sync::Arc;
+
+use gearmesh_contact::{FlankDeviations, GearSeat, Runout};
+use gearmesh_geometry::flank_error::FlankError;
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{GearDefinition, GearPair, InputError};
+
+use super::scene_file::Scene;
+use crate::system::tables::UM;
+use crate::system::tables::gear_mesh::EccentricityTable;
+
+/// Largest tilt of a gear on its body, as of misaligned axes.
+const LARGEST_TILT_MRAD: f64 = 10.0;
+
+/// Errors and faults of both gears.
+///
+/// # Errors
+/// [`InputError`] at the key, or in a file.
+pub(super) fn deviations(
+    scene: &Scene,
+    gears: [&GearDefinition; 2],
+) -> Result<FlankDeviations, InputError> {
+    let keys = TableKeys::new(&scene.document, "mesh");
+    let mut made: [Vec<Arc<dyn FlankError>>; 2] = [Vec::new(), Vec::new()];
+    for (number, (tables, gear)) in scene.errors.iter().zip(gears).enumerate() {
+        for (i, table) in tables.iter().enumerate() {
+            let key = format!("errors_{}.{i}", number + 1);
+            let teeth = (&gear.profile, gear.tooth.face_width_m);
+            made[number].push(table.on_gear(teeth, (&keys, &key), &scene.folder)?);
+        }
+    }
+    Ok(FlankDeviations::new(made))
+}
+
+/// Places of the gears on their bodies; none where both stand on their axes.
+///
+/// # Errors
+/// [`InputError`] for an offset that leaves no line of action, or a tilt that is not small.
+pub(super) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, InputError> {
+    let tables = scene.eccentricity.map(Option::unwrap_or_default);
+    if scene.eccentricity.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let keys = TableKeys::new(&scene.document, "mesh");
+    // Half of what the line of action leaves, for each gear.
+    let sum = pair.gear_1.base_radius_m + pair.gear_2.base_radius_m;
+    let most_um = 0.25 * (pair.centre_distance_m - sum) / UM;
+    for (number, table) in [1, 2].into_iter().zip(&tables) {
+        let at = |name: &str| format!("eccentricity_{number}.{name}");
+        keys.require(
+            &at("offset_um"),
+            table.offset_um,
+            table.offset_um.abs() <= most_um,
+            &format!("-{most_um:.0} to {most_um:.0}, a quarter of the centre distance less the base radii"),
+        )?;
+        keys.require(
+            &at("tilt_mrad"),
+            table.tilt_mrad,
+            table.tilt_mrad.abs() <= LARGEST_TILT_MRAD,
+            "-10 to 10: the misalignment is treated as small",
+        )?;
+    }
+    Ok(Some(Runout::new(pair, tables.map(seat))))
+}
+
+fn seat(table: EccentricityTable) -> GearSeat {
+    GearSeat {
+        offset_m: UM * table.offset_um,
+        direction_rad: table.direction_deg.to_radians(),
+        tilt_rad: 1e-3 * table.tilt_mrad,
+        tilt_direction_rad: table.tilt_direction_deg.to_radians(),
+    }
+}

@@ -1,0 +1,121 @@
+//! `pair.misalignment_from`: the axes of a pair as a static run of its gearbox has found them, with shafts and bearings
+//! that give way.
+
+use std::path::{Path, PathBuf};
+
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::system::names;
+use crate::system_run::SystemResult;
+
+/// `misalignment_from`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MisalignmentFrom {
+    /// Result of a `static` run, relative to the scene.
+    pub result: PathBuf,
+    /// Name of the gear mesh in it.
+    pub mesh: String,
+    /// Which equilibrium, from 0; the last where not given.
+    pub point: Option<usize>,
+}
+
+impl MisalignmentFrom {
+    /// The misalignment of a pair with so many teeth in contact on these flanks, and a note of what was taken.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key, when the result has no such mesh or point, other teeth, or its mesh carries on the
+    /// other flanks.
+    pub(super) fn take(
+        &self,
+        keys: &TableKeys<'_>,
+        folder: &Path,
+        (teeth, flank): ([usize; 2], FlankSide),
+    ) -> Result<(Misalignment, String), InputError> {
+        let at =
+            |key: &str, problem: String| keys.error(&format!("misalignment_from.{key}"), problem);
+        let path = folder.join(&self.result);
+        let shown = path.display();
+        if !path.is_file() {
+            let problem = format!(
+                "the result {shown} does not exist; make it with `gearmesh run SCENE.toml -o {shown}`, run.kind = \"static\""
+            );
+            return Err(at("result", problem));
+        }
+        let unreadable = |error: gearmesh_model::FileError| at("result", error.to_string());
+        let result = SystemResult::open(&path).map_err(unreadable)?;
+        if result.kind != "static" {
+            let kind = &result.kind;
+            return Err(at(
+                "result",
+                format!("found a result of kind \"{kind}\", allowed is \"static\""),
+            ));
+        }
+        let meshes = &result.head.meshes;
+        let mesh = meshes.iter().find(|mesh| mesh.name == self.mesh);
+        let mesh = mesh.ok_or_else(|| {
+            let known: Vec<String> = meshes.iter().map(|mesh| mesh.name.clone()).collect();
+            at("mesh", names::unknown("gear mesh", &self.mesh, &known))
+        })?;
+        let swapped = mesh.teeth != teeth;
+        if swapped && mesh.teeth != [teeth[1], teeth[0]] {
+            let [z1, z2] = mesh.teeth;
+            let problem = format!(
+                "`{}` has {z1} and {z2} teeth, the pair {} and {}",
+                self.mesh, teeth[0], teeth[1]
+            );
+            return Err(at("mesh", problem));
+        }
+        let rows = result.rows.rows();
+        let point = self.point.unwrap_or(rows.saturating_sub(1));
+        if point >= rows {
+            let problem = format!(
+                "found {point}, the result has points 0 to {}",
+                rows.saturating_sub(1)
+            );
+            return Err(at("point", problem));
+        }
+        let loaded = result.loaded_flank(&self.mesh, point).map_err(unreadable)?;
+        if let Some(other) = loaded.filter(|side| *side != flank) {
+            let problem = format!(
+                "`{}` carries on its {} flanks there, the pair on its {} ones; set pair.flank = \"{}\"",
+                self.mesh,
+                other.name(),
+                flank.name(),
+                other.name()
+            );
+            return Err(at("mesh", problem));
+        }
+        let axes = (result.mesh_axes(mesh, point, swapped)).map_err(unreadable)?;
+        let axes = axes.ok_or_else(|| {
+            let [a, b] = &mesh.bodies;
+            let problem = format!(
+                "the result has no places of the bodies `{a}` and `{b}`; name them in output.bodies of its scene"
+            );
+            at("result", problem)
+        })?;
+        let misalignment = axes.misalignment(flank);
+        let (inclination, deviation) = (
+            1e3 * misalignment.inclination_rad,
+            1e3 * misalignment.deviation_rad,
+        );
+        for (what, value) in [("inclination", inclination), ("deviation", deviation)] {
+            if value.is_nan() || value.abs() > 10.0 {
+                let problem = format!(
+                    "`{}` has an {what} of {value:.3} mrad, allowed is -10 to 10: the misalignment is treated as small",
+                    self.mesh
+                );
+                return Err(at("mesh", problem));
+            }
+        }
+        let note = format!(
+            "misalignment of mesh `{}` at point {point} of {shown}: inclination_mrad = {inclination:.6}, deviation_mrad = {deviation:.6}; its centre distance there is {:.4} mm",
+            self.mesh,
+            1e3 * axes.centre_distance_m
+        );
+        Ok((misalignment, note))
+    }
+}

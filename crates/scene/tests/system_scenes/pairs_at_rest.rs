@@ -1,0 +1,404 @@
+//! Scenes of a `[pair]` against static runs of the same gears as bodies: errors and faults, eccentricity, axes that
+//! lean.
+
+use std::path::Path;
+
+use gearmesh_contact::LocalContact;
+use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::system_run::RunJob;
+use gearmesh_scene::{Scene, SceneResult, load as load_pair, run};
+
+use crate::common::load;
+use crate::made_up_gears::{pair, write_models};
+use crate::system_runs::Desk;
+
+/// How far gear 2 stands behind at the start, so that teeth press on each other \[m\].
+const BEHIND_M: f64 = 20e-6;
+const POINTS: usize = 12;
+const PITCHES: usize = 5;
+
+/// Gear 1 turns clockwise on right flanks, counter-clockwise on left ones.
+struct Twin {
+    flank: FlankSide,
+    torque_nm: f64,
+    /// Keys that both kinds of scene have.
+    effects: &'static str,
+}
+
+impl Twin {
+    /// Angle of gear 1 from where tooth 0 stands on +x to where it touches at the pitch point.
+    fn start_deg(&self) -> f64 {
+        let pair = pair();
+        let roll = pair.working_pressure_angle_rad.tan();
+        pair.gear_1.half_angle_rad(roll).to_degrees()
+    }
+
+    fn at_rest(&self, folder: &Path) -> SceneResult {
+        let Self {
+            flank,
+            torque_nm,
+            effects,
+        } = self;
+        let text = format!(
+            "title = \"at rest\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\nflank = \"{}\"\n\
+             [run]\ntorques_Nm = [{torque_nm:?}]\nstart_deg = {:?}\npitches = {PITCHES}\npoints_per_pitch = {POINTS}\n\
+             [mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n{effects}\n",
+            flank.name(),
+            self.start_deg()
+        );
+        let scene = Scene::from_document(InputDocument::new("pair.toml", text), folder).unwrap();
+        assert_eq!(scene.contact.local, LocalContact::WeberBanaschek);
+        run(&load_pair(scene).unwrap(), &|_, _| ()).unwrap()
+    }
+
+    /// The transmission error from the turns of the bodies.
+    fn as_bodies(&self, folder: &Path) -> Vec<f64> {
+        let pair = pair();
+        let hand = self.flank.mirror();
+        let roll = pair.working_pressure_angle_rad.tan();
+        let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
+        let turned = self.start_deg() * base_1 / base_2 - (BEHIND_M / base_2).to_degrees();
+        let wheel_deg = 180.0 + hand * (pair.gear_2.half_angle_rad(roll).to_degrees() + turned);
+        let step_deg = 360.0 / (pair.gear_1.teeth * POINTS) as f64;
+        let angles: Vec<String> = (0..POINTS * PITCHES)
+            .map(|k| format!("{:?}", -hand * step_deg * k as f64))
+            .collect();
+        let text = format!(
+            "title = \"bodies\"\n[run]\nkind = \"static\"\nmotion = \"drive\"\nangles_deg = [{}]\n\
+             [[body]]\nname = \"pinion\"\ngear = \"gear_30.h5\"\ncardan_deg = [0.0, 0.0, 0.0]\n\
+             [[body]]\nname = \"wheel\"\ngear = \"gear_41.h5\"\nposition_mm = [106.8, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, {wheel_deg:?}]\n\
+             [[joint]]\nname = \"axle 1\"\nkind = \"revolute\"\nbody_2 = \"pinion\"\n\
+             [[joint]]\nname = \"axle 2\"\nkind = \"revolute\"\nbody_2 = \"wheel\"\n\
+             [[motion]]\nname = \"drive\"\njoint = \"axle 1\"\nangle_deg = 0.0\n\
+             [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
+             [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\
+             flanks = \"{}\"\npath = \"line-of-action\"\n{}\n",
+            angles.join(", "),
+            -hand * self.torque_nm,
+            self.flank.name(),
+            self.effects
+        );
+        let result = Desk::new().run(RunJob::from_scene(load(&text, folder).unwrap()).unwrap());
+        let turns = |body: &str| {
+            result
+                .rows
+                .read(&format!("bodies/{body}/turn_rad"))
+                .unwrap()
+        };
+        let [first, second] = [turns("pinion"), turns("wheel")];
+        let moved = first.iter().zip(&second);
+        moved
+            .map(|(one, two)| hand * (base_2 * two + base_1 * one) - BEHIND_M)
+            .collect()
+    }
+
+    /// Largest difference of the transmission errors, and how far the effects move them \[m\].
+    fn difference(&self) -> (f64, f64) {
+        let folder = tempfile::tempdir().unwrap();
+        write_models(folder.path());
+        std::fs::write(
+            folder.path().join("lead.csv"),
+            "z_mm,removed_um\n-10,0\n10,6\n",
+        )
+        .unwrap();
+        let at_rest = self.at_rest(folder.path());
+        let bodies = self.as_bodies(folder.path());
+        let ideal = Self {
+            effects: "",
+            ..*self
+        }
+        .at_rest(folder.path());
+        let worst = |a: &[f64], b: &[f64]| {
+            assert_eq!(a.len(), b.len());
+            (a.iter().zip(b)).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+        };
+        (
+            worst(&at_rest.te_m, &bodies),
+            worst(&at_rest.te_m, &ideal.te_m),
+        )
+    }
+
+    fn agrees(&self, tolerance_m: f64, least_effect_m: f64) {
+        let (difference, effect) = self.difference();
+        assert!(effect > least_effect_m, "{effect:e}");
+        assert!(difference < tolerance_m, "{difference:e} m of {effect:e} m");
+    }
+}
+
+fn pitch(side: &str, teeth: usize, seed: usize) -> String {
+    let values: Vec<String> = (0..teeth)
+        .map(|k| format!("{:?}", ((k * 7 + seed) % 11) as f64))
+        .collect();
+    format!(
+        "{{ kind = \"pitch\", side = \"{side}\", removed_um = [{}] }}",
+        values.join(", ")
+    )
+}
+
+/// Tooth by tooth, on both gears and on either flank.
+#[test]
+fn pitch_errors_are_those_of_the_bodies() {
+    for flank in [FlankSide::Right, FlankSide::Left] {
+        let side = flank.name();
+        let errors = format!(
+            "errors_1 = [{}]\nerrors_2 = [{}]",
+            pitch(side, 30, 0),
+            pitch(side, 41, 5)
+        );
+        Twin {
+            flank,
+            torque_nm: 2.0,
+            effects: errors.leak(),
+        }
+        .agrees(1e-9, 5e-6);
+    }
+}
+
+/// The bodies' mesh turns the normals where the depth has a slope, which moves lever arms; at a small load that moves
+/// little.
+#[test]
+fn faults_are_those_of_the_bodies() {
+    for (effects, least_effects_m) in [
+        (
+            "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]",
+            [5e-7, 2e-6],
+        ),
+        (
+            "errors_1 = [{ kind = \"spall\", tooth = 1, side = \"right\", radii_mm = [44.5, 47.5], z_mm = [-10.0, 10.0], depth_um = 8.0, \
+             edge_deg = 2.0 }]",
+            [5e-6, 5e-6],
+        ),
+        (
+            "errors_2 = [{ kind = \"tip-chip\", tooth = 39, end = \"+z\", height_mm = 2.0, length_mm = 12.0 }]",
+            [1e-8, 3e-7],
+        ),
+        (
+            "errors_2 = [{ kind = \"broken-tooth\", tooth = 38, above_radius_mm = 63.5 }]",
+            [3e-8, 1e-6],
+        ),
+    ] {
+        for (torque_nm, tolerance_m, least_m) in [
+            (2.0, 1e-10, least_effects_m[0]),
+            (100.0, 1e-8, least_effects_m[1]),
+        ] {
+            Twin {
+                flank: FlankSide::Right,
+                torque_nm,
+                effects,
+            }
+            .agrees(tolerance_m, least_m);
+        }
+    }
+}
+
+/// Exact for offsets; what is left of tilts is of second order.
+#[test]
+fn eccentricity_is_that_of_the_bodies() {
+    for flank in [FlankSide::Right, FlankSide::Left] {
+        let twin = |effects| Twin {
+            flank,
+            torque_nm: 2.0,
+            effects,
+        };
+        twin(
+            "eccentricity_1 = { offset_um = 40.0, direction_deg = 70.0 }\n\
+             eccentricity_2 = { offset_um = 30.0, direction_deg = 200.0 }",
+        )
+        .agrees(5e-11, 1e-5);
+        let tilts = [
+            "eccentricity_1 = { tilt_mrad = 0.25, tilt_direction_deg = 20.0 }\n\
+             eccentricity_2 = { tilt_mrad = 0.25, tilt_direction_deg = 30.0 }",
+            "eccentricity_1 = { tilt_mrad = 0.5, tilt_direction_deg = 20.0 }\n\
+             eccentricity_2 = { tilt_mrad = 0.5, tilt_direction_deg = 30.0 }",
+        ];
+        let [(small, _), (large, effect)] = tilts.map(|effects| twin(effects).difference());
+        // r_b2 t^2/2, both axes leaning by t/2.
+        let second_order_m = 0.5 * pair().gear_2.base_radius_m * 1e-3_f64.powi(2);
+        assert!(
+            effect > 1e-6 && large < second_order_m,
+            "{large:e} m of {effect:e} m"
+        );
+        assert!(small < 0.35 * large, "{small:e} {large:e}");
+    }
+}
+
+/// A wheel on a bearing that tilts: the pair that takes its misalignment from there has its transmission error, one
+/// with aligned axes has not. The lead of gear 1 is not even, so that the sign of the misalignment counts.
+#[test]
+fn misalignment_is_taken_from_a_gearbox() {
+    let folder = tempfile::tempdir().unwrap();
+    write_models(folder.path());
+    std::fs::write(
+        folder.path().join("lead.csv"),
+        "z_mm,removed_um\n-10,0\n10,6\n",
+    )
+    .unwrap();
+    let lead = "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]";
+    let pair = pair();
+    let roll = pair.working_pressure_angle_rad.tan();
+    let start_deg = pair.gear_1.half_angle_rad(roll).to_degrees();
+    let wheel_deg = 180.0 + pair.gear_2.half_angle_rad(roll).to_degrees() + start_deg * 30.0 / 41.0;
+    // The torque is taken by a torsion spring; the bearing stands 15 mm beside the gear and tilts.
+    let gearbox = |flanks: &str, sign: f64, wheel_deg: f64| {
+        format!(
+            "title = \"box\"\n[run]\nkind = \"static\"\nload_factors = [0.5, 1.0]\n\
+         [[body]]\nname = \"pinion\"\ngear = \"gear_30.h5\"\ncardan_deg = [0.0, 0.0, 0.0]\n\
+         [[body]]\nname = \"wheel\"\ngear = \"gear_41.h5\"\nposition_mm = [106.8, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, {wheel_deg:?}]\n\
+         [[joint]]\nname = \"axle 1\"\nkind = \"fixed\"\nbody_2 = \"pinion\"\n\
+         [[bearing]]\nname = \"bearing\"\nkind = \"linear\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n\
+         radial_stiffness_N_per_mm = 1e7\naxial_stiffness_N_per_mm = 1e7\ntilt_stiffness_Nm_per_rad = 4e4\n\
+         [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
+         [[gear_mesh]]\nname = \"stage\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\
+         flanks = \"{flanks}\"\npath = \"line-of-action\"\n{lead}\n",
+            -sign * 100.0
+        )
+    };
+    let desk = Desk::new();
+    let text = gearbox("right", 1.0, wheel_deg);
+    let result = desk.run(RunJob::from_scene(load(&text, folder.path()).unwrap()).unwrap());
+    let errors_m = result.rows.read("elements/stage/transmission_error_m");
+    let [te_at_half, te] = errors_m.unwrap()[..] else {
+        unreachable!()
+    };
+    let file = desk.output.display();
+    let loaded_with = |torque_nm: f64, keys: &str| {
+        let text = format!(
+            "title = \"taken\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n{keys}\n\
+             [run]\ntorques_Nm = [{torque_nm:?}]\nstart_deg = {start_deg:?}\npitches = 1\npoints_per_pitch = 4\n\
+             [mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n{lead}\n"
+        );
+        load_pair(
+            Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap(),
+        )
+    };
+    let scene = |keys: &str| loaded_with(100.0, keys);
+    let from = format!("misalignment_from = {{ result = \"{file}\", mesh = \"stage\" }}");
+    let taken = scene(&from).unwrap();
+    let found = taken.scene.misalignment;
+    assert!(found.deviation_rad.abs() > 2e-4, "{found:?}");
+    let note = &taken.scene.notes[0];
+    assert!(
+        note.contains("misalignment of mesh `stage` at point 1 of"),
+        "{note}"
+    );
+    let result = run(&taken, &|_, _| ()).unwrap();
+    let aligned = run(&scene("").unwrap(), &|_, _| ()).unwrap();
+    let keys = format!(
+        "inclination_mrad = {:?}\ndeviation_mrad = {:?}",
+        -1e3 * found.inclination_rad,
+        -1e3 * found.deviation_rad
+    );
+    let mirrored = run(&scene(&keys).unwrap(), &|_, _| ()).unwrap();
+    let differs = |other: &SceneResult| (other.te_m[0] - te).abs();
+    assert!(differs(&result) < 1e-8, "{te:e} {:e}", result.te_m[0]);
+    assert!(differs(&aligned) > 5e-8 && differs(&mirrored) > 1e-6);
+    let half =
+        format!("misalignment_from = {{ result = \"{file}\", mesh = \"stage\", point = 0 }}");
+    // The load moves along the face, so that the axes do not lean in proportion.
+    let half = loaded_with(50.0, &half).unwrap();
+    let leans = half.scene.misalignment.deviation_rad;
+    assert!(
+        (leans - found.deviation_rad).abs() > 5e-5,
+        "{leans:e} {found:?}"
+    );
+    let at_half = run(&half, &|_, _| ()).unwrap().te_m[0];
+    assert!(
+        (at_half - te_at_half).abs() < 1e-8,
+        "{at_half:e} {te_at_half:e}"
+    );
+
+    for (keys, complaint) in [
+        (
+            from.replace("\"stage\"", "\"stag\""),
+            "pair.misalignment_from.mesh: there is no gear mesh `stag`",
+        ),
+        (
+            from.replace("result.h5", "none.h5"),
+            "pair.misalignment_from.result: the result",
+        ),
+        (
+            from.replace(" }", ", point = 2 }"),
+            "pair.misalignment_from.point: found 2, the result has points 0 to 1",
+        ),
+        (
+            format!("{from}\nflank = \"left\""),
+            "`stage` carries on its right flanks there, the pair on its left ones",
+        ),
+    ] {
+        let refused = scene(&keys).unwrap_err().to_string();
+        assert!(
+            refused.contains(complaint),
+            "`{complaint}` is not in {refused}"
+        );
+    }
+    let both = format!("{from}\ndeviation_mrad = 0.1");
+    let text = format!(
+        "title = \"t\"\n[pair]\ngear_1 = \"a\"\ngear_2 = \"b\"\ncentre_distance_mm = 106.8\n{both}\n[run]\ntorques_Nm = [1.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel = \"hybrid\"\n"
+    );
+    let refused =
+        Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .contains("pair.deviation_mrad: is stated and taken from a result"),
+        "{refused}"
+    );
+}
+
+/// Of a pair as of a gear mesh.
+#[test]
+fn the_path_is_extended_where_nothing_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    write_models(folder.path());
+    let plan = |path: &str| {
+        let text = format!(
+            "title = \"path\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
+             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 24\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n{path}\n"
+        );
+        let scene =
+            Scene::from_document(InputDocument::new("p.toml", text), folder.path()).unwrap();
+        let loaded = load_pair(scene).unwrap();
+        let te = run(&loaded, &|_, _| ()).unwrap().te_m;
+        (loaded.plan().lines.join("\n"), te)
+    };
+    let (told, open) = plan("");
+    assert!(
+        told.contains("path `extended` with a tip edge radius of 100 um"),
+        "{told}"
+    );
+    assert_eq!(open, plan("path = \"extended\"").1);
+    let (told, rigid) = plan("path = \"line-of-action\"");
+    assert!(told.contains("path `line-of-action`"), "{told}");
+    assert_ne!(open, rigid);
+    assert!(plan("edge_radius_um = 50.0").0.contains("radius of 50 um"));
+}
+
+/// One faulty tooth, or an axis beside the body's: the gear repeats after a revolution only. A deviation of all teeth
+/// leaves the period of one pitch.
+#[test]
+fn errors_of_single_teeth_set_the_period() {
+    let folder = tempfile::tempdir().unwrap();
+    write_models(folder.path());
+    std::fs::write(
+        folder.path().join("lead.csv"),
+        "z_mm,removed_um\n-10,0\n10,6\n",
+    )
+    .unwrap();
+    let periods = |effects: &str| {
+        let text = format!(
+            "title = \"periods\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
+             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n{effects}\n"
+        );
+        let scene =
+            Scene::from_document(InputDocument::new("p.toml", text), folder.path()).unwrap();
+        load_pair(scene).unwrap().periods.contact()
+    };
+    assert_eq!(
+        periods("errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]"),
+        periods("")
+    );
+    let broken = "[{ kind = \"broken-tooth\", tooth = 3, above_radius_mm = 47.0 }]";
+    assert_eq!(periods(&format!("errors_1 = {broken}")) % 30, 0);
+    assert_eq!(periods("eccentricity_2 = { offset_um = 10.0 }") % 41, 0);
+}
