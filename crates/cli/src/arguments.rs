@@ -38,11 +38,15 @@ pub enum Command {
     Export(ExportArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
-    /// Check a gear file, scene, study, S-N table, record, model or result
+    /// Check a gear file, bearing file, scene, study, S-N table, record, model or result
     Check(CheckArguments),
     /// Run a multibody scene again and again with some of its keys changed
     Study(StudyArguments),
-    /// Print the JSON Schema of scene, study or gear files
+    /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness, life
+    Bearing(BearingArguments),
+    /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
+    BearingFrequencies(BearingFrequenciesArguments),
+    /// Print the JSON Schema of scene, study, gear or bearing files
     Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
@@ -53,13 +57,16 @@ pub enum Command {
 pub struct MeshArguments {
     /// Gear file
     pub gear: PathBuf,
-    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu .xdmf .xmf
-    /// (ParaView)
+    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu
+    /// .xdmf .xmf (ParaView)
     #[arg(short, long)]
     pub output: PathBuf,
     /// Unit of the coordinates in the file
     #[arg(long, value_enum, default_value = "m")]
     pub length_unit: LengthUnit,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -76,6 +83,9 @@ pub struct ReduceArguments {
     /// Do not reduce a coarser mesh to estimate the discretisation error
     #[arg(long)]
     pub no_error_estimate: bool,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -96,6 +106,9 @@ pub struct ModesArguments {
     /// Mesh file for the shapes, one point field a mode (.vtu, .msh, ...)
     #[arg(long)]
     pub shapes: Option<PathBuf>,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -168,7 +181,8 @@ pub struct PlanArguments {
 pub struct RunArguments {
     /// Scene file
     pub scene: PathBuf,
-    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the command is repeated
+    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the
+    /// command is repeated
     #[arg(short, long)]
     pub output: PathBuf,
     /// Discard an unfinished run and begin anew
@@ -258,7 +272,8 @@ pub struct ReportArguments {
     /// HTML file
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position; meshes the gears again
+    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position;
+    /// meshes the gears again
     #[arg(long)]
     pub stress: bool,
     /// Folder of a reference record for each result, in the same order
@@ -274,7 +289,8 @@ pub struct ExportArguments {
     /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows, windows, modes and shapes; of both: ratings
+    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows,
+    /// windows, modes and shapes; of both: ratings
     #[arg(long)]
     pub table: Option<String>,
 }
@@ -451,7 +467,7 @@ pub enum WindowKind {
 /// `gearmesh check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// Gear file, scene, study, S-N table, record (or its folder), model or result
+    /// Gear file, bearing file, scene, study, S-N table, record (or its folder), model or result
     pub file: PathBuf,
 }
 
@@ -487,6 +503,92 @@ pub enum SchemaKind {
     Study,
     /// Gears
     Gear,
+    /// Rolling bearings
+    Bearing,
+}
+
+/// How balls roll.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ControlWord {
+    /// Without spin on the outer race
+    OuterRace,
+    /// Each ball on the race that lets less power go into spin
+    LeastSpin,
+}
+
+/// `gearmesh bearing`.
+#[derive(Debug, Args)]
+#[allow(non_snake_case)]
+pub struct BearingArguments {
+    /// Bearing file
+    pub bearing: PathBuf,
+    /// Force on the inner ring along x, y and z, the axis
+    #[arg(
+        long = "load-N",
+        alias = "load",
+        value_delimiter = ',',
+        num_args = 1,
+        required = true,
+        allow_hyphen_values = true,
+        value_name = "X,Y,Z"
+    )]
+    pub load_N: Vec<f64>,
+    /// Moment on the inner ring about x and y [default: 0,0]
+    #[arg(
+        long = "moment-Nm",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true,
+        value_name = "X,Y",
+        conflicts_with = "tilt_mrad"
+    )]
+    pub moment_Nm: Vec<f64>,
+    /// Hold the inner ring at this tilt about x and y instead
+    #[arg(
+        long,
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true,
+        value_name = "X,Y"
+    )]
+    pub tilt_mrad: Vec<f64>,
+    /// Speed of the inner ring: centrifugal force and gyroscopic moment of the rolling elements
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub speed_rpm: f64,
+    /// Speed of the outer ring
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub outer_speed_rpm: f64,
+    /// How balls roll at speed
+    #[arg(long, value_enum, default_value = "outer-race")]
+    pub control: ControlWord,
+    /// Viscosity of the lubricant at the bearing's temperature, for the modified life L10mr; with a speed
+    #[arg(long, requires = "contamination")]
+    pub viscosity_mm2_per_s: Option<f64>,
+    /// Contamination factor e_C of ISO 281: 1 clean, 0 dirty
+    #[arg(long, requires = "viscosity_mm2_per_s")]
+    pub contamination: Option<f64>,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh bearing-frequencies`.
+#[derive(Debug, Args)]
+pub struct BearingFrequenciesArguments {
+    /// Bearing file
+    pub bearing: PathBuf,
+    /// Speed of the inner ring
+    #[arg(long, default_value_t = 60.0, allow_negative_numbers = true)]
+    pub speed_rpm: f64,
+    /// Speed of the outer ring
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub outer_speed_rpm: f64,
+    /// Contact angle under load, instead of the nominal one
+    #[arg(long)]
+    pub contact_angle_deg: Option<f64>,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gearmesh demo`.

@@ -1,5 +1,7 @@
 //! One file per command.
 
+pub mod bearing;
+pub mod bearing_frequencies;
 pub mod check;
 pub mod compare;
 pub mod compliance;

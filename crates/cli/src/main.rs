@@ -7,6 +7,7 @@ mod console;
 mod failure;
 mod interrupt;
 mod length_unit;
+mod memory;
 mod offline;
 mod output_name;
 mod overwriting;
@@ -33,6 +34,8 @@ fn main() -> ExitCode {
         Command::Check(a) => commands::check::run(a),
         Command::Study(a) => commands::study::run(a),
         Command::Schema(a) => commands::schema::run(a),
+        Command::Bearing(a) => commands::bearing::run(a),
+        Command::BearingFrequencies(a) => commands::bearing_frequencies::run(a),
         Command::Demo(a) => commands::demo::run(a),
     });
     match outcome {

@@ -31,7 +31,8 @@ pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
     Ok(gear)
 }
 
-/// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like those of another unit.
+/// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like
+/// those of another unit.
 pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
     if let Some(body) = &gear.blank.meshed {
         let shown = body.file.display();
@@ -112,7 +113,8 @@ impl From<&Field> for MeshFields {
     }
 }
 
-/// Calls the Python module: mesh file, output, unit, whether hexahedra have incompatible modes. Prints what the format does not hold.
+/// Calls the Python module: mesh file, output, unit, whether hexahedra have incompatible modes. Prints what the format
+/// does not hold.
 const EXPORT: &str = "
 import sys, gearmesh
 try:

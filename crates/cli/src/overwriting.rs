@@ -7,8 +7,8 @@ use gearmesh_model::FileError;
 use gearmesh_scene::named_files;
 use std::path::{Path, PathBuf};
 
-/// Refuses an output that is a symbolic link, or that is one of the files that the command reads: an argument, or what scenes, studies and
-/// gear files among the arguments name.
+/// Refuses an output that is a symbolic link, or that is one of the files that the command reads: an argument, or what
+/// scenes, studies and gear files among the arguments name.
 ///
 /// # Errors
 /// [`Failure`] that names both.
@@ -73,7 +73,9 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             None => Default::default(),
         },
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
-        Command::Compliance(_)
+        Command::Bearing(_)
+        | Command::BearingFrequencies(_)
+        | Command::Compliance(_)
         | Command::Plan(_)
         | Command::Compare(_)
         | Command::Check(_)

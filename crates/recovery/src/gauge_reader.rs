@@ -28,7 +28,8 @@ pub struct Strain {
     pub method_2: f64,
 }
 
-/// Several gauges of one gear for loads on one hand of flank, read together: strain per newton on a slice at a roll station.
+/// Several gauges of one gear for loads on one hand of flank, read together: strain per newton on a slice at a roll
+/// station.
 #[derive(Debug, Clone)]
 pub struct GaugeArray {
     count: usize,

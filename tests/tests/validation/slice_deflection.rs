@@ -1,9 +1,9 @@
 //! Validation in three dimensions with free ends: a load over the whole width, over one of 5 and over one of 10 slices,
 //! deflection there and on all other slices.
 //!
-//! The reference is C_g + W: C_g, the deflection without the near field, from a finer mesh with more roll stations; W, that of the
-//! tooth-only submodel under a Hertz pressure that stands on a tenth of the width, from meshes of quadratic elements graded to
-//! the contact in all directions, extrapolated. No calibration and no law of a half plane enters it.
+//! The reference is C_g + W: C_g, the deflection without the near field, from a finer mesh with more roll stations; W,
+//! that of the tooth-only submodel under a Hertz pressure that stands on a tenth of the width, from meshes of quadratic
+//! elements graded to the contact in all directions, extrapolated. No calibration and no law of a half plane enters it.
 
 use crate::graded_tooth::{Contact, GradedTooth, PARTS};
 use gearmesh_contact::{LocalContact, SliceCompliance};
@@ -59,8 +59,8 @@ fn sliced(model: &ReducedGear, local: LocalContact) -> Vec<f64> {
     c
 }
 
-/// The mean over the width within 0.3 %, every slice within 1 %, under a load over the whole width; with a single slice loaded
-/// that within 1 %, all others within 1 % of its deflection.
+/// The mean over the width within 0.3 %, every slice within 1 %, under a load over the whole width; with a single slice
+/// loaded that within 1 %, all others within 1 % of its deflection.
 #[test]
 #[ignore = "two graded meshes and three gears: a minute or two on two quiet cores; run with --ignored"]
 fn slices_deflect_as_a_mesh_graded_to_the_contact_says() {

@@ -4,6 +4,8 @@ use crate::arguments::CheckArguments;
 use crate::commands::{reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
+use gearmesh_bearings::QuasiStaticBearing;
+use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
@@ -38,8 +40,21 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         InputKind::Study => study(path, &Study::from_document(document, folder)?),
         InputKind::SnTable => sn_table(path, &document),
         InputKind::Record => record(folder),
+        InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(path, &document),
         InputKind::Gear => gear(path, &document),
     }
+}
+
+fn bearing(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+    let found = BearingFromFile::from_document(document)?;
+    QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
+    console::data(format!(
+        "{}: bearing `{}`, sound",
+        path.display(),
+        found.definition.name
+    ));
+    found.notes.iter().for_each(console::note);
+    Ok(())
 }
 
 fn model(path: &Path) -> Result<(), Failure> {

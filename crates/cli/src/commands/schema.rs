@@ -10,6 +10,7 @@ pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     let (schema, kind) = match arguments.kind {
         SchemaKind::Scene => (gearmesh_scene::schema::scene(), "scene"),
         SchemaKind::Study => (gearmesh_scene::schema::study(), "study"),
+        SchemaKind::Bearing => (gearmesh_bearings::bearing_file::schema(), "bearing"),
         SchemaKind::Gear => (gearmesh_geometry::gear_file::schema(), "gear"),
     };
     if arguments.markdown {

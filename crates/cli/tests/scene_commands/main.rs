@@ -6,6 +6,7 @@
     missing_docs
 )]
 
+mod bearing;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
@@ -18,6 +19,7 @@ mod recover;
 mod report;
 mod run;
 mod schema;
+mod shipped_gearboxes;
 mod unequal_pair;
 
 use common::{Desk, argument, succeeds, workshop};

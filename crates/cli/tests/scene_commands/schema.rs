@@ -8,6 +8,7 @@ fn schemas_are_json() {
     for (kind, keys) in [
         ("scene", ["gear_mesh", "centre_distance_mm"]),
         ("gear", ["module_mm", "bore_diameter_mm"]),
+        ("bearing", ["ball_diameter_mm", "roller_length_mm"]),
     ] {
         let answer = succeeds(&["schema", kind]);
         assert!(
@@ -26,7 +27,7 @@ fn schemas_are_json() {
 /// The pages in docs/reference are what the program makes.
 #[test]
 fn reference_pages_are_up_to_date() {
-    for kind in ["gear", "scene", "study"] {
+    for kind in ["gear", "scene", "study", "bearing"] {
         let made = succeeds(&["schema", kind, "--markdown"]).stdout;
         let place = format!("docs/reference/{kind}.md");
         let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -7,9 +7,12 @@ mod crowned_cylinders;
 mod effects;
 mod energy;
 mod exchange;
+mod invariance;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;
 mod models;
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
 mod two_bodies;
 mod zone;
 

@@ -40,6 +40,10 @@ fn stiffnesses_are_of_one_order() {
     };
     let standard = iso.mesh_n_per_m2(pair.contact_ratio()) * WIDTH;
     let found: Vec<f64> = CONFORMING.iter().map(|name| mean(name)).collect();
+    println!(
+        "stiffness over that of ISO 6336: {:.3?}",
+        found.iter().map(|k| k / standard).collect::<Vec<_>>()
+    );
     for (name, stiffness) in CONFORMING.iter().zip(&found) {
         let ratio = stiffness / standard;
         assert!(

@@ -1,0 +1,438 @@
+//! The bearing file: TOML with units in the keys, checked key by key, turned into a [`BearingDefinition`] in SI units.
+
+mod arrangement_keys;
+mod ball_keys;
+mod catalogue_keys;
+mod roller_keys;
+
+use std::path::Path;
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::catalogue::CatalogueType;
+use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial, StatedRatings};
+use crate::estimate::Estimate;
+
+/// A millimetre in metres.
+const MM: f64 = 1e-3;
+/// A micrometre in metres.
+const UM: f64 = 1e-6;
+
+/// JSON Schema (draft 2020-12) of bearing files. Which keys a kind uses is said in their descriptions and checked when the file is read.
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(BearingFile)
+}
+
+/// A bearing file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[schemars(title = "gearmesh bearing")]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+struct BearingFile {
+    /// Name in prints; that of the catalogue where one is named.
+    name: Option<String>,
+    /// What it is, and which keys describe it.
+    kind: Kind,
+    /// Bore. "catalogue": needed without `designation`; otherwise only checked against the races.
+    bore_mm: Option<f64>,
+    /// Outside diameter, as `bore_mm`.
+    outside_diameter_mm: Option<f64>,
+    /// Width, as `bore_mm`.
+    width_mm: Option<f64>,
+    /// "deep-groove", "angular-contact": number of balls in a row.
+    balls: Option<usize>,
+    /// "deep-groove", "angular-contact": diameter of the balls.
+    ball_diameter_mm: Option<f64>,
+    /// Diameter of the circle of the balls' or rollers' middles.
+    pitch_diameter_mm: Option<f64>,
+    /// "deep-groove", "angular-contact": radius of the inner groove over the ball's diameter, more than 0.5.
+    inner_conformity: Option<f64>,
+    /// "deep-groove", "angular-contact": radius of the outer groove over the ball's diameter, more than 0.5.
+    outer_conformity: Option<f64>,
+    /// "angular-contact": contact angle without load. "tapered-roller": angle of the outer race against the axis. "catalogue": of an angular-contact bearing.
+    contact_angle_deg: Option<f64>,
+    /// "deep-groove", "cylindrical-roller", "catalogue": play across the axis from one side to the other; 0 where not given.
+    radial_clearance_um: Option<f64>,
+    /// "deep-groove", "angular-contact": diameters of the grooves' bottoms, inner and outer, instead of clearance or contact angle.
+    raceway_diameters_mm: Option<[f64; 2]>,
+    /// "cylindrical-roller", "tapered-roller": number of rollers in a row.
+    rollers: Option<usize>,
+    /// "cylindrical-roller", "tapered-roller": diameter of the rollers, in their middle.
+    roller_diameter_mm: Option<f64>,
+    /// "cylindrical-roller", "tapered-roller": length of the rollers that carries.
+    roller_length_mm: Option<f64>,
+    /// "cylindrical-roller", "tapered-roller": end profile; logarithmic by ISO/TS 16281 where not given.
+    profile: Option<ProfileTable>,
+    /// "cylindrical-roller", "tapered-roller": laminae of a roller; 40 where not given.
+    laminae: Option<usize>,
+    /// "tapered-roller": radius of the roller's spherical end over the distance of that end from the apex; 0.95 where not given.
+    end_radius_ratio: Option<f64>,
+    /// "tapered-roller": height of the contact with the rib above the inner race's edge; a fifth of the roller's large radius where not given.
+    rib_height_mm: Option<f64>,
+    /// "catalogue": designation in the built-in catalogue, such as "6205".
+    designation: Option<String>,
+    /// "catalogue": type, where no designation is given.
+    r#type: Option<CatalogueType>,
+    /// Two rows: "O" (back to back), "X" (face to face) or "tandem"; one row where not given.
+    arrangement: Option<ArrangementWord>,
+    /// Distance of the two rows.
+    row_distance_mm: Option<f64>,
+    /// "angular-contact", "tapered-roller": axial force that the rows of a pair bear at rest without load; of a single row that which its place without
+    /// load stands for.
+    preload_N: Option<f64>,
+    /// "angular-contact", "tapered-roller": axial displacement by which each row's inner ring is pressed in; negative for play.
+    preload_um: Option<f64>,
+    /// Place of the first ball or roller, from x towards y; 0 where not given.
+    first_angle_deg: Option<f64>,
+    /// Material of balls or rollers; steel, 206 GPa, 0.3, 7850 kg/m³, where not given.
+    element_material: Option<MaterialTable>,
+    /// Material of the rings; steel where not given.
+    ring_material: Option<MaterialTable>,
+    /// Load ratings of the whole bearing; those not given are computed. "catalogue": `dynamic_N` and `static_N` needed without `designation`.
+    ratings: Option<RatingsTable>,
+}
+
+/// `kind`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum Kind {
+    /// Ball bearing that bears axial loads both ways.
+    DeepGroove,
+    /// Ball bearing that bears axial loads one way.
+    AngularContact,
+    /// Bears no axial loads.
+    CylindricalRoller,
+    /// Roller bearing that bears axial loads one way.
+    TaperedRoller,
+    /// Estimated from a line of a catalogue.
+    Catalogue,
+}
+
+impl Kind {
+    fn word(self) -> &'static str {
+        match self {
+            Self::DeepGroove => "deep-groove",
+            Self::AngularContact => "angular-contact",
+            Self::CylindricalRoller => "cylindrical-roller",
+            Self::TaperedRoller => "tapered-roller",
+            Self::Catalogue => "catalogue",
+        }
+    }
+}
+
+/// `arrangement`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+enum ArrangementWord {
+    /// Back to back.
+    O,
+    /// Face to face.
+    X,
+    /// Alike.
+    #[serde(rename = "tandem")]
+    Tandem,
+}
+
+/// `[profile]`: material taken off a roller towards its ends.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ProfileTable {
+    /// Shape.
+    kind: ProfileKind,
+    /// "logarithmic": s in s ln(1/(1 − (2x/L)²)); 0.35 ‰ (tapered: 0.45 ‰) of the diameter where not given.
+    scale_um: Option<f64>,
+    /// "crowned": radius of the crown.
+    radius_mm: Option<f64>,
+}
+
+/// `profile.kind`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum ProfileKind {
+    /// None.
+    Straight,
+    /// Logarithmic.
+    Logarithmic,
+    /// A circle.
+    Crowned,
+}
+
+/// `[element_material]`, `[ring_material]`: linear elastic, isotropic.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+struct MaterialTable {
+    /// Young's modulus.
+    young_GPa: f64,
+    /// Poisson's ratio.
+    poisson: f64,
+    /// Density; of the elements only, for their centrifugal force. 7850 where not given.
+    density_kg_per_m3: Option<f64>,
+}
+
+/// `[ratings]`: load ratings of the whole bearing.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+struct RatingsTable {
+    /// C, dynamic; by ISO 281 where not given.
+    dynamic_N: Option<f64>,
+    /// C₀, static; by ISO 76 where not given.
+    static_N: Option<f64>,
+    /// C_u, fatigue load limit; from C₀ by ISO 281, annex B, where not given.
+    fatigue_N: Option<f64>,
+}
+
+/// What a bearing file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingFromFile {
+    /// The bearing.
+    pub definition: BearingDefinition,
+    /// How its inside was estimated, for `kind = "catalogue"`.
+    pub estimate: Option<Estimate>,
+    /// Remarks for the user.
+    pub notes: Vec<String>,
+}
+
+impl BearingFromFile {
+    /// Whether a document is meant as a bearing: it says of what kind at its top, and holds no teeth.
+    ///
+    /// # Errors
+    /// [`InputError`] for a document that is no TOML.
+    pub fn recognises(document: &InputDocument) -> Result<bool, InputError> {
+        #[derive(Deserialize)]
+        struct Marks {
+            kind: Option<serde::de::IgnoredAny>,
+            tooth: Option<serde::de::IgnoredAny>,
+        }
+        let marks: Marks = document.glance()?;
+        Ok(marks.kind.is_some() && marks.tooth.is_none())
+    }
+
+    /// Reads and checks a bearing file.
+    ///
+    /// # Errors
+    /// [`InputError`] for an unreadable file, a key or value that is not allowed, or a bearing that cannot be assembled.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&InputDocument::read(path)?)
+    }
+
+    /// Checks a bearing file that is already in memory.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn from_document(document: &InputDocument) -> Result<Self, InputError> {
+        let file: BearingFile = document.parse()?;
+        let keys = TableKeys::new(document, "");
+        refuse_unused(&file, &keys)?;
+        let mut notes = Vec::new();
+        let (geometry, estimate, name, from_catalogue) = match file.kind {
+            Kind::DeepGroove | Kind::AngularContact => {
+                let geometry = ball_keys::geometry(&file, &keys, &mut notes)?;
+                (BearingGeometry::Ball(geometry), None, None, None)
+            }
+            Kind::CylindricalRoller | Kind::TaperedRoller => {
+                let geometry = roller_keys::geometry(&file, document, &keys)?;
+                (BearingGeometry::Roller(geometry), None, None, None)
+            }
+            Kind::Catalogue => {
+                let found = catalogue_keys::geometry(&file, document, &keys, &mut notes)?;
+                let ratings = (found.line.dynamic_n, found.line.static_n);
+                (
+                    found.geometry,
+                    Some(found.estimate),
+                    found.name,
+                    Some(ratings),
+                )
+            }
+        };
+        let name = match (file.name.clone(), name) {
+            (Some(name), _) | (None, Some(name)) => name,
+            (None, None) => return Err(keys.error("name", "missing; give the bearing a name")),
+        };
+        let stated = file.ratings.clone().unwrap_or_default();
+        let table = TableKeys::new(document, "ratings");
+        for (key, value) in [
+            ("dynamic_N", stated.dynamic_N),
+            ("static_N", stated.static_N),
+            ("fatigue_N", stated.fatigue_N),
+        ] {
+            if let Some(value) = value {
+                table.require(key, value, value > 0.0, "more than 0")?;
+            }
+        }
+        let definition = BearingDefinition {
+            name,
+            geometry,
+            element_material: material(&file.element_material, document, "element_material")?,
+            ring_material: material(&file.ring_material, document, "ring_material")?,
+            arrangement: arrangement_keys::arrangement(&file, &keys)?,
+            preload: arrangement_keys::preload(&file, &keys)?,
+            first_angle_rad: file.first_angle_deg.unwrap_or(0.0).to_radians(),
+            stated_ratings: StatedRatings {
+                dynamic_n: stated.dynamic_N.or(from_catalogue.map(|r| r.0)),
+                static_n: stated.static_N.or(from_catalogue.map(|r| r.1)),
+                fatigue_n: stated.fatigue_N,
+            },
+        };
+        check_boundary(&file, &keys, &definition)?;
+        Ok(Self {
+            definition,
+            estimate,
+            notes,
+        })
+    }
+}
+
+fn material(
+    table: &Option<MaterialTable>,
+    document: &InputDocument,
+    name: &str,
+) -> Result<BearingMaterial, InputError> {
+    let Some(table) = table else {
+        return Ok(BearingMaterial::STEEL);
+    };
+    let keys = TableKeys::new(document, name);
+    let density = table
+        .density_kg_per_m3
+        .unwrap_or(BearingMaterial::STEEL.density_kg_per_m3);
+    keys.require(
+        "young_GPa",
+        table.young_GPa,
+        table.young_GPa > 0.0,
+        "more than 0",
+    )?;
+    keys.require(
+        "poisson",
+        table.poisson,
+        (0.0..0.5).contains(&table.poisson),
+        "0 up to, not including, 0.5",
+    )?;
+    keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
+    if name == "ring_material" && table.density_kg_per_m3.is_some() {
+        return Err(keys.error(
+            "density_kg_per_m3",
+            "is not used: the mass of the rings belongs to the bodies that carry them; remove it",
+        ));
+    }
+    Ok(BearingMaterial {
+        young_pa: 1e9 * table.young_GPa,
+        poisson: table.poisson,
+        density_kg_per_m3: density,
+    })
+}
+
+/// Keys that the chosen kind does not use are errors.
+fn refuse_unused(file: &BearingFile, keys: &TableKeys<'_>) -> Result<(), InputError> {
+    const BALLS: &[&str] = &["deep-groove", "angular-contact"];
+    const ROLLERS: &[&str] = &["cylindrical-roller", "tapered-roller"];
+    const LISTED: &[&str] = &["catalogue"];
+    const PRELOADED: &[&str] = &["angular-contact", "tapered-roller", "catalogue"];
+    keys.refuse_unused(
+        ("kind", file.kind.word()),
+        &[
+            ("balls", file.balls.is_some(), BALLS),
+            ("ball_diameter_mm", file.ball_diameter_mm.is_some(), BALLS),
+            (
+                "pitch_diameter_mm",
+                file.pitch_diameter_mm.is_some(),
+                &[
+                    "deep-groove",
+                    "angular-contact",
+                    "cylindrical-roller",
+                    "tapered-roller",
+                ],
+            ),
+            (
+                "inner_conformity",
+                file.inner_conformity.is_some(),
+                &["deep-groove", "angular-contact", "catalogue"],
+            ),
+            (
+                "outer_conformity",
+                file.outer_conformity.is_some(),
+                &["deep-groove", "angular-contact", "catalogue"],
+            ),
+            (
+                "contact_angle_deg",
+                file.contact_angle_deg.is_some(),
+                &["angular-contact", "tapered-roller", "catalogue"],
+            ),
+            (
+                "radial_clearance_um",
+                file.radial_clearance_um.is_some(),
+                &["deep-groove", "cylindrical-roller", "catalogue"],
+            ),
+            (
+                "raceway_diameters_mm",
+                file.raceway_diameters_mm.is_some(),
+                BALLS,
+            ),
+            ("rollers", file.rollers.is_some(), ROLLERS),
+            (
+                "roller_diameter_mm",
+                file.roller_diameter_mm.is_some(),
+                ROLLERS,
+            ),
+            ("roller_length_mm", file.roller_length_mm.is_some(), ROLLERS),
+            ("profile", file.profile.is_some(), ROLLERS),
+            ("laminae", file.laminae.is_some(), ROLLERS),
+            (
+                "end_radius_ratio",
+                file.end_radius_ratio.is_some(),
+                &["tapered-roller"],
+            ),
+            (
+                "rib_height_mm",
+                file.rib_height_mm.is_some(),
+                &["tapered-roller"],
+            ),
+            ("designation", file.designation.is_some(), LISTED),
+            ("type", file.r#type.is_some(), LISTED),
+            ("preload_N", file.preload_N.is_some(), PRELOADED),
+            ("preload_um", file.preload_um.is_some(), PRELOADED),
+        ],
+    )
+}
+
+/// The races must lie between bore and outside diameter where these are given.
+fn check_boundary(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    definition: &BearingDefinition,
+) -> Result<(), InputError> {
+    if file.kind == Kind::Catalogue {
+        return Ok(());
+    }
+    let (inner_m, outer_m) = match &definition.geometry {
+        BearingGeometry::Ball(g) => g.raceway_diameters_m(),
+        BearingGeometry::Roller(g) => (
+            g.pitch_diameter_m - g.diameter_m,
+            g.pitch_diameter_m + g.diameter_m,
+        ),
+    };
+    if let Some(bore) = file.bore_mm {
+        let most = inner_m / MM;
+        keys.require(
+            "bore_mm",
+            bore,
+            bore > 0.0 && bore < most,
+            &format!("more than 0 and less than {most:.3}, the diameter of the inner race"),
+        )?;
+    }
+    if let Some(outside) = file.outside_diameter_mm {
+        let least = outer_m / MM;
+        keys.require(
+            "outside_diameter_mm",
+            outside,
+            outside > least,
+            &format!("more than {least:.3}, the diameter of the outer race"),
+        )?;
+    }
+    if let Some(width) = file.width_mm {
+        keys.require("width_mm", width, width > 0.0, "more than 0")?;
+    }
+    Ok(())
+}

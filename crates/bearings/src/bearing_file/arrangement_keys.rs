@@ -1,0 +1,54 @@
+//! Keys of rows and preload.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+
+use super::{ArrangementWord, BearingFile, MM, UM};
+use crate::definition::{Arrangement, Preload};
+
+/// Rows side by side.
+pub(super) fn arrangement(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+) -> Result<Arrangement, InputError> {
+    let Some(word) = file.arrangement else {
+        if file.row_distance_mm.is_some() {
+            return Err(keys.error(
+                "row_distance_mm",
+                "is not used by a single row; remove it, or give the arrangement",
+            ));
+        }
+        return Ok(Arrangement::Single);
+    };
+    let distance = keys.needed("row_distance_mm", file.row_distance_mm, "a pair of rows")?;
+    keys.require("row_distance_mm", distance, distance > 0.0, "more than 0")?;
+    let distance_m = MM * distance;
+    Ok(match word {
+        ArrangementWord::O => Arrangement::O { distance_m },
+        ArrangementWord::X => Arrangement::X { distance_m },
+        ArrangementWord::Tandem => Arrangement::Tandem { distance_m },
+    })
+}
+
+/// How rows are preloaded.
+pub(super) fn preload(file: &BearingFile, keys: &TableKeys<'_>) -> Result<Preload, InputError> {
+    match (file.preload_N, file.preload_um) {
+        (None, None) => Ok(Preload::None),
+        (Some(_), Some(_)) => Err(keys.error(
+            "preload_um",
+            "is given together with preload_N; remove one of the two",
+        )),
+        (Some(force), None) => {
+            keys.require("preload_N", force, force >= 0.0, "0 or more")?;
+            Ok(if force > 0.0 {
+                Preload::Force(force)
+            } else {
+                Preload::None
+            })
+        }
+        (None, Some(shift)) => {
+            keys.require("preload_um", shift, shift.abs() <= 1000.0, "-1000 to 1000")?;
+            Ok(Preload::Displacement(UM * shift))
+        }
+    }
+}

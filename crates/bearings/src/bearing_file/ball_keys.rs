@@ -1,0 +1,151 @@
+//! Keys of ball bearings.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+
+use super::{BearingFile, Kind, MM, UM};
+use crate::definition::{BallBearingKind, BallGeometry};
+
+/// Balls and grooves; what cannot be assembled is refused with the numbers.
+pub(super) fn geometry(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    notes: &mut Vec<String>,
+) -> Result<BallGeometry, InputError> {
+    let needed_by = format!("kind = \"{}\"", file.kind.word());
+    let needed = |key: &str, value: Option<f64>| keys.needed(key, value, &needed_by);
+    let balls = keys.needed("balls", file.balls, &needed_by)?;
+    let ball = needed("ball_diameter_mm", file.ball_diameter_mm)?;
+    let pitch = needed("pitch_diameter_mm", file.pitch_diameter_mm)?;
+    keys.require("ball_diameter_mm", ball, ball > 0.0, "more than 0")?;
+    keys.require(
+        "pitch_diameter_mm",
+        pitch,
+        pitch > ball,
+        &format!("more than the ball's diameter, {ball}"),
+    )?;
+    let conformity = |key: &str, value: Option<f64>| {
+        let value = needed(key, value)?;
+        keys.require(
+            key,
+            value,
+            value > 0.5 && value <= 1.0,
+            "more than 0.5, the ball's own radius, and at most 1",
+        )?;
+        Ok::<_, InputError>(value)
+    };
+    let inner = conformity("inner_conformity", file.inner_conformity)?;
+    let outer = conformity("outer_conformity", file.outer_conformity)?;
+    // Neighbours must not touch.
+    let room = (std::f64::consts::PI / (ball / pitch).asin()).floor();
+    keys.require(
+        "balls",
+        balls as f64,
+        balls >= 3 && (balls as f64) <= room,
+        &format!("3 to {room}, as many balls of {ball} mm as go round on {pitch} mm"),
+    )?;
+    let kind = if file.kind == Kind::DeepGroove {
+        BallBearingKind::DeepGroove
+    } else {
+        BallBearingKind::AngularContact
+    };
+    let free_angle_rad = free_angle_rad(file, keys, (ball, pitch), (inner, outer))?;
+    let geometry = BallGeometry {
+        kind,
+        balls,
+        ball_diameter_m: MM * ball,
+        pitch_diameter_m: MM * pitch,
+        inner_conformity: inner,
+        outer_conformity: outer,
+        free_angle_rad,
+    };
+    if file.raceway_diameters_mm.is_some() {
+        notes.push(format!(
+            "the raceways leave a radial clearance of {:.1} um: contact angle {:.3} deg without load",
+            geometry.radial_clearance_m() / UM,
+            free_angle_rad.to_degrees()
+        ));
+    }
+    Ok(geometry)
+}
+
+/// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A).
+fn free_angle_rad(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    (ball, pitch): (f64, f64),
+    (inner, outer): (f64, f64),
+) -> Result<f64, InputError> {
+    let distance_mm = (inner + outer - 1.0) * ball;
+    // cos α = 1 − P_d/(2A) as sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
+    let angle = |clearance_mm: f64| 2.0 * (0.25 * clearance_mm / distance_mm).sqrt().asin();
+    if let Some([bottom_inner, bottom_outer]) = file.raceway_diameters_mm {
+        for (key, given) in [
+            ("contact_angle_deg", file.contact_angle_deg.is_some()),
+            ("radial_clearance_um", file.radial_clearance_um.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(
+                    key,
+                    "is given together with raceway_diameters_mm, from which it follows; remove one of the two",
+                ));
+            }
+        }
+        let clearance = bottom_outer - bottom_inner - 2.0 * ball;
+        let most = 2.0 * distance_mm;
+        let pair = format!("found {bottom_inner} and {bottom_outer}");
+        if clearance < 0.0 {
+            return Err(keys.error(
+                "raceway_diameters_mm",
+                format!(
+                    "{pair}; {bottom_outer} - {bottom_inner} - 2 x {ball} = {clearance:.4} mm: the balls do not go in between"
+                ),
+            ));
+        }
+        if clearance >= most {
+            return Err(keys.error(
+                "raceway_diameters_mm",
+                format!(
+                    "{pair}; {bottom_outer} - {bottom_inner} - 2 x {ball} = {clearance:.4} mm of play, but grooves of {inner} and {outer} ball diameters \
+                     hold a ball with less than {most:.4} mm only: no ball touches both. Check the diameters (they are those of the grooves' \
+                     bottoms), or state the {} instead",
+                    if file.kind == Kind::DeepGroove { "radial_clearance_um" } else { "contact_angle_deg" }
+                ),
+            ));
+        }
+        let free = angle(clearance);
+        // Ball centres that just touch both grooves lie on a circle of their own.
+        let at = |f: f64| 2.0 * f * ball - (2.0 * f - 1.0) * ball * free.cos();
+        let middle = 0.5 * (bottom_inner + at(inner) + bottom_outer - at(outer));
+        if (middle - pitch).abs() > 1e-3 * pitch {
+            return Err(keys.error(
+                "pitch_diameter_mm",
+                format!("found {pitch}; raceways of {bottom_inner} and {bottom_outer} mm put the balls on {middle:.4} mm"),
+            ));
+        }
+        return Ok(free);
+    }
+    if file.kind == Kind::AngularContact {
+        let degrees = keys.needed(
+            "contact_angle_deg",
+            file.contact_angle_deg,
+            "an angular-contact bearing without raceway_diameters_mm",
+        )?;
+        keys.require(
+            "contact_angle_deg",
+            degrees,
+            degrees > 0.0 && degrees <= 60.0,
+            "more than 0 and at most 60",
+        )?;
+        return Ok(degrees.to_radians());
+    }
+    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
+    let most_um = 2e3 * distance_mm;
+    keys.require(
+        "radial_clearance_um",
+        clearance_um,
+        clearance_um >= 0.0 && clearance_um < most_um,
+        &format!("0 up to, not including, {most_um:.1}: with more no ball touches both grooves"),
+    )?;
+    Ok(angle(1e-3 * clearance_um))
+}

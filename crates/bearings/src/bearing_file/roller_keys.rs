@@ -1,0 +1,174 @@
+//! Keys of roller bearings.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+
+use super::{BearingFile, Kind, MM, ProfileKind, UM};
+use crate::definition::{RollerGeometry, RollerProfile, Taper};
+
+/// Laminae where the file names none.
+const LAMINAE: usize = 40;
+
+/// Rollers and races.
+pub(super) fn geometry(
+    file: &BearingFile,
+    document: &InputDocument,
+    keys: &TableKeys<'_>,
+) -> Result<RollerGeometry, InputError> {
+    let needed_by = format!("kind = \"{}\"", file.kind.word());
+    let needed = |key: &str, value: Option<f64>| keys.needed(key, value, &needed_by);
+    let rollers = keys.needed("rollers", file.rollers, &needed_by)?;
+    let diameter = needed("roller_diameter_mm", file.roller_diameter_mm)?;
+    let length = needed("roller_length_mm", file.roller_length_mm)?;
+    let pitch = needed("pitch_diameter_mm", file.pitch_diameter_mm)?;
+    keys.require(
+        "roller_diameter_mm",
+        diameter,
+        diameter > 0.0,
+        "more than 0",
+    )?;
+    keys.require("roller_length_mm", length, length > 0.0, "more than 0")?;
+    keys.require(
+        "pitch_diameter_mm",
+        pitch,
+        pitch > diameter,
+        &format!("more than the roller's diameter, {diameter}"),
+    )?;
+    let room = (std::f64::consts::PI / (diameter / pitch).asin()).floor();
+    keys.require(
+        "rollers",
+        rollers as f64,
+        rollers >= 3 && (rollers as f64) <= room,
+        &format!("3 to {room}, as many rollers of {diameter} mm as go round on {pitch} mm"),
+    )?;
+    let laminae = file.laminae.unwrap_or(LAMINAE);
+    keys.require(
+        "laminae",
+        laminae as f64,
+        (2..=1000).contains(&laminae),
+        "2 to 1000; ISO/TS 16281 asks for 30 at least",
+    )?;
+    let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
+    keys.require(
+        "radial_clearance_um",
+        clearance_um,
+        (0.0..1000.0).contains(&clearance_um),
+        "0 up to, not including, 1000",
+    )?;
+    let taper = (file.kind == Kind::TaperedRoller)
+        .then(|| taper(file, keys, (diameter, length, pitch)))
+        .transpose()?;
+    Ok(RollerGeometry {
+        rollers,
+        diameter_m: MM * diameter,
+        length_m: MM * length,
+        pitch_diameter_m: MM * pitch,
+        radial_clearance_m: UM * clearance_um,
+        taper,
+        profile: profile(file, document, diameter)?,
+        laminae,
+    })
+}
+
+fn taper(
+    file: &BearingFile,
+    keys: &TableKeys<'_>,
+    (diameter, length, pitch): (f64, f64, f64),
+) -> Result<Taper, InputError> {
+    let degrees = keys.needed(
+        "contact_angle_deg",
+        file.contact_angle_deg,
+        "kind = \"tapered-roller\"",
+    )?;
+    keys.require(
+        "contact_angle_deg",
+        degrees,
+        (5.0..=45.0).contains(&degrees),
+        "5 to 45",
+    )?;
+    let end = file.end_radius_ratio.unwrap_or(0.95);
+    keys.require(
+        "end_radius_ratio",
+        end,
+        end > 0.2 && end < 1.0,
+        "more than 0.2 and less than 1, at which the end fits the rib all over",
+    )?;
+    let ratio = diameter / pitch;
+    let angle = degrees.to_radians();
+    let half_taper = (ratio * angle.sin()).atan2(1.0 + ratio * angle.cos());
+    let apex = 0.5 * pitch / (angle - half_taper).sin();
+    keys.require(
+        "roller_length_mm",
+        length,
+        length < apex,
+        &format!("less than {apex:.3}, the distance of the rollers' middle from their apex"),
+    )?;
+    let large = 0.5 * diameter + 0.5 * length * half_taper.tan();
+    let height = file.rib_height_mm.unwrap_or(0.2 * large);
+    keys.require(
+        "rib_height_mm",
+        height,
+        height > 0.0 && height < large,
+        &format!("more than 0 and less than {large:.3}, the radius of the roller's large end"),
+    )?;
+    Ok(Taper {
+        contact_angle_rad: angle,
+        end_radius_ratio: end,
+        rib_height_m: MM * height,
+    })
+}
+
+fn profile(
+    file: &BearingFile,
+    document: &InputDocument,
+    diameter_mm: f64,
+) -> Result<RollerProfile, InputError> {
+    let share = if file.kind == Kind::TaperedRoller {
+        0.45e-3
+    } else {
+        0.35e-3
+    };
+    let usual = RollerProfile::Logarithmic {
+        scale_m: share * MM * diameter_mm,
+    };
+    let Some(table) = &file.profile else {
+        return Ok(usual);
+    };
+    let keys = TableKeys::new(document, "profile");
+    let word = match table.kind {
+        ProfileKind::Straight => "straight",
+        ProfileKind::Logarithmic => "logarithmic",
+        ProfileKind::Crowned => "crowned",
+    };
+    keys.refuse_unused(
+        ("kind", word),
+        &[
+            ("scale_um", table.scale_um.is_some(), &["logarithmic"]),
+            ("radius_mm", table.radius_mm.is_some(), &["crowned"]),
+        ],
+    )?;
+    match table.kind {
+        ProfileKind::Straight => Ok(RollerProfile::Straight),
+        ProfileKind::Logarithmic => match table.scale_um {
+            None => Ok(usual),
+            Some(scale) => {
+                keys.require(
+                    "scale_um",
+                    scale,
+                    (0.0..=1000.0).contains(&scale),
+                    "0 to 1000",
+                )?;
+                Ok(RollerProfile::Logarithmic {
+                    scale_m: UM * scale,
+                })
+            }
+        },
+        ProfileKind::Crowned => {
+            let radius = keys.needed("radius_mm", table.radius_mm, "a crowned profile")?;
+            keys.require("radius_mm", radius, radius > 0.0, "more than 0")?;
+            Ok(RollerProfile::Crowned {
+                radius_m: MM * radius,
+            })
+        }
+    }
+}

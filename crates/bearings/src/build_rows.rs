@@ -1,0 +1,181 @@
+//! From a definition to rows ready to be evaluated.
+
+use std::f64::consts::PI;
+
+use crate::ball_row::{BallRow, Groove};
+use crate::definition::{
+    BallBearingKind, BallGeometry, BearingDefinition, BearingGeometry, RollerGeometry,
+};
+use crate::line_contact::LineContact;
+use crate::point_contact::{PointContact, contact_modulus_pa};
+use crate::roller_row::{Lamina, Race, Rib, RollerRow};
+
+/// E* between elements and rings \[Pa\].
+pub(crate) fn modulus_pa(definition: &BearingDefinition) -> f64 {
+    contact_modulus_pa(
+        definition.element_material.elastic(),
+        definition.ring_material.elastic(),
+    )
+}
+
+/// Hertz contacts of a ball with the inner and outer groove, their curvatures taken at the free contact angle.
+pub(crate) fn groove_contacts(g: &BallGeometry, modulus_pa: f64) -> [PointContact; 2] {
+    let d = g.ball_diameter_m;
+    let gamma = d * g.free_angle_rad.cos() / g.pitch_diameter_m;
+    let contact = |conformity: f64, along: f64| {
+        let across = 1.0 / conformity;
+        PointContact::new((4.0 - across + along) / d, (across + along) / d, modulus_pa)
+    };
+    [
+        contact(g.inner_conformity, 2.0 * gamma / (1.0 - gamma)),
+        contact(g.outer_conformity, -2.0 * gamma / (1.0 + gamma)),
+    ]
+}
+
+/// A row of balls at `middle_z_m` that takes axial forces on the inner ring of the sense `sense`.
+pub(crate) fn ball_row(
+    definition: &BearingDefinition,
+    g: &BallGeometry,
+    (middle_z_m, sense): (f64, f64),
+) -> BallRow {
+    let [inner, outer] = groove_contacts(g, modulus_pa(definition));
+    let (d, pitch_radius_m) = (g.ball_diameter_m, 0.5 * g.pitch_diameter_m);
+    let (sine, cosine) = g.free_angle_rad.sin_cos();
+    // The grooves of a deep-groove bearing face each other; its rings stand in the middle of their axial play.
+    let apart = match g.kind {
+        BallBearingKind::DeepGroove => 0.0,
+        BallBearingKind::AngularContact => sense * sine,
+    };
+    let arms = [g.inner_conformity, g.outer_conformity].map(|f| (f - 0.5) * d);
+    BallRow {
+        balls: g.balls,
+        ball_diameter_m: d,
+        pitch_radius_m,
+        ball_mass_kg: definition.element_material.density_kg_per_m3 * PI / 6.0 * d.powi(3),
+        middle_z_m,
+        inner: Groove {
+            centre_radius_m: pitch_radius_m + arms[0] * cosine,
+            centre_z_m: middle_z_m + arms[0] * apart,
+            arm_m: arms[0],
+            contact: inner,
+        },
+        outer: Groove {
+            centre_radius_m: pitch_radius_m - arms[1] * cosine,
+            centre_z_m: middle_z_m - arms[1] * apart,
+            arm_m: arms[1],
+            contact: outer,
+        },
+        free_angle_rad: apart.asin(),
+        first_angle_rad: definition.first_angle_rad,
+    }
+}
+
+/// Half the angle of a tapered roller: tan ε = (D/d_m) sin(α − ε), so that roller and races share one apex on the axis.
+pub(crate) fn half_taper_rad(g: &RollerGeometry) -> f64 {
+    let Some(taper) = g.taper else { return 0.0 };
+    let ratio = g.diameter_m / g.pitch_diameter_m;
+    let alpha = taper.contact_angle_rad;
+    // tan ε (1 + ratio cos α) = ratio sin α.
+    (ratio * alpha.sin()).atan2(1.0 + ratio * alpha.cos())
+}
+
+/// A row of rollers.
+pub(crate) fn roller_row(
+    definition: &BearingDefinition,
+    g: &RollerGeometry,
+    (middle_z_m, sense): (f64, f64),
+) -> RollerRow {
+    let modulus = modulus_pa(definition);
+    let half_taper = half_taper_rad(g);
+    let outer_angle = g.taper.map_or(0.0, |t| t.contact_angle_rad);
+    let axis_angle = outer_angle - half_taper;
+    let inner_angle = axis_angle - half_taper;
+    let pitch_radius_m = 0.5 * g.pitch_diameter_m;
+    let length = g.length_m / g.laminae as f64;
+    let laminae = (0..g.laminae)
+        .map(|number| {
+            let place_m = (number as f64 + 0.5) * length - 0.5 * g.length_m;
+            let radius = 0.5 * g.diameter_m + place_m * half_taper.tan();
+            Lamina {
+                place_m,
+                length_m: length,
+                reach_m: radius * half_taper.cos() - g.profile.depth_m(place_m, g.length_m),
+            }
+        })
+        .collect();
+    let along = 2.0 / g.diameter_m * half_taper.cos();
+    // Normal radius of curvature of a cone: its radius there over the cosine of its angle.
+    let race_radius = |angle: f64, side: f64| {
+        (pitch_radius_m + side * 0.5 * g.diameter_m * axis_angle.cos()) / angle.cos()
+    };
+    let contact = |curvature: f64| LineContact::new(g.length_m, curvature, modulus);
+    let normal = |angle: f64| (angle.cos(), sense * angle.sin());
+    // Distance of a race from the roller's middle along its normal.
+    let reach = 0.5 * g.diameter_m * half_taper.cos();
+    let offset = |(c, s): (f64, f64), side: f64| {
+        c * pitch_radius_m + s * middle_z_m + side * (reach + 0.25 * g.radial_clearance_m * c)
+    };
+    let (inner, outer) = (normal(inner_angle), normal(outer_angle));
+    let axis = (axis_angle.sin(), -sense * axis_angle.cos());
+    let mass_kg = definition.element_material.density_kg_per_m3
+        * PI
+        * g.length_m
+        * (0.25 * g.diameter_m.powi(2) + (g.length_m * half_taper.tan()).powi(2) / 12.0);
+    let own = mass_kg * g.diameter_m.powi(2) / 8.0;
+    RollerRow {
+        rollers: g.rollers,
+        first_angle_rad: definition.first_angle_rad,
+        pitch_radius_m,
+        diameter_m: g.diameter_m,
+        middle_z_m,
+        axis,
+        laminae,
+        inner: Race {
+            normal: inner,
+            offset_m: offset(inner, -1.0),
+            contact: contact(along + 1.0 / race_radius(inner_angle, -1.0)),
+        },
+        outer: Race {
+            normal: outer,
+            offset_m: offset(outer, 1.0),
+            contact: contact(along - 1.0 / race_radius(outer_angle, 1.0)),
+        },
+        rib: g.taper.map(|taper| {
+            let apex_m = pitch_radius_m / axis_angle.sin();
+            let end_radius = taper.end_radius_ratio * (apex_m + 0.5 * g.length_m);
+            let centre_m = 0.5 * g.length_m - end_radius;
+            let large = 0.5 * g.diameter_m + 0.5 * g.length_m * half_taper.tan();
+            // Towards the inner race, where the rib is.
+            let sine = (large - taper.rib_height_m) / end_radius;
+            let cosine = (1.0 - sine * sine).sqrt();
+            let inward = (axis.1.abs(), sense * axis.0);
+            let normal = (
+                axis.0 * cosine - inward.0 * sine,
+                axis.1 * cosine - inward.1 * sine,
+            );
+            let centre = (
+                pitch_radius_m + axis.0 * centre_m,
+                middle_z_m + axis.1 * centre_m,
+            );
+            Rib {
+                centre_m,
+                normal,
+                offset_m: normal.0 * centre.0 + normal.1 * centre.1,
+                stiffness_n_per_m15: 4.0 / 3.0 * modulus * end_radius.sqrt(),
+            }
+        }),
+        mass_kg,
+        inertia_kg_m2: (own, 0.5 * own + mass_kg * g.length_m.powi(2) / 12.0),
+    }
+}
+
+/// The rows of a bearing, not yet preloaded.
+pub(crate) fn rows(definition: &BearingDefinition) -> Vec<crate::quasi_static::Row> {
+    use crate::quasi_static::Row;
+    let places = definition.arrangement.rows();
+    let make = |place: (f64, f64)| match &definition.geometry {
+        BearingGeometry::Ball(g) => Row::Ball(ball_row(definition, g, place)),
+        BearingGeometry::Roller(g) => Row::Roller(roller_row(definition, g, place)),
+    };
+    places.into_iter().map(make).collect()
+}

@@ -1,0 +1,228 @@
+//! What a bearing is: sizes, materials, arrangement, in SI units.
+
+/// A bearing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingDefinition {
+    /// Name in prints.
+    pub name: String,
+    /// Balls or rollers, and their races.
+    pub geometry: BearingGeometry,
+    /// Material of balls or rollers.
+    pub element_material: BearingMaterial,
+    /// Material of the rings.
+    pub ring_material: BearingMaterial,
+    /// Rows side by side.
+    pub arrangement: Arrangement,
+    /// How rows are preloaded.
+    pub preload: Preload,
+    /// Angle of the first ball or roller \[rad\].
+    pub first_angle_rad: f64,
+    /// Load ratings that are stated; those that are not are computed.
+    pub stated_ratings: StatedRatings,
+}
+
+/// Linear elastic, isotropic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingMaterial {
+    /// E \[Pa\].
+    pub young_pa: f64,
+    /// ν.
+    pub poisson: f64,
+    /// ρ \[kg/m³\].
+    pub density_kg_per_m3: f64,
+}
+
+impl BearingMaterial {
+    /// Bearing steel: 206 GPa, 0.3, 7850 kg/m³.
+    pub const STEEL: Self = Self {
+        young_pa: 206e9,
+        poisson: 0.3,
+        density_kg_per_m3: 7850.0,
+    };
+
+    pub(crate) fn elastic(&self) -> (f64, f64) {
+        (self.young_pa, self.poisson)
+    }
+}
+
+/// Balls or rollers.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BearingGeometry {
+    /// Deep-groove and angular-contact ball bearings.
+    Ball(BallGeometry),
+    /// Cylindrical and tapered roller bearings.
+    Roller(RollerGeometry),
+}
+
+/// Which ball bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BallBearingKind {
+    /// Bears axial loads both ways; the grooves face each other.
+    DeepGroove,
+    /// Bears axial loads one way.
+    AngularContact,
+}
+
+/// Balls and grooves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BallGeometry {
+    /// Deep-groove or angular-contact.
+    pub kind: BallBearingKind,
+    /// Number of balls in a row.
+    pub balls: usize,
+    /// D \[m\].
+    pub ball_diameter_m: f64,
+    /// d_m \[m\].
+    pub pitch_diameter_m: f64,
+    /// f_i = r_i/D.
+    pub inner_conformity: f64,
+    /// f_o = r_o/D.
+    pub outer_conformity: f64,
+    /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis \[rad\].
+    pub free_angle_rad: f64,
+}
+
+impl BallGeometry {
+    /// A = (f_i + f_o − 1) D, distance of the grooves' centres \[m\].
+    #[must_use]
+    pub fn groove_distance_m(&self) -> f64 {
+        (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter_m
+    }
+
+    /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other \[m\].
+    #[must_use]
+    pub fn radial_clearance_m(&self) -> f64 {
+        // 1 − cos α = 2 sin²(α/2) keeps the digits of a small clearance.
+        4.0 * self.groove_distance_m() * (0.5 * self.free_angle_rad).sin().powi(2)
+    }
+
+    /// Diameters of the grooves' bottoms, inner and outer \[m\].
+    #[must_use]
+    pub fn raceway_diameters_m(&self) -> (f64, f64) {
+        let (d, cosine) = (self.ball_diameter_m, self.free_angle_rad.cos());
+        let at = |conformity: f64| 2.0 * conformity * d - (2.0 * conformity - 1.0) * d * cosine;
+        (
+            self.pitch_diameter_m - at(self.inner_conformity),
+            self.pitch_diameter_m + at(self.outer_conformity),
+        )
+    }
+}
+
+/// Rollers and races.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RollerGeometry {
+    /// Number of rollers in a row.
+    pub rollers: usize,
+    /// Diameter in the middle \[m\].
+    pub diameter_m: f64,
+    /// Length that carries \[m\].
+    pub length_m: f64,
+    /// Diameter of the circle of the rollers' middles \[m\].
+    pub pitch_diameter_m: f64,
+    /// Play of the inner ring across the axis from one side to the other; of tapered bearings 0 \[m\].
+    pub radial_clearance_m: f64,
+    /// Taper and rib; none for cylindrical rollers.
+    pub taper: Option<Taper>,
+    /// End profile.
+    pub profile: RollerProfile,
+    /// Number of laminae.
+    pub laminae: usize,
+}
+
+/// What makes a tapered bearing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taper {
+    /// Angle of the outer race against the axis \[rad\].
+    pub contact_angle_rad: f64,
+    /// Radius of the sphere at the large end over its largest value, the distance to the apex.
+    pub end_radius_ratio: f64,
+    /// Height of the contact with the rib above the inner race's edge \[m\].
+    pub rib_height_m: f64,
+}
+
+/// Material taken off a roller along its length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RollerProfile {
+    /// None.
+    Straight,
+    /// s ln(1/(1 − (2x/L)²)) with s \[m\].
+    Logarithmic {
+        /// s \[m\].
+        scale_m: f64,
+    },
+    /// x²/(2R) with the radius R \[m\].
+    Crowned {
+        /// R \[m\].
+        radius_m: f64,
+    },
+}
+
+impl RollerProfile {
+    /// Depth at x from the middle of a roller of the length L \[m\].
+    #[must_use]
+    pub fn depth_m(&self, x_m: f64, length_m: f64) -> f64 {
+        match *self {
+            Self::Straight => 0.0,
+            Self::Logarithmic { scale_m } => -scale_m * (-(2.0 * x_m / length_m).powi(2)).ln_1p(),
+            Self::Crowned { radius_m } => 0.5 * x_m * x_m / radius_m,
+        }
+    }
+}
+
+/// Rows of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Arrangement {
+    /// One row; bears axial loads on the inner ring along +z where it bears them one way only.
+    Single,
+    /// Two rows, back to back: their load lines meet the axis far apart.
+    O {
+        /// Distance of the rows \[m\].
+        distance_m: f64,
+    },
+    /// Two rows, face to face: their load lines meet the axis close to each other.
+    X {
+        /// Distance of the rows \[m\].
+        distance_m: f64,
+    },
+    /// Two rows alike.
+    Tandem {
+        /// Distance of the rows \[m\].
+        distance_m: f64,
+    },
+}
+
+impl Arrangement {
+    /// Place of each row along the axis and the sense of the axial force that its inner ring bears.
+    #[must_use]
+    pub fn rows(&self) -> Vec<(f64, f64)> {
+        match *self {
+            Self::Single => vec![(0.0, 1.0)],
+            Self::O { distance_m } => vec![(-0.5 * distance_m, 1.0), (0.5 * distance_m, -1.0)],
+            Self::X { distance_m } => vec![(-0.5 * distance_m, -1.0), (0.5 * distance_m, 1.0)],
+            Self::Tandem { distance_m } => vec![(-0.5 * distance_m, 1.0), (0.5 * distance_m, 1.0)],
+        }
+    }
+}
+
+/// How far the inner ring of each row is pressed in along the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Preload {
+    /// Balls or rollers just touch.
+    #[default]
+    None,
+    /// So far \[m\]; negative leaves play.
+    Displacement(f64),
+    /// So far that each row bears this axial force at rest \[N\].
+    Force(f64),
+}
+
+/// Ratings as a catalogue states them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StatedRatings {
+    /// C of the whole bearing \[N\].
+    pub dynamic_n: Option<f64>,
+    /// C₀ of the whole bearing \[N\].
+    pub static_n: Option<f64>,
+    /// C_u of the whole bearing \[N\].
+    pub fatigue_n: Option<f64>,
+}

@@ -1,0 +1,38 @@
+//! Load on one ball or roller.
+
+/// What a ball or roller bears and does.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ElementLoad {
+    /// Place round the axis, from x towards y \[rad\].
+    pub angle_rad: f64,
+    /// Normal load at the inner race \[N\]; of a roller the sum over its laminae.
+    pub inner_load_n: f64,
+    /// Normal load at the outer race \[N\].
+    pub outer_load_n: f64,
+    /// Contact angle at the inner race, positive where the inner ring pushes the element along +z \[rad\].
+    pub inner_contact_angle_rad: f64,
+    /// Contact angle at the outer race, positive alike \[rad\].
+    pub outer_contact_angle_rad: f64,
+    /// Displacement of the element's centre away from the axis \[m\].
+    pub radial_m: f64,
+    /// Displacement along z \[m\].
+    pub axial_m: f64,
+    /// Tilt of a roller in its axial plane \[rad\].
+    pub tilt_rad: f64,
+    /// Force of a tapered roller on the rib \[N\].
+    pub rib_load_n: f64,
+    /// Largest lamina's line load at the inner race \[N/m\].
+    pub inner_line_load_n_per_m: f64,
+    /// Largest lamina's line load at the outer race \[N/m\].
+    pub outer_line_load_n_per_m: f64,
+    /// Centrifugal force \[N\].
+    pub centrifugal_n: f64,
+    /// Gyroscopic moment \[N·m\].
+    pub gyroscopic_nm: f64,
+    /// Speed of the element's centre about the bearing's axis \[rad/s\].
+    pub orbit_rad_per_s: f64,
+    /// Speed about its own axis, seen from the cage \[rad/s\].
+    pub spin_rad_per_s: f64,
+    /// Whether a ball rolls without spin on the inner race; otherwise on the outer one.
+    pub controlled_by_inner: bool,
+}

@@ -1,0 +1,51 @@
+//! What can go wrong.
+
+/// A bearing without an answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BearingError {
+    /// A ball finds no equilibrium.
+    #[error(
+        "ball {ball} at {angle_deg:.1} deg finds no equilibrium ({unbalanced_n:.3e} N unbalanced): the inner ring is displaced too far, \
+         or the speed is beyond what the bearing can do"
+    )]
+    NoBallEquilibrium {
+        /// Number of the ball, from one.
+        ball: usize,
+        /// Its place.
+        angle_deg: f64,
+        /// What remains.
+        unbalanced_n: f64,
+    },
+    /// A roller finds no equilibrium.
+    #[error(
+        "roller {roller} at {angle_deg:.1} deg finds no equilibrium ({unbalanced_n:.3e} N unbalanced): the inner ring is displaced too far"
+    )]
+    NoRollerEquilibrium {
+        /// Number of the roller, from one.
+        roller: usize,
+        /// Its place.
+        angle_deg: f64,
+        /// What remains.
+        unbalanced_n: f64,
+    },
+    /// The ring finds no equilibrium.
+    #[error(
+        "the bearing finds no equilibrium under this load: {unbalanced_n:.3e} N remain after {iterations} steps. {hint}"
+    )]
+    NoEquilibrium {
+        /// What remains.
+        unbalanced_n: f64,
+        /// Steps taken.
+        iterations: usize,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// Balls of an angular-contact bearing on the side where it has no groove.
+    #[error(
+        "the load pulls the rings of an angular-contact bearing apart: a single row bears axial loads along +z only; give it a preload, a second row, or          turn the load round"
+    )]
+    PulledOut,
+    /// A load that the bearing cannot carry by its kind.
+    #[error("{0}")]
+    NotCarried(&'static str),
+}

@@ -1,0 +1,53 @@
+//! Rolling bearings: geometry, Hertz contact, equilibrium of every ball and roller, rating life.
+//!
+//! | step | type | file |
+//! | --- | --- | --- |
+//! | what a bearing is | [`BearingDefinition`] | `definition.rs`, read by `bearing_file.rs` |
+//! | ball in a groove, roller on a race | [`PointContact`], [`LineContact`] | `point_contact.rs`, `line_contact.rs` |
+//! | one row of balls or rollers | [`BallRow`], [`RollerRow`] | `ball_row.rs`, `roller_row.rs` |
+//! | how balls orbit and spin | | `ball_kinematics.rs` |
+//! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
+//! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
+//! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
+//! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
+//!
+//! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
+//! Formulas are derived in docs/theory/rolling_bearings.md.
+
+mod ball_kinematics;
+pub mod ball_row;
+pub mod bearing_file;
+mod build_rows;
+pub mod catalogue;
+pub mod definition;
+pub mod element_load;
+pub mod elliptic;
+mod error;
+pub mod estimate;
+pub mod frequencies;
+pub mod life;
+pub mod line_contact;
+pub mod operation;
+pub mod point_contact;
+pub mod quasi_static;
+pub mod ratings;
+pub mod ring_load;
+pub mod ring_pose;
+pub mod roller_row;
+
+pub use ball_kinematics::RaceControl;
+pub use ball_row::BallRow;
+pub use catalogue::CatalogueLine;
+pub use definition::BearingDefinition;
+pub use element_load::ElementLoad;
+pub use error::BearingError;
+pub use frequencies::BearingFrequencies;
+pub use life::Life;
+pub use line_contact::LineContact;
+pub use operation::{Control, Operation};
+pub use point_contact::PointContact;
+pub use quasi_static::QuasiStaticBearing;
+pub use ratings::Ratings;
+pub use ring_load::RingLoad;
+pub use ring_pose::RingPose;
+pub use roller_row::RollerRow;

@@ -1,0 +1,32 @@
+//! Under what a bearing is evaluated: speeds, and how balls roll.
+
+/// How the spin axis of a ball lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Control {
+    /// No spin at the outer race (Jones).
+    #[default]
+    OuterRace,
+    /// For each ball the race whose control turns less power into heat by spin.
+    LeastSpin,
+}
+
+/// Speeds of the rings and the cage's place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Operation {
+    /// Speed of the inner ring \[rad/s\].
+    pub inner_rad_per_s: f64,
+    /// Speed of the outer ring \[rad/s\].
+    pub outer_rad_per_s: f64,
+    /// Angle by which the cage has turned \[rad\].
+    pub cage_angle_rad: f64,
+    /// How balls roll.
+    pub control: Control,
+}
+
+impl Operation {
+    /// Whether rolling elements feel any speed.
+    #[must_use]
+    pub fn is_turning(&self) -> bool {
+        self.inner_rad_per_s != 0.0 || self.outer_rad_per_s != 0.0
+    }
+}

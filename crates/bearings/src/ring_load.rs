@@ -1,0 +1,59 @@
+//! What rolling elements do to the inner ring, and its derivatives.
+
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector5, Vector6};
+
+use crate::ring_pose::cross;
+
+/// Load on the inner ring by its rolling elements: force \[N\] and moment about the ring's middle \[N·m\], in the axes of the outer ring.
+///
+/// `tangent` holds the derivatives by a displacement of the ring's middle and a rotation about the fixed axes, rows: load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingLoad {
+    /// Force and moment.
+    pub load: Vector6<f64>,
+    /// Their derivatives; symmetric at rest but for the geometric part of the moments.
+    pub tangent: Matrix6<f64>,
+}
+
+impl Default for RingLoad {
+    fn default() -> Self {
+        Self {
+            load: Vector6::zeros(),
+            tangent: Matrix6::zeros(),
+        }
+    }
+}
+
+impl RingLoad {
+    /// The first five of the load: the moment about the ring's own axis is zero.
+    #[must_use]
+    pub fn five(&self) -> Vector5<f64> {
+        self.load.fixed_rows::<5>(0).into_owned()
+    }
+
+    /// Adds a force f at the place w from the ring's middle, of a point that does not move with the ring, whose change is
+    /// δf = `by_point` (δb + B δq) + δφ × f with B δq = −δu + w × δφ; of δb nothing is added here.
+    pub(crate) fn add_at_fixed_point(
+        &mut self,
+        w: &Vector3<f64>,
+        f: &Vector3<f64>,
+        by_point: &Matrix3<f64>,
+    ) {
+        let mut force = self.load.fixed_rows_mut::<3>(0);
+        force += f;
+        let mut moment = self.load.fixed_rows_mut::<3>(3);
+        moment += w.cross(f);
+        let (arm, turn) = (cross(w), cross(f));
+        let by_shift = -by_point;
+        let by_turn = by_point * arm - turn;
+        let mut block = self.tangent.fixed_view_mut::<3, 3>(0, 0);
+        block += by_shift;
+        let mut block = self.tangent.fixed_view_mut::<3, 3>(0, 3);
+        block += by_turn;
+        // δ(w × f) = −[f]× (−δu) + [w]× δf
+        let mut block = self.tangent.fixed_view_mut::<3, 3>(3, 0);
+        block += turn + arm * by_shift;
+        let mut block = self.tangent.fixed_view_mut::<3, 3>(3, 3);
+        block += arm * by_turn;
+    }
+}

@@ -1,0 +1,206 @@
+//! Hard cases: what must not fail, and what must hold there.
+
+use crate::common::{B218, B6205, PAIR, ROLLERS, TAPERED, bearing, close, definition};
+use gearmesh_bearings::quasi_static::{AppliedBearingLoad, TiltCondition};
+use gearmesh_bearings::{Control, Operation, QuasiStaticBearing, RingPose};
+use nalgebra::Vector5;
+
+const FREE: TiltCondition = TiltCondition::Moments([0.0; 2]);
+const HELD: TiltCondition = TiltCondition::Held([0.0; 2]);
+
+fn at_rpm(rpm: f64) -> Operation {
+    Operation {
+        inner_rad_per_s: rpm * std::f64::consts::PI / 30.0,
+        ..Operation::default()
+    }
+}
+
+fn rest(
+    bearing: &QuasiStaticBearing,
+    force_n: [f64; 3],
+    tilt: TiltCondition,
+    rpm: f64,
+) -> RingPose {
+    let load = AppliedBearingLoad { force_n, tilt };
+    bearing
+        .equilibrium(&load, &at_rpm(rpm))
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// 10⁻³ N is borne as well as a million times more.
+#[test]
+fn tiny_and_heavy_loads_are_borne() {
+    for text in [B218, TAPERED] {
+        let bearing = bearing(text);
+        for force in [1e-3, 1.0, 1e5] {
+            let pose = rest(&bearing, [0.0, 0.0, force], FREE, 0.0);
+            let ring = bearing.evaluate(&pose, &at_rpm(0.0)).unwrap();
+            close(-ring.load[2], force, 1e-5);
+        }
+    }
+}
+
+/// A free ring in a bearing with clearance feels nothing, and so does one of cylindrical rollers.
+#[test]
+fn an_unloaded_ring_feels_nothing() {
+    for text in [
+        format!("{B6205}radial_clearance_um = 15.0\n"),
+        ROLLERS.to_owned(),
+    ] {
+        let ring = bearing(&text)
+            .evaluate(&RingPose::default(), &Operation::default())
+            .unwrap();
+        assert_eq!(ring.load.norm(), 0.0);
+        assert_eq!(ring.tangent.norm(), 0.0);
+    }
+}
+
+/// 10 mrad of misalignment and d_m·n = 4·10⁶ mm/min at once: equilibrium to rounding, all finite.
+#[test]
+fn misalignment_and_high_speed_are_survived() {
+    let bearing = bearing(PAIR);
+    let pose = rest(
+        &bearing,
+        [300.0, 0.0, 100.0],
+        TiltCondition::Held([0.01, 0.0]),
+        0.0,
+    );
+    let q = pose.to_five();
+    close(q[3], 0.01, 1e-9);
+    let fast = 4e6 / 65.0;
+    for control in [Control::OuterRace, Control::LeastSpin] {
+        let operation = Operation {
+            control,
+            ..at_rpm(fast)
+        };
+        let load = AppliedBearingLoad {
+            force_n: [300.0, 0.0, 100.0],
+            tilt: FREE,
+        };
+        let pose = bearing
+            .equilibrium(&load, &operation)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let (ring, loads) = bearing.loads(&pose, &operation).unwrap();
+        close(-ring.load[0], 300.0, 1e-6);
+        for ball in loads.elements.iter().flatten() {
+            assert!(
+                ball.outer_load_n > ball.inner_load_n && ball.centrifugal_n > 0.0,
+                "{ball:?}"
+            );
+        }
+    }
+}
+
+/// Reversal of the shaft turns cage and balls round and leaves the loads.
+#[test]
+fn reversal_leaves_the_loads() {
+    let bearing = bearing(B218);
+    let pose = RingPose::from_five(&Vector5::new(1e-5, 0.0, 3e-5, 1e-4, 0.0));
+    let (ahead, loads) = bearing.loads(&pose, &at_rpm(8000.0)).unwrap();
+    let (back, reversed) = bearing.loads(&pose, &at_rpm(-8000.0)).unwrap();
+    assert!((ahead.load - back.load).norm() < 1e-9 * ahead.load.norm());
+    close(
+        loads.elements[0][0].orbit_rad_per_s,
+        -reversed.elements[0][0].orbit_rad_per_s,
+        1e-9,
+    );
+}
+
+/// A very slow bearing is one at rest.
+#[test]
+fn rest_is_the_limit_of_slow_turning() {
+    for text in [B218, TAPERED] {
+        let bearing = bearing(text);
+        let pose = RingPose::from_five(&Vector5::new(2e-6, 1e-6, 2e-5, 1e-4, 0.0));
+        let still = bearing.evaluate(&pose, &at_rpm(0.0)).unwrap();
+        let slow = bearing.evaluate(&pose, &at_rpm(0.1)).unwrap();
+        assert!((still.load - slow.load).norm() < 1e-7 * still.load.norm());
+        assert!((still.tangent - slow.tangent).norm() < 1e-6 * still.tangent.norm());
+    }
+}
+
+/// Rows that are mirror images: O and X preloaded alike have the same axial stiffness, O tilts much harder; each row bears the stated preload.
+#[test]
+fn pairs_are_preloaded_and_o_resists_tilting() {
+    let pair = |arrangement: &str| {
+        let text = PAIR
+            .replace("\"O\"", arrangement)
+            .replace("preload_um = 5.0", "preload_N = 400.0");
+        bearing(&text)
+    };
+    let (o, x) = (pair("\"O\""), pair("\"X\""));
+    let evaluate = |b: &QuasiStaticBearing| {
+        b.evaluate(&RingPose::default(), &Operation::default())
+            .unwrap()
+    };
+    let (k_o, k_x) = (evaluate(&o), evaluate(&x));
+    close(k_o.tangent[(2, 2)], k_x.tangent[(2, 2)], 1e-9);
+    assert!(
+        k_o.tangent[(3, 3)] < 2.0 * k_x.tangent[(3, 3)],
+        "O {} X {}",
+        k_o.tangent[(3, 3)],
+        k_x.tangent[(3, 3)]
+    );
+    assert!(k_o.load.norm() < 1e-6 * 400.0);
+    let (_, loads) = o
+        .loads(&RingPose::default(), &Operation::default())
+        .unwrap();
+    let axial: f64 = loads.elements[0]
+        .iter()
+        .map(|e| e.inner_load_n * e.inner_contact_angle_rad.sin())
+        .sum();
+    close(axial, 400.0, 1e-9);
+    // Tandem shares a thrust evenly.
+    let tandem = bearing(
+        &PAIR
+            .replace("\"O\"", "\"tandem\"")
+            .replace("preload_um = 5.0", ""),
+    );
+    let pose = rest(&tandem, [0.0, 0.0, 800.0], FREE, 0.0);
+    let (_, loads) = tandem.loads(&pose, &Operation::default()).unwrap();
+    close(
+        loads.elements[0][0].inner_load_n,
+        loads.elements[1][0].inner_load_n,
+        1e-9,
+    );
+}
+
+/// A tilted roller presses its end; a profile takes the edge's load away.
+#[test]
+fn a_profile_relieves_the_edge() {
+    let sharp = ROLLERS.replace(
+        "radial_clearance_um = 10.0",
+        "profile = { kind = \"straight\" }",
+    );
+    let edge = |text: &str| {
+        let bearing = bearing(text);
+        let pose = rest(
+            &bearing,
+            [3000.0, 0.0, 0.0],
+            TiltCondition::Held([0.0, 2e-3]),
+            0.0,
+        );
+        let (_, loads) = bearing.loads(&pose, &Operation::default()).unwrap();
+        // End laminae of the roller that bears most.
+        let of_roller = &loads.laminae[0][..40];
+        of_roller[0].0.max(of_roller[39].0) / of_roller.iter().map(|q| q.0).fold(0.0, f64::max)
+    };
+    assert!((edge(&sharp) - 1.0).abs() < 1e-9, "{}", edge(&sharp));
+    let profiled = ROLLERS.replace("radial_clearance_um = 10.0", "");
+    assert!(edge(&profiled) < 0.95, "{}", edge(&profiled));
+}
+
+/// Radial stiffness of the catalogue's 6205 at 0.1 C beside Palmgren's approximation δ = 4.37e-4 Q_max^⅔ D^−⅓ mm (N, mm; A. Palmgren, *Ball and
+/// Roller Bearing Engineering*, 1959; quoted by Harris), Q_max = 5 F/Z: stiffness 1.5 F/δ. The approximation is for all ball bearings alike.
+#[test]
+fn stiffness_at_a_tenth_of_c_is_near_palmgrens() {
+    let bearing = bearing(B6205);
+    let force = 1400.0;
+    let pose = rest(&bearing, [force, 0.0, 0.0], HELD, 0.0);
+    let ring = bearing.evaluate(&pose, &Operation::default()).unwrap();
+    let largest: f64 = 5.0 * force / 9.0;
+    let palmgren_mm = 4.37e-4 * largest.powf(2.0 / 3.0) * 7.938_f64.powf(-1.0 / 3.0);
+    let stiffness = 1.5 * force / (1e-3 * palmgren_mm);
+    close(-ring.tangent[(0, 0)], stiffness, 0.15);
+    assert!(definition(B6205).stated_ratings.dynamic_n.is_none());
+}

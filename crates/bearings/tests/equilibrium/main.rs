@@ -1,0 +1,11 @@
+//! Equilibrium of bearings against independent solutions (tools/reference/bearings.py), their tangents, their lives, and bad files.
+#![allow(clippy::unwrap_used, clippy::expect_used)] // test code
+
+mod common;
+mod files;
+mod hard_cases;
+mod hertz;
+mod independent;
+mod lives;
+mod published;
+mod tangents;

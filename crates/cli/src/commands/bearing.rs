@@ -1,0 +1,316 @@
+//! `gearmesh bearing`: a rolling bearing under a load.
+
+use crate::arguments::{BearingArguments, ControlWord};
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_bearings::bearing_file::BearingFromFile;
+use gearmesh_bearings::definition::BearingGeometry;
+use gearmesh_bearings::life::Lubrication;
+use gearmesh_bearings::quasi_static::{AppliedBearingLoad, RowLoads, TiltCondition};
+use gearmesh_bearings::{
+    BearingError, Control, ElementLoad, Life, Operation, QuasiStaticBearing, Ratings, RingLoad,
+    RingPose,
+};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Reads a bearing file and tells its notes.
+pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
+    let found = BearingFromFile::read(path)?;
+    found.notes.iter().for_each(console::note);
+    Ok(found)
+}
+
+/// Everything that is printed.
+struct Answer<'a> {
+    found: &'a BearingFromFile,
+    bearing: &'a QuasiStaticBearing,
+    pose: RingPose,
+    ring: RingLoad,
+    loads: RowLoads,
+    ratings: Ratings,
+    life: Life,
+}
+
+/// Runs the command.
+pub fn run(a: &BearingArguments) -> Result<(), Failure> {
+    let found = read(&a.bearing)?;
+    let load = applied(a)?;
+    let operation = operation(a)?;
+    let lubrication = lubrication(a)?;
+    let bearing = QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
+    let pose = bearing
+        .equilibrium(&load, &operation)
+        .map_err(|e| match e {
+            BearingError::NotCarried(_) => Failure::input(format!("--load-N: {e}")),
+            e => Failure::work(e),
+        })?;
+    let (ring, loads) = bearing.loads(&pose, &operation).map_err(Failure::work)?;
+    let life = Life::of(
+        &found.definition,
+        &loads,
+        load.force_n,
+        &operation,
+        lubrication.as_ref(),
+    );
+    let answer = Answer {
+        ratings: Ratings::of(&found.definition),
+        found: &found,
+        bearing: &bearing,
+        pose,
+        ring,
+        loads,
+        life,
+    };
+    if a.json {
+        console::json(&answer.figures());
+    } else {
+        answer.table();
+    }
+    Ok(())
+}
+
+/// Numbers of an option: so many, finite, not too large.
+fn numbers<const N: usize>(flag: &str, values: &[f64], largest: f64) -> Result<[f64; N], Failure> {
+    let found: Vec<String> = values.iter().map(f64::to_string).collect();
+    let sound = values.iter().all(|v| v.is_finite() && v.abs() <= largest);
+    <[f64; N]>::try_from(values)
+        .ok()
+        .filter(|_| sound)
+        .ok_or_else(|| {
+            Failure::input(format!(
+                "{flag}: found {}, allowed are {N} numbers between -{largest:e} and {largest:e}, separated by commas",
+                found.join(",")
+            ))
+        })
+}
+
+fn applied(a: &BearingArguments) -> Result<AppliedBearingLoad, Failure> {
+    let force_n = numbers("--load-N", &a.load_N, 1e9)?;
+    let tilt = if !a.tilt_mrad.is_empty() {
+        let [x, y] = numbers("--tilt-mrad", &a.tilt_mrad, 100.0)?;
+        TiltCondition::Held([1e-3 * x, 1e-3 * y])
+    } else if a.moment_Nm.is_empty() {
+        TiltCondition::Moments([0.0; 2])
+    } else {
+        TiltCondition::Moments(numbers("--moment-Nm", &a.moment_Nm, 1e9)?)
+    };
+    Ok(AppliedBearingLoad { force_n, tilt })
+}
+
+fn operation(a: &BearingArguments) -> Result<Operation, Failure> {
+    let rad_per_s = |rpm: f64| rpm * std::f64::consts::PI / 30.0;
+    let [inner] = numbers("--speed-rpm", &[a.speed_rpm], 1e7)?;
+    let [outer] = numbers("--outer-speed-rpm", &[a.outer_speed_rpm], 1e7)?;
+    Ok(Operation {
+        inner_rad_per_s: rad_per_s(inner),
+        outer_rad_per_s: rad_per_s(outer),
+        cage_angle_rad: 0.0,
+        control: match a.control {
+            ControlWord::OuterRace => Control::OuterRace,
+            ControlWord::LeastSpin => Control::LeastSpin,
+        },
+    })
+}
+
+fn lubrication(a: &BearingArguments) -> Result<Option<Lubrication>, Failure> {
+    let (Some(viscosity), Some(contamination)) = (a.viscosity_mm2_per_s, a.contamination) else {
+        return Ok(None);
+    };
+    if !(viscosity > 0.0 && viscosity < 1e9) {
+        return Err(Failure::input(format!(
+            "--viscosity-mm2-per-s: found {viscosity}, allowed is more than 0, less than 1e9"
+        )));
+    }
+    if !(0.0..=1.0).contains(&contamination) {
+        return Err(Failure::input(format!(
+            "--contamination: found {contamination}, allowed is 0 (dirty) to 1 (clean)"
+        )));
+    }
+    if a.speed_rpm == a.outer_speed_rpm {
+        return Err(Failure::input(
+            "--viscosity-mm2-per-s: the modified life needs a speed; give --speed-rpm",
+        ));
+    }
+    Ok(Some(Lubrication {
+        viscosity_mm2_per_s: viscosity,
+        contamination,
+    }))
+}
+
+impl Answer<'_> {
+    fn of_rollers(&self) -> bool {
+        matches!(self.found.definition.geometry, BearingGeometry::Roller(_))
+    }
+
+    /// Stiffness −∂load/∂(x, y, z, θx, θy), SI.
+    fn stiffness(&self) -> Vec<Vec<f64>> {
+        (0..5)
+            .map(|i| (0..5).map(|j| -self.ring.tangent[(i, j)]).collect())
+            .collect()
+    }
+
+    fn element(&self, row: usize, e: &ElementLoad) -> Value {
+        let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
+        let mut value = json!({
+            "angle_deg": e.angle_rad.to_degrees(),
+            "inner_load_N": e.inner_load_n,
+            "outer_load_N": e.outer_load_n,
+            "inner_contact_angle_deg": e.inner_contact_angle_rad.to_degrees(),
+            "outer_contact_angle_deg": e.outer_contact_angle_rad.to_degrees(),
+            "inner_pressure_MPa": 1e-6 * inner,
+            "outer_pressure_MPa": 1e-6 * outer,
+            "centrifugal_N": e.centrifugal_n,
+            "gyroscopic_Nm": e.gyroscopic_nm,
+            "orbit_rad_per_s": e.orbit_rad_per_s,
+            "spin_rad_per_s": e.spin_rad_per_s,
+        });
+        if self.of_rollers() {
+            value["tilt_mrad"] = json!(1e3 * e.tilt_rad);
+            value["rib_load_N"] = json!(e.rib_load_n);
+            value["inner_line_load_N_per_mm"] = json!(1e-3 * e.inner_line_load_n_per_m);
+            value["outer_line_load_N_per_mm"] = json!(1e-3 * e.outer_line_load_n_per_m);
+        } else if let [Some(i), Some(o)] = self.bearing.rows[row].ellipses(e) {
+            for (side, ellipse) in [("inner", i), ("outer", o)] {
+                value[format!("{side}_half_length_mm")] = json!(1e3 * ellipse.half_length_m);
+                value[format!("{side}_half_width_mm")] = json!(1e3 * ellipse.half_width_m);
+            }
+            value["controlled_by"] = json!(if e.controlled_by_inner {
+                "inner"
+            } else {
+                "outer"
+            });
+        }
+        value
+    }
+
+    fn figures(&self) -> Value {
+        let q = self.pose.to_five();
+        let rows: Vec<Value> = (self.loads.elements.iter().enumerate())
+            .map(|(row, list)| list.iter().map(|e| self.element(row, e)).collect())
+            .collect();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let mut value = json!({
+            "bearing": self.found.definition.name,
+            "displacement_um": [1e6 * q[0], 1e6 * q[1], 1e6 * q[2]],
+            "tilt_mrad": [1e3 * q[3], 1e3 * q[4]],
+            "moment_Nm": [-self.ring.load[3], -self.ring.load[4]],
+            "stiffness_SI": self.stiffness(),
+            "preload_um": 1e6 * self.bearing.preload_m,
+            "rows": rows,
+            "ratings": {
+                "dynamic_N": self.ratings.dynamic_n,
+                "static_N": self.ratings.static_n,
+                "fatigue_N": self.ratings.fatigue_n,
+            },
+            "life": {
+                "L10_Mrev": self.life.basic_mrev.and_then(finite),
+                "equivalent_N": self.life.equivalent_n,
+                "L10r_Mrev": finite(self.life.reference_mrev),
+                "reference_equivalent_N": self.life.reference_equivalent_n,
+                "L10mr_Mrev": self.life.modified_mrev.and_then(finite),
+            },
+        });
+        if let Some(e) = &self.found.estimate {
+            value["estimate"] = json!({
+                "elements": e.elements,
+                "elements_spread": e.elements_spread,
+                "diameter_mm": 1e3 * e.diameter_m,
+                "diameter_spread_mm": e.diameter_spread_m.map(|d| 1e3 * d),
+                "length_mm": 1e3 * e.length_m,
+                "length_spread_mm": e.length_spread_m.map(|d| 1e3 * d),
+                "pitch_diameter_mm": 1e3 * e.pitch_m,
+                "dynamic_ratio": e.dynamic_ratio,
+                "static_ratio": e.static_ratio,
+            });
+        }
+        value
+    }
+
+    fn table(&self) {
+        let q = self.pose.to_five();
+        if let Some(e) = &self.found.estimate {
+            let [few, many] = e.elements_spread;
+            let [small, large] = e.diameter_spread_m.map(|d| 1e3 * d);
+            let mut text = format!(
+                "estimated: {} elements ({few} to {many}) of {:.3} mm ({small:.3} to {large:.3}) on {:.3} mm",
+                e.elements,
+                1e3 * e.diameter_m,
+                1e3 * e.pitch_m
+            );
+            if e.length_m > 0.0 {
+                let [short, long] = e.length_spread_m.map(|d| 1e3 * d);
+                text += &format!(
+                    ", {:.3} mm long ({short:.3} to {long:.3})",
+                    1e3 * e.length_m
+                );
+            }
+            console::data(text);
+        }
+        if self.bearing.preload_m != 0.0 {
+            console::data(format!(
+                "inner ring of each row pressed in by {:.4} um",
+                1e6 * self.bearing.preload_m
+            ));
+        }
+        console::data(format!(
+            "{}: inner ring moves by x {:.4}, y {:.4}, z {:.4} um, tilts by {:.5}, {:.5} mrad; moment {:.4}, {:.4} N m",
+            self.found.definition.name,
+            1e6 * q[0],
+            1e6 * q[1],
+            1e6 * q[2],
+            1e3 * q[3],
+            1e3 * q[4],
+            -self.ring.load[3],
+            -self.ring.load[4]
+        ));
+        let k = self.stiffness();
+        console::data(format!(
+            "stiffness: x {:.2}, y {:.2}, z {:.2} N/um; tilt {:.4e}, {:.4e} N m/rad",
+            1e-6 * k[0][0],
+            1e-6 * k[1][1],
+            1e-6 * k[2][2],
+            k[3][3],
+            k[4][4]
+        ));
+        for (row, list) in self.loads.elements.iter().enumerate() {
+            if self.loads.elements.len() > 1 {
+                console::data(format!("row {}", row + 1));
+            }
+            console::data(
+                "    deg   load N: inner      outer   angle deg: inner   outer   pressure MPa: inner   outer",
+            );
+            for e in list {
+                let [inner, outer] = self.bearing.rows[row].peak_pressures_pa(e);
+                console::data(format!(
+                    "{:>7.2} {:>15.3} {:>10.3} {:>18.4} {:>7.4} {:>21.1} {:>7.1}",
+                    e.angle_rad.to_degrees(),
+                    e.inner_load_n,
+                    e.outer_load_n,
+                    e.inner_contact_angle_rad.to_degrees(),
+                    e.outer_contact_angle_rad.to_degrees(),
+                    1e-6 * inner,
+                    1e-6 * outer
+                ));
+            }
+        }
+        console::data(format!(
+            "ratings: C {:.0} N, C0 {:.0} N, Cu {:.0} N",
+            self.ratings.dynamic_n, self.ratings.static_n, self.ratings.fatigue_n
+        ));
+        let life = |value: Option<f64>| match value {
+            Some(v) if v.is_finite() => format!("{v:.5e}"),
+            Some(_) => "unlimited".to_owned(),
+            None => "not given by ISO 281".to_owned(),
+        };
+        let mut text = format!(
+            "life in million turns: L10 {}, L10r {}",
+            life(self.life.basic_mrev),
+            life(Some(self.life.reference_mrev))
+        );
+        if self.life.modified_mrev.is_some() {
+            text += &format!(", L10mr {}", life(self.life.modified_mrev));
+        }
+        console::data(text);
+    }
+}

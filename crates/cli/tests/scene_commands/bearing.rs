@@ -1,0 +1,141 @@
+//! `gearmesh bearing` and `gearmesh bearing-frequencies`.
+
+use crate::common::{Desk, argument, gearmesh, refused, succeeds};
+
+const B218: &str = r#"name = "218"
+kind = "angular-contact"
+balls = 16
+ball_diameter_mm = 22.23
+pitch_diameter_mm = 125.3
+inner_conformity = 0.5232
+outer_conformity = 0.5232
+contact_angle_deg = 40.0
+"#;
+
+fn near(value: &serde_json::Value, expected: f64, relative: f64) {
+    let found = value.as_f64().unwrap();
+    assert!(
+        (found / expected - 1.0).abs() < relative,
+        "{found}, expected {expected}"
+    );
+}
+
+/// The figures of a 218 under thrust (tools/reference/bearings.py), and its life.
+#[test]
+fn a_bearing_under_thrust() {
+    let desk = Desk::new();
+    let file = desk.file("218.toml", B218);
+    let answer = succeeds(&[
+        "bearing",
+        argument(&file),
+        "--load-N",
+        "0,0,17800",
+        "--json",
+    ]);
+    let json = answer.json();
+    near(&json["displacement_um"][2], 36.097055628, 1e-8);
+    let ball = &json["rows"][0][3];
+    near(&ball["inner_load_N"], 1678.87935, 1e-8);
+    near(&ball["inner_contact_angle_deg"], 41.5019, 1e-5);
+    // p₀ = 3Q/(2πab) of the printed ellipse.
+    let ellipse = |key: &str| ball[key].as_f64().unwrap();
+    let area =
+        std::f64::consts::PI * ellipse("inner_half_length_mm") * ellipse("inner_half_width_mm");
+    near(&ball["inner_pressure_MPa"], 1.5 * 1678.87935 / area, 1e-7);
+    // P = 0.57 F_a at 40 degrees; L10 = (C/P)³.
+    near(&json["life"]["equivalent_N"], 0.57 * 17800.0, 1e-12);
+    let c = json["ratings"]["dynamic_N"].as_f64().unwrap();
+    near(
+        &json["life"]["L10_Mrev"],
+        (c / (0.57 * 17800.0)).powi(3),
+        1e-12,
+    );
+    let text = succeeds(&[
+        "bearing",
+        argument(&file),
+        "--load-N",
+        "0,0,17800",
+        "--speed-rpm",
+        "10000",
+    ])
+    .stdout;
+    for part in ["z 14.6564 um", "1452.070   1924.160", "50.0092 31.2608"] {
+        assert!(text.contains(part), "`{part}` is not in {text}");
+    }
+}
+
+/// Seed 002's bearing: 0.3991, 3.5913 and 5.4087 times the shaft speed (docs/sources.md).
+#[test]
+fn frequencies_of_seed_002() {
+    let desk = Desk::new();
+    let text = "name = \"seed 002\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.94\npitch_diameter_mm = 39.32\n\
+                inner_conformity = 0.52\nouter_conformity = 0.52\n";
+    let file = desk.file("bearing.toml", text);
+    let json = succeeds(&[
+        "bearing-frequencies",
+        argument(&file),
+        "--speed-rpm",
+        "600",
+        "--json",
+    ])
+    .json();
+    near(&json["FTF_Hz"], 3.990336, 1e-6);
+    near(&json["BPFO_Hz"], 35.9130, 1e-5);
+    near(&json["BPFI_Hz"], 54.0870, 1e-5);
+    near(&json["BSF_Hz"], 23.7510, 1e-4);
+    // REFERENCES: 6205 as in Case Western Reserve's data; 2 BSF is 4.713443 there.
+    let text = text.replace("7.94", "7.94004").replace("39.32", "39.0398");
+    let file = desk.file("6205.toml", &text);
+    let json = succeeds(&["bearing-frequencies", argument(&file), "--json"]).json();
+    near(&json["FTF_Hz"], 0.398308, 2e-6);
+    near(&json["BPFO_Hz"], 3.584776, 2e-6);
+    near(&json["BPFI_Hz"], 5.415224, 2e-6);
+    near(&json["BSF_Hz"], 0.5 * 4.713443, 1e-6);
+}
+
+#[test]
+fn bad_loads_and_files_are_refused() {
+    let desk = Desk::new();
+    let file = desk.file("218.toml", B218);
+    let bearing = |more: &[&str]| {
+        let mut all = vec!["bearing", argument(&file)];
+        all.extend(more);
+        gearmesh(&all)
+    };
+    refused(
+        &bearing(&["--load-N", "1,2"]),
+        2,
+        &["--load-N", "found 1,2", "3 numbers"],
+    );
+    refused(&bearing(&["--load-N", "1,nan,2"]), 2, &["--load-N", "NaN"]);
+    refused(
+        &bearing(&["--load-N", "0,0,1", "--tilt-mrad", "500,0"]),
+        2,
+        &["--tilt-mrad"],
+    );
+    refused(
+        &bearing(&[
+            "--load-N",
+            "0,0,1",
+            "--viscosity-mm2-per-s",
+            "20",
+            "--contamination",
+            "0.5",
+        ]),
+        2,
+        &["--speed-rpm"],
+    );
+    // Pulled out of its groove.
+    refused(
+        &bearing(&["--load-N", "0,0,-100"]),
+        1,
+        &["pulls the rings", "second row"],
+    );
+    let rollers = "name = \"NU\"\nkind = \"cylindrical-roller\"\nrollers = 12\nroller_diameter_mm = 7.5\nroller_length_mm = 9.0\npitch_diameter_mm = 33.5\n";
+    let file = desk.file("rollers.toml", rollers);
+    let answer = gearmesh(&["bearing", argument(&file), "--load-N", "100,0,1"]);
+    refused(&answer, 2, &["--load-N", "axial"]);
+    let file = desk.file("wrong.toml", &B218.replace("balls = 16", "balls = 99"));
+    let answer = gearmesh(&["check", argument(&file)]);
+    refused(&answer, 2, &["wrong.toml:3: balls", "found 99"]);
+}
