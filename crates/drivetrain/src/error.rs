@@ -75,6 +75,11 @@ pub enum DrivetrainError {
         /// Name of the gear.
         gear: String,
     },
+    /// A spring for the whole mesh between flanks of which each pair has its own gap.
+    #[error(
+        "the iso6336 mesh is one spring at the pitch point, which these flanks do not have: take another mesh model"
+    )]
+    NoCommonGap,
     /// Errors of single teeth with a model that has no single teeth.
     #[error(
         "flank errors are given, but the iso6336 mesh is one spring that knows no single tooth: take another mesh model, or leave them out"

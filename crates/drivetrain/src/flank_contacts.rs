@@ -166,7 +166,7 @@ impl FlankContacts {
     }
 
     /// Forgets what was found; the modes' shapes are left alone.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.frame = None;
         self.planes.clear();
         self.zeros.clear();

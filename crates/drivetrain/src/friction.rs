@@ -96,15 +96,6 @@ impl Friction {
     }
 }
 
-/// Where two flanks of rigid gears touch and how they slide.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sliding {
-    /// k: direction of the load of a unit friction force on gear 2.
-    pub direction: Vector6,
-    /// v \[m/s\].
-    pub speed_m_per_s: f64,
-}
-
 /// A contact in a slice plane.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SlidingAt<'a> {
@@ -125,14 +116,10 @@ impl SlidingAt<'_> {
         plane.axis_heights_m[0] * Vector3::z() - frame.displacement_m + self.base_radius_m * along
     }
 
-    /// The sliding at rates (u̇, ω).
-    pub(crate) fn sliding(&self, rates: &Vector6) -> Sliding {
+    /// k: load of a unit friction force on gear 2.
+    pub(crate) fn direction(&self) -> Vector6 {
         let w = self.plane.across;
-        let direction = stacked(w, self.arm().cross(&w));
-        Sliding {
-            direction,
-            speed_m_per_s: direction.dot(rates),
-        }
+        stacked(w, self.arm().cross(&w))
     }
 
     /// ∂k/∂(u, ϑ), shape 6×6.

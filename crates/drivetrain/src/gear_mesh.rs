@@ -13,10 +13,11 @@ use gearmesh_geometry::FlankSide;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
-use crate::flank_contacts::{FlankContacts, ToothContact};
+use crate::flank_contacts::FlankContacts;
+use crate::flank_kinematics::FlankKinematics;
 use crate::flank_modes::{FlankModes, ModalMotion};
-use crate::friction::{Friction, SlidingAt};
-use crate::mesh_frame::PoseGeometry;
+use crate::friction::Friction;
+use crate::involute_mesh::InvoluteMesh;
 use crate::mesh_kinematics::MeshKinematics;
 use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
 use crate::pose::{Pose, Vector6};
@@ -70,8 +71,7 @@ struct Side {
 
 /// A mesh of two gears.
 pub struct GearMesh {
-    kinematics: MeshKinematics,
-    pub(crate) at: PoseGeometry,
+    kinematics: Box<dyn FlankKinematics>,
     sides: Vec<Side>,
     friction: Option<Friction>,
     modal: ModalLoads,
@@ -82,7 +82,7 @@ pub struct GearMesh {
 }
 
 impl GearMesh {
-    /// A mesh with contact on the flanks of one side; add the other by [`GearMesh::with_side`].
+    /// A mesh of involute gears with contact on the flanks of one side; add the other by [`GearMesh::with_side`].
     ///
     /// # Errors
     /// [`DrivetrainError::UnusedFlankErrors`] if the kinematics have flank errors that the model cannot feel.
@@ -91,9 +91,20 @@ impl GearMesh {
         flank: FlankSide,
         model: impl TeethModel + 'static,
     ) -> Result<Self, DrivetrainError> {
+        Self::of_flanks(Box::new(InvoluteMesh::new(kinematics)), flank, model)
+    }
+
+    /// A mesh of flanks of any family.
+    ///
+    /// # Errors
+    /// As [`GearMesh::new`], and [`DrivetrainError::NoCommonGap`].
+    pub fn of_flanks(
+        kinematics: Box<dyn FlankKinematics>,
+        flank: FlankSide,
+        model: impl TeethModel + 'static,
+    ) -> Result<Self, DrivetrainError> {
         let mesh = Self {
             kinematics,
-            at: PoseGeometry::default(),
             sides: Vec::new(),
             friction: None,
             modal: ModalLoads::default(),
@@ -121,7 +132,7 @@ impl GearMesh {
             return Err(DrivetrainError::UnusedFlankErrors);
         }
         if !model.resolves_teeth() {
-            self.kinematics.share_one_gap();
+            self.kinematics.share_one_gap()?;
         }
         let capacity = self.kinematics.capacity();
         self.sides.retain(|side| side.flank != flank);
@@ -176,8 +187,8 @@ impl GearMesh {
 
     /// Kinematics.
     #[must_use]
-    pub fn kinematics(&self) -> &MeshKinematics {
-        &self.kinematics
+    pub fn kinematics(&self) -> &dyn FlankKinematics {
+        &*self.kinematics
     }
 
     /// What was computed so far.
@@ -297,11 +308,10 @@ impl GearMesh {
         self.effort.poses += 1;
         self.modal.begin(tangents);
         let rates = pose.rates();
-        let base_radius_1_m = self.kinematics.gears()[0].base_radius_m;
-        self.kinematics.locate(pose, &mut self.at)?;
+        self.kinematics.locate(pose)?;
         for side in &mut self.sides {
             let rigid = side.modes.iter().all(Option::is_none);
-            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(&self.at, side.flank));
+            let open_gap_m = rigid.then(|| self.kinematics.open_gap_m(side.flank));
             if let Some(gap_m) = open_gap_m.flatten() {
                 side.found.clear();
                 side.found.open_gap_m = Some(gap_m);
@@ -309,7 +319,7 @@ impl GearMesh {
                 side.friction.clear();
                 continue;
             }
-            (self.kinematics).contacts_at(pose, &self.at, side.flank, &mut side.found);
+            (self.kinematics).contacts(pose, side.flank, &mut side.found);
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);
@@ -334,8 +344,7 @@ impl GearMesh {
                 found: &side.found,
                 loads: &side.loads,
                 flank: side.flank,
-                kinematics: &self.kinematics,
-                base_radius_1_m,
+                kinematics: &*self.kinematics,
                 friction: self.friction,
                 modal_rates: modal.rates,
             };
@@ -365,8 +374,7 @@ struct Assembly<'a> {
     found: &'a FlankContacts,
     loads: &'a TeethLoads,
     flank: FlankSide,
-    kinematics: &'a MeshKinematics,
-    base_radius_1_m: f64,
+    kinematics: &'a dyn FlankKinematics,
     friction: Option<Friction>,
     modal_rates: [&'a [f64]; 2],
 }
@@ -389,31 +397,22 @@ impl Assembly<'_> {
             if force <= 0.0 {
                 continue;
             }
-            let plane = &found.planes[contact.slice];
             let mut direction = contact.gradient;
             let mut to_tip_n = 0.0;
             let mut rubbing = None;
-            if let Some((friction, frame)) = self.friction.zip(found.frame.as_ref()) {
+            if let Some(friction) = self.friction {
                 parts.effort.friction += 1;
-                let at = SlidingAt {
-                    frame,
-                    plane,
-                    sigma,
-                    base_radius_m: self.base_radius_1_m,
-                    roll_rad: found.section(contact).touching_roll_rad[0],
-                };
-                let sliding = at.sliding(&self.rates);
+                let k = self.kinematics.sliding(found, i, self.flank);
                 let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);
-                let speed_m_per_s = sliding.speed_m_per_s - sigma * vibration;
+                let speed_m_per_s = k.dot(&self.rates) - sigma * vibration;
                 let (mu, slope) = friction.coefficient(speed_m_per_s);
                 parts.coefficients[i] = mu;
-                direction -= mu * sliding.direction;
+                direction -= mu * k;
                 to_tip_n = sigma * mu * force;
                 result.power.dissipated_w += mu * force * speed_m_per_s;
                 if tangents {
-                    let turned = at.direction_gradient();
+                    let turned = self.kinematics.sliding_gradient(found, i, self.flank);
                     let speed_by_pose = turned.tr_mul(&self.rates);
-                    let k = sliding.direction;
                     result.by_position -= mu * force * turned;
                     result.by_position -= slope * force * k * speed_by_pose.transpose();
                     result.by_velocity -= slope * force * k * k.transpose();
@@ -446,7 +445,8 @@ impl Assembly<'_> {
             }
         }
         if tangents {
-            self.add_curvature(result);
+            let (found, forces_n) = (self.found, &loads.normal_n);
+            result.by_position += (self.kinematics).load_curvature(found, forces_n, self.flank);
         }
     }
 
@@ -463,38 +463,10 @@ impl Assembly<'_> {
             let damping = loads.damping_n_s_per_m[i * n + j];
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
-                let roll_rad = self.roll_rad(contact);
-                let curvature = self.gap_curvature(contact.slice, roll_rad);
+                let curvature = self.kinematics.gap_curvature(found, j, self.flank);
                 by_pose -= damping * (curvature.tr_mul(&self.rates));
             }
         }
         (by_pose, by_rates)
-    }
-
-    /// Roll angles in the middle of a slice: those of the section but for a slice that is partly on the path.
-    fn roll_rad(&self, contact: &ToothContact) -> [f64; 2] {
-        self.found.section(contact).roll_rad
-    }
-
-    /// Second derivative of the gaps in a slice plane.
-    fn gap_curvature(&self, slice: usize, roll_rad: [f64; 2]) -> Matrix6 {
-        (self.kinematics).gap_curvature(self.found, slice, self.flank, roll_rad)
-    }
-
-    fn add_curvature(&self, result: &mut MeshLoad) {
-        let (found, loads) = (self.found, self.loads);
-        for slice in 0..found.planes.len() {
-            let (mut of_plane, mut rolled) = (0.0, [0.0; 2]);
-            let in_plane = found.contacts.iter().zip(&loads.normal_n);
-            for (contact, force) in in_plane.filter(|(contact, _)| contact.slice == slice) {
-                of_plane += force;
-                let roll_rad = self.roll_rad(contact);
-                (0..2).for_each(|gear| rolled[gear] += force * roll_rad[gear]);
-            }
-            if of_plane > 0.0 {
-                let mean_rad = rolled.map(|sum| sum / of_plane);
-                result.by_position += of_plane * self.gap_curvature(slice, mean_rad);
-            }
-        }
     }
 }

@@ -3,6 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `mesh_frame.rs`, `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
+//! | what a mesh asks of a family of flanks | [`FlankKinematics`] | `flank_kinematics.rs`; involute gears: `involute_mesh.rs` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
@@ -24,11 +25,13 @@ pub mod error;
 pub mod errors;
 pub mod flank_contacts;
 pub mod flank_error;
+pub mod flank_kinematics;
 pub mod flank_modes;
 pub mod friction;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
+mod involute_mesh;
 mod mesh_channels;
 pub mod mesh_element;
 mod mesh_frame;
@@ -53,6 +56,7 @@ pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;
 pub use flank_error::{FlankError, FlankPoint, Removed};
+pub use flank_kinematics::FlankKinematics;
 pub use flank_modes::{FlankModes, ModalMotion};
 pub use friction::Friction;
 pub use gear_body::{gear_body, modal_gear_body, modes_up_to};

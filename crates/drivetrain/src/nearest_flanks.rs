@@ -13,11 +13,9 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::{FlankSide, ToothGeometry};
 
-use crate::flank_contacts::FlankContacts;
 use crate::gear_mesh::GearMesh;
 use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
-use crate::pose::Pose;
 use crate::slice_plane::CentreLine;
 use crate::tooth_zero::ToothZero;
 
@@ -60,13 +58,6 @@ impl MeshKinematics {
         let clear = |line: &CentreLine| line.length_m.hypot(base) >= tip;
         (at.middle.as_ref()).is_some_and(|line| at.slices.is_empty() || clear(line))
     }
-
-    /// How deep flanks of one side stand in each other at a located pose \[m\], along their normal; zero where none do.
-    pub(crate) fn overlap_m(&self, pose: &Pose, at: &PoseGeometry, side: FlankSide) -> f64 {
-        let mut found = FlankContacts::default();
-        self.contacts_at(pose, at, side, &mut found);
-        found.deepest_overlap_m()
-    }
 }
 
 impl GearMesh {
@@ -75,13 +66,13 @@ impl GearMesh {
     #[must_use]
     pub fn nearest_gap_m(&self) -> Option<f64> {
         let gaps = self.flanks();
-        let gaps = gaps.filter_map(|flank| self.kinematics().nearest_gap_m(&self.at, flank));
+        let gaps = gaps.filter_map(|flank| self.kinematics().nearest_gap_m(flank));
         gaps.min_by(f64::total_cmp)
     }
 
     /// Whether no tooth reached the mate at the last pose: tip circles clear, or faces side by side.
     #[must_use]
     pub fn is_apart(&self) -> bool {
-        self.kinematics().is_apart(&self.at)
+        self.kinematics().is_apart()
     }
 }

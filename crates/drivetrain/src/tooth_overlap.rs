@@ -25,7 +25,7 @@ impl GearMesh {
     /// [`DrivetrainError::TeethPressed`] for flanks of the mesh deeper than [`THROUGH`], [`DrivetrainError::TeethBehind`] for flanks that it
     /// leaves out deeper than [`BEHIND`].
     pub fn refuse_overlap(&self, pose: &Pose) -> Result<(), DrivetrainError> {
-        let pitch_m = self.kinematics().base_pitch_m();
+        let pitch_m = self.kinematics().pitch_m();
         for flank in self.flanks() {
             let depth_m = self
                 .side(flank)
@@ -43,12 +43,12 @@ impl GearMesh {
         };
         let allowed_m = BEHIND * pitch_m;
         // Material that is removed makes the gap wider than that of ideal flanks.
-        let most_added_m = self.kinematics().most_added_m;
-        let ideal = self.kinematics().nearest_gap_m(&self.at, behind);
+        let most_added_m = self.kinematics().most_added_m();
+        let ideal = self.kinematics().nearest_gap_m(behind);
         if ideal.is_none_or(|gap_m| gap_m - most_added_m > -allowed_m) {
             return Ok(());
         }
-        let depth_m = self.kinematics().overlap_m(pose, &self.at, behind);
+        let depth_m = self.kinematics().overlap_m(pose, behind);
         if depth_m <= allowed_m {
             return Ok(());
         }

@@ -18,24 +18,27 @@ fn undamped_loads_follow_from_the_energy() {
             "vibrating hybrid",
         ] {
             let mut mesh = mesh(name, &pair, kinematics(&pair));
-            for (number, at) in loaded_poses(&pair).iter().enumerate() {
-                let load = mesh.evaluate(at, false).unwrap();
-                let scale = load.load.fixed_rows::<3>(0).norm();
-                assert!(scale > 100.0, "{name} {number}: {scale}");
-                for direction in 0..6 {
-                    // Small against the deflection of 10 µm.
-                    let h = if direction < 3 { 1e-9 } else { 2e-8 };
-                    let mut step = Vector6::zeros();
-                    step[direction] = h;
-                    let mut energy = |at: &Pose| mesh.evaluate(at, false).unwrap().power.stored_j;
-                    let slope =
-                        (energy(&moved(at, &step)) - energy(&moved(at, &-step))) / (2.0 * h);
-                    let unit = if direction < 3 { 1.0 } else { 0.05 };
-                    let off = (slope + load.load[direction]).abs() / (scale * unit);
-                    // 1e-10 N·m of energy to 1e-16, over steps of 1e-9 m; the solver's tolerance in the hybrid's energy.
-                    assert!(off < 2e-6, "{name} {number} by {direction}: {off:e}");
-                }
-            }
+            check_energy(name, &mut mesh, &loaded_poses(&pair));
+        }
+    }
+}
+
+pub(crate) fn check_energy(name: &str, mesh: &mut GearMesh, poses: &[Pose]) {
+    for (number, at) in poses.iter().enumerate() {
+        let load = mesh.evaluate(at, false).unwrap();
+        let scale = load.load.fixed_rows::<3>(0).norm();
+        assert!(scale > 100.0, "{name} {number}: {scale}");
+        for direction in 0..6 {
+            // Small against the deflection of 10 µm.
+            let h = if direction < 3 { 1e-9 } else { 2e-8 };
+            let mut step = Vector6::zeros();
+            step[direction] = h;
+            let mut energy = |at: &Pose| mesh.evaluate(at, false).unwrap().power.stored_j;
+            let slope = (energy(&moved(at, &step)) - energy(&moved(at, &-step))) / (2.0 * h);
+            let unit = if direction < 3 { 1.0 } else { 0.05 };
+            let off = (slope + load.load[direction]).abs() / (scale * unit);
+            // 1e-10 N·m of energy to 1e-16, over steps of 1e-9 m; the solver's tolerance in the hybrid's energy.
+            assert!(off < 2e-6, "{name} {number} by {direction}: {off:e}");
         }
     }
 }
@@ -51,29 +54,34 @@ fn power_balances() {
                     if with_friction {
                         mesh = mesh.with_friction(friction());
                     }
-                    for (number, at) in loaded_poses(&pair).iter().enumerate() {
-                        for seed in 0..5 {
-                            let rates = 0.2 * rates(seed);
-                            let load = mesh.evaluate(&moving(at, &rates), false).unwrap();
-                            let rest = mesh.evaluate(at, false).unwrap();
-                            assert!(load.power.dissipated_w >= 0.0);
-                            let taken = -(load.load - rest.load).dot(&rates);
-                            // Proportional damping is stated to first order: penetrations change by τ ġ, a percent of the deflection;
-                            // slices that it brings into contact or out of it add a little.
-                            let tolerance = match (name, damping) {
-                                ("impact", _) | (_, Damping::Viscous { .. }) => 1e-9,
-                                _ => 3e-2,
-                            };
-                            let scale = load.power.dissipated_w.max(1e-6);
-                            let off = (taken - load.power.dissipated_w).abs() / scale;
-                            assert!(
-                                off < tolerance,
-                                "{name} {damping:?} {with_friction} {number} {seed}: {taken} {load:?}"
-                            );
-                        }
-                    }
+                    let what = (name, damping);
+                    check_power(what, &mut mesh, &loaded_poses(&pair));
                 }
             }
+        }
+    }
+}
+
+pub(crate) fn check_power((name, damping): (&str, Damping), mesh: &mut GearMesh, poses: &[Pose]) {
+    for (number, at) in poses.iter().enumerate() {
+        for seed in 0..5 {
+            let rates = 0.2 * rates(seed);
+            let load = mesh.evaluate(&moving(at, &rates), false).unwrap();
+            let rest = mesh.evaluate(at, false).unwrap();
+            assert!(load.power.dissipated_w >= 0.0);
+            let taken = -(load.load - rest.load).dot(&rates);
+            // Proportional damping is stated to first order: penetrations change by τ ġ, a percent of the deflection;
+            // slices that it brings into contact or out of it add a little.
+            let tolerance = match (name, damping) {
+                ("impact", _) | (_, Damping::Viscous { .. }) => 1e-9,
+                _ => 3e-2,
+            };
+            let scale = load.power.dissipated_w.max(1e-6);
+            let off = (taken - load.power.dissipated_w).abs() / scale;
+            assert!(
+                off < tolerance,
+                "{name} {damping:?} {number} {seed}: {taken} {load:?}"
+            );
         }
     }
 }

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod backlash;
+mod crossed_cylinders;
+mod crowned_cylinders;
 mod effects;
 mod energy;
 mod exchange;

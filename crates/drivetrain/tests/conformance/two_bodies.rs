@@ -121,19 +121,20 @@ fn action_is_reaction() {
     for pair in pairs() {
         for name in CONFORMING {
             let mut mesh = damped(name, &pair, DAMPINGS[0]).with_friction(friction());
-            for at in loaded_poses(&pair) {
-                let scene = Scene::new(&at);
-                let force = scene.force(&mut mesh);
-                let [(f1, m1), (f2, m2)] = [0, 1].map(|body| about_origin(&scene, &force, body));
-                assert!(f1.norm() > 100.0);
-                assert!((f1 + f2).norm() < 1e-12 * f1.norm(), "{name}");
-                assert!(
-                    (m1 + m2).norm() < 1e-12 * f1.norm(),
-                    "{name}: {}",
-                    (m1 + m2).norm()
-                );
-            }
+            check_reaction(name, &mut mesh, &loaded_poses(&pair));
         }
+    }
+}
+
+pub(crate) fn check_reaction(name: &str, mesh: &mut GearMesh, poses: &[Pose]) {
+    for at in poses {
+        let scene = Scene::new(at);
+        let force = scene.force(mesh);
+        let [(f1, m1), (f2, m2)] = [0, 1].map(|body| about_origin(&scene, &force, body));
+        assert!(f1.norm() > 100.0);
+        assert!((f1 + f2).norm() < 1e-12 * f1.norm(), "{name}");
+        let off = (m1 + m2).norm();
+        assert!(off < 1e-12 * f1.norm(), "{name}: {off}");
     }
 }
 
@@ -148,40 +149,44 @@ fn tangents_agree_with_differences() {
                     if effects {
                         mesh = mesh.with_friction(friction());
                     }
-                    for (number, at) in loaded_poses(&pair).iter().enumerate() {
-                        let scene = Scene::new(at);
-                        let (force, here) = scene.loads(&mut mesh, true);
-                        for dof in 0..12 {
-                            let angular = dof % 6 >= 3;
-                            for velocity in [false, true] {
-                                let h = match (velocity, angular) {
-                                    (false, false) => 1e-10,
-                                    (false, true) => 2e-9,
-                                    (true, _) => 1e-6,
-                                };
-                                let mut at = |by| scene.changed(dof, by, velocity).force(&mut mesh);
-                                let difference = (at(h) - at(-h)) / (2.0 * h);
-                                let (tangent, whole) = if velocity {
-                                    (here.by_velocity.column(dof), &here.by_velocity)
-                                } else {
-                                    (here.by_position.column(dof), &here.by_position)
-                                };
-                                // Rows of forces and of moments have their own scale; so have the columns.
-                                for rows in [0, 3, 6, 9] {
-                                    let off = (difference.fixed_rows::<3>(rows)
-                                        - tangent.fixed_rows::<3>(rows))
-                                    .norm();
-                                    let column = 3 * (dof / 3);
-                                    let scale = whole.fixed_view::<3, 3>(rows, column).norm();
-                                    let noise = 1e-9 * force.norm() / h * 1e-3;
-                                    assert!(
-                                        off <= tolerance * scale + noise,
-                                        "{name} {damping:?} {effects} {number} dof {dof} rows {rows} velocity {velocity}: {off:e} of {scale:e}"
-                                    );
-                                }
-                            }
-                        }
-                    }
+                    let what = format!("{name} {damping:?} {effects}");
+                    check_tangents((&what, tolerance), &mut mesh, &loaded_poses(&pair));
+                }
+            }
+        }
+    }
+}
+
+pub(crate) fn check_tangents((name, tolerance): (&str, f64), mesh: &mut GearMesh, poses: &[Pose]) {
+    for (number, at) in poses.iter().enumerate() {
+        let scene = Scene::new(at);
+        let (force, here) = scene.loads(mesh, true);
+        for dof in 0..12 {
+            let angular = dof % 6 >= 3;
+            for velocity in [false, true] {
+                let h = match (velocity, angular) {
+                    (false, false) => 1e-10,
+                    (false, true) => 2e-9,
+                    (true, _) => 1e-6,
+                };
+                let mut at = |by| scene.changed(dof, by, velocity).force(mesh);
+                let difference = (at(h) - at(-h)) / (2.0 * h);
+                let (tangent, whole) = if velocity {
+                    (here.by_velocity.column(dof), &here.by_velocity)
+                } else {
+                    (here.by_position.column(dof), &here.by_position)
+                };
+                // Rows of forces and of moments have their own scale; so have the columns.
+                for rows in [0, 3, 6, 9] {
+                    let off =
+                        (difference.fixed_rows::<3>(rows) - tangent.fixed_rows::<3>(rows)).norm();
+                    let column = 3 * (dof / 3);
+                    let scale = whole.fixed_view::<3, 3>(rows, column).norm();
+                    let noise = 1e-9 * force.norm() / h * 1e-3;
+                    assert!(
+                        off <= tolerance * scale + noise,
+                        "{name} {number} dof {dof} rows {rows} velocity {velocity}: {off:e} of {scale:e}"
+                    );
                 }
             }
         }
@@ -192,39 +197,43 @@ fn tangents_agree_with_differences() {
 #[test]
 fn loads_turn_with_the_scene() {
     for pair in pairs() {
-        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, FRAC_PI_2, 0.0));
-        let moved = Vector3::new(1.0, -2.0, 0.5);
         for name in CONFORMING {
             let mut mesh = damped(name, &pair, DAMPINGS[1]).with_friction(friction());
-            for at in loaded_poses(&pair) {
-                let scene = Scene::new(&at);
-                let turned = Scene {
-                    pair: scene.pair,
-                    bodies: scene.bodies.map(|b| {
-                        body_motion(
-                            turn * b.position_m + moved,
-                            turn * b.orientation,
-                            turn * b.velocity_m_per_s,
-                            b.angular_velocity_rad_per_s,
-                        )
-                    }),
-                };
-                let (before, after) = (scene.force(&mut mesh), turned.force(&mut mesh));
-                let rotation: Matrix3<f64> = *turn.to_rotation_matrix().matrix();
-                for rows in [0, 6] {
-                    let (f, m) = (
-                        before.fixed_rows::<3>(rows),
-                        before.fixed_rows::<3>(rows + 3),
-                    );
-                    let off_f = (rotation * f - after.fixed_rows::<3>(rows)).norm();
-                    let off_m = (m - after.fixed_rows::<3>(rows + 3)).norm();
-                    // Penetrations of 1e-5 m come out of places of the order of 1 m: eleven digits, some lost in the solver.
-                    assert!(
-                        off_f < 1e-8 * f.norm() && off_m < 1e-8 * f.norm(),
-                        "{name} {off_f:e} {off_m:e}"
-                    );
-                }
-            }
+            check_turned(name, &mut mesh, &loaded_poses(&pair));
+        }
+    }
+}
+
+pub(crate) fn check_turned(name: &str, mesh: &mut GearMesh, poses: &[Pose]) {
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, FRAC_PI_2, 0.0));
+    let moved = Vector3::new(1.0, -2.0, 0.5);
+    for at in poses {
+        let scene = Scene::new(at);
+        let turned = Scene {
+            pair: scene.pair,
+            bodies: scene.bodies.map(|b| {
+                body_motion(
+                    turn * b.position_m + moved,
+                    turn * b.orientation,
+                    turn * b.velocity_m_per_s,
+                    b.angular_velocity_rad_per_s,
+                )
+            }),
+        };
+        let (before, after) = (scene.force(mesh), turned.force(mesh));
+        let rotation: Matrix3<f64> = *turn.to_rotation_matrix().matrix();
+        for rows in [0, 6] {
+            let (f, m) = (
+                before.fixed_rows::<3>(rows),
+                before.fixed_rows::<3>(rows + 3),
+            );
+            let off_f = (rotation * f - after.fixed_rows::<3>(rows)).norm();
+            let off_m = (m - after.fixed_rows::<3>(rows + 3)).norm();
+            // Penetrations of 1e-5 m come out of places of the order of 1 m: eleven digits, some lost in the solver.
+            assert!(
+                off_f < 1e-8 * f.norm() && off_m < 1e-8 * f.norm(),
+                "{name} {off_f:e} {off_m:e}"
+            );
         }
     }
 }

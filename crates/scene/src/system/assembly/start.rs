@@ -37,7 +37,7 @@ pub(super) fn settle_phases(
             let pose = mesh.pose(bodies);
             teeth
                 .kinematics()
-                .contacts(&pose, side, &mut found)
+                .contacts_at(&pose, side, &mut found)
                 .map_err(|e| keys.error("", e))?;
             let gaps = found.contacts.iter().map(|contact| contact.gap_m);
             Ok::<f64, InputError>(gaps.fold(f64::INFINITY, f64::min))
@@ -94,10 +94,7 @@ pub(super) fn settle_phases(
             } else {
                 BEHIND
             };
-            let (depth_m, allowed_m) = (
-                -gap(bodies, side)?,
-                share * teeth.kinematics().base_pitch_m(),
-            );
+            let (depth_m, allowed_m) = (-gap(bodies, side)?, share * teeth.kinematics().pitch_m());
             if depth_m > allowed_m {
                 let problem = format!(
                     "the {} flanks stand {:.3} mm in each other at the start, allowed are {:.3} mm; state other angles (cardan_deg) or places \

@@ -1,0 +1,101 @@
+//! What a mesh asks of the kinematics of two gears' flanks, whatever the family of the gears.
+//!
+//! | family | file |
+//! | --- | --- |
+//! | involute teeth, spur and helical, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
+//!
+//! A family finds the patches that face each other at a pose, with their gaps and derivatives ([`FlankContacts`]). Models, friction, modes and
+//! the assembly of the load ask for no more.
+
+use gearmesh_contact::SliceLayout;
+use gearmesh_geometry::FlankSide;
+
+use crate::error::DrivetrainError;
+use crate::flank_contacts::FlankContacts;
+use crate::pose::{Pose, Vector6};
+use crate::slice_plane::Matrix6;
+
+/// Kinematics of the flanks of two gears at any pose.
+pub trait FlankKinematics: Send {
+    /// Slices along the teeth.
+    fn layout(&self) -> &SliceLayout;
+
+    /// Largest number of patches that can face each other at once, for sizing.
+    fn capacity(&self) -> usize;
+
+    /// Distance of one tooth from the next along the line of action \[m\]: the measure of motions in which teeth pass through each other.
+    fn pitch_m(&self) -> f64;
+
+    /// Whether the flanks of any gear deviate from the ideal.
+    fn has_errors(&self) -> bool {
+        false
+    }
+
+    /// Bound of what deviations add to both flanks together \[m\].
+    fn most_added_m(&self) -> f64 {
+        0.0
+    }
+
+    /// Gives all pairs of teeth one gap, for a spring that stands for the whole mesh.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::NoCommonGap`] where the family has none.
+    fn share_one_gap(&mut self) -> Result<(), DrivetrainError> {
+        Err(DrivetrainError::NoCommonGap)
+    }
+
+    /// Goes to a pose: what follows is asked at the last one.
+    ///
+    /// # Errors
+    /// What keeps the gears from meshing at this pose at all.
+    fn locate(&mut self, pose: &Pose) -> Result<(), DrivetrainError>;
+
+    /// Gap \[m\] of ideal flanks of one side if none of that side can touch, for a short cut; none if some might.
+    fn open_gap_m(&self, _side: FlankSide) -> Option<f64> {
+        None
+    }
+
+    /// Finds all patches that face each other on one side; `pose`: the one that was located.
+    fn contacts(&self, pose: &Pose, side: FlankSide, found: &mut FlankContacts);
+
+    /// The same at any pose, whichever was located.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    fn contacts_at(
+        &self,
+        pose: &Pose,
+        side: FlankSide,
+        found: &mut FlankContacts,
+    ) -> Result<(), DrivetrainError>;
+
+    /// Second derivative of the gap of a contact by the increments of the pose.
+    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6;
+
+    /// Σ F ∂²gap over all contacts with their forces \[N\].
+    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: FlankSide) -> Matrix6 {
+        let loaded = forces_n.iter().enumerate().filter(|(_, f)| **f > 0.0);
+        loaded.fold(Matrix6::zeros(), |sum, (i, force)| {
+            sum + *force * self.gap_curvature(found, i, side)
+        })
+    }
+
+    /// k: load on gear 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
+    fn sliding(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Vector6;
+
+    /// ∂k by the increments of the pose.
+    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6;
+
+    /// Gap \[m\] of the nearest ideal flanks of one side, continued beyond their ends, as the transmission error counts it.
+    fn nearest_gap_m(&self, side: FlankSide) -> Option<f64>;
+
+    /// Whether no tooth reaches the mate.
+    fn is_apart(&self) -> bool;
+
+    /// How deep flanks of one side stand in each other \[m\]; zero where none do.
+    fn overlap_m(&self, pose: &Pose, side: FlankSide) -> f64 {
+        let mut found = FlankContacts::default();
+        self.contacts(pose, side, &mut found);
+        found.deepest_overlap_m()
+    }
+}

@@ -1,0 +1,139 @@
+//! Involute gears on parallel axes as a mesh sees them: their kinematics at the last pose.
+
+use gearmesh_contact::SliceLayout;
+use gearmesh_geometry::FlankSide;
+
+use crate::error::DrivetrainError;
+use crate::flank_contacts::FlankContacts;
+use crate::flank_kinematics::FlankKinematics;
+use crate::friction::SlidingAt;
+use crate::mesh_frame::PoseGeometry;
+use crate::mesh_kinematics::MeshKinematics;
+use crate::pose::{Pose, Vector6};
+use crate::slice_plane::Matrix6;
+
+/// Involute kinematics and the slice planes of the last pose.
+pub(crate) struct InvoluteMesh {
+    kinematics: MeshKinematics,
+    at: PoseGeometry,
+}
+
+impl InvoluteMesh {
+    pub(crate) fn new(kinematics: MeshKinematics) -> Self {
+        Self {
+            kinematics,
+            at: PoseGeometry::default(),
+        }
+    }
+
+    /// Where a contact stands; none where nothing was looked for.
+    fn sliding_at<'a>(
+        &self,
+        found: &'a FlankContacts,
+        contact: usize,
+        side: FlankSide,
+    ) -> Option<SlidingAt<'a>> {
+        let contact = &found.contacts[contact];
+        Some(SlidingAt {
+            frame: found.frame.as_ref()?,
+            plane: &found.planes[contact.slice],
+            sigma: side.mirror(),
+            base_radius_m: self.kinematics.gears[0].base_radius_m,
+            roll_rad: found.section(contact).touching_roll_rad[0],
+        })
+    }
+}
+
+impl FlankKinematics for InvoluteMesh {
+    fn layout(&self) -> &SliceLayout {
+        self.kinematics.layout()
+    }
+
+    fn capacity(&self) -> usize {
+        self.kinematics.capacity()
+    }
+
+    /// Base pitch, in the transverse plane.
+    fn pitch_m(&self) -> f64 {
+        self.kinematics.base_pitch_m()
+    }
+
+    fn has_errors(&self) -> bool {
+        self.kinematics.has_errors()
+    }
+
+    fn most_added_m(&self) -> f64 {
+        self.kinematics.most_added_m
+    }
+
+    fn share_one_gap(&mut self) -> Result<(), DrivetrainError> {
+        self.kinematics.share_one_gap();
+        Ok(())
+    }
+
+    fn locate(&mut self, pose: &Pose) -> Result<(), DrivetrainError> {
+        self.kinematics.locate(pose, &mut self.at)
+    }
+
+    fn open_gap_m(&self, side: FlankSide) -> Option<f64> {
+        self.kinematics.open_gap_m(&self.at, side)
+    }
+
+    fn contacts(&self, pose: &Pose, side: FlankSide, found: &mut FlankContacts) {
+        self.kinematics.contacts_at(pose, &self.at, side, found);
+    }
+
+    fn contacts_at(
+        &self,
+        pose: &Pose,
+        side: FlankSide,
+        found: &mut FlankContacts,
+    ) -> Result<(), DrivetrainError> {
+        self.kinematics.contacts(pose, side, found)
+    }
+
+    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6 {
+        let contact = &found.contacts[contact];
+        // Roll angles in the middle of a slice: those of the section but for a slice that is partly on the path.
+        let roll_rad = found.section(contact).roll_rad;
+        (self.kinematics).gap_curvature(found, contact.slice, side, roll_rad)
+    }
+
+    /// Plane by plane: there it changes with the roll angles in proportion, so that their mean by the forces stands for all contacts.
+    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: FlankSide) -> Matrix6 {
+        let mut sum = Matrix6::zeros();
+        for slice in 0..found.planes.len() {
+            let (mut of_plane, mut rolled) = (0.0, [0.0; 2]);
+            let in_plane = found.contacts.iter().zip(forces_n);
+            for (contact, force) in in_plane.filter(|(contact, _)| contact.slice == slice) {
+                of_plane += force;
+                let roll_rad = found.section(contact).roll_rad;
+                (0..2).for_each(|gear| rolled[gear] += force * roll_rad[gear]);
+            }
+            if of_plane > 0.0 {
+                let mean_rad = rolled.map(|sum| sum / of_plane);
+                sum += of_plane * (self.kinematics).gap_curvature(found, slice, side, mean_rad);
+            }
+        }
+        sum
+    }
+
+    fn sliding(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Vector6 {
+        let at = self.sliding_at(found, contact, side);
+        at.map_or_else(Vector6::zeros, |at| at.direction())
+    }
+
+    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6 {
+        let at = self.sliding_at(found, contact, side);
+        at.map_or_else(Matrix6::zeros, |at| at.direction_gradient())
+    }
+
+    /// Transverse.
+    fn nearest_gap_m(&self, side: FlankSide) -> Option<f64> {
+        self.kinematics.nearest_gap_m(&self.at, side)
+    }
+
+    fn is_apart(&self) -> bool {
+        self.kinematics.is_apart(&self.at)
+    }
+}
