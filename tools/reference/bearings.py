@@ -141,8 +141,8 @@ def solve_ball(rows, load, speed=0.0, guess=None, held=(), places=None):
 
     x = np.zeros(len(free) + sum(2 * r.Z for r in rows))
     x[: len(free)] = q0[free] / np.array([1e-3 if i < 3 else 1e-3 / arm for i in free])
-    # Differences take steps in proportion to the unknowns: rounding instead of zero would make them vanish.
-    x[np.abs(x) < 1e-4] = 1e-4
+    # Differences take steps in proportion to the unknowns: rounding in place of zero would make them vanish.
+    x[np.abs(x) < 1e-7] = 0.0
     for method, options in (("lm", dict(xtol=1e-15, ftol=1e-15)), ("hybr", dict(xtol=1e-14)), ("lm", dict(xtol=1e-15, ftol=1e-15))):
         x = root(misfit, x, method=method, options=options).x
     size = np.abs(misfit(x)).max()

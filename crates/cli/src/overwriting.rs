@@ -73,7 +73,9 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             None => Default::default(),
         },
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
-        Command::Compliance(_)
+        Command::Bearing(_)
+        | Command::BearingFrequencies(_)
+        | Command::Compliance(_)
         | Command::Plan(_)
         | Command::Compare(_)
         | Command::Check(_)
