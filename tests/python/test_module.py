@@ -45,7 +45,8 @@ def test_write_and_read_mesh(mesh_file):
     assert np.array_equal(mesh["point_fields"]["displacement"], np.sin(points) * 1e-6)
 
 
-# Relative to the size of the body. Nastran's fields have 16 columns, CalculiX reads 20 of a number; the others write doubles whole.
+# Relative to the size of the body. Nastran's fields have 16 columns, CalculiX reads 20 of a number; the others write
+# doubles whole.
 @pytest.mark.parametrize(
     ("extension", "tolerance", "left_out"),
     [

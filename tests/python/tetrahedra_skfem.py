@@ -68,7 +68,8 @@ for load, displacement in zip(*loads):
     assert not displacement[held].any()
     rest = load - k @ displacement
     rest[held] = 0.0
-    # The residual's work on the other displacements is the error of the compliance between the loads, to its second order.
+    # The residual's work on the other displacements is the error of the compliance between the loads, to its second
+    # order.
     print(repr(float(np.abs(rest).max() / np.abs(load).max())))
     for other, at in zip(*loads):
         print(repr(float(at @ rest / (other @ displacement))))

@@ -1,5 +1,5 @@
-//! A global allocator that counts, for test programs that assert that nothing is allocated. A test program takes it in with
-//! `#[path = "…/tests/support/counting_allocator.rs"] mod counting_allocator;`.
+//! A global allocator that counts, for test programs that assert that nothing is allocated. A test program takes it in
+//! with `#[path = "…/tests/support/counting_allocator.rs"] mod counting_allocator;`.
 #![allow(dead_code)] // what the other programs use of it
 #![allow(unsafe_code)] // a global allocator is an unsafe trait; this one only counts and hands on
 

@@ -10,6 +10,9 @@ use std::process::Command;
 
 use serde_json::Value;
 
+#[path = "architecture/one_feature_set.rs"]
+mod one_feature_set;
+
 /// The crates of the offline side: meshing, finite elements, reduction.
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
@@ -186,6 +189,57 @@ fn the_dynamics_crate_knows_no_gear() {
     assert_knows_no_gear(&rust_files("crates/dynamics/src"));
 }
 
+/// In the dynamics crate modules use each other in one direction: whoever reads a file needs those that it names, and those do not need it.
+#[test]
+fn modules_of_the_dynamics_crate_form_no_circle() {
+    let source = root().join("crates/dynamics/src");
+    let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in rust_files("crates/dynamics/src") {
+        let inside = file.strip_prefix(&source).unwrap();
+        let first = inside.iter().next().unwrap().to_string_lossy().into_owned();
+        let module = first.trim_end_matches(".rs").to_owned();
+        if module == "lib" || module.ends_with("_tests") {
+            continue;
+        }
+        let text = read(&file);
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let own = uses.entry(module.clone()).or_default();
+        for line in code.lines() {
+            for part in before_comment(line).split("crate::").skip(1) {
+                let name: String = part
+                    .chars()
+                    .take_while(|c| c.is_ascii_lowercase() || *c == '_')
+                    .collect();
+                if !name.is_empty() && name != module {
+                    own.insert(name);
+                }
+            }
+        }
+    }
+    assert!(uses.len() > 30, "{}", uses.len());
+    // Modules that use nothing any more go, until none is left or all that are left wait for each other.
+    loop {
+        let free: Vec<String> = uses
+            .iter()
+            .filter(|(_, used)| used.is_empty())
+            .map(|(module, _)| module.clone())
+            .collect();
+        if free.is_empty() {
+            break;
+        }
+        for module in &free {
+            uses.remove(module);
+        }
+        for used in uses.values_mut() {
+            used.retain(|module| !free.contains(module));
+        }
+    }
+    assert!(
+        uses.is_empty(),
+        "these modules of crates/dynamics use each other in a circle (or wait for one): {uses:?}"
+    );
+}
+
 #[test]
 fn the_complementarity_solver_knows_no_gear() {
     let files = rust_files("crates/contact/src");
@@ -304,7 +358,6 @@ enum Kinds {
     WithoutTests,
 }
 
-/// The packages of the workspace as `cargo metadata` lists them.
 /// What README's tutorial prints of a file is the file.
 #[test]
 fn the_tutorial_shows_the_files_that_are_shipped() {
@@ -318,6 +371,7 @@ fn the_tutorial_shows_the_files_that_are_shipped() {
     }
 }
 
+/// The packages of the workspace as `cargo metadata` lists them.
 fn packages() -> Vec<Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)

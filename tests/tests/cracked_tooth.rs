@@ -1,4 +1,5 @@
-//! What a root crack adds to a tooth's compliance: doubled nodes of the reduced gear against the section loss of the analytic tooth.
+//! What a root crack adds to a tooth's compliance: doubled nodes of the reduced gear against the section loss of the
+//! analytic tooth.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_contact::LocalContact;
@@ -22,8 +23,9 @@ fn gear(depth_mm: f64) -> GearDefinition {
     GearDefinition::from_document(&InputDocument::new("cracked.toml", text)).unwrap()
 }
 
-/// The section loss takes all material behind the crack's tip out, up to the tip of the tooth; the doubled nodes only part what the crack
-/// parts. Both grow with the depth and are of one order: section loss over doubled nodes is 0.74 at 1 mm, 0.96 at 2 mm.
+/// The section loss takes all material behind the crack's tip out, up to the tip of the tooth; the doubled nodes only
+/// part what the crack parts. Both grow with the depth and are of one order: section loss over doubled nodes is 0.74 at
+/// 1 mm, 0.96 at 2 mm.
 #[test]
 fn section_loss_and_doubled_nodes_are_of_one_order() {
     let options = ReductionOptions {

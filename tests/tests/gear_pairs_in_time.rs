@@ -1,5 +1,5 @@
-//! Gear pairs in time against what is known without time: pairs A and B at 10 rpm against the static contact, the spectrum of seed 002's
-//! pair against its mesh frequency.
+//! Gear pairs in time against what is known without time: pairs A and B at 10 rpm against the static contact, the
+//! spectrum of seed 002's pair against its mesh frequency.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../../crates/drivetrain/tests/mesh_common/mod.rs"]
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, StaticContact};
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, TimeFunction};
@@ -47,10 +47,11 @@ fn shares(mut all: Vec<f64>) -> [f64; 3] {
     [0.5, 0.9, 1.0].map(|share| all[((all.len() - 1) as f64 * share) as usize])
 }
 
-/// Gear 1 driving at 10 rpm with two torques over `periods` mesh periods, extended path. The transmission error is that of the same mesh at
-/// rest within 0.1 % everywhere, and for nine tenths of the time that of the static contact on the rigid path; the rest is beside the ends of
-/// that path. The static contact takes the compliance at the roll angle that gear 2 has without load, a difference in proportion to the load.
-/// (On the rigid path itself the force jumps with the place, and a fixed step may meet a jump that Newton cannot settle.)
+/// Gear 1 driving at 10 rpm with two torques over `periods` mesh periods, extended path. The transmission error is that
+/// of the same mesh at rest within 0.1 % everywhere, and for nine tenths of the time that of the static contact on the
+/// rigid path; the rest is beside the ends of that path. The static contact takes the compliance at the roll angle that
+/// gear 2 has without load, a difference in proportion to the load. (On the rigid path itself the force jumps with the
+/// place, and a fixed step may meet a jump that Newton cannot settle.)
 fn at_ten_rpm(driven: &str, periods: usize) {
     let (gear_1, model_1) = coarse("gear1");
     let (gear_2, model_2) = coarse(driven);
@@ -147,8 +148,8 @@ fn definition(name: &str) -> GearDefinition {
     GearDefinition::from_document(&InputDocument::new(name, text)).unwrap()
 }
 
-/// Seed 002: 25/30 teeth, module 2 mm, gear 25 at 600 rpm, 72 N·m on gear 30, K 1.5e8 N/mm^2.2 (its unit put right), 67 N·s/m,
-/// friction 0.78 and 0.65 between 1 and 100 mm/s. Mesh frequency 25 · 10 = 250 Hz, and its harmonics.
+/// Seed 002: 25/30 teeth, module 2 mm, gear 25 at 600 rpm, 72 N·m on gear 30, K 1.5e8 N/mm^2.2 (its unit put right), 67
+/// N·s/m, friction 0.78 and 0.65 between 1 and 100 mm/s. Mesh frequency 25 · 10 = 250 Hz, and its harmonics.
 #[test]
 fn seed_002_shows_its_mesh_frequency() {
     let [pinion, wheel] = ["pinion_25_m2", "wheel_30_m2"].map(definition);
@@ -179,7 +180,8 @@ fn seed_002_shows_its_mesh_frequency() {
         torque_2: Some(TimeFunction::step(0.0, 0.0, 0.02, 72.0).unwrap()),
         ..Scene::new(&pair).driven_at(10.0 * TAU)
     };
-    // At the pitch point such friction turns round within 20 µs; with fixed steps of 5 µs Newton does not follow and the run is refused.
+    // At the pitch point such friction turns round within 20 µs; with fixed steps of 5 µs Newton does not follow and
+    // the run is refused.
     let step_s = 2e-6;
     let (samples, _) = record(scene.system(mesh), Params::fixed(step_s), 0.14);
     let last = &samples[samples.len() - 50_000..];

@@ -1,5 +1,5 @@
-//! A thin-rimmed gear reduced with its natural modes, under the forces of a mesh: at rest it gives way as without modes, and when its rim
-//! is struck it rings at the frequencies of its own finite element model.
+//! A thin-rimmed gear reduced with its natural modes, under the forces of a mesh: at rest it gives way as without
+//! modes, and when its rim is struck it rings at the frequencies of its own finite element model.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use gearmesh_contact::LocalContact;
@@ -91,7 +91,8 @@ impl Scene {
         }
     }
 
-    /// Angles of both gears in the world: right flanks touch with this gap, gear 1 turned by θ from tooth 0 at the pitch point.
+    /// Angles of both gears in the world: right flanks touch with this gap, gear 1 turned by θ from tooth 0 at the
+    /// pitch point.
     fn angles(&self, theta: f64, gap_m: f64) -> [f64; 2] {
         let inv = involute::involute_function(self.pair.working_pressure_angle_rad);
         let base = self.pair.gear_1.base_radius_m;
@@ -157,7 +158,8 @@ fn at_rest_it_gives_way_as_without_modes(scene: &Scene) {
     }
 }
 
-/// Gear 2 is held at its bore, gear 1 strikes it and bounces off; each mode's own frequency to 0.1 % while both are apart.
+/// Gear 2 is held at its bore, gear 1 strikes it and bounces off; each mode's own frequency to 0.1 % while both are
+/// apart.
 fn struck_it_rings_at_its_own_frequencies(scene: &Scene) {
     let count = 12;
     let model = &scene.model;

@@ -31,7 +31,8 @@ def pardiso(stiffness):
     solver._call_pardiso(upper, np.zeros((upper.shape[0], 1)))
     # Its public `solve` would compare the whole matrix with the factorised one, block after block.
     solver.set_phase(33)
-    # By default it refines every solution twice, which takes three times as long; the residual is checked below instead.
+    # By default it refines every solution twice, which takes three times as long; the residual is checked below
+    # instead.
     solver.set_iparm(8, 0)
     return lambda columns: solver._call_pardiso(upper, columns)
 

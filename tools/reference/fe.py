@@ -124,7 +124,8 @@ def condense(K, keep):
     s.perm = np.zeros(n, dtype=np.int32)
     s.perm[n - keep :] = 1
     s.set_phase(12)
-    # the solver writes the keep x keep result at the start of its solution array, which has the size of the right-hand side
+    # the solver writes the keep x keep result at the start of its solution array, which has the size of the right-hand
+    # side
     cols = -(-keep * keep // n)
     x = s._call_pardiso(A, np.zeros((n, cols)))
     S = x.ravel()[: keep * keep].reshape(keep, keep)

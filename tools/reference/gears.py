@@ -36,7 +36,8 @@ def gauge_weights(section, ext, side):
         speed = np.hypot(*dx.T)
         s = s0 + np.concatenate([[0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(eta))])
         s0 = s[-1]
-        # mean over arc length: integral of (t . sum d_k u_k / speed) speed d eta; ends of the patch cut by linear weights
+        # mean over arc length: integral of (t . sum d_k u_k / speed) speed d eta; ends of the patch cut by linear
+        # weights
         ds = np.diff(s)
         frac = np.clip((np.minimum(s[1:], hi) - np.maximum(s[:-1], lo)) / ds, 0, 1)
         dm, tm = (d[1:] + d[:-1]) / 2, (dx[1:] + dx[:-1]) / 2
@@ -137,7 +138,8 @@ class Pitch:
         isb[b] = True
         interior = np.flatnonzero(ext.free.ravel() & ~isb)
         t0 = time.time()
-        # eliminate the interior of [[K_ii, K_ib, F_i], [., K_bb, 0], [., ., 0]]: K_cut, loads carried to the cut, -C_local
+        # eliminate the interior of [[K_ii, K_ib, F_i], [., K_bb, 0], [., ., 0]]: K_cut, loads carried to the cut,
+        # -C_local
         assert abs(F[b]).max() == 0
         Fi, Kib = F[interior], K[interior][:, b]
         S = condense(sp.bmat([[K[interior][:, interior], Kib, Fi], [Kib.T, K[b][:, b], None],

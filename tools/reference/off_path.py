@@ -369,7 +369,8 @@ other_teeth_mm = {best[1]:g}
 unknowns = {fine["unknowns"]}
 
 [uncertainty]
-# change when the flank elements halve, plus change when all other elements halve: numerical solution of the stated model only
+# change when the flank elements halve, plus change when all other elements halve: numerical solution of the stated
+# model only
 te_mean_um = {largest(np.mean):.4f}
 te_peak_to_peak_um = {largest(np.ptp):.4f}
 te_largest_relative_at_one_position = [{", ".join(f"{worst[T]:.5f}" for T in TORQUES)}]

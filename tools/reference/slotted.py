@@ -143,7 +143,8 @@ def slotted_gear(pitch, z, z_layers, repeat=19, slots=True, h_web=2.2, n_hub=18,
     T = sp.coo_matrix((np.concatenate([np.ones(len(o)), cs, -sn, sn, cs]),
                        (np.concatenate([o, x0, x0, x0 + 1, x0 + 1]), np.concatenate([o, x0, x0 + 1, x0, x0 + 1]))), shape=(nb, nb)).tocsr()
     Kb = T.T @ body.K @ T
-    # boundary of one pitch -> reduced local: (low without corner, high without corner, trace nodes 0..2 N_TRACE, all arc z, 3)
+    # boundary of one pitch -> reduced local: (low without corner, high without corner, trace nodes 0..2 N_TRACE, all
+    # arc z, 3)
     side_ids = np.argwhere(pitch.f_low)  # (position on the side, iz, comp); position 0 is the corner on r_rim
     corner = (side_ids[:, 0] == 0) & np.isin(side_ids[:, 1], pitch.arc_z)
     na, m = len(pitch.arc_z), pitch.n_side
@@ -178,7 +179,8 @@ def slotted_gear(pitch, z, z_layers, repeat=19, slots=True, h_web=2.2, n_hub=18,
     Kb = Kb.tocsr()
     M = condense(sp.bmat([[Kb[i][:, i], Kb[i][:, t]], [Kb[t][:, i], Kb[t][:, t]]]).tocsr(), len(t))
     log(f"slots={slots}: {len(quads)} body quads, {len(i)} dofs condensed on {len(t)} in {time.time() - t0:.1f} s")
-    # rim alone: cyclic. Unknowns of a pitch: its low cut and its first 2 N_TRACE trace nodes; local = E0 own + E1 of the next
+    # rim alone: cyclic. Unknowns of a pitch: its low cut and its first 2 N_TRACE trace nodes; local = E0 own + E1 of
+    # the next
     f_tr = np.ones((2 * N_TRACE + 1, na, 3), bool)
     f_tr[:, 0, 2] = False  # plane of symmetry
     n_own, n_end = int(f_tr[:-1].sum()), int(f_tr[-1].sum())

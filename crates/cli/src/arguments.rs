@@ -57,13 +57,16 @@ pub enum Command {
 pub struct MeshArguments {
     /// Gear file
     pub gear: PathBuf,
-    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu .xdmf .xmf
-    /// (ParaView)
+    /// Mesh file; its extension names the format: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu
+    /// .xdmf .xmf (ParaView)
     #[arg(short, long)]
     pub output: PathBuf,
     /// Unit of the coordinates in the file
     #[arg(long, value_enum, default_value = "m")]
     pub length_unit: LengthUnit,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -80,6 +83,9 @@ pub struct ReduceArguments {
     /// Do not reduce a coarser mesh to estimate the discretisation error
     #[arg(long)]
     pub no_error_estimate: bool,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -100,6 +106,9 @@ pub struct ModesArguments {
     /// Mesh file for the shapes, one point field a mode (.vtu, .msh, ...)
     #[arg(long)]
     pub shapes: Option<PathBuf>,
+    /// Begin even if the memory estimate exceeds what is free
+    #[arg(long)]
+    pub even_if_memory_is_short: bool,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -172,7 +181,8 @@ pub struct PlanArguments {
 pub struct RunArguments {
     /// Scene file
     pub scene: PathBuf,
-    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the command is repeated
+    /// Result file; an unfinished run of a multibody scene is kept beside it, as OUTPUT.part, and goes on when the
+    /// command is repeated
     #[arg(short, long)]
     pub output: PathBuf,
     /// Discard an unfinished run and begin anew
@@ -262,7 +272,8 @@ pub struct ReportArguments {
     /// HTML file
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position; meshes the gears again
+    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position;
+    /// meshes the gears again
     #[arg(long)]
     pub stress: bool,
     /// Folder of a reference record for each result, in the same order
@@ -278,7 +289,8 @@ pub struct ExportArguments {
     /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows, windows, modes and shapes; of both: ratings
+    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows,
+    /// windows, modes and shapes; of both: ratings
     #[arg(long)]
     pub table: Option<String>,
 }

@@ -110,53 +110,88 @@ impl RunBar {
     }
 }
 
-/// Stages with a bar and the time to go.
+/// Stages with a bar and the time to go; where standard error is no terminal, a remark now and then.
 pub struct StageBar {
     title: String,
-    bar: Mutex<ProgressBar>,
+    now: Mutex<Stage>,
+}
+
+/// The present stage.
+struct Stage {
+    bar: ProgressBar,
+    name: String,
+    begun: Instant,
+    /// When the last remark was made, or the work began.
+    told: Instant,
+}
+
+impl Stage {
+    /// Makes a remark where there is no bar to be seen and the last one is long ago.
+    fn remark(&mut self, title: &str, to_go: Option<Duration>) {
+        let now = Instant::now();
+        if !self.bar.is_hidden() || now - self.told < REMARK_EVERY {
+            return;
+        }
+        self.told = now;
+        let to_go = to_go.map_or_else(String::new, |left| {
+            format!(", about {:#} to go", HumanDuration(left))
+        });
+        note(format!("{title}: {}{to_go}", self.name));
+    }
 }
 
 impl StageBar {
     /// A bar for the stages of `title`.
     pub fn new(title: &str) -> Self {
+        let now = Instant::now();
         Self {
             title: title.to_string(),
-            bar: Mutex::new(ProgressBar::new_spinner()),
+            now: Mutex::new(Stage {
+                bar: ProgressBar::new_spinner(),
+                name: String::new(),
+                begun: now,
+                told: now,
+            }),
         }
     }
 
-    fn with(&self, act: impl FnOnce(&mut ProgressBar)) {
-        if let Ok(mut bar) = self.bar.lock() {
-            act(&mut bar);
+    fn with(&self, act: impl FnOnce(&mut Stage)) {
+        if let Ok(mut stage) = self.now.lock() {
+            act(&mut stage);
         }
     }
 
     /// Removes the bar.
     pub fn finish(&self) {
-        self.with(|bar| bar.finish_and_clear());
+        self.with(|stage| stage.bar.finish_and_clear());
     }
 }
 
 impl Progress for StageBar {
     fn stage(&self, name: &str) {
-        self.with(|bar| {
-            bar.finish_and_clear();
-            *bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
-            bar.enable_steady_tick(Duration::from_millis(200));
+        self.with(|stage| {
+            stage.bar.finish_and_clear();
+            stage.bar = ProgressBar::new_spinner().with_message(format!("{}: {name}", self.title));
+            stage.bar.enable_steady_tick(Duration::from_millis(200));
+            name.clone_into(&mut stage.name);
+            stage.begun = Instant::now();
+            stage.remark(&self.title, None);
         });
     }
 
     fn advance(&self, done: usize, total: usize) {
-        self.with(|bar| {
-            if bar.length().is_none() {
-                bar.set_length(total as u64);
+        self.with(|stage| {
+            if stage.bar.length().is_none() {
+                stage.bar.set_length(total as u64);
                 if let Ok(style) =
                     ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}, {eta} to go")
                 {
-                    bar.set_style(style);
+                    stage.bar.set_style(style);
                 }
             }
-            bar.set_position(done as u64);
+            stage.bar.set_position(done as u64);
+            let left = (total - done.min(total)) as f64 / done.max(1) as f64;
+            stage.remark(&self.title, Some(stage.begun.elapsed().mul_f64(left)));
         });
     }
 
@@ -164,7 +199,8 @@ impl Progress for StageBar {
         if seconds < 1.0 {
             return;
         }
-        let end = Instant::now() + Duration::from_secs_f64(seconds);
+        let left = Duration::from_secs_f64(seconds);
+        let end = Instant::now() + left;
         let to_go = move |_: &ProgressState, text: &mut dyn std::fmt::Write| {
             // Nobody can be told that a terminal's line cannot be written.
             let _ = match end.checked_duration_since(Instant::now()) {
@@ -172,9 +208,14 @@ impl Progress for StageBar {
                 None => write!(text, "a little longer than expected"),
             };
         };
-        self.with(|bar| {
+        self.with(|stage| {
             if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {to_go}") {
-                bar.set_style(style.with_key("to_go", to_go));
+                stage.bar.set_style(style.with_key("to_go", to_go));
+            }
+            if left >= REMARK_EVERY {
+                // A wait that is worth a word whenever the last one was.
+                stage.told = stage.told.checked_sub(REMARK_EVERY).unwrap_or(stage.told);
+                stage.remark(&self.title, Some(left));
             }
         });
     }

@@ -7,6 +7,7 @@ mod console;
 mod failure;
 mod interrupt;
 mod length_unit;
+mod memory;
 mod offline;
 mod output_name;
 mod overwriting;

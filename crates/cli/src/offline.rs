@@ -31,7 +31,8 @@ pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
     Ok(gear)
 }
 
-/// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like those of another unit.
+/// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like
+/// those of another unit.
 pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
     if let Some(body) = &gear.blank.meshed {
         let shown = body.file.display();
@@ -112,7 +113,8 @@ impl From<&Field> for MeshFields {
     }
 }
 
-/// Calls the Python module: mesh file, output, unit, whether hexahedra have incompatible modes. Prints what the format does not hold.
+/// Calls the Python module: mesh file, output, unit, whether hexahedra have incompatible modes. Prints what the format
+/// does not hold.
 const EXPORT: &str = "
 import sys, gearmesh
 try:
@@ -213,7 +215,7 @@ pub fn field_of(
     case: FieldCase,
 ) -> Result<Field, Failure> {
     let model = &loaded.models[case.gear - 1];
-    let slices = loaded.slices_at(result.angle_rad[case.angle]);
+    let slices = loaded.patches_at(result.angle_rad[case.angle]);
     let forces = result.position_forces(case.torque, case.angle);
     let loads = loaded.loaded_slices(case.gear, &slices, forces);
     let forces: Vec<GridForce> = grid_forces(&model.grid, &loaded.spreads[case.gear - 1], loads)

@@ -1,4 +1,5 @@
-//! What a name behind `-o` may end in: a file whose ending promises another format than is written misleads every program after.
+//! What a name behind `-o` may end in: a file whose ending promises another format than is written misleads every
+//! program after.
 
 use crate::failure::Failure;
 use std::path::Path;

@@ -7,8 +7,8 @@ use gearmesh_model::FileError;
 use gearmesh_scene::named_files;
 use std::path::{Path, PathBuf};
 
-/// Refuses an output that is a symbolic link, or that is one of the files that the command reads: an argument, or what scenes, studies and
-/// gear files among the arguments name.
+/// Refuses an output that is a symbolic link, or that is one of the files that the command reads: an argument, or what
+/// scenes, studies and gear files among the arguments name.
 ///
 /// # Errors
 /// [`Failure`] that names both.

@@ -78,8 +78,9 @@ fn both_hands_run_through_the_whole_chain() {
     let found = number(&row["axial_force_1_mean_N"]);
     assert!((found / axial - 1.0).abs() < 1e-9, "{found} {axial}");
 
-    // Nominal stresses: the force spread evenly over the shortest contact lines, half at the pitch point and half where the flanks are most
-    // curved in single contact (overlap ratio 0.477). Elastic teeth without modifications load the ends of the path, too: 1.38 times that.
+    // Nominal stresses: the force spread evenly over the shortest contact lines, half at the pitch point and half where
+    // the flanks are most curved in single contact (overlap ratio 0.477). Elastic teeth without modifications load the
+    // ends of the path, too: 1.38 times that.
     let rated = |name: &str| number(&figures["ratings"][0]["figures"][name]);
     let pressures = SceneResult::read(&result).unwrap().pressure_pa;
     let over = pressures.iter().copied().fold(0.0, f64::max) / rated("hertz_pressure_Pa");
@@ -130,8 +131,9 @@ fn both_hands_run_through_the_whole_chain() {
     refused(&answer, 2, &["opposite hand"]);
 }
 
-/// The same models as bodies on axles: at rest the transmission error of the static contact over the pitch, on the rigid path (positions differ
-/// in phase: the mean is compared), and axles that hold the axial force, that of gear 1 to +z.
+/// The same models as bodies on axles: at rest the transmission error of the static contact over the pitch, on the
+/// rigid path (positions differ in phase: the mean is compared), and axles that hold the axial force, that of gear 1 to
+/// +z.
 fn at_rest_between_axles(desk: &Desk, pair: &SceneResult, axial_n: f64) {
     let gear = |number: usize, x_mm: f64| {
         format!(

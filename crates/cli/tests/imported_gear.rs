@@ -38,8 +38,8 @@ fn our_own_mesh_written_and_read_back_is_the_same_gear() {
     });
     assert_eq!(number(&models[0].1["nodes"]), number(&models[1].1["nodes"]));
     assert_eq!(number(&models[1].1["sectors"]), 1.0);
-    // Other teeth see C_hub only, which is the same. At the load the near field is calibrated above a cut that need not run along
-    // the mesh: a staircase.
+    // Other teeth see C_hub only, which is the same. At the load the near field is calibrated above a cut that need not
+    // run along the mesh: a staircase.
     for (at_tooth, allowed) in [("1", 1e-9), ("9", 1e-9), ("0", 5e-3)] {
         let [a, b] = [0, 1].map(|k| {
             let answer = succeeds(&[

@@ -13,7 +13,8 @@ const INERTIA: f64 = 0.01;
 const STIFFNESS: f64 = 20.0;
 const DAMPING: f64 = 0.3;
 
-/// A torsional oscillator under 60, 70 and 80 Hz, beside a disc that turns backwards at 600 rpm: orders 6, 7 and 8 of it.
+/// A torsional oscillator under 60, 70 and 80 Hz, beside a disc that turns backwards at 600 rpm: orders 6, 7 and 8 of
+/// it.
 const SCENE: &str = r#"title = "Three tones"
 [run]
 kind = "transient"

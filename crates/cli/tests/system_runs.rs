@@ -72,8 +72,8 @@ fn assert_same_columns(a: &Path, b: &Path) {
     assert_eq!(a.statistics, b.statistics);
 }
 
-/// Killed again and again, at times that fall into steps, rows and checkpoints alike, a run still ends with the bits of one that was left in
-/// peace. There is never half a result, and no other file is left beside it.
+/// Killed again and again, at times that fall into steps, rows and checkpoints alike, a run still ends with the bits of
+/// one that was left in peace. There is never half a result, and no other file is left beside it.
 #[test]
 fn a_run_that_is_killed_goes_on_from_its_checkpoint_to_the_same_result() {
     let desk = Desk::new();
@@ -213,7 +213,8 @@ fn every_kind_of_run_is_printed_checked_and_reported() {
                 assert!(json["run"]["relative_energy_error"].as_f64().unwrap() < 1e-3);
             }
             "eigen" => {
-                // √((k + m g l sin)/J) about the equilibrium, damping c/(2 √(k J)) of it: here only that it vibrates once.
+                // √((k + m g l sin)/J) about the equilibrium, damping c/(2 √(k J)) of it: here only that it vibrates
+                // once.
                 let modes = json["points"][0]["modes"].as_array().unwrap();
                 assert_eq!(modes.len(), 1);
                 assert_eq!(modes[0]["participation"]["rod"], 1.0);
@@ -311,8 +312,8 @@ fn two_gears_have_the_closed_form_frequency() {
     );
 }
 
-/// The first lines of the console, and the first figures of the page, are transmission error and tooth force: r_b of the driver times the
-/// normal force is its torque.
+/// The first lines of the console, and the first figures of the page, are transmission error and tooth force: r_b of
+/// the driver times the normal force is its torque.
 #[test]
 fn transmission_error_and_mesh_force_come_first() {
     let desk = Desk::new();
@@ -363,7 +364,8 @@ fn transmission_error_and_mesh_force_come_first() {
     }
 }
 
-/// Steps far too long for a stiff spring let its energy vanish: the run says so and ends with 1, its result is kept and is not sound.
+/// Steps far too long for a stiff spring let its energy vanish: the run says so and ends with 1, its result is kept and
+/// is not sound.
 #[test]
 fn a_run_whose_energy_does_not_balance_ends_with_1() {
     let desk = Desk::new();

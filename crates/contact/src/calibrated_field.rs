@@ -1,6 +1,6 @@
 //! What the calibrated local contact knows of one flank: the near field that its mesh lacks.
 
-use crate::roll_shares::{RollPlace, SHARES};
+use crate::profile_shares::{ProfilePlace, SHARES};
 use gearmesh_model::{ContactCurve, ReducedGear, ReducedGearError};
 
 /// The calibration of one flank.
@@ -27,7 +27,7 @@ impl CalibratedField {
     }
 
     /// c₀ − share · w_h with w_h = Φᵀ W Φ.
-    pub fn missing(&self, roll_rad: f64, place: &RollPlace, share: f64) -> Missing {
+    pub fn missing(&self, roll_rad: f64, place: &ProfilePlace, share: f64) -> Missing {
         let (contact, rate) = self.contact.at(roll_rad);
         let (mut mesh, mut mesh_rate) = (0.0, 0.0);
         let (shares, rates) = (place.all_shares(), place.all_rates());

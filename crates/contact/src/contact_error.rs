@@ -1,4 +1,4 @@
-//! Why a contact of two reduced gears has no state.
+//! Why a contact of two elastic gears has no state, at rest or in motion.
 
 use crate::nlcp::{LocalLawError, NlcpError};
 use gearmesh_model::ReducedGearError;
@@ -36,20 +36,43 @@ pub enum ContactError {
         "helical teeth touch on the path of contact only: an extended path needs spur gears; leave the extension out"
     )]
     HelicalExtension,
+    /// More patches than there is memory for.
+    #[error("{found} slices face each other, more than the {most} that the pair was prepared for")]
+    TooMany {
+        /// Patches found.
+        found: usize,
+        /// Most patches.
+        most: usize,
+    },
     /// No local law.
-    #[error("at driver angle {angle_deg:.4} deg: {cause}")]
+    #[error("contact of tooth {} of gear 1 and tooth {} of gear 2: {cause}", teeth[0], teeth[1])]
     LocalLaw {
-        /// Driver angle.
-        angle_deg: f64,
+        /// Teeth of gear 1 and gear 2.
+        teeth: [usize; 2],
         /// Cause.
         cause: LocalLawError,
     },
     /// No solution.
+    #[error("slice forces: {0}")]
+    Nlcp(#[from] NlcpError),
+    /// At one position of a pair.
     #[error("at driver angle {angle_deg:.4} deg: {cause}")]
-    Nlcp {
+    At {
         /// Driver angle.
         angle_deg: f64,
         /// Cause.
-        cause: NlcpError,
+        cause: Box<ContactError>,
     },
+}
+
+impl ContactError {
+    /// Whether the computation failed, not the input.
+    #[must_use]
+    pub fn is_computation(&self) -> bool {
+        match self {
+            Self::At { cause, .. } => cause.is_computation(),
+            Self::LocalLaw { .. } | Self::Nlcp(_) | Self::TooMany { .. } => true,
+            _ => false,
+        }
+    }
 }

@@ -1,8 +1,13 @@
-//! Which tooth pairs touch at a driver angle, where, and how far their slices stand apart unloaded.
+//! Involute pairs at rest: which tooth pairs touch at a driver angle, where, and how far their slices stand apart unloaded.
+//!
+//! A helical contact line slants over the flank, ξ₁(z) = ξ₁(0) + ξ′ z ([`GearPair::roll_slope_1_rad_per_m`]), so that its slices enter and leave
+//! the path of contact one by one. A slice that is partly on the path touches over that part only: it has the roll angle of the part's middle
+//! and a share of the slice's length, which goes to zero with its force. The transmission error is therefore continuous where a slice enters.
 
-use crate::contact_zone::ContactZone;
+use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
+use crate::contact_zone::{ContactZone, SliceLayout};
 use crate::tip_contact::{PathExtension, TipContact, TipGear};
-use gearmesh_geometry::{GearPair, Microgeometry};
+use gearmesh_geometry::{GearPair, Microgeometry, Misalignment};
 
 /// Coulomb friction between the flanks, regularised at the pitch point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,26 +48,17 @@ pub struct ContactLine {
 }
 
 impl ContactLine {
-    /// Normal and friction force on a gear's tooth (index 0 or 1), in the frame of that gear's own flank: components along
-    /// the inward normal and towards the tip, over the normal force of the contact. `friction_ratio` as
-    /// [`Friction::ratio`]. (1, ratio), but for a tip edge, which feels them turned by its tilt δ:
-    /// (cos δ − ratio sin δ, sin δ + ratio cos δ).
-    pub fn force_components(&self, gear: usize, friction_ratio: f64) -> [f64; 2] {
-        let (sin, cos) = self.tilt_rad(gear).sin_cos();
-        [cos - friction_ratio * sin, sin + friction_ratio * cos]
-    }
-
     /// Turn of the contact's normal from the flank normal of gear 0 or 1 towards the tip \[rad\]: zero but for a tip edge.
     pub fn tilt_rad(&self, gear: usize) -> f64 {
-        self.tip.map_or(0.0, |t| {
-            if t.tip_gear.indices().0 == gear {
-                t.tilt_rad
-            } else {
-                0.0
-            }
-        })
+        (self.tip.filter(|tip| tip.tip_gear.indices().0 == gear)).map_or(0.0, |tip| tip.tilt_rad)
     }
 }
+
+/// Share of a slice below which it counts as off the path.
+///
+/// No unit. The local compliance grows with one over the share, so that such a slice carries less than about a thousandth
+/// of a whole one.
+pub const LEAST_SHARE: f64 = 1e-3;
 
 /// Rigid kinematics of a pair with its microgeometry: contact lines and unloaded gaps.
 #[derive(Debug, Clone)]
@@ -130,6 +126,107 @@ impl ContactLines {
         }
     }
 
+    /// Appends the patches of a line that touch or may touch. `number` is the line's number.
+    pub fn push_patches(
+        &self,
+        (number, line): (usize, &ContactLine),
+        layout: &SliceLayout,
+        friction: Option<Friction>,
+        patches: &mut Vec<ContactPatch>,
+    ) {
+        let mut alike = None;
+        for slice in 0..layout.slices {
+            let centre_m = layout.reference.slice_centre_m(slice, layout.slices);
+            let Some((share, z_m)) = self.part_on_path(line, centre_m, layout.width_m()) else {
+                continue;
+            };
+            let section = self.section(line, z_m);
+            // Of a spur line the slices are alike.
+            let number_alike = alike.filter(|_| !self.pair.is_helical());
+            let mut patch = match number_alike {
+                Some(other) => patches[other],
+                None => self.patch((number, &section), share * layout.width_m(), friction),
+            };
+            alike = Some(patches.len());
+            let heights = self.zone.heights_m(z_m);
+            patch.slice = slice;
+            patch.share = share;
+            patch.gap_m = self.separation_m(&section, z_m);
+            patch.places[0].v = heights[0];
+            patch.places[1].v = heights[1];
+            patches.push(patch);
+        }
+    }
+
+    /// What a patch in a section is but for its slice, its place along the teeth and its gap; `width_m`: its part of the face width.
+    fn patch(
+        &self,
+        (number, section): (usize, &ContactLine),
+        width_m: f64,
+        friction: Option<Friction>,
+    ) -> ContactPatch {
+        let ratio = friction.map_or(0.0, |f| f.ratio(section.path_m));
+        let rolls = [section.roll_1_rad, section.roll_2_rad];
+        ContactPatch {
+            teeth: [section.tooth_1, section.tooth_2],
+            line: number,
+            slice: 0,
+            places: rolls.map(|u| FlankPlace { u, v: 0.0 }),
+            share: 1.0,
+            length_m: width_m / self.helix_cos(),
+            radius_m: self.pair.relative_radius_m(rolls[0], rolls[1]),
+            radius_growth: self.pair.relative_radius_growth(rolls),
+            normal: self.normal(section),
+            gap_m: 0.0,
+            balance: PatchBalance {
+                closing: self.closing(section),
+                levers_m: self.lever_arms_m(section, ratio),
+                friction: ratio,
+            },
+            edge: self.edge(section),
+        }
+    }
+
+    /// A contact line in the section at `z_m`. Roll angles beyond the ends of the path are continued.
+    pub fn section(&self, line: &ContactLine, z_m: f64) -> ContactLine {
+        if !self.pair.is_helical() {
+            return *line;
+        }
+        let roll_1_rad = line.roll_1_rad + z_m * self.pair.roll_slope_1_rad_per_m();
+        ContactLine {
+            roll_1_rad,
+            roll_2_rad: self.pair.roll_2_rad(roll_1_rad),
+            path_m: self.pair.path_from_pitch_point_m(roll_1_rad),
+            ..*line
+        }
+    }
+
+    /// Share of a slice on the path and the middle of that part; none where it is off the path.
+    fn part_on_path(&self, line: &ContactLine, centre_m: f64, width_m: f64) -> Option<(f64, f64)> {
+        if !self.pair.is_helical() {
+            return Some((1.0, centre_m));
+        }
+        let slope = self.pair.roll_slope_1_rad_per_m();
+        let at = |roll: f64| (roll - line.roll_1_rad) / slope;
+        let (a, b) = (at(self.pair.roll_start_1_rad), at(self.pair.roll_end_1_rad));
+        let low = (centre_m - 0.5 * width_m).max(a.min(b));
+        let high = (centre_m + 0.5 * width_m).min(a.max(b));
+        let share = (high - low) / width_m;
+        (share > LEAST_SHARE).then_some((share.min(1.0), 0.5 * (low + high)))
+    }
+
+    /// Direction of the normal force on gear 2, x along the line of centres from gear 1 to gear 2, z along gear 1's axis:
+    /// (cos β_b sin α, ∓cos β_b cos α, ±sin β_b), upper signs on right flanks; α: α_w or the angle of a tip edge's force.
+    fn normal(&self, line: &ContactLine) -> [f64; 3] {
+        let angle_rad = (line.tip).map_or(self.pair.working_pressure_angle_rad, |tip| {
+            tip.force_angle_rad
+        });
+        let (sin, cos) = angle_rad.sin_cos();
+        let (sigma, helix) = (self.pair.flank.mirror(), self.pair.base_helix_angle_rad());
+        let along = helix.cos();
+        [along * sin, -sigma * along * cos, sigma * helix.sin()]
+    }
+
     /// Roll angles on gear 1 at mid-face between which pairs are looked for.
     pub fn range_1_rad(&self) -> (f64, f64) {
         let (start, end) = self.extension.map_or(
@@ -155,6 +252,7 @@ impl ContactLines {
         let removed_2 = self.microgeometry_2.removed_m(line.roll_2_rad, height_2);
         let tilted_axes = self.pair.misalignment;
         let (gap, misalignment) = match line.tip {
+            None if tilted_axes == Misalignment::default() => (0.0, 0.0),
             None => (
                 0.0,
                 self.helix_cos() * self.pair.misalignment_gap_m(z_m, line.path_m),
@@ -170,7 +268,11 @@ impl ContactLines {
 
     /// cos β_b: turns lengths along the normal into lengths in the transverse plane.
     fn helix_cos(&self) -> f64 {
-        self.pair.base_helix_angle_rad().cos()
+        if self.pair.is_helical() {
+            self.pair.base_helix_angle_rad().cos()
+        } else {
+            1.0
+        }
     }
 
     /// How fast the line's gap closes with the approach x = −TE of the bases at a given driver angle: cos β_b, but for gear
@@ -203,38 +305,18 @@ impl ContactLines {
         arms
     }
 
-    /// Force along +z on gear 1 per newton of normal force, ∓sin β_b: − where a right-hand gear 1 is loaded on right
-    /// flanks. Gear 2 feels the opposite.
-    pub fn axial_share_1(&self) -> f64 {
-        -self.pair.flank.mirror() * self.pair.base_helix_angle_rad().sin()
-    }
-
-    /// Relative radius of curvature ρ₁ρ₂/(ρ₁ + ρ₂)/cos β_b of the flanks \[m\], in the plane normal to the contact line; a
-    /// tip edge counts with its flank's end.
-    pub fn relative_radius_m(&self, line: &ContactLine) -> f64 {
-        self.pair
-            .relative_radius_m(line.roll_1_rad, line.roll_2_rad)
-    }
-
-    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 0 or 1: (1 − ρ/(ρ₁ + ρ₂))/ξ.
-    pub fn relative_radius_growth(&self, line: &ContactLine, gear: usize) -> f64 {
-        let rolls = [line.roll_1_rad, line.roll_2_rad];
-        let pair = &self.pair;
-        let rho = [
-            pair.gear_1.base_radius_m * rolls[0],
-            pair.gear_2.base_radius_m * rolls[1],
-        ];
-        (1.0 - rho[gear] / (rho[0] + rho[1])) / rolls[gear]
-    }
-
-    /// Tilt \[rad\] and relative radius \[m\] of the rounded edge against the flank; none on the path.
-    pub fn edge(&self, line: &ContactLine) -> Option<(f64, f64)> {
+    /// The rounded tip edge against the flank; none on the path.
+    pub fn edge(&self, line: &ContactLine) -> Option<PatchEdge> {
         let (tip, extension) = line.tip.zip(self.extension)?;
         let flank = match tip.tip_gear {
             TipGear::One => self.pair.gear_2.base_radius_m * line.roll_2_rad,
             TipGear::Two => self.pair.gear_1.base_radius_m * line.roll_1_rad,
         };
         let edge = extension.edge_radius_m;
-        Some((tip.tilt_rad, edge * flank / (edge + flank)))
+        Some(PatchEdge {
+            gear: tip.tip_gear.indices().0,
+            tilt_rad: tip.tilt_rad,
+            radius_m: edge * flank / (edge + flank),
+        })
     }
 }

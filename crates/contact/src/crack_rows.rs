@@ -1,15 +1,12 @@
 //! What a root crack adds to the compliance between slices: C_ab += Σ_k φ_k(a) φ_k(b), rows by tooth, as a crack sits on one.
 //!
-//! The rows of the model are combined to slices as the compliance is: along the axis once, along the profile at each place.
+//! The rows of the model are combined to slices as the compliance is: along the tooth once, along the profile at each place.
 
 use crate::axial_spread::AxialSpread;
-use crate::placed_slice::PlacedSlice;
-use crate::roll_shares::{RollPlace, SHARES};
-use crate::station_blocks::LineBlock;
+use crate::placed_slice::ToothPlace;
+use crate::profile_shares::SHARES;
+use crate::station_blocks::Coupling;
 use gearmesh_model::{FlankGrid, RootCrack};
-
-/// Slices whose rows are combined before they are used, so that most pairs of slices cost three products a row.
-const CHUNK: usize = 8;
 
 /// Rows of a crack for the slices of one gear.
 #[derive(Debug, Clone)]
@@ -47,91 +44,32 @@ impl CrackRows {
         }
     }
 
-    /// Σ w_s φ(s, slice) of one row on a tooth with the four weights of a place.
-    fn at(
-        &self,
-        (tooth, row): (usize, usize),
-        first: usize,
-        w: &[f64; SHARES],
-        slice: usize,
-    ) -> f64 {
-        let start = (tooth * self.rows + row) * self.stations;
+    /// Σ w_s φ(s, slice) of one row with weights of the stations at a place.
+    fn at(&self, at: &ToothPlace, slice: usize, row: usize, weights: &[f64; SHARES]) -> f64 {
+        let start = (at.tooth * self.rows + row) * self.stations;
         let last = self.stations - 1;
-        (w.iter().enumerate())
+        (weights.iter().enumerate())
             .map(|(k, share)| {
-                share * self.values[(start + (first + k).min(last)) * self.slices + slice]
+                let station = (at.place.first() + k).min(last);
+                share * self.values[(start + station) * self.slices + slice]
             })
             .sum()
-    }
-
-    /// Between two lines, added to `out`, `[slice of a][slice of b]`.
-    pub fn add(
-        &self,
-        (tooth_a, a): (usize, &RollPlace),
-        (tooth_b, b): (usize, &RollPlace),
-        out: &mut [f64],
-    ) {
-        for row in 0..self.rows {
-            for (i, along) in out.chunks_exact_mut(self.slices).enumerate() {
-                let phi_a = self.at((tooth_a, row), a.first(), a.all_shares(), i);
-                for (j, place) in along.iter_mut().enumerate() {
-                    *place += phi_a * self.at((tooth_b, row), b.first(), b.all_shares(), j);
-                }
-            }
-        }
-    }
-
-    /// As [`Self::add`] with the derivatives by the roll angles of both lines.
-    pub fn add_with_rates(
-        &self,
-        (tooth_a, a): (usize, &RollPlace),
-        (tooth_b, b): (usize, &RollPlace),
-        out: &mut LineBlock,
-    ) {
-        let n = self.slices;
-        let (mut phi_b, mut rate_b) = ([0.0; CHUNK], [0.0; CHUNK]);
-        for row in 0..self.rows {
-            for first in (0..n).step_by(CHUNK) {
-                let count = CHUNK.min(n - first);
-                for j in 0..count {
-                    let slice = first + j;
-                    phi_b[j] = self.at((tooth_b, row), b.first(), b.all_shares(), slice);
-                    rate_b[j] = self.at((tooth_b, row), b.first(), b.all_rates(), slice);
-                }
-                for i in 0..n {
-                    let phi_a = self.at((tooth_a, row), a.first(), a.all_shares(), i);
-                    let rate_a = self.at((tooth_a, row), a.first(), a.all_rates(), i);
-                    for j in 0..count {
-                        let place = i * n + first + j;
-                        out.value[place] += phi_a * phi_b[j];
-                        out.by_a[place] += rate_a * phi_b[j];
-                        out.by_b[place] += phi_a * rate_b[j];
-                    }
-                }
-            }
-        }
     }
 
     /// Between two slices, each at its own place \[m/N\].
     #[must_use]
-    pub fn between(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        self.sum(a, a.place.all_shares(), b)
-    }
-
-    /// Derivative of [`Self::between`] by the roll angle of `a` \[m/(N·rad)\]; of a slice with itself half of what its compliance changes by.
-    #[must_use]
-    pub fn between_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        self.sum(a, a.place.all_rates(), b)
-    }
-
-    /// Σ over the rows with weights of the stations on the side of `a`.
-    fn sum(&self, a: &PlacedSlice, w: &[f64; SHARES], b: &PlacedSlice) -> f64 {
-        let shares = b.place.all_shares();
-        (0..self.rows)
-            .map(|row| {
-                self.at((a.tooth, row), a.place.first(), w, a.slice)
-                    * self.at((b.tooth, row), b.place.first(), shares, b.slice)
-            })
-            .sum()
+    pub fn between(&self, places: [&ToothPlace; 2], slices: [usize; 2]) -> Coupling {
+        let mut sum = Coupling::default();
+        for row in 0..self.rows {
+            let [(of_a, rate_a), (of_b, rate_b)] = [0, 1].map(|k: usize| {
+                let of = |weights| self.at(places[k], slices[k], row, weights);
+                let place = &places[k].place;
+                (of(place.all_shares()), of(place.all_rates()))
+            });
+            sum.value += of_a * of_b;
+            sum.by_a += rate_a * of_b;
+            sum.by_b += of_a * rate_b;
+        }
+        sum
     }
 }

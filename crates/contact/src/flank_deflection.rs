@@ -55,13 +55,12 @@ pub fn flank_deflection(
 ) -> Result<FlankDeflection, ReducedGearError> {
     let compliance = SliceCompliance::new(gear, load.flank, local)?;
     let roll = involute::roll_angle_rad(load.radius_m, gear.base_radius_m);
-    let place = compliance.place(roll);
     let n = compliance.slices();
-    let mut c = vec![0.0; n * n];
-    compliance.line_block((load.tooth, &place), (at_tooth, &place), &mut c);
+    let [loaded, other] = [load.tooth, at_tooth].map(|tooth| compliance.on_tooth(tooth, roll));
+    let between = compliance.between(&loaded, &other);
     let force = load.line_load_n_per_m * compliance.slice_width_m();
     let global_m = (0..n)
-        .map(|j| (0..n).map(|i| c[i * n + j] * force).sum())
+        .map(|j| (0..n).map(|i| between.value([i, j]) * force).sum())
         .collect();
     let own = match local {
         LocalContact::WeberBanaschek | LocalContact::Calibrated if at_tooth == load.tooth => {

@@ -1,19 +1,20 @@
-//! Contact of two reduced gears: slices and gaps on the rigid involute, Hertz contact, the complementarity problem.
+//! Contact of two elastic gears: patches, their compliance and local contact, the complementarity problem; involute pairs at rest.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs` |
+//! | what is a slice of a contact line, of whatever gears | [`ContactPatch`] | `contact_patch.rs` |
+//! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `station_blocks.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
-//! | which axial stations carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
-//! | which unit loads make a force at a roll angle | [`RollHats`] | `roll_shares.rs` |
+//! | which stations along the tooth carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
+//! | which unit loads make a force at a place along the profile | [`ProfileHats`] | `profile_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | the same of a calibrated model | | `calibrated_field.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
-//! | which slices touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
-//! | which slices of a line touch, one by one on helical teeth | [`ContactSlice`] | `contact_slices.rs` |
+//! | which patches of an involute pair touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
-//! | forces of slices at given separations | [`SliceContact`] | `slice_contact.rs` |
+//! | forces of patches at given gaps | [`SliceContact`] | `slice_contact.rs` |
+//! | what drives them | [`Drive`] | `drive.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | why there are none | [`ContactError`] | `contact_error.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
@@ -28,16 +29,17 @@ pub mod axial_spread;
 mod calibrated_field;
 mod contact_error;
 pub mod contact_lines;
-pub mod contact_slices;
+pub mod contact_patch;
 pub mod contact_zone;
 pub mod crack_rows;
+pub mod drive;
 pub mod flank_deflection;
 pub mod hertz;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
 pub mod placed_slice;
-pub mod roll_shares;
+pub mod profile_shares;
 pub mod slice_compliance;
 pub mod slice_contact;
 pub mod slice_spread;
@@ -48,10 +50,11 @@ pub mod tip_contact;
 pub use axial_spread::AxialSpread;
 pub use contact_error::ContactError;
 pub use contact_lines::{ContactLine, ContactLines, Friction};
-pub use contact_slices::ContactSlice;
+pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 pub use contact_zone::{ContactZone, SliceLayout};
+pub use drive::Drive;
 pub use local_contact::LocalContact;
-pub use roll_shares::{RollHats, RollPlace};
+pub use profile_shares::{ProfileHats, ProfilePlace};
 pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
 pub use static_contact::{ContactOptions, ContactState, StaticContact};

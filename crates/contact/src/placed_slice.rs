@@ -1,16 +1,18 @@
-//! A slice on a tooth, and how its force sits on the axial stations.
+//! A place on the profile of a tooth, and how the force of a slice there sits on the stations along the tooth.
 
-use crate::roll_shares::RollPlace;
+use crate::profile_shares::ProfilePlace;
 
-/// A slice on a tooth and the place of its contact along the profile.
+/// A place on the profile of a tooth, where one or more slices of a contact line stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlacedSlice {
+pub struct ToothPlace {
     /// Tooth.
     pub tooth: usize,
-    /// Slice.
-    pub slice: usize,
-    /// Place between the roll stations.
-    pub place: RollPlace,
+    /// Place between the stations.
+    pub place: ProfilePlace,
+    /// What neighbouring slices share of the calibrated correction there \[m/N\], and its derivative by u.
+    pub(crate) shared: (f64, f64),
+    /// Tooth of the sector, whose flanks are stored, that this one repeats, and by how many teeth the sector is turned.
+    pub(crate) in_sector: (usize, usize),
 }
 
 /// Share of a slice's force on the middle of each of its neighbours.

@@ -1,18 +1,18 @@
 //! Compliance between slices on contact lines, from the compliance between unit loads on the flank grid.
 //!
-//! A slice force at roll angle ξ is a combination Φ of grid loads. Along the axis its shares ([`AxialSpread`]) make it
-//! nearly a uniform load on the slice, and equal slice forces an exactly uniform line load. Along the profile the nearest
-//! stations share the force so that its first two moments are kept ([`RollHats`]). C = Φᵀ C_grid Φ as a whole.
-//! The axial part of Φ does not depend on the position and is applied once, when the model is loaded.
+//! A slice force at u is a combination Φ of grid loads. Along the tooth its shares ([`AxialSpread`]) make it nearly a uniform load on the
+//! slice, and equal slice forces an exactly uniform line load. Along the profile the nearest stations share the force so that its first two
+//! moments are kept ([`ProfileHats`]). C = Φᵀ C_grid Φ as a whole. The part of Φ along the tooth does not depend on the position and is
+//! applied once, when the model is loaded. Slices may stand each at its own u: on one line they have one only where it runs along the tooth.
 
 use crate::axial_spread::AxialSpread;
 use crate::calibrated_field::CalibratedField;
 use crate::crack_rows::CrackRows;
 use crate::local_contact::{CompliancePart, LocalContact, effective_depth_m};
-use crate::placed_slice::PlacedSlice;
-use crate::roll_shares::{RollHats, RollPlace, SHARES};
+use crate::placed_slice::ToothPlace;
+use crate::profile_shares::{ProfileHats, ProfilePlace};
 use crate::slice_spread::NeighbourTerm;
-use crate::station_blocks::{LineBlock, StationBlocks};
+use crate::station_blocks::{CombinedBlocks, Coupling, StationBlocks};
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ pub struct SliceCompliance {
     teeth: usize,
     teeth_per_sector: usize,
     slices: usize,
-    hats: RollHats,
+    hats: ProfileHats,
     opposite_distance_m: Vec<f64>,
     /// Pairs of flanks: `[tooth in sector][response tooth]`.
     blocks: StationBlocks,
@@ -43,8 +43,8 @@ pub struct SliceCompliance {
 pub struct LocalDepth {
     /// h \[m\].
     pub depth_m: f64,
-    /// ∂(ln h)/∂ξ \[1/rad\].
-    pub growth_by_roll: f64,
+    /// ∂(ln h)/∂u.
+    pub growth_by_u: f64,
     /// ∂(ln h)/∂(share of the width).
     pub growth_by_share: f64,
 }
@@ -113,13 +113,11 @@ impl SliceCompliance {
                         *response = column.iter().map(|&(m, share)| share * loaded[m]).sum();
                     }
                 }
-                blocks.push(slices, |[a, i], [b, j]| {
-                    condensed[(a * slices + i) * size + b * slices + j]
-                });
+                blocks.push(|[a, i], [b, j]| condensed[(a * slices + i) * size + b * slices + j]);
             }
         }
         let slice_width_m = spread.width_m();
-        let hats = RollHats::new(&grid.roll_angles_rad);
+        let hats = ProfileHats::of_involute(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);
@@ -132,7 +130,7 @@ impl SliceCompliance {
                 .map(|half| {
                     let station = (half / 2).min(stations - 2);
                     let share = 0.5 * half as f64 - station as f64;
-                    let c = hats.centroids_rad();
+                    let c = hats.centroids();
                     let roll = (1.0 - share) * c[station] + share * c[station + 1];
                     let place = hats.place(roll);
                     let missing = field.missing(roll, &place, 1.0).value;
@@ -179,9 +177,20 @@ impl SliceCompliance {
         (self.young_pa, self.poisson)
     }
 
-    /// Where a roll angle lies between the stations.
-    pub fn place(&self, roll_rad: f64) -> RollPlace {
-        self.hats.place(roll_rad)
+    /// Where a place along the profile lies between the stations.
+    pub fn place(&self, u: f64) -> ProfilePlace {
+        self.hats.place(u)
+    }
+
+    /// A place along the profile of a tooth.
+    pub fn on_tooth(&self, tooth: usize, u: f64) -> ToothPlace {
+        let (own, place) = (tooth % self.teeth_per_sector, self.place(u));
+        ToothPlace {
+            tooth,
+            place,
+            shared: self.shared_at(&place),
+            in_sector: (own, tooth - own),
+        }
     }
 
     /// Depth h \[m\] of the local logarithm at a roll angle: effective where the model is calibrated, else the distance
@@ -196,7 +205,7 @@ impl SliceCompliance {
     }
 
     /// [`Self::local_depth_m`] at a roll angle whose place is known, and how it changes.
-    pub fn local_depth(&self, roll_rad: f64, place: &RollPlace, share: f64) -> LocalDepth {
+    pub fn local_depth(&self, roll_rad: f64, place: &ProfilePlace, share: f64) -> LocalDepth {
         let Some(field) = &self.near_field else {
             let (low, high) = (
                 self.opposite_distance_m[place.station],
@@ -205,13 +214,13 @@ impl SliceCompliance {
             let inside = place.share.clamp(0.0, 1.0);
             let depth = (1.0 - inside) * low + inside * high;
             let slope = if inside == place.share {
-                (high - low) / self.spacing_rad(place.station)
+                (high - low) / self.spacing(place.station)
             } else {
                 0.0
             };
             return LocalDepth {
                 depth_m: depth,
-                growth_by_roll: slope / depth,
+                growth_by_u: slope / depth,
                 growth_by_share: 0.0,
             };
         };
@@ -219,72 +228,41 @@ impl SliceCompliance {
         let k = 2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young_pa);
         LocalDepth {
             depth_m: effective_depth_m(missing.value, field.half_width_m, self.material()),
-            growth_by_roll: missing.by_roll / k,
+            growth_by_u: missing.by_roll / k,
             growth_by_share: missing.by_share / k,
         }
     }
 
-    /// Distance of the centroids of a station's hat and the next one's \[rad\].
-    fn spacing_rad(&self, station: usize) -> f64 {
-        let c = self.hats.centroids_rad();
+    /// Distance of the centroids of a station's hat and the next one's.
+    fn spacing(&self, station: usize) -> f64 {
+        let c = self.hats.centroids();
         c[station + 1] - c[station]
     }
 
-    /// Number of the block of two flanks.
-    fn pair(&self, tooth_a: usize, tooth_b: usize) -> usize {
-        let tooth = tooth_a % self.teeth_per_sector;
-        let response = (tooth_b + self.teeth - (tooth_a - tooth)) % self.teeth;
-        tooth * self.teeth + response
-    }
-
-    /// Φᵀ C Φ between the slices of two contact lines, into `out`, `[slice of a][slice of b]`. On one and the same line the calibrated
-    /// correction's part between neighbours is included.
-    pub fn line_block(
-        &self,
-        (tooth_a, place_a): (usize, &RollPlace),
-        (tooth_b, place_b): (usize, &RollPlace),
-        out: &mut [f64],
-    ) {
-        out.fill(0.0);
-        (self.blocks).add(self.pair(tooth_a, tooth_b), place_a, place_b, out);
-        if tooth_a == tooth_b && !self.spread.is_empty() {
-            add_spread(out, self.slices, self.spread_at(place_a).0);
-        }
-        if let Some(crack) = &self.crack {
-            crack.add((tooth_a, place_a), (tooth_b, place_b), out);
+    /// What slices at two places deflect each other by.
+    #[inline]
+    #[must_use]
+    pub fn between<'a>(&'a self, a: &'a ToothPlace, b: &'a ToothPlace) -> CoupledPlaces<'a> {
+        let (tooth, turned) = a.in_sector;
+        let response = b.tooth + self.teeth - turned;
+        let response = if response < self.teeth {
+            response
+        } else {
+            response - self.teeth
+        };
+        let neighboured = !self.spread.is_empty() && a.tooth == b.tooth;
+        CoupledPlaces {
+            blocks: (self.blocks).at(tooth * self.teeth + response, [&a.place, &b.place]),
+            places: [a, b],
+            slices: self.slices,
+            has_more: neighboured || self.crack.is_some(),
+            neighboured,
+            crack: self.crack.as_ref(),
         }
     }
 
-    /// [`Self::line_block`] with its derivatives by the roll angles of both lines; on one and the same line `by_a` is half of what the
-    /// block changes by, and `by_b` has no meaning.
-    pub fn line_block_with_rates(
-        &self,
-        (tooth_a, place_a): (usize, &RollPlace),
-        (tooth_b, place_b): (usize, &RollPlace),
-        out: &mut LineBlock,
-    ) {
-        for values in [&mut out.value, &mut out.by_a, &mut out.by_b] {
-            values.fill(0.0);
-        }
-        if let Some(crack) = &self.crack {
-            crack.add_with_rates((tooth_a, place_a), (tooth_b, place_b), out);
-        }
-        let pair = self.pair(tooth_a, tooth_b);
-        if tooth_a != tooth_b {
-            self.blocks.add_with_rates(pair, place_a, place_b, out);
-            return;
-        }
-        self.blocks.add_own_with_rates(pair, place_a, out);
-        if !self.spread.is_empty() {
-            let (term, rate) = self.spread_at(place_a);
-            add_spread(&mut out.value, self.slices, term);
-            add_spread(&mut out.by_a, self.slices, 0.5 * rate);
-        }
-    }
-
-    /// What neighbouring slices share of the calibrated correction at a roll place \[m/N\], and its derivative by the roll angle; zero where
-    /// there is none.
-    fn spread_at(&self, place: &RollPlace) -> (f64, f64) {
+    /// What neighbouring slices share of the calibrated correction at a place \[m/N\], and its derivative by u; zero where there is none.
+    fn shared_at(&self, place: &ProfilePlace) -> (f64, f64) {
         if self.spread.is_empty() {
             return (0.0, 0.0);
         }
@@ -294,7 +272,7 @@ impl SliceCompliance {
         let share = at - low as f64;
         let (below, above) = (self.spread[low], self.spread[low + 1]);
         let moves = if inside == place.share {
-            2.0 / self.spacing_rad(place.station)
+            2.0 / self.spacing(place.station)
         } else {
             0.0
         };
@@ -303,82 +281,72 @@ impl SliceCompliance {
             (above - below) * moves,
         )
     }
+}
 
-    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours,
-    /// and a neighbour gets the mean of the two slices' terms. With all slices at one place that of [`Self::add_block`].
-    fn spread_between(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        if a.tooth != b.tooth {
-            return 0.0;
-        }
-        match a.slice.abs_diff(b.slice) {
-            0 => -self.neighbours(a.slice) * self.spread_at(&a.place).0,
-            1 => 0.5 * (self.spread_at(&a.place).0 + self.spread_at(&b.place).0),
-            _ => 0.0,
+/// Two places on one gear and what their slices deflect each other by.
+#[derive(Debug, Clone, Copy)]
+pub struct CoupledPlaces<'a> {
+    blocks: CombinedBlocks<'a>,
+    places: [&'a ToothPlace; 2],
+    slices: usize,
+    /// Whether anything comes to what the blocks say: `neighboured` or `crack`.
+    has_more: bool,
+    neighboured: bool,
+    crack: Option<&'a CrackRows>,
+}
+
+impl CoupledPlaces<'_> {
+    /// Φ_aᵀ C Φ_b of a slice at the first place and one at the second \[m/N\]; the calibrated correction's part between neighbours is
+    /// included.
+    #[inline]
+    #[must_use]
+    pub fn value(&self, slices: [usize; 2]) -> f64 {
+        let whole = self.blocks.between(slices);
+        if self.has_more {
+            whole + self.more(slices).value
+        } else {
+            whole
         }
     }
 
-    /// Φ_aᵀ C Φ_b between two slices that each stand at their own place, as on slanted contact lines; the
-    /// calibrated correction's part between neighbours is included.
-    pub fn between_slices(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        self.combined(a, a.place.all_shares(), b)
-            + self.spread_between(a, b)
-            + (self.crack.as_ref()).map_or(0.0, |crack| crack.between(a, b))
+    /// The same with its derivatives by both places.
+    #[inline]
+    #[must_use]
+    pub fn coupling(&self, slices: [usize; 2]) -> Coupling {
+        let mut whole = self.blocks.between_with_rates(slices);
+        if self.has_more {
+            whole += self.more(slices);
+        }
+        whole
     }
 
-    /// Σ w_s C between the stations of slice `a` with weights w_s and slice `b` at its place. Plain loops: on helical teeth most of the
-    /// time goes here.
-    fn combined(&self, a: &PlacedSlice, weights: &[f64; SHARES], b: &PlacedSlice) -> f64 {
-        let pair = self.pair(a.tooth, b.tooth);
-        let entry = a.slice * self.slices + b.slice;
-        let mut sum = 0.0;
-        for (station, weight) in (a.place.first()..).zip(weights) {
-            // Stations that do not exist have no share.
-            if *weight == 0.0 {
-                continue;
-            }
-            let mut along = 0.0;
-            for (other, share) in (b.place.first()..).zip(b.place.all_shares()) {
-                if *share != 0.0 {
-                    along += share * self.blocks.block(pair, station, other)[entry];
-                }
-            }
-            sum += weight * along;
+    fn more(&self, slices: [usize; 2]) -> Coupling {
+        let mut sum = Coupling::default();
+        if self.neighboured {
+            sum += self.shared(slices);
+        }
+        if let Some(crack) = self.crack {
+            sum += crack.between(self.places, slices);
         }
         sum
     }
 
-    /// Derivative of [`Self::between_slices`] by the roll angle of slice `a` \[m/(N·rad)\]; of a slice with itself half of what its
-    /// compliance changes by.
-    pub fn between_slices_rate(&self, a: &PlacedSlice, b: &PlacedSlice) -> f64 {
-        let rate = self.combined(a, a.place.all_rates(), b);
-        // As in `spread_between`: in sum over both slices of a term half of its change.
-        let spread = match a.slice.abs_diff(b.slice) {
-            _ if a.tooth != b.tooth => 0.0,
-            0 => -0.5 * self.neighbours(a.slice) * self.spread_at(&a.place).1,
-            1 => 0.5 * self.spread_at(&a.place).1,
-            _ => 0.0,
+    /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours, and a neighbour
+    /// gets the mean of the two slices' terms, so that a uniform load deflects as before.
+    fn shared(&self, [a, b]: [usize; 2]) -> Coupling {
+        let each = match a.abs_diff(b) {
+            0 => {
+                let beside = [a > 0, a + 1 < self.slices];
+                -0.5 * beside.into_iter().filter(|exists| *exists).count() as f64
+            }
+            1 => 0.5,
+            _ => return Coupling::default(),
         };
-        let crack = self.crack.as_ref();
-        rate + spread + crack.map_or(0.0, |crack| crack.between_rate(a, b))
-    }
-
-    /// How many slices stand beside a slice.
-    fn neighbours(&self, slice: usize) -> f64 {
-        let beside = [slice > 0, slice + 1 < self.slices];
-        beside.into_iter().filter(|exists| *exists).count() as f64
-    }
-}
-
-/// Adds a term between neighbouring slices and takes it from both, so that a uniform load deflects as before.
-fn add_spread(block: &mut [f64], slices: usize, term: f64) {
-    for i in 1..slices {
-        for (row, column, sign) in [
-            (i, i, -1.0),
-            (i - 1, i - 1, -1.0),
-            (i, i - 1, 1.0),
-            (i - 1, i, 1.0),
-        ] {
-            block[row * slices + column] += sign * term;
+        let [at_a, at_b] = self.places.map(|place| place.shared);
+        Coupling {
+            value: each * (at_a.0 + at_b.0),
+            by_a: each * at_a.1,
+            by_b: each * at_b.1,
         }
     }
 }
@@ -386,10 +354,8 @@ fn add_spread(block: &mut [f64], slices: usize, term: f64) {
 /// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x
 /// = (1, −1) on two and (1, −2, 1) on three slices side by side, L the graph Laplacian of the row of slices, in whose shape the
 /// term enters. Reached where slices are narrower than the elements across the width, which cannot tell them apart.
-fn largest_neighbour_term(blocks: &StationBlocks, slices: usize, place: &RollPlace) -> f64 {
-    let mut own = vec![0.0; slices * slices];
-    blocks.add(0, place, place, &mut own);
-    let c = |i: usize, j: usize| own[i * slices + j];
+fn largest_neighbour_term(blocks: &StationBlocks, slices: usize, place: &ProfilePlace) -> f64 {
+    let c = |i: usize, j: usize| blocks.at(0, [place, place]).between([i, j]);
     let mut least = f64::INFINITY;
     for x in [[1.0, -1.0].as_slice(), &[1.0, -2.0, 1.0]] {
         let outer = x[0] * x[0] + x[x.len() - 1] * x[x.len() - 1];

@@ -1,166 +1,136 @@
-//! The slices of two reduced gears that face each other: compliance, local laws and the forces at given separations.
+//! The patches of two elastic gears: compliance, local laws and the forces at given gaps.
 //!
-//! This is what the static contact and the gear mesh of a multibody system share: it is told which lines and slices face each other and
-//! how far apart they stand, and does not ask where that comes from.
+//! This is what a contact at rest and the gear mesh of a multibody system share: it is told which patches face each other and how far apart they
+//! stand, and does not ask where that comes from, nor of what family the gears are.
 
 use crate::contact_error::ContactError;
-use crate::contact_lines::{ContactLine, ContactLines};
-use crate::contact_slices::ContactSlice;
+use crate::contact_patch::ContactPatch;
 use crate::contact_zone::SliceLayout;
+use crate::drive::Drive;
 use crate::local_contact::{LawRate, LocalContact};
 use crate::nlcp::{
-    ContactBody, EdgeContact, Info, LineContact, LocalLaw, LocalLawError, NlcpError, Params,
-    Problem, Workspace, solve_load, solve_position,
+    ContactBody, EdgeContact, Info, LineContact, LocalLaw, Params, Problem, Workspace, solve_load,
+    solve_position,
 };
-use crate::placed_slice::PlacedSlice;
-use crate::roll_shares::RollPlace;
+use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
-use crate::station_blocks::LineBlock;
-use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
 mod energy_rates;
 
-/// What is given besides the separations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Given {
-    /// Load Σ b F \[N·m\]; the approach follows.
-    Load(f64),
-    /// Approach \[m\]; the load follows.
-    Approach(f64),
-}
-
-/// Separations of the slices, how fast they close, and the levers of their forces; see [`crate::nlcp`].
+/// Patches one after the other that stand at one place and press alike, as those of a spur line do.
 #[derive(Debug, Clone, Copy)]
-pub struct Separations<'a> {
-    /// e \[m\], open positive.
-    pub separation_m: &'a [f64],
-    /// w.
-    pub closing: &'a [f64],
-    /// b \[m\].
-    pub lever_m: &'a [f64],
+struct Run {
+    /// First of its patches, and the one after the last.
+    patches: [usize; 2],
+    /// Where they stand on both gears.
+    places: [ToothPlace; 2],
+    /// Components of their normal along the flank normals.
+    along_normals: [f64; 2],
+    contact: LineContact,
+    edge: Option<EdgeContact>,
+    law: LocalLaw,
+    depths: [LocalDepth; 2],
+    /// How the law changes with the places on both flanks; zero unless asked for.
+    rates: [LawRate; 2],
 }
 
-/// Two reduced gears in contact, with all memory that a solve needs.
+/// Two elastic gears in contact, with all memory that a solve needs.
 #[derive(Debug, Clone)]
 pub struct SliceContact {
-    lines: ContactLines,
     layout: SliceLayout,
-    centres_m: Vec<f64>,
-    compliance_1: SliceCompliance,
-    compliance_2: SliceCompliance,
+    compliance: [SliceCompliance; 2],
     local_contact: LocalContact,
     params: Params,
-    /// Where each line stands on both gears.
-    places: Vec<[RollPlace; 2]>,
-    /// Compliance of each gear between a line and another one after it, with its changes; only those of pairs of different lines and
-    /// of lines with themselves in use.
-    line_blocks: Vec<LineBlock>,
-    /// Depths of the local logarithm for each law that was made: the slices of a spur line share one.
-    depths: Vec<[LocalDepth; 2]>,
-    /// How each of these laws changes with the roll angle on both gears.
-    law_rates: Vec<[LawRate; 2]>,
-    /// Of helical teeth: where each slice stands on both gears, and the share of its width that touches.
-    placed: Vec<[PlacedSlice; 2]>,
+    runs: Vec<Run>,
+    /// Slice of each patch, and its run.
+    slice: Vec<usize>,
+    run: Vec<usize>,
     shares: Vec<f64>,
-    /// Without a local law: compliance of each slice before it was divided by its share \[m/N\].
-    own_compliance: Vec<f64>,
     c: Vec<f64>,
-    /// Hertz contact of each touching slice, and the edge where it is one.
-    hertz: Vec<(LineContact, Option<EdgeContact>)>,
+    /// ∂C_ij/∂u_i of each gear, `[i][j]`; of a patch with itself half of what its compliance changes by.
+    rates: [Vec<f64>; 2],
+    /// Without a local law: compliance of each patch before it was divided by its share \[m/N\].
+    own_compliance: Vec<f64>,
     local: Vec<LocalLaw>,
+    separation_m: Vec<f64>,
+    closing: Vec<f64>,
+    lever_m: Vec<f64>,
     work: Workspace,
 }
 
 impl SliceContact {
-    /// Prepares the contact of two gears on the flanks that the pair names, on slices over the overlap of the models' faces at the axial
-    /// displacement of the lines' zone.
+    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on slices over the overlap of their faces
+    /// where gear 2 stands displaced by `displacement_m` along the axes; for up to `most_lines` contact lines at once.
     ///
     /// # Errors
-    /// [`ContactError`] when the models do not fit the pair or each other.
-    pub fn new(
-        mut lines: ContactLines,
-        gear_1: &ReducedGear,
-        gear_2: &ReducedGear,
-        local_contact: LocalContact,
+    /// [`ContactError`] when the models do not fit the teeth or each other.
+    pub fn of_gears(
+        models: [&ReducedGear; 2],
+        (teeth, flank): ([usize; 2], Flank),
+        (local, displacement_m): (LocalContact, f64),
+        most_lines: usize,
     ) -> Result<Self, ContactError> {
-        if lines.pair.is_helical() && lines.extension.is_some() {
-            return Err(ContactError::HelicalExtension);
-        }
-        let flank = match lines.pair.flank {
-            FlankSide::Right => Flank::Right,
-            FlankSide::Left => Flank::Left,
-        };
-        for (gear, model, needed) in [
-            (1, gear_1, lines.pair.gear_1.teeth),
-            (2, gear_2, lines.pair.gear_2.teeth),
-        ] {
-            if model.teeth != needed {
+        for gear in 0..2 {
+            let (found, needed) = (models[gear].teeth, teeth[gear]);
+            if found != needed {
+                let gear = gear + 1;
                 return Err(ContactError::Teeth {
                     gear,
-                    found: model.teeth,
+                    found,
                     needed,
                 });
             }
         }
-        let layout = SliceLayout::of_models([gear_1, gear_2], lines.zone.displacement_m);
+        let layout = SliceLayout::of_models(models, displacement_m);
         layout.check()?;
-        lines.zone = layout.reference;
-        let condense = |gear: usize, model: &ReducedGear| {
-            let spread = layout.spread(gear, model);
-            SliceCompliance::on_slices(model, flank, local_contact, &spread)
+        let condense = |gear: usize| {
+            let spread = layout.spread(gear + 1, models[gear]);
+            SliceCompliance::on_slices(models[gear], flank, local, &spread)
         };
-        let compliance_1 = condense(1, gear_1)?;
-        let compliance_2 = condense(2, gear_2)?;
-        let slices = layout.slices;
-        // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
-        let most_lines = lines.most_pairs() + 2;
-        let capacity = most_lines * slices;
-        Ok(Self {
-            places: Vec::with_capacity(most_lines),
-            line_blocks: vec![LineBlock::new(slices); 2 * most_lines * most_lines],
-            depths: Vec::with_capacity(capacity),
-            law_rates: Vec::with_capacity(capacity),
-            shares: Vec::with_capacity(capacity),
-            own_compliance: Vec::with_capacity(capacity),
-            lines,
+        let compliance = [condense(0)?, condense(1)?];
+        Ok(Self::new(layout, compliance, local, most_lines))
+    }
+
+    /// The contact of two flanks that have been condensed to the slices of a layout.
+    #[must_use]
+    pub fn new(
+        layout: SliceLayout,
+        compliance: [SliceCompliance; 2],
+        local_contact: LocalContact,
+        most_lines: usize,
+    ) -> Self {
+        let capacity = most_lines * layout.slices;
+        let empty = || Vec::with_capacity(capacity);
+        let square = || vec![0.0; capacity * capacity];
+        Self {
             layout,
-            centres_m: layout.centres_m(),
-            compliance_1,
-            compliance_2,
+            compliance,
             local_contact,
             params: Params::default(),
-            placed: Vec::with_capacity(capacity),
-            c: vec![0.0; capacity * capacity],
-            hertz: Vec::with_capacity(capacity),
+            runs: Vec::with_capacity(capacity),
+            slice: Vec::with_capacity(capacity),
+            run: Vec::with_capacity(capacity),
+            shares: empty(),
+            c: square(),
+            rates: [square(), square()],
+            own_compliance: empty(),
             local: Vec::with_capacity(capacity),
+            separation_m: empty(),
+            closing: empty(),
+            lever_m: empty(),
             work: Workspace::new(capacity),
-        })
+        }
     }
 
-    /// Rigid kinematics of the pair.
-    pub fn lines(&self) -> &ContactLines {
-        &self.lines
-    }
-
-    /// Largest number of slices at once.
+    /// Largest number of patches at once.
     pub fn capacity(&self) -> usize {
         self.work.capacity()
     }
 
     /// Slices per contact line.
     pub fn slices(&self) -> usize {
-        self.compliance_1.slices()
-    }
-
-    /// Width of a slice \[m\].
-    pub fn slice_width_m(&self) -> f64 {
-        self.layout.width_m()
-    }
-
-    /// Middles of the slices from halfway between the gears' mid-faces \[m\].
-    pub fn slice_centres_m(&self) -> &[f64] {
-        &self.centres_m
+        self.layout.slices
     }
 
     /// Where the slices lie.
@@ -173,12 +143,12 @@ impl SliceContact {
         self.work.reset();
     }
 
-    /// Lets the next solve at a given approach start from these forces \[N\], one for each slice; see [`Workspace::start_from`].
+    /// Lets the next solve at a given approach start from these forces \[N\], one for each patch; see [`Workspace::start_from`].
     pub fn start_from(&mut self, forces_n: &[f64]) {
         self.work.start_from(forces_n);
     }
 
-    /// Takes R Rᵀ from the compliance of the slices that were prepared: what `columns` quantities of R, `[slice][column]` \[√(m/N)\],
+    /// Takes R Rᵀ from the compliance of the patches that were prepared: what `columns` quantities of R, `[patch][column]` \[√(m/N)\],
     /// carry elsewhere, as the vibration modes of a gear body do.
     pub fn subtract_from_compliance(&mut self, rows: &[f64], columns: usize) {
         if columns == 0 {
@@ -196,102 +166,233 @@ impl SliceContact {
         }
     }
 
-    /// Hertz contact of the slice with this number, and its edge.
+    /// Hertz contact of the patch with this number, and its edge.
     ///
     /// # Panics
-    /// If there is no such slice.
-    pub fn hertz(&self, slice: usize) -> (LineContact, Option<EdgeContact>) {
-        self.hertz[slice]
+    /// If there is no such patch.
+    pub fn hertz(&self, patch: usize) -> (LineContact, Option<EdgeContact>) {
+        let run = &self.runs[self.run[patch]];
+        (run.contact, run.edge)
     }
 
-    /// Normal forces \[N\] of the last solve, in the order of the slices.
+    /// Normal forces \[N\] of the last solve, in the order of the patches.
     pub fn forces_n(&self) -> &[f64] {
         self.work.forces()
     }
 
-    /// Change of the forces with the separations, see [`Workspace::apply_tangent`].
+    /// Change of the forces with the gaps, see [`Workspace::apply_tangent`].
     pub fn apply_tangent(&mut self, separation_change: &[f64], force_change: &mut [f64]) {
         self.work.apply_tangent(separation_change, force_change);
     }
 
-    /// Makes compliance and local laws of the slices that face each other. `floor_n`: force below which the logarithm of the local
-    /// law is continued by its tangent.
+    /// Makes compliance and local laws of the patches that face each other. `floor_n`: force below which the logarithm of the local
+    /// law is continued by its tangent. `with_rates`: what [`Self::energy_by_u`] and [`Self::energy_by_share`] need; without edges.
     ///
     /// # Errors
-    /// [`LocalLawError`] and the number of the slice that has no local law.
+    /// [`ContactError::TooMany`], and [`ContactError::LocalLaw`] with the teeth that have none.
     pub fn prepare(
         &mut self,
-        active: &[ContactLine],
-        touching: &[ContactSlice],
+        patches: &[ContactPatch],
         floor_n: f64,
-    ) -> Result<(), (LocalLawError, usize)> {
-        if self.lines.pair.is_helical() {
-            self.fill_compliance_by_slices(touching);
-        } else {
-            self.find_places(active);
-            self.fill_compliance_by_lines(active, false);
+        with_rates: bool,
+    ) -> Result<(), ContactError> {
+        if patches.len() > self.capacity() {
+            return Err(ContactError::TooMany {
+                found: patches.len(),
+                most: self.capacity(),
+            });
         }
-        self.take_shares(touching);
-        self.fill_laws(touching, floor_n)
+        self.take(patches, floor_n, with_rates)?;
+        if with_rates {
+            self.fill_compliance_with_rates();
+        } else {
+            self.fill_compliance();
+        }
+        self.divide_by_shares();
+        Ok(())
     }
 
-    fn find_places(&mut self, active: &[ContactLine]) {
-        let (first, second) = (&self.compliance_1, &self.compliance_2);
-        let both =
-            |line: &ContactLine| [first.place(line.roll_1_rad), second.place(line.roll_2_rad)];
-        self.places.clear();
-        self.places.extend(active.iter().map(both));
-    }
-
-    fn fill_laws(
+    fn take(
         &mut self,
-        touching: &[ContactSlice],
+        patches: &[ContactPatch],
         floor_n: f64,
-    ) -> Result<(), (LocalLawError, usize)> {
-        self.hertz.clear();
+        with_rates: bool,
+    ) -> Result<(), ContactError> {
+        for values in [
+            &mut self.separation_m,
+            &mut self.closing,
+            &mut self.lever_m,
+            &mut self.shares,
+        ] {
+            values.clear();
+        }
+        self.runs.clear();
+        self.slice.clear();
+        self.run.clear();
         self.local.clear();
-        self.depths.clear();
-        let mut last: Option<(usize, (LineContact, Option<EdgeContact>), LocalLaw)> = None;
-        for (number, slice) in touching.iter().enumerate() {
-            let (hertz, law) = match last {
-                // The slices of a spur line are all alike.
-                Some((line, hertz, law)) if line == slice.line && !self.lines.pair.is_helical() => {
-                    (hertz, law)
+        for (number, patch) in patches.iter().enumerate() {
+            self.separation_m.push(patch.gap_m);
+            self.closing.push(patch.balance.closing);
+            self.lever_m.push(patch.balance.levers_m[1]);
+            self.shares.push(patch.share);
+            self.slice.push(patch.slice);
+            let goes_on = number > 0 && patches[number - 1].is_like(patch);
+            match self.runs.last_mut().filter(|_| goes_on) {
+                Some(run) => run.patches[1] = number + 1,
+                None => {
+                    let run = self.begin_run((number, patch), floor_n, with_rates)?;
+                    self.runs.push(run);
                 }
-                _ => {
-                    let (contact, edge, depths) = self.line_contact(slice);
-                    let law = (self.local_contact.law(&contact, floor_n))
-                        .map_err(|cause| (cause, number))?
-                        .with_edge(edge);
-                    self.depths.push(depths);
-                    ((contact, edge), law)
-                }
-            };
-            last = Some((slice.line, hertz, law));
-            self.hertz.push(hertz);
-            self.local.push(law);
+            }
+            let last = self.runs.len() - 1;
+            self.run.push(last);
+            self.local.push(self.runs[last].law);
         }
         Ok(())
     }
 
-    /// Solves for the forces of the slices that were prepared; returns the approach at which the first would touch, and the solver's
+    fn begin_run(
+        &self,
+        (number, patch): (usize, &ContactPatch),
+        floor_n: f64,
+        with_rates: bool,
+    ) -> Result<Run, ContactError> {
+        let us = patch.places.map(|place| place.u);
+        let [flank_1, flank_2] = &self.compliance;
+        let places = [
+            flank_1.on_tooth(patch.teeth[0], us[0]),
+            flank_2.on_tooth(patch.teeth[1], us[1]),
+        ];
+        let depths = [
+            flank_1.local_depth(us[0], &places[0].place, patch.share),
+            flank_2.local_depth(us[1], &places[1].place, patch.share),
+        ];
+        let body = |gear: usize| {
+            let (youngs_modulus_pa, poisson_ratio) = self.compliance[gear].material();
+            ContactBody {
+                youngs_modulus_pa,
+                poisson_ratio,
+                depth_m: depths[gear].depth_m,
+            }
+        };
+        let contact = LineContact {
+            width_m: patch.length_m,
+            relative_radius_m: patch.radius_m,
+            bodies: [body(0), body(1)],
+        };
+        let mut along_normals = [1.0; 2];
+        if let Some(edge) = patch.edge {
+            along_normals[edge.gear] = edge.tilt_rad.cos();
+        }
+        let edge =
+            (patch.edge).and_then(|edge| EdgeContact::new(&contact, edge.tilt_rad, edge.radius_m));
+        let law = (self.local_contact.law(&contact, floor_n))
+            .map_err(|cause| ContactError::LocalLaw {
+                teeth: patch.teeth,
+                cause,
+            })?
+            .with_edge(edge);
+        let rate = |gear: usize| {
+            let growths = [depths[gear].growth_by_u, patch.radius_growth[gear]];
+            self.local_contact.law_rate((&contact, &law), gear, growths)
+        };
+        let rates = if with_rates {
+            [rate(0), rate(1)]
+        } else {
+            [LawRate::default(); 2]
+        };
+        Ok(Run {
+            patches: [number, number + 1],
+            places,
+            along_normals,
+            contact,
+            edge,
+            law,
+            depths,
+            rates,
+        })
+    }
+
+    fn fill_compliance(&mut self) {
+        let n = self.slice.len();
+        let [flank_1, flank_2] = &self.compliance;
+        for (number, a) in self.runs.iter().enumerate() {
+            for b in &self.runs[number..] {
+                let on_1 = flank_1.between(&a.places[0], &b.places[0]);
+                let on_2 = flank_2.between(&a.places[1], &b.places[1]);
+                let along = [0, 1].map(|gear: usize| a.along_normals[gear] * b.along_normals[gear]);
+                for i in a.patches[0]..a.patches[1] {
+                    for j in b.patches[0].max(i)..b.patches[1] {
+                        let slices = [self.slice[i], self.slice[j]];
+                        let value = along[0] * on_1.value(slices) + along[1] * on_2.value(slices);
+                        self.c[i * n + j] = value;
+                        self.c[j * n + i] = value;
+                    }
+                }
+            }
+        }
+    }
+
+    fn fill_compliance_with_rates(&mut self) {
+        let n = self.slice.len();
+        let [flank_1, flank_2] = &self.compliance;
+        let [rates_1, rates_2] = &mut self.rates;
+        for (number, a) in self.runs.iter().enumerate() {
+            for b in &self.runs[number..] {
+                let on_1 = flank_1.between(&a.places[0], &b.places[0]);
+                let on_2 = flank_2.between(&a.places[1], &b.places[1]);
+                for i in a.patches[0]..a.patches[1] {
+                    for j in b.patches[0].max(i)..b.patches[1] {
+                        let slices = [self.slice[i], self.slice[j]];
+                        let (of_1, of_2) = (on_1.coupling(slices), on_2.coupling(slices));
+                        let value = of_1.value + of_2.value;
+                        let (here, across) = (i * n + j, j * n + i);
+                        self.c[across] = value;
+                        self.c[here] = value;
+                        rates_1[across] = of_1.by_b;
+                        rates_1[here] = of_1.by_a;
+                        rates_2[across] = of_2.by_b;
+                        rates_2[here] = of_2.by_a;
+                    }
+                }
+            }
+        }
+    }
+
+    /// No local term takes the force of a slice that touches in part only to zero with its share: the slice's own compliance grows instead.
+    fn divide_by_shares(&mut self) {
+        self.own_compliance.clear();
+        if self.local_contact != LocalContact::None {
+            return;
+        }
+        let n = self.shares.len();
+        for (i, share) in self.shares.iter().enumerate() {
+            let own = i * n + i;
+            self.own_compliance.push(self.c[own]);
+            self.c[own] /= share;
+            self.rates[0][own] /= share;
+            self.rates[1][own] /= share;
+        }
+    }
+
+    /// Solves for the forces of the patches that were prepared; returns the approach at which the first would touch, and the solver's
     /// figures. No allocation.
     ///
     /// # Errors
-    /// [`NlcpError`].
-    pub fn solve(&mut self, at: Separations<'_>, given: Given) -> Result<(f64, Info), NlcpError> {
-        let n = at.separation_m.len();
+    /// [`ContactError::Nlcp`].
+    pub fn solve(&mut self, drive: Drive) -> Result<(f64, Info), ContactError> {
+        let n = self.separation_m.len();
         let problem = Problem::new(
             &self.c[..n * n],
             &self.local,
-            at.separation_m,
-            at.closing,
-            at.lever_m,
+            &self.separation_m,
+            &self.closing,
+            &self.lever_m,
         )?;
-        let info = match given {
-            Given::Load(load) => solve_load(&problem, load, &self.params, &mut self.work),
-            Given::Approach(approach) => {
-                solve_position(&problem, approach, &self.params, &mut self.work)
+        let info = match drive {
+            Drive::Torque(load) => solve_load(&problem, load, &self.params, &mut self.work),
+            Drive::TransmissionError(te_m) => {
+                solve_position(&problem, -te_m, &self.params, &mut self.work)
             }
         }?;
         Ok((problem.first_contact(), info))
@@ -309,144 +410,8 @@ impl SliceContact {
             .sum();
         0.5 * quadratic + local
     }
-
-    /// Hertz contact of a slice, its edge, and the depths of both bodies.
-    fn line_contact(
-        &self,
-        slice: &ContactSlice,
-    ) -> (LineContact, Option<EdgeContact>, [LocalDepth; 2]) {
-        let line = &slice.section;
-        let helix_cos = self.lines.pair.base_helix_angle_rad().cos();
-        let gears = [
-            (&self.compliance_1, line.roll_1_rad),
-            (&self.compliance_2, line.roll_2_rad),
-        ];
-        let depths = gears.map(|(compliance, roll)| {
-            compliance.local_depth(roll, &compliance.place(roll), slice.share)
-        });
-        let body = |gear: usize| {
-            let (youngs_modulus_pa, poisson_ratio) = gears[gear].0.material();
-            ContactBody {
-                youngs_modulus_pa,
-                poisson_ratio,
-                depth_m: depths[gear].depth_m,
-            }
-        };
-        let contact = LineContact {
-            width_m: slice.share * self.slice_width_m() / helix_cos,
-            relative_radius_m: self.lines.relative_radius_m(line),
-            bodies: [body(0), body(1)],
-        };
-        let edge = (self.lines.edge(line))
-            .and_then(|(tilt_rad, radius_m)| EdgeContact::new(&contact, tilt_rad, radius_m));
-        (contact, edge, depths)
-    }
-
-    /// C of slices that share the place of their line, block by block.
-    fn fill_compliance_by_lines(&mut self, active: &[ContactLine], with_rates: bool) {
-        let slices = self.slices();
-        let n = active.len() * slices;
-        let c = &mut self.c[..n * n];
-        c.fill(0.0);
-        for (i, a) in active.iter().enumerate() {
-            for (j, b) in active.iter().enumerate().skip(i) {
-                for (gear, compliance, teeth) in [
-                    (0, &self.compliance_1, [a.tooth_1, b.tooth_1]),
-                    (1, &self.compliance_2, [a.tooth_2, b.tooth_2]),
-                ] {
-                    let block = &mut self.line_blocks[block_number(active.len(), gear, i, j)];
-                    let place_a = (teeth[0], &self.places[i][gear]);
-                    let place_b = (teeth[1], &self.places[j][gear]);
-                    if with_rates {
-                        compliance.line_block_with_rates(place_a, place_b, block);
-                    } else {
-                        compliance.line_block(place_a, place_b, &mut block.value);
-                    }
-                    let along_normals = a.tilt_rad(gear).cos() * b.tilt_rad(gear).cos();
-                    for (row, values) in block.value.chunks_exact(slices).enumerate() {
-                        let first = (i * slices + row) * n + j * slices;
-                        for (place, value) in c[first..first + slices].iter_mut().zip(values) {
-                            *place += along_normals * value;
-                        }
-                    }
-                }
-            }
-        }
-        // The blocks of two lines are each other's transpose; those on the diagonal are symmetric to rounding.
-        for row in 0..n {
-            for column in 0..row {
-                let same_line = row / slices == column / slices;
-                let above = c[column * n + row];
-                let mean = 0.5 * (c[row * n + column] + above);
-                let value = if same_line { mean } else { above };
-                c[row * n + column] = value;
-                c[column * n + row] = value;
-            }
-        }
-    }
-
-    /// C of slices that each have their own place, entry by entry.
-    fn fill_compliance_by_slices(&mut self, touching: &[ContactSlice]) {
-        let n = touching.len();
-        let gears = [&self.compliance_1, &self.compliance_2];
-        self.placed.clear();
-        self.placed.extend(touching.iter().map(|s| {
-            let line = &s.section;
-            let placed = |gear: usize, tooth: usize, roll: f64| PlacedSlice {
-                tooth,
-                slice: s.slice,
-                place: gears[gear].place(roll),
-            };
-            [
-                placed(0, line.tooth_1, line.roll_1_rad),
-                placed(1, line.tooth_2, line.roll_2_rad),
-            ]
-        }));
-        let c = &mut self.c[..n * n];
-        for (i, a) in self.placed.iter().enumerate() {
-            for (j, b) in self.placed.iter().enumerate() {
-                c[i * n + j] =
-                    gears[0].between_slices(&a[0], &b[0]) + gears[1].between_slices(&a[1], &b[1]);
-            }
-        }
-        symmetrise(c, n);
-    }
-
-    /// Shares of the slices' widths that touch.
-    fn take_shares(&mut self, touching: &[ContactSlice]) {
-        self.shares.clear();
-        self.shares.extend(touching.iter().map(|slice| slice.share));
-        self.own_compliance.clear();
-        if self.local_contact != LocalContact::None {
-            return;
-        }
-        // No local term takes the force of a slice that is partly on the path to zero with its share: the slice's own
-        // compliance grows instead.
-        let n = touching.len();
-        for (i, share) in self.shares.iter().enumerate() {
-            self.own_compliance.push(self.c[i * n + i]);
-            self.c[i * n + i] /= share;
-        }
-    }
-}
-
-/// Number of the block of lines a ≤ b on a gear among those of so many lines.
-fn block_number(lines: usize, gear: usize, a: usize, b: usize) -> usize {
-    (gear * lines + a) * lines + b
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The blocks between two teeth are stored for each of them as load and as response; they agree to the round-off of
-/// the reduction, and the solver wants them equal.
-fn symmetrise(c: &mut [f64], n: usize) {
-    for i in 0..n {
-        for j in 0..i {
-            let mean = 0.5 * (c[i * n + j] + c[j * n + i]);
-            c[i * n + j] = mean;
-            c[j * n + i] = mean;
-        }
-    }
 }

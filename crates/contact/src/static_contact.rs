@@ -1,4 +1,4 @@
-//! Forces and transmission error of a pair at one position.
+//! Forces and transmission error of a pair at rest, at one position.
 //!
 //! g = C F + local(F) + e − x ≥ 0, F ≥ 0, gᵀF = 0, with x = −TE the rigid approach along the line of action, and where
 //! the driven torque is given Σ F_i b_i = T₂, b_i = r_b2 + μ_i ρ₂ (friction towards the tip of gear 2 helps to turn it).
@@ -10,12 +10,14 @@
 
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
-use crate::contact_slices::ContactSlice;
+use crate::contact_patch::ContactPatch;
+use crate::drive::Drive;
 use crate::hertz;
 use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
-use crate::slice_contact::{Given, Separations, SliceContact};
-use gearmesh_model::ReducedGear;
+use crate::slice_contact::SliceContact;
+use gearmesh_geometry::FlankSide;
+use gearmesh_model::{Flank, ReducedGear};
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,15 +26,6 @@ pub struct ContactOptions {
     pub local: LocalContact,
     /// Friction, or none.
     pub friction: Option<Friction>,
-}
-
-/// What drives the contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Drive {
-    /// Torque on gear 2 \[N·m\]; the transmission error follows.
-    Torque(f64),
-    /// Transmission error \[m\]; the torque follows.
-    TransmissionError(f64),
 }
 
 /// The solution at one position, besides lines and forces.
@@ -57,15 +50,12 @@ pub struct ContactState {
 /// Contact of two reduced gears, with all memory it needs.
 #[derive(Debug, Clone)]
 pub struct StaticContact {
+    lines: ContactLines,
     slices: SliceContact,
     friction: Option<Friction>,
     active: Vec<ContactLine>,
-    touching: Vec<ContactSlice>,
+    patches: Vec<ContactPatch>,
     forces: Vec<f64>,
-    separation: Vec<f64>,
-    closing: Vec<f64>,
-    lever_2: Vec<f64>,
-    lever_1: Vec<f64>,
 }
 
 impl StaticContact {
@@ -74,23 +64,31 @@ impl StaticContact {
     /// # Errors
     /// [`ContactError`] when the models do not fit the pair or each other.
     pub fn new(
-        lines: ContactLines,
+        mut lines: ContactLines,
         gear_1: &ReducedGear,
         gear_2: &ReducedGear,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
-        let slices = SliceContact::new(lines, gear_1, gear_2, options.local)?;
+        if lines.pair.is_helical() && lines.extension.is_some() {
+            return Err(ContactError::HelicalExtension);
+        }
+        let flank = match lines.pair.flank {
+            FlankSide::Right => Flank::Right,
+            FlankSide::Left => Flank::Left,
+        };
+        let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
+        let placed = (options.local, lines.zone.displacement_m);
+        let most_lines = lines.most_pairs();
+        let slices = SliceContact::of_gears([gear_1, gear_2], (teeth, flank), placed, most_lines)?;
+        lines.zone = slices.layout().reference;
         let capacity = slices.capacity();
         Ok(Self {
+            lines,
             slices,
             friction: options.friction,
             active: Vec::with_capacity(capacity),
-            touching: Vec::with_capacity(capacity),
+            patches: Vec::with_capacity(capacity),
             forces: Vec::with_capacity(capacity),
-            separation: Vec::with_capacity(capacity),
-            closing: Vec::with_capacity(capacity),
-            lever_2: Vec::with_capacity(capacity),
-            lever_1: Vec::with_capacity(capacity),
         })
     }
 
@@ -99,19 +97,14 @@ impl StaticContact {
         self.slices.slices()
     }
 
-    /// Width of a slice \[m\].
-    pub fn slice_width_m(&self) -> f64 {
-        self.slices.slice_width_m()
-    }
-
     /// Contact lines of the last position, in the order of the forces.
     pub fn active_lines(&self) -> &[ContactLine] {
         &self.active
     }
 
-    /// Slices that touch or may touch at the last position.
-    pub fn active_slices(&self) -> &[ContactSlice] {
-        &self.touching
+    /// Patches that touch or may touch at the last position.
+    pub fn patches(&self) -> &[ContactPatch] {
+        &self.patches
     }
 
     /// Normal forces of the last position \[N\], `[line][slice]`, zero for slices that are off the path.
@@ -119,9 +112,9 @@ impl StaticContact {
         &self.forces
     }
 
-    /// Normal force of an active slice \[N\].
-    pub fn force_n(&self, slice: &ContactSlice) -> f64 {
-        self.forces[slice.line * self.slices() + slice.slice]
+    /// Normal force of a patch of the last position \[N\].
+    pub fn force_n(&self, patch: &ContactPatch) -> f64 {
+        self.forces[patch.line * self.slices() + patch.slice]
     }
 
     /// Forgets the last solution: the next position starts cold.
@@ -129,78 +122,62 @@ impl StaticContact {
         self.slices.reset();
     }
 
-    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the active slice with this number under a
-    /// normal force; q is the force over the slice's length along the contact line. At a tip edge those of the Hertz
-    /// contact that gives way as the edge does.
+    /// Half width a \[m\] and peak pressure 2q/(πa) \[Pa\] of the Hertz contact of the patch with this number under a normal force; q is
+    /// the force over the patch's length along the contact line. At a tip edge those of the Hertz contact that gives way as the edge does.
     ///
     /// # Panics
-    /// If there is no such slice.
-    pub fn hertz(&self, active_slice: usize, force_n: f64) -> (f64, f64) {
-        let (contact, edge) = self.slices.hertz(active_slice);
+    /// If there is no such patch.
+    pub fn hertz(&self, patch: usize, force_n: f64) -> (f64, f64) {
+        let (contact, edge) = self.slices.hertz(patch);
         let share = edge.map_or(1.0, |e| e.half_width_share(force_n));
         let a = contact.half_width_m(force_n) * share;
         (a, hertz::peak_pressure_pa(force_n / contact.width_m, a))
     }
 
-    /// Solves one position. Lines and forces are left in [`StaticContact::active_lines`] and
-    /// [`StaticContact::forces_n`]. No allocation.
+    /// Solves one position. Patches and forces are left in [`StaticContact::patches`] and [`StaticContact::forces_n`]. No allocation.
     ///
     /// # Errors
-    /// [`ContactError::Nlcp`] when the solver does not converge, [`ContactError::LocalLaw`] when no local law exists.
+    /// [`ContactError::At`] the driver angle: the solver does not converge, or no local law exists.
     pub fn solve(
         &mut self,
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
-        let lines = self.slices.lines();
+        self.solve_at(driver_angle_rad, drive)
+            .map_err(|cause| ContactError::At {
+                angle_deg: driver_angle_rad.to_degrees(),
+                cause: Box::new(cause),
+            })
+    }
+
+    fn solve_at(
+        &mut self,
+        driver_angle_rad: f64,
+        drive: Drive,
+    ) -> Result<ContactState, ContactError> {
+        let (lines, layout) = (&self.lines, self.slices.layout());
         lines.at(driver_angle_rad, &mut self.active);
-        let (centres, width) = (self.slices.slice_centres_m(), self.slices.slice_width_m());
-        self.touching.clear();
+        self.patches.clear();
         for line in self.active.iter().enumerate() {
-            lines.push_slices(line, centres, width, &mut self.touching);
-        }
-        self.separation.clear();
-        self.closing.clear();
-        self.lever_1.clear();
-        self.lever_2.clear();
-        for slice in &self.touching {
-            let line = &slice.section;
-            let friction = self.friction.map_or(0.0, |f| f.ratio(line.path_m));
-            let [lever_1, lever_2] = lines.lever_arms_m(line, friction);
-            self.separation.push(lines.separation_m(line, slice.z_m));
-            self.closing.push(lines.closing(line));
-            self.lever_1.push(lever_1);
-            self.lever_2.push(lever_2);
+            lines.push_patches(line, layout, self.friction, &mut self.patches);
         }
         let base_2 = lines.pair.gear_2.base_radius_m;
-        let axial_share_1 = lines.axial_share_1();
         let scale_force = match drive {
-            Drive::Torque(torque) => torque.abs() / (base_2 * self.touching.len() as f64),
+            Drive::Torque(torque) => torque.abs() / (base_2 * self.patches.len() as f64),
             Drive::TransmissionError(_) => 0.0,
         };
         let floor = FLOOR_FRACTION * scale_force.max(1.0);
-        let angle_deg = driver_angle_rad.to_degrees();
-        (self.slices.prepare(&self.active, &self.touching, floor))
-            .map_err(|(cause, _)| ContactError::LocalLaw { angle_deg, cause })?;
-        let separations = Separations {
-            separation_m: &self.separation,
-            closing: &self.closing,
-            lever_m: &self.lever_2,
-        };
-        let given = match drive {
-            Drive::Torque(torque) => Given::Load(torque),
-            Drive::TransmissionError(te) => Given::Approach(-te),
-        };
-        let (first_contact, info) = (self.slices.solve(separations, given))
-            .map_err(|cause| ContactError::Nlcp { angle_deg, cause })?;
+        self.slices.prepare(&self.patches, floor, false)?;
+        let (first_contact, info) = self.slices.solve(drive)?;
         let forces = self.slices.forces_n();
-        let torque_1_nm = forces.iter().zip(&self.lever_1).map(|(f, b)| f * b).sum();
-        let axial_force_1_n = axial_share_1 * forces.iter().sum::<f64>();
         let slices = self.slices.slices();
         self.forces.clear();
         self.forces.resize(self.active.len() * slices, 0.0);
-        for (slice, force) in self.touching.iter().zip(forces) {
-            self.forces[slice.line * slices + slice.slice] = *force;
+        let (mut torque_1_nm, mut axial_force_1_n) = (0.0, 0.0);
+        for (patch, force) in self.patches.iter().zip(forces) {
+            torque_1_nm += force * patch.balance.levers_m[0];
+            axial_force_1_n -= force * patch.normal[2];
+            self.forces[patch.line * slices + patch.slice] = *force;
         }
         Ok(ContactState {
             transmission_error_m: -info.approach_m,

@@ -1,129 +1,147 @@
-//! Compliance between the roll stations of two flanks, and its combination to two contact lines.
+//! Compliance between the stations of two flanks, and its combination to two slices, each at its own place.
 //!
 //! ```text
-//! C_ab = Σ_s Σ_t w_s w_t T_st            ∂C_ab/∂ξ_a = Σ_s Σ_t w′_s w_t T_st,   ∂C_ab/∂ξ_b = Σ_s Σ_t w_s w′_t T_st
+//! C_ab = Σ_s Σ_t w_s w_t T_st            ∂C_ab/∂u_a = Σ_s Σ_t w′_s w_t T_st,   ∂C_ab/∂u_b = Σ_s Σ_t w_s w′_t T_st
 //! ```
 //!
-//! T_st is the slices × slices block of station s of one flank with station t of the other, w the four shares of a line's place. All
-//! blocks lie in one piece each, so that the innermost loops run along memory: this is the dearest part of a mesh's evaluation.
+//! T_st belongs to station s of slice a of one flank and station t of slice b of another one, w are the four shares of a place. All T of two
+//! slices lie in one piece, station by station, so that a combination reads four short stretches of memory: this is the dearest part of a
+//! contact.
 
-use crate::roll_shares::{RollPlace, SHARES};
+use crate::profile_shares::{ProfilePlace, SHARES};
 
-/// Blocks of all pairs of flanks.
+/// C of two slices, and how it changes with the place of each \[m/N, m/N per u\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coupling {
+    /// C_ab.
+    pub value: f64,
+    /// ∂/∂u_a; of a slice with itself half of what its compliance changes by.
+    pub by_a: f64,
+    /// ∂/∂u_b.
+    pub by_b: f64,
+}
+
+impl std::ops::AddAssign for Coupling {
+    fn add_assign(&mut self, other: Self) {
+        self.value += other.value;
+        self.by_a += other.by_a;
+        self.by_b += other.by_b;
+    }
+}
+
+/// T of all slices of all pairs of flanks.
 #[derive(Debug, Clone)]
 pub struct StationBlocks {
+    slices: usize,
     stations: usize,
-    /// Entries of one block.
-    size: usize,
-    /// `[pair of flanks][station a][station b][slice a][slice b]` \[m/N\].
+    /// Stations and, where they are fewer than the shares of a place, as many zeros more.
+    stride: usize,
+    /// `[pair of flanks][slice a][slice b][station a][station b]` \[m/N\].
     values: Vec<f64>,
-}
-
-/// C of two lines, and how it changes with the roll angle of each \[m/N, m/(N rad)\].
-#[derive(Debug, Clone, Default)]
-pub struct LineBlock {
-    /// `[slice of a][slice of b]`.
-    pub value: Vec<f64>,
-    /// ∂/∂ξ_a.
-    pub by_a: Vec<f64>,
-    /// ∂/∂ξ_b.
-    pub by_b: Vec<f64>,
-}
-
-impl LineBlock {
-    /// For lines of so many slices.
-    #[must_use]
-    pub fn new(slices: usize) -> Self {
-        let zeros = || vec![0.0; slices * slices];
-        Self {
-            value: zeros(),
-            by_a: zeros(),
-            by_b: zeros(),
-        }
-    }
 }
 
 impl StationBlocks {
     /// Empty, for flanks with so many stations and slices; then one [`Self::push`] for each pair of flanks.
     #[must_use]
     pub fn new(stations: usize, slices: usize, pairs: usize) -> Self {
-        let size = slices * slices;
+        let stride = stations.max(SHARES);
         Self {
+            slices,
             stations,
-            size,
-            values: Vec::with_capacity(pairs * stations * stations * size),
+            stride,
+            values: Vec::with_capacity(pairs * slices * slices * stride * stride),
         }
     }
 
-    /// Appends a pair of flanks by its entries (station a, slice a, station b, slice b).
-    pub fn push(&mut self, slices: usize, entry: impl Fn([usize; 2], [usize; 2]) -> f64) {
-        for a in 0..self.stations {
-            for b in 0..self.stations {
-                for i in 0..slices {
-                    self.values
-                        .extend((0..slices).map(|j| entry([a, i], [b, j])));
-                }
+    /// Appends a pair of flanks by its entries (station a, slice a), (station b, slice b).
+    pub fn push(&mut self, entry: impl Fn([usize; 2], [usize; 2]) -> f64) {
+        for (i, j) in (0..self.slices).flat_map(|i| (0..self.slices).map(move |j| (i, j))) {
+            for (a, b) in (0..self.stride).flat_map(|a| (0..self.stride).map(move |b| (a, b))) {
+                let exists = a < self.stations && b < self.stations;
+                let value = if exists { entry([a, i], [b, j]) } else { 0.0 };
+                self.values.push(value);
             }
         }
     }
 
-    /// T of two stations of a pair of flanks, `[slice a][slice b]`.
+    /// Combines the slices of two flanks of a pair of flanks at two places.
+    #[inline]
     #[must_use]
-    pub fn block(&self, pair: usize, station_a: usize, station_b: usize) -> &[f64] {
-        let number = (pair * self.stations + station_a) * self.stations + station_b;
-        &self.values[number * self.size..][..self.size]
-    }
-
-    /// Blocks of station a with the stations that share a force at place b; stations that do not exist have no share.
-    fn row(&self, pair: usize, station_a: usize, b: &RollPlace) -> [&[f64]; SHARES] {
-        let last = self.stations - 1;
-        std::array::from_fn(|k| self.block(pair, station_a, (b.first() + k).min(last)))
-    }
-
-    /// C_ab, added to `out`.
-    pub fn add(&self, pair: usize, a: &RollPlace, b: &RollPlace, out: &mut [f64]) {
-        let w = b.all_shares();
-        for (station, share) in a.shares() {
-            let [t0, t1, t2, t3] = self.row(pair, station, b);
-            let along = out.iter_mut().zip(t0).zip(t1).zip(t2).zip(t3);
-            for ((((place, t0), t1), t2), t3) in along {
-                *place += share * (w[0] * t0 + w[1] * t1 + w[2] * t2 + w[3] * t3);
-            }
+    pub fn at<'a>(&'a self, pair: usize, places: [&'a ProfilePlace; 2]) -> CombinedBlocks<'a> {
+        let block = self.stride * self.stride;
+        let size = self.slices * self.slices * block;
+        let first = places[0].first() * self.stride + places[1].first();
+        CombinedBlocks {
+            values: &self.values[pair * size + first..(pair + 1) * size],
+            slices: self.slices,
+            stride: self.stride,
+            places,
         }
     }
+}
 
-    /// C_aa of a line with itself, and half of its change with the line's roll angle in `by_a`, added to `out`.
-    pub fn add_own_with_rates(&self, pair: usize, a: &RollPlace, out: &mut LineBlock) {
-        let (w, r) = (a.all_shares(), a.all_rates());
-        let n = self.size;
-        let (value, by_a) = (&mut out.value[..n], &mut out.by_a[..n]);
-        for k in 0..SHARES.min(self.stations) {
-            let [t0, t1, t2, t3] = self.row(pair, a.first() + k, a);
-            let (t0, t1, t2, t3) = (&t0[..n], &t1[..n], &t2[..n], &t3[..n]);
-            for i in 0..n {
-                let along = w[0] * t0[i] + w[1] * t1[i] + w[2] * t2[i] + w[3] * t3[i];
-                value[i] += w[k] * along;
-                by_a[i] += r[k] * along;
-            }
-        }
+/// T of two flanks as two places combine it.
+#[derive(Debug, Clone, Copy)]
+pub struct CombinedBlocks<'a> {
+    /// From the first entry that is needed on.
+    values: &'a [f64],
+    slices: usize,
+    stride: usize,
+    places: [&'a ProfilePlace; 2],
+}
+
+impl CombinedBlocks<'_> {
+    /// The four rows of four entries of slice a on the first flank and slice b on the second one.
+    #[inline]
+    fn rows(&self, [a, b]: [usize; 2]) -> [&[f64; SHARES]; SHARES] {
+        let first = (a * self.slices + b) * self.stride * self.stride;
+        let entries = &self.values[first..][..(SHARES - 1) * self.stride + SHARES];
+        std::array::from_fn(|k| {
+            let row = entries[k * self.stride..].first_chunk();
+            row.unwrap_or(&[0.0; SHARES])
+        })
     }
 
-    /// C_ab of two lines and its changes, added to `out`.
-    pub fn add_with_rates(&self, pair: usize, a: &RollPlace, b: &RollPlace, out: &mut LineBlock) {
-        let (w, r) = (b.all_shares(), b.all_rates());
-        let n = self.size;
-        let (value, by_a, by_b) = (&mut out.value[..n], &mut out.by_a[..n], &mut out.by_b[..n]);
-        for k in 0..SHARES.min(self.stations) {
-            let (share, rate) = (a.all_shares()[k], a.all_rates()[k]);
-            let [t0, t1, t2, t3] = self.row(pair, a.first() + k, b);
-            let (t0, t1, t2, t3) = (&t0[..n], &t1[..n], &t2[..n], &t3[..n]);
-            for i in 0..n {
-                let along = w[0] * t0[i] + w[1] * t1[i] + w[2] * t2[i] + w[3] * t3[i];
-                let change = r[0] * t0[i] + r[1] * t1[i] + r[2] * t2[i] + r[3] * t3[i];
-                value[i] += share * along;
-                by_a[i] += rate * along;
-                by_b[i] += share * change;
-            }
+    /// C of slice a of the first flank and slice b of the second one.
+    #[inline]
+    #[must_use]
+    pub fn between(&self, slices: [usize; 2]) -> f64 {
+        let rows = self.rows(slices);
+        dot(
+            &weighted(&rows, self.places[0].all_shares()),
+            self.places[1].all_shares(),
+        )
+    }
+
+    /// The same with its changes.
+    #[inline]
+    #[must_use]
+    pub fn between_with_rates(&self, slices: [usize; 2]) -> Coupling {
+        let rows = self.rows(slices);
+        let [a, b] = self.places;
+        let along = weighted(&rows, a.all_shares());
+        let changes = weighted(&rows, a.all_rates());
+        Coupling {
+            value: dot(&along, b.all_shares()),
+            by_a: dot(&changes, b.all_shares()),
+            by_b: dot(&along, b.all_rates()),
         }
     }
+}
+
+/// Σ_k w_k row_k.
+#[inline]
+fn weighted(rows: &[&[f64; SHARES]; SHARES], weights: &[f64; SHARES]) -> [f64; SHARES] {
+    let mut sum = [0.0; SHARES];
+    for (row, weight) in rows.iter().zip(weights) {
+        for (place, value) in sum.iter_mut().zip(*row) {
+            *place += weight * value;
+        }
+    }
+    sum
+}
+
+#[inline]
+fn dot(a: &[f64; SHARES], b: &[f64; SHARES]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }

@@ -3,7 +3,7 @@
 
 mod pair_common;
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, Friction};
 use gearmesh_geometry::Microgeometry;
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};

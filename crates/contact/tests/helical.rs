@@ -3,7 +3,7 @@
 
 mod pair_common;
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{
     ContactError, ContactLines, ContactOptions, Friction, LocalContact, PathExtension,
     StaticContact,
@@ -195,10 +195,10 @@ fn contact_lines_have_the_mean_length_of_the_field_of_action() {
         let (points, mut sum, mut most) = (400, 0.0, 0);
         for angle in angles(&lines, points) {
             contact.solve(angle, Drive::Torque(100.0)).unwrap();
-            sum += contact.active_slices().iter().map(|s| s.share).sum::<f64>();
+            sum += contact.patches().iter().map(|s| s.share).sum::<f64>();
             most = most.max(contact.active_lines().len());
-            for s in contact.active_slices() {
-                let roll = s.section.roll_1_rad;
+            for s in contact.patches() {
+                let roll = s.places[0].u;
                 assert!(
                     roll >= lines.pair.roll_start_1_rad - 1e-12
                         && roll <= lines.pair.roll_end_1_rad + 1e-12
@@ -270,8 +270,8 @@ fn lead_crowning_and_misalignment_move_the_load() {
         let (mut moment, mut sum, mut ends) = (0.0, 0.0, 0.0);
         for angle in angles(lines, 40) {
             contact.solve(angle, Drive::Torque(100.0)).unwrap();
-            for s in contact.active_slices() {
-                moment += s.z_m * contact.force_n(s);
+            for s in contact.patches() {
+                moment += s.places[0].v * contact.force_n(s);
                 sum += contact.force_n(s);
                 if s.slice == 0 || s.slice == 9 {
                     ends += contact.force_n(s);

@@ -7,8 +7,8 @@ mod nlcp_common;
 mod pair_common;
 
 use counting_allocator::allocations;
+use gearmesh_contact::Drive;
 use gearmesh_contact::nlcp::{Params, Problem, Workspace, solve_load, solve_position};
-use gearmesh_contact::static_contact::Drive;
 use nlcp_common::random::{Random, case};
 
 #[test]

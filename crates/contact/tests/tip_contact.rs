@@ -229,6 +229,11 @@ fn beyond_its_ends_the_path_continues() {
             let off = line_at(&lines, end + outwards * step);
             let tip = off.tip.unwrap();
             let arms = |line| lines.lever_arms_m(line, 0.1);
+            let radius = |line: &ContactLine| {
+                let pair = &lines.pair;
+                pair.relative_radius_m(line.roll_1_rad, line.roll_2_rad)
+            };
+            let to_tip = |gear: usize| off.tilt_rad(gear).sin() + 0.1 * off.tilt_rad(gear).cos();
             changes.push([
                 tip.gap_m / step,
                 tip.tilt_rad,
@@ -236,12 +241,12 @@ fn beyond_its_ends_the_path_continues() {
                 arms(&off)[1] - arms(&on)[1],
                 lines.closing(&off) - lines.closing(&on) + step,
                 lines.separation_m(&off, 4e-3) - lines.separation_m(&on, 4e-3),
-                lines.relative_radius_m(&off) - lines.relative_radius_m(&on),
-                lines.edge(&off).unwrap().0,
+                radius(&off) - radius(&on),
+                lines.edge(&off).unwrap().tilt_rad,
                 off.roll_1_rad - on.roll_1_rad + step,
                 off.roll_2_rad - on.roll_2_rad + step,
                 off.path_m - on.path_m,
-                off.force_components(0, 0.1)[1] + off.force_components(1, 0.1)[1] - 0.2 + step,
+                to_tip(0) + to_tip(1) - 0.2 + step,
             ]);
         }
         for pair in changes.windows(2) {

@@ -1,7 +1,6 @@
 //! What can go wrong in setting up or evaluating a gear mesh.
 
 use gearmesh_contact::ContactError;
-use gearmesh_contact::nlcp::{LocalLawError, NlcpError};
 use gearmesh_geometry::FlankSide;
 
 use crate::tooth_overlap::turning;
@@ -129,7 +128,7 @@ pub enum DrivetrainError {
         /// Sum of the base radii.
         smallest_mm: f64,
     },
-    /// The two models do not fit each other or the pair.
+    /// The two models do not fit each other or the pair, or their contact has no state.
     #[error(transparent)]
     Contact(#[from] ContactError),
     /// A model file lacks what is asked of it.
@@ -168,19 +167,6 @@ pub enum DrivetrainError {
         /// Names of those there are.
         known: String,
     },
-    /// No local contact law.
-    #[error("contact of tooth {tooth_1} of gear 1 and tooth {tooth_2} of gear 2: {cause}")]
-    LocalLaw {
-        /// Tooth of gear 1.
-        tooth_1: usize,
-        /// Tooth of gear 2.
-        tooth_2: usize,
-        /// Cause.
-        cause: LocalLawError,
-    },
-    /// The slice forces were not found.
-    #[error("slice forces: {0}")]
-    Nlcp(#[from] NlcpError),
 }
 
 /// A number that must be positive and finite.

@@ -29,6 +29,12 @@ pub struct Section {
     pub share: f64,
     /// Its derivative by the increments of the pose.
     pub share_gradient: Vector6,
+    /// Length of a slice's part that touches, along the contact line \[m\].
+    pub length_m: f64,
+    /// Relative radius of curvature across the contact line \[m\], and its growth ∂(ln ρ)/∂ξ on gear 1 and gear 2.
+    pub radius_m: f64,
+    /// See `radius_m`.
+    pub radius_growth: [f64; 2],
     /// First of its contacts, and how many there are.
     pub contacts: (usize, usize),
 }
@@ -46,8 +52,8 @@ impl Section {
 pub struct TeethLine {
     /// Teeth of gear 1 and gear 2.
     pub teeth: [usize; 2],
-    /// The section in the middle of the zone; of helical teeth continued where it is off the flanks.
-    pub middle: Section,
+    /// First of its sections.
+    pub section: usize,
     /// Gap that ideal flanks would have in the middle of the zone \[m\], in the transverse plane.
     pub ideal_gap_m: f64,
     /// First of its contacts, and how many there are.
@@ -63,6 +69,8 @@ pub struct ToothContact {
     pub slice: usize,
     /// Number of its section.
     pub section: usize,
+    /// Place along the teeth: heights above the mid-faces of gear 1 and gear 2 \[m\].
+    pub heights_m: [f64; 2],
     /// Gap \[m\] along the flanks' normal, open positive.
     pub gap_m: f64,
     /// Rate of the gap \[m/s\].

@@ -8,7 +8,7 @@
 //! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap.
 //! Friction pushes on the modes by φ_t, along the profile towards the tip. Theory: docs/theory/gear_meshes.md.
 
-use gearmesh_contact::{AxialSpread, RollHats};
+use gearmesh_contact::{AxialSpread, ProfileHats};
 use gearmesh_geometry::FlankSide;
 use gearmesh_model::{Flank, ReducedGear};
 
@@ -37,7 +37,7 @@ pub(crate) fn flank_of(side: FlankSide) -> Flank {
 #[derive(Debug, Clone)]
 pub struct FlankModes {
     omega_squared: Vec<f64>,
-    hats: RollHats,
+    hats: ProfileHats,
     stations: usize,
     slices: usize,
     /// Along the inward normal, `[tooth][station][slice][mode]`.
@@ -93,7 +93,7 @@ impl FlankModes {
         }
         Ok(Self {
             omega_squared: basis.omega_squared[..modes].to_vec(),
-            hats: RollHats::new(&grid.roll_angles_rad),
+            hats: ProfileHats::of_involute(&grid.roll_angles_rad),
             stations,
             slices,
             rows,

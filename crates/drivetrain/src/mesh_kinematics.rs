@@ -294,6 +294,7 @@ impl MeshKinematics {
     ) {
         let line = found.lines.len();
         let first = found.contacts.len();
+        let first_section = found.sections.len();
         let mut at_middle = None;
         for (slice, (plane, zero)) in found.planes.iter().zip(&found.zeros).enumerate() {
             let ideal = self.ideal_flanks(placed, plane, zero);
@@ -329,7 +330,7 @@ impl MeshKinematics {
                 continue;
             }
             // A spur line has one section, made below.
-            let mut section = line;
+            let mut section = first_section;
             if let Some(own) = own {
                 section = found.sections.len();
                 let contacts = (found.contacts.len(), 1);
@@ -339,6 +340,7 @@ impl MeshKinematics {
                 line,
                 slice,
                 section,
+                heights_m: plane.heights_m,
                 gap_m,
                 gap_rate_m_per_s: gradient.dot(placed.rates),
                 gradient,
@@ -349,16 +351,16 @@ impl MeshKinematics {
             return;
         }
         let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, &middle.0, &middle.1));
-        let middle = Section {
-            contacts,
-            ..self.section(placed.frame, &ideal)
-        };
         if self.helix.is_none() {
-            found.sections.push(middle);
+            let section = self.section(placed.frame, &ideal);
+            found.sections.push(Section {
+                contacts,
+                ..section
+            });
         }
         found.lines.push(TeethLine {
             teeth: placed.teeth,
-            middle,
+            section: first_section,
             ideal_gap_m: ideal.gap_m / self.helix.map_or(1.0, |helix| helix.cos),
             contacts,
         });
@@ -389,21 +391,33 @@ impl MeshKinematics {
     fn section(&self, frame: &MeshFrame, ideal: &IdealFlanks) -> Section {
         let width_m = self.layout.reference.width_m;
         let rate = frame.zone.width_by_displacement / width_m;
-        Section {
+        let mut section = Section {
             roll_rad: ideal.roll_rad,
-            touching_roll_rad: self.touching_roll_rad(ideal.roll_rad),
+            touching_roll_rad: ideal.roll_rad,
             roll_gradient: ideal.roll_gradient,
             share: frame.zone.width_m / width_m,
             share_gradient: rate * frame.displacement_gradient,
+            length_m: 0.0,
+            radius_m: 0.0,
+            radius_growth: [0.0; 2],
             contacts: (0, 0),
-        }
+        };
+        self.touch(&mut section);
+        section
     }
 
-    fn touching_roll_rad(&self, roll_rad: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|i| {
+    /// Makes of a section what follows from its roll angles and its share: where it touches, how long, how curved.
+    fn touch(&self, section: &mut Section) {
+        let rolls = [0, 1].map(|i: usize| {
             let gear = &self.gears[i];
-            roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
-        })
+            section.roll_rad[i].clamp(gear.form_roll_rad, gear.flank_end_roll_rad)
+        });
+        let rho = [0, 1].map(|i: usize| self.gears[i].base_radius_m * rolls[i]);
+        let (sum, helix_cos) = (rho[0] + rho[1], self.helix.map_or(1.0, |helix| helix.cos));
+        section.touching_roll_rad = rolls;
+        section.length_m = section.share * self.layout.width_m() / helix_cos;
+        section.radius_m = rho[0] * rho[1] / (sum * helix_cos);
+        section.radius_growth = [rho[1] / (sum * rolls[0]), rho[0] / (sum * rolls[1])];
     }
 
     /// The section of a helical slice in its middle, on the rigid path in the middle of the part that is on it; none off the path.
@@ -429,7 +443,7 @@ impl MeshKinematics {
             }
             PathEnds::Extended => (0..2).all(|i| section.roll_rad[i] <= self.ends_rad[i]),
         };
-        section.touching_roll_rad = self.touching_roll_rad(section.roll_rad);
+        self.touch(&mut section);
         (touches && section.share > LEAST_SHARE).then_some(section)
     }
 

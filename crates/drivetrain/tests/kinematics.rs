@@ -188,7 +188,8 @@ fn gaps_are_those_of_the_static_scene() {
                         .unwrap_or_else(|| panic!("teeth {:?}", line.teeth));
                     // The same second order over the length of the line of action.
                     let roll_tolerance = 1e-12 + 100.0 * tolerance;
-                    assert!((line.middle.roll_rad[0] - twin.roll_1_rad).abs() < roll_tolerance);
+                    let roll_1_rad = found.sections[line.section].roll_rad[0];
+                    assert!((roll_1_rad - twin.roll_1_rad).abs() < roll_tolerance);
                     let (first, count) = line.contacts;
                     assert_eq!(count, SLICES);
                     for contact in &found.contacts[first..first + count] {
@@ -218,7 +219,8 @@ fn flank_points_are_the_gap_apart() {
         for line in &found.lines {
             let point = |gear: usize, tooth: &gearmesh_geometry::ToothGeometry| {
                 let turn = std::f64::consts::TAU * line.teeth[gear] as f64 / tooth.teeth as f64;
-                let p = tooth.flank_point_m(side, line.middle.roll_rad[gear]);
+                let section = &found.sections[line.section];
+                let p = tooth.flank_point_m(side, section.roll_rad[gear]);
                 let (sin, cos) = (turn + phi[gear]).sin_cos();
                 Vector2::new(cos * p[0] - sin * p[1], sin * p[0] + cos * p[1])
             };
@@ -268,11 +270,11 @@ fn derivatives_agree_with_differences() {
                 let gap = (after.contacts[i].gap_m - before.contacts[i].gap_m) / (2.0 * h);
                 let off = gap - contact.gradient[direction];
                 assert!(off.abs() < 2e-9, "gap {i} by {direction}: {off:e}");
-                let line = &here.lines[contact.line];
+                let section = here.section(contact);
                 for gear in 0..2 {
-                    let roll = |set: &FlankContacts| set.lines[contact.line].middle.roll_rad[gear];
+                    let roll = |set: &FlankContacts| set.section(&set.contacts[i]).roll_rad[gear];
                     let off = (roll(&after) - roll(&before)) / (2.0 * h)
-                        - line.middle.roll_gradient[gear][direction];
+                        - section.roll_gradient[gear][direction];
                     assert!(off.abs() < 1e-7, "roll by {direction}: {off:e}");
                 }
             }
@@ -303,13 +305,13 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
                 step[direction] = h;
                 let (after, before) = (found(&moved(&at, &step)), found(&moved(&at, &-step)));
                 for (i, contact) in base.contacts.iter().enumerate() {
-                    let line = &base.lines[contact.line];
-                    if (0..2).any(|gear| !line.middle.walks(gear)) {
+                    let section = base.section(contact);
+                    if (0..2).any(|gear| !section.walks(gear)) {
                         continue;
                     }
                     let change =
                         (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
-                    let roll_rad = line.middle.roll_rad;
+                    let roll_rad = section.roll_rad;
                     let curvature = ideal.gap_curvature(&base, contact.slice, side, roll_rad);
                     let off = (change - curvature.column(direction)).norm();
                     worst = worst.max(off / (1.0 + change.norm()));

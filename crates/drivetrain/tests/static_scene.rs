@@ -5,7 +5,7 @@ mod mesh_common;
 
 use std::sync::Arc;
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, StaticContact};
 use gearmesh_drivetrain::errors::broken_tooth::BrokenTooth;
 use gearmesh_drivetrain::errors::pitch::PitchErrors;

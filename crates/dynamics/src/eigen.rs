@@ -18,6 +18,7 @@ use nalgebra::{DMatrix, Matrix3};
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
+use crate::krylov;
 use crate::matrix::Matrix;
 use crate::metric::Metric;
 use crate::rotation::skew;
@@ -65,14 +66,46 @@ impl NaturalMode {
     }
 }
 
-/// Eigenvalues with ω ≥ 0 about a state, by rising |s|. Free motions come out as s ≈ 0.
+/// Unknowns of motions and joints from which modes up to a frequency are sought by [`krylov`].
+const LARGE: usize = 400;
+
+/// Share of its frequency below which the growth of a mode found by Krylov vectors is rounding.
+const FOUND: f64 = 1e-9;
+
+/// The modes of [`natural_modes`] whose frequency is at most `most_hz`. In large systems they alone are sought, by Krylov vectors (`krylov.rs`), which
+/// leaves out motions that die out faster than e^(−2π `most_hz` t); a frequency that occurs more than four times may then lack members.
 ///
 /// # Errors
-/// [`DynamicsError::Eigen`], [`DynamicsError::Singular`] or the error of an element.
-pub fn natural_modes(
+/// As [`natural_modes`].
+pub fn natural_modes_up_to(
     system: &mut System,
     state: &State,
+    most_hz: f64,
 ) -> Result<Vec<NaturalMode>, DynamicsError> {
+    if system.degrees_of_freedom() + system.kept.len() >= LARGE {
+        let equations = about(system, state)?;
+        let limit = std::f64::consts::TAU * most_hz;
+        let found = krylov::eigenvalues_within(system, &equations, limit, state.time_s)?;
+        if let Some(found) = found {
+            let modes = found.into_iter().map(|found| NaturalMode {
+                growth_per_s: if found.re.abs() > FOUND * found.im {
+                    found.re
+                } else {
+                    0.0
+                },
+                angular_frequency_rad_per_s: found.im,
+                shape: scaled(found.shape),
+            });
+            return Ok(sorted(modes.collect()));
+        }
+    }
+    let mut modes = natural_modes(system, state)?;
+    modes.retain(|mode| mode.frequency_hz() <= most_hz);
+    Ok(modes)
+}
+
+/// The linearised equations about a state, rotations along world axes.
+fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError> {
     let accelerations = system.accelerations(state)?;
     let mut equations = Equations::new(system);
     let at = At {
@@ -83,6 +116,27 @@ pub fn natural_modes(
     };
     system.evaluate(at, Detail::Tangents, &mut equations)?;
     turn_to_world(system, state, &mut equations);
+    Ok(equations)
+}
+
+/// By rising |s|.
+fn sorted(mut modes: Vec<NaturalMode>) -> Vec<NaturalMode> {
+    modes.sort_by(|a, b| {
+        a.natural_angular_frequency_rad_per_s()
+            .total_cmp(&b.natural_angular_frequency_rad_per_s())
+    });
+    modes
+}
+
+/// Eigenvalues with ω ≥ 0 about a state, by rising |s|. Free motions come out as s ≈ 0.
+///
+/// # Errors
+/// [`DynamicsError::Eigen`], [`DynamicsError::Singular`] or the error of an element.
+pub fn natural_modes(
+    system: &mut System,
+    state: &State,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    let equations = about(system, state)?;
     let basis = null_space(system, &equations, state.time_s)?;
     let reduced = |matrix: &Matrix| basis.tr_mul(&(matrix.to_dense() * &basis));
     let stiffness = reduced(&equations.stiffness);
@@ -93,16 +147,12 @@ pub fn natural_modes(
     }
     let scale = stiffness.amax().sqrt();
     let asymmetry = (&stiffness - stiffness.transpose()).amax();
-    let mut modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
+    let modes = if damping.amax() <= ROUNDING * scale && asymmetry <= ROUNDING * scale * scale {
         undamped(&stiffness, &basis)?
     } else {
         damped(&stiffness, &damping, scale, &basis)?
     };
-    modes.sort_by(|a, b| {
-        a.natural_angular_frequency_rad_per_s()
-            .total_cmp(&b.natural_angular_frequency_rad_per_s())
-    });
-    Ok(modes)
+    Ok(sorted(modes))
 }
 
 /// Share of each force element in the strain energy of some modes about a state, `[mode][element]`: |yᴴ K y| with the element's part of the
@@ -241,6 +291,11 @@ fn shape(basis: &DMatrix<f64>, amplitude: impl Fn(usize) -> [f64; 2]) -> Vec<[f6
             place[1] += z * im;
         }
     }
+    scaled(shape)
+}
+
+/// The shape with its largest entry at 1 + 0i.
+fn scaled(mut shape: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let square = |a: &[f64; 2]| a[0] * a[0] + a[1] * a[1];
     let largest =
         shape.iter().copied().fold(
@@ -391,10 +446,5 @@ fn with_massless(
                 }),
             },
         );
-    let mut modes: Vec<NaturalMode> = modes.collect();
-    modes.sort_by(|a, b| {
-        a.natural_angular_frequency_rad_per_s()
-            .total_cmp(&b.natural_angular_frequency_rad_per_s())
-    });
-    Ok(modes)
+    Ok(sorted(modes.collect()))
 }

@@ -17,13 +17,14 @@
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use crate::body::BodyId;
+use crate::derivatives::Derivatives;
 use crate::error::DynamicsError;
 use crate::polar_angle::PolarAngle;
 use crate::relative_angle::RelativeAngle;
 use crate::relative_motion::{Jacobian, Marker, MarkerPair, PairTangent, RelativeMotion};
 use crate::rotation::skew;
 use crate::state::BodyMotion;
-use crate::time_function::{Derivatives, TimeFunction};
+use crate::time_function::TimeFunction;
 
 /// What a motion prescribes: place or speed, metres or radians.
 #[derive(Debug, Clone, PartialEq)]

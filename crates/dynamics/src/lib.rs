@@ -13,8 +13,8 @@
 //! | a transient run, output on a grid, what it took | [`Simulation`], [`OutputGrid`], [`RunInfo`] | `simulation.rs`, `integrator.rs`, `convergence.rs`, `scheme.rs` |
 //! | how is a run stopped and resumed with the same bits | [`Checkpoint`] | `checkpoint.rs` |
 //! | does the energy balance | [`EnergyBalance`] | `energy.rs` |
-//! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `unbalanced.rs` |
-//! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs` |
+//! | where does the system stand still, and why not | [`equilibrium`] | `statics.rs`, `static_correction.rs`, `unbalanced.rs` |
+//! | natural frequencies, damping and shapes about a motion | [`natural_modes`] | `eigen.rs`, `krylov.rs` |
 //!
 //! Everything is in absolute coordinates: place and unit quaternion of each body. Joints are equations, not reduced coordinates, so every
 //! reaction is at hand. Matrices hold what bodies, joints and elements connect, and are factorised as dense or sparse ones, whichever is faster
@@ -27,6 +27,7 @@ pub mod checkpoint;
 mod constraints;
 mod convergence;
 mod dense_lu;
+mod derivatives;
 pub mod eigen;
 pub mod elements;
 pub mod energy;
@@ -36,6 +37,7 @@ mod inertia;
 pub mod initial;
 mod integrator;
 pub mod joint;
+mod krylov;
 mod matrix;
 mod metric;
 mod pattern;
@@ -50,6 +52,7 @@ mod secants;
 pub mod simulation;
 mod sparse_lu;
 pub mod state;
+mod static_correction;
 pub mod statics;
 mod structure;
 pub mod system;
@@ -64,7 +67,8 @@ mod unknown_start;
 pub use body::{Body, BodyId, GROUND, Modes};
 pub use builder::SystemBuilder;
 pub use checkpoint::Checkpoint;
-pub use eigen::{NaturalMode, natural_modes, strain_shares};
+pub use derivatives::Derivatives;
+pub use eigen::{NaturalMode, natural_modes, natural_modes_up_to, strain_shares};
 pub use elements::{Channel, ForceElement, Loads, Power, View};
 pub use energy::{Energy, EnergyBalance};
 pub use error::{DynamicsError, ElementFailure};
@@ -78,5 +82,5 @@ pub use state::{BodyMotion, Layout, State};
 pub use statics::{Equilibrium, FreeMotions, StaticParams, equilibrium, next_equilibrium};
 pub use system::{Calls, System};
 pub use table::{Interpolation, Table};
-pub use time_function::{Derivatives, TimeFunction};
+pub use time_function::TimeFunction;
 pub use unknown::{Unknown, UnknownKind};

@@ -181,7 +181,12 @@ impl Simulation {
             jerk,
             state,
         };
-        let work_rate_w = system.work_rate_w(&now, &integrator.masses);
+        let work_rate_w = system.work_rate_w(
+            &now.state,
+            &now.acceleration,
+            &now.lambda,
+            &integrator.masses,
+        );
         integrator.retune(&mut system, &mut now, 0.0, step_s)?;
         Ok(Self {
             other: now.clone(),
@@ -343,7 +348,13 @@ impl Simulation {
         self.system.commit(&self.now.state)?;
         let energy = self.system.energy(&self.now.state, &self.now.lambda);
         let masses = &self.integrator.masses;
-        let work_rate_w = self.system.work_rate_w(&self.now, masses);
+        let Point {
+            state,
+            acceleration,
+            lambda,
+            ..
+        } = &self.now;
+        let work_rate_w = self.system.work_rate_w(state, acceleration, lambda, masses);
         self.info.energy.advance(energy, work_rate_w, h);
         self.info.steps += 1;
         self.steps_alike += 1;

@@ -10,28 +10,18 @@
 //! iterations, because resistance may come with the position; if none comes it is an error. It moves a little at first and further each
 //! time: surfaces that just touch have to be met within their deflection, a pendulum released level has a long way to go.
 
-use faer::Mat;
 use nalgebra::Vector3;
 
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::rotation::skew;
 use crate::state::State;
+use crate::static_correction::{Correction, correct};
 use crate::system::System;
 use crate::unbalanced::{most_unbalanced, pushing};
 
-/// Singular values below this share of the largest, after scaling, count as zero.
-const FREE: f64 = 1e-11;
-
-/// Share of the largest stiffness, scaled by the masses, that counts as rounding.
-const ROUNDING: f64 = 1e-14;
-
 /// Load along a free direction, as a share of all that pushes along it, that counts as balanced.
 const BALANCED: f64 = 1e-9;
-
-/// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is rounding, such as what a body turned
-/// by rounding has of a load beside its direction.
-const FELT: f64 = 1e-5;
 
 /// Share of all that pushes on a degree of freedom that may be left over where corrections do not become small: rounding, over a stiffness that is
 /// hardly there.
@@ -96,18 +86,6 @@ pub struct Equilibrium {
     pub iterations: usize,
     /// Motions that nothing resists, held.
     pub held: Vec<String>,
-}
-
-/// A scaled Newton matrix, decomposed, with what it says about free motions.
-struct Correction {
-    /// δ and δλ, free directions at rest.
-    values: Vec<f64>,
-    /// Free motions, scaled to a largest entry of 1.
-    free: Vec<Vec<f64>>,
-    /// Load along each over the sum of all that pushes along it, whatever its sign.
-    share: Vec<f64>,
-    /// Load along each.
-    load: Vec<f64>,
 }
 
 /// Finds the static equilibrium near a state. Loads are brought up in fewer or more steps, as they are needed.
@@ -331,123 +309,6 @@ fn balances(system: &System, equations: &Equations, pushing: &[f64], holds: f64)
     let mut kept = system.kept.iter();
     forces.all(|(left, all)| left.abs() <= AT_REST * all)
         && kept.all(|&equation| equations.violation[equation].abs() <= holds)
-}
-
-fn correct(
-    system: &System,
-    equations: &Equations,
-    pushing: &[f64],
-) -> Result<Correction, DynamicsError> {
-    let n = equations.residual.len();
-    let kept = &system.kept;
-    let total = n + kept.len();
-    let mass: Vec<f64> = system
-        .mass_diagonal()
-        .iter()
-        .map(|mass| 1.0 / mass.sqrt())
-        .collect();
-    let weighs: Vec<bool> = system.masses().iter().map(|mass| *mass > 0.0).collect();
-    // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
-    let noise = ROUNDING
-        * (0..n).fold(0.0_f64, |most, j| {
-            if !weighs[j] {
-                return most;
-            }
-            let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
-            let stiffest = column.fold(0.0_f64, |most, (i, k)| {
-                most.max((mass[i] * k * mass[j]).abs())
-            });
-            most.max(stiffest)
-                .max((equations.residual[j] * mass[j] * mass[j]).abs())
-        });
-    let entry = |i: usize, j: usize| match (i < n, j < n) {
-        // What has no mass is not measured by it.
-        (true, true)
-            if weighs[i]
-                && weighs[j]
-                && (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise =>
-        {
-            0.0
-        }
-        (true, true) => equations.stiffness.get(i, j),
-        (true, false) => equations.gradient.get(i, kept[j - n]),
-        (false, true) => equations.gradient.get(j, kept[i - n]),
-        (false, false) => 0.0,
-    };
-    // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
-    let mut scale = mass.clone();
-    scale.resize(total, 1.0);
-    for _ in 0..4 {
-        let most = |i: usize| {
-            (0..total).fold(0.0_f64, |most, j| {
-                most.max(
-                    (entry(i, j) * scale[j])
-                        .abs()
-                        .max((entry(j, i) * scale[j]).abs()),
-                )
-            })
-        };
-        let changes: Vec<f64> = (0..total).map(|i| most(i) * scale[i]).collect();
-        for (scale, change) in scale.iter_mut().zip(changes) {
-            if change > 0.0 {
-                *scale /= change.sqrt();
-            }
-        }
-    }
-    let scaled = Mat::from_fn(total, total, |i, j| scale[i] * entry(i, j) * scale[j]);
-    let singular = || DynamicsError::Singular {
-        what: "the static stiffness (it has entries that are not finite)",
-        time_s: 0.0,
-    };
-    let svd = scaled.svd().map_err(|_| singular())?;
-    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
-    let right = |i: usize| {
-        -scale[i]
-            * if i < n {
-                equations.residual[i]
-            } else {
-                equations.violation[kept[i - n]]
-            }
-    };
-    let mut correction = Correction {
-        values: vec![0.0; total],
-        free: Vec::new(),
-        share: Vec::new(),
-        load: Vec::new(),
-    };
-    let most_push = pushing.iter().fold(0.0_f64, |most, push| most.max(*push));
-    for k in 0..total {
-        let along: f64 = (0..total).map(|i| u[(i, k)] * right(i)).sum();
-        if s[k] > FREE * s[0] {
-            for i in 0..total {
-                correction.values[i] += scale[i] * v[(i, k)] * along / s[k];
-            }
-            continue;
-        }
-        let motion: Vec<f64> = (0..n).map(|i| scale[i] * v[(i, k)]).collect();
-        let most = motion.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if most == 0.0 {
-            continue;
-        }
-        let motion: Vec<f64> = motion.iter().map(|x| x / most).collect();
-        let load: f64 = motion
-            .iter()
-            .zip(&equations.residual)
-            .map(|(x, r)| x * r)
-            .sum();
-        let pushes = motion.iter().zip(pushing);
-        let all: f64 = pushes.map(|(x, push)| (x * push).abs()).sum();
-        let all = all.max(FELT * most_push);
-        correction
-            .share
-            .push(if all > 0.0 { load.abs() / all } else { 0.0 });
-        correction.load.push(load);
-        correction.free.push(motion);
-    }
-    if correction.values.iter().any(|x| !x.is_finite()) {
-        return Err(singular());
-    }
-    Ok(correction)
 }
 
 /// A correction that is made step by step.

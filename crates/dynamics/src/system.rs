@@ -8,7 +8,6 @@ use crate::elements::{Channel, ForceElement, Loads, View};
 use crate::energy::Energy;
 use crate::error::DynamicsError;
 use crate::inertia::Inertia;
-use crate::integrator::Point;
 use crate::joint::Joint;
 use crate::matrix::NOWHERE;
 use crate::pattern::Pattern;
@@ -353,7 +352,7 @@ impl System {
     pub(crate) fn prescribed(
         &self,
         time_s: f64,
-    ) -> impl Iterator<Item = crate::time_function::Derivatives> + '_ {
+    ) -> impl Iterator<Item = crate::derivatives::Derivatives> + '_ {
         self.joints
             .iter()
             .flat_map(move |joint| (0..joint.equations()).map(move |i| joint.prescribed(i, time_s)))
@@ -387,21 +386,27 @@ impl System {
     }
 
     /// Rate of the work done, whatever its sign \[W\] (`energy.rs`), at an evaluated motion.
-    pub(crate) fn work_rate_w(&self, point: &Point, masses: &[f64]) -> f64 {
+    pub(crate) fn work_rate_w(
+        &self,
+        state: &State,
+        acceleration: &[f64],
+        lambda: &[f64],
+        masses: &[f64],
+    ) -> f64 {
         let mut rate = 0.0;
         for (body, inertia) in self.inertias.iter().enumerate() {
             let start = self.layout.start(BodyId(body)).unwrap_or_default();
             let end = start + self.layout.size(BodyId(body));
-            rate += inertia.dissipated_power(&point.state.velocity[start + 6..end]);
+            rate += inertia.dissipated_power(&state.velocity[start + 6..end]);
         }
         for slot in &self.slots {
             let power = slot.loads.power;
             rate += power.dissipated_w.abs() + power.supplied_w.abs();
         }
-        for (lambda, motion) in point.lambda.iter().zip(self.prescribed(point.state.time_s)) {
+        for (lambda, motion) in lambda.iter().zip(self.prescribed(state.time_s)) {
             rate += (lambda * motion.rate).abs();
         }
-        let moves = point.acceleration.iter().zip(&point.state.velocity);
+        let moves = acceleration.iter().zip(&state.velocity);
         let of_each = moves.zip(masses).map(|((a, v), mass)| (mass * a * v).abs());
         rate + of_each.sum::<f64>()
     }

@@ -1,7 +1,7 @@
 //! A function of time from a table: linear, or a cubic that keeps the table's monotone pieces monotone.
 
+use crate::derivatives::Derivatives;
 use crate::error::DynamicsError;
-use crate::time_function::Derivatives;
 
 /// How a [`Table`] goes from point to point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! Functions of time with two derivatives, for loads and prescribed motion.
 
+use crate::derivatives::Derivatives;
 use crate::error::DynamicsError;
 use crate::table::Table;
 
@@ -44,17 +45,6 @@ pub struct Step {
     from: f64,
     end_s: f64,
     to: f64,
-}
-
-/// Value and first two derivatives by time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Derivatives {
-    /// y
-    pub value: f64,
-    /// dy/dt
-    pub rate: f64,
-    /// d²y/dt²
-    pub acceleration: f64,
 }
 
 impl TimeFunction {

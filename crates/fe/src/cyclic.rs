@@ -30,6 +30,7 @@ use faer::reborrow::ReborrowMut;
 use faer::{Mat, MatMut, MatRef, Par, Side, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The factorised harmonics of a ring of sectors.
 #[derive(Debug)]
@@ -49,6 +50,19 @@ impl CyclicInterface {
     /// [`FeError::SizeMismatch`] when S is not square, has an odd number of rows, or one sector has cuts;
     /// [`FeError::NotPositiveDefinite`] when the ring as a whole is not held.
     pub fn new(stiffness: MatRef<'_, f64>, sectors: usize) -> Result<Self, FeError> {
+        Self::counted(stiffness, sectors, |_, _| ())
+    }
+
+    /// As [`CyclicInterface::new`]; `finished` is told how many of how many harmonics are.
+    ///
+    /// # Errors
+    /// As [`CyclicInterface::new`].
+    pub fn counted(
+        stiffness: MatRef<'_, f64>,
+        sectors: usize,
+        finished: impl Fn(usize, usize) + Sync,
+    ) -> Result<Self, FeError> {
+        let done = AtomicUsize::new(0);
         let rows = stiffness.nrows();
         let cut = rows / 2;
         let expected = if sectors == 1 { 0 } else { 2 * cut };
@@ -71,6 +85,7 @@ impl CyclicInterface {
                 });
                 let llt = Llt::new(s.as_ref(), Side::Lower)
                     .map_err(|_| FeError::NotPositiveDefinite { free_dof: 0 })?;
+                finished(done.fetch_add(1, Ordering::Relaxed) + 1, harmonics);
                 Ok(llt.L().to_owned())
             })
             .collect::<Result<_, FeError>>()?;
@@ -125,9 +140,9 @@ impl CyclicInterface {
         y
     }
 
-    /// For loads of one sector, carried to its cuts \[R, L\] (rows) by condensation: q·u for each load q of the sector j
-    /// further on under each load p of the first one, `result[j][(q, p)]`, without what happens inside one sector with its
-    /// cuts held.
+    /// For loads of one sector, carried to its cuts \[R, L\] (rows) by condensation: q·u for each load q of the sector
+    /// j further on under each load p of the first one, `result[j][(q, p)]`, without what happens inside one sector
+    /// with its cuts held.
     ///
     /// # Panics
     /// If `loads` does not have the rows of both cuts.

@@ -1,6 +1,7 @@
 //! A crack by doubled nodes, as an update of the sound body that needs no new factor.
 //!
-//! The nodes on a surface of element faces are doubled; the elements on one side of it, those *beyond*, see u + w there, w the jump:
+//! The nodes on a surface of element faces are doubled; the elements on one side of it, those *beyond*, see u + w
+//! there, w the jump:
 //!
 //! ```text
 //! [ K     K_p  ] [ u ]   [ f ]        K_p, K_pp: columns of the jumps, assembled from the elements beyond alone
@@ -9,8 +10,8 @@
 //! S = K_pp − K_pᵀ K⁻¹ K_p = L Lᵀ,     r(f) = −L⁻¹ K_pᵀ K⁻¹ f,     fᵀ K_c⁻¹ h = fᵀ K⁻¹ h + r(f)·r(h)
 //! ```
 //!
-//! for loads f, h that have no entry at the doubled nodes. Exact: block elimination of the mesh whose nodes are really doubled. The faces
-//! of the crack may pass through each other.
+//! for loads f, h that have no entry at the doubled nodes. Exact: block elimination of the mesh whose nodes are really
+//! doubled. The faces of the crack may pass through each other.
 
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side};

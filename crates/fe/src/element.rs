@@ -269,8 +269,8 @@ mod tests {
             .collect()
     }
 
-    /// Conformance of every element: N_i is 1 at node i and 0 at the others, the N sum to 1, and the corners' mean is the
-    /// centre.
+    /// Conformance of every element: N_i is 1 at node i and 0 at the others, the N sum to 1, and the corners' mean is
+    /// the centre.
     #[test]
     fn shape_functions_are_nodal_and_sum_to_one() {
         for element in Element::ALL {

@@ -259,7 +259,8 @@ impl Factor {
     /// Solves K X = B; B (free x columns) is overwritten with X. Blocks of 32 columns run in parallel.
     ///
     /// For one factor each column is the same to the last bit for any number of threads. (The values of the
-    /// factor itself come from parallel dense kernels and are promised to rounding only.) Scratch memory: one block per thread.
+    /// factor itself come from parallel dense kernels and are promised to rounding only.) Scratch memory: one block per
+    /// thread.
     ///
     /// # Panics
     /// If `rhs` does not have [`Factor::size`] rows.

@@ -1,9 +1,9 @@
 //! How long a factorisation will take, told before it starts.
 //!
-//! The number of operations is known exactly from the pattern ([`crate::SymbolicFactor::flops`]); how many of them this machine
-//! does in a second is measured once, on a dense matrix of the size of a large supernode. The sparse factorisation
-//! reaches a part of that rate: its supernodes are smaller and are gathered and scattered. It is an estimate for the
-//! person who waits, never an input of a result.
+//! The number of operations is known exactly from the pattern ([`crate::SymbolicFactor::flops`]); how many of them this
+//! machine does in a second is measured once, on a dense matrix of the size of a large supernode. The sparse
+//! factorisation reaches a part of that rate: its supernodes are smaller and are gathered and scattered. It is an
+//! estimate for the person who waits, never an input of a result.
 
 use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
@@ -17,7 +17,8 @@ const SPARSE_SHARE: f64 = 0.5;
 /// Below this number of operations a factorisation is over before anyone could read the estimate.
 const NOT_WORTH_A_TRIAL: f64 = 2e9;
 
-/// Expected wall time (s) of a factorisation of `flops` multiplications and additions on all threads; zero for small ones.
+/// Expected wall time (s) of a factorisation of `flops` multiplications and additions on all threads; zero for small
+/// ones.
 pub(crate) fn expected_seconds(flops: f64) -> f64 {
     if flops < NOT_WORTH_A_TRIAL {
         return 0.0;

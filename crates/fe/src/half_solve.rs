@@ -20,8 +20,8 @@ impl Factor {
         }
     }
 
-    /// Overwrites B (rows in the order of elimination) with L⁻¹ B and tells the rows that may not be zero, ascending. Supernodes
-    /// that a block of 32 columns does not reach cost nothing; the blocks run in parallel.
+    /// Overwrites B (rows in the order of elimination) with L⁻¹ B and tells the rows that may not be zero, ascending.
+    /// Supernodes that a block of 32 columns does not reach cost nothing; the blocks run in parallel.
     ///
     /// # Panics
     /// If `rhs` does not have [`Factor::size`] rows.

@@ -20,7 +20,8 @@
 //!
 //! Sources: R. L. Taylor, P. J. Beresford, E. L. Wilson, *A non-conforming element for stress analysis*,
 //! Int. J. Numer. Meth. Eng. 10 (1976) 1211-1219; E. L. Wilson, A. Ibrahimbegovic, *Use of incompatible
-//! displacement modes for the calculation of element stiffnesses or stresses*, Finite Elem. Anal. Des. 7 (1990) 229-241.
+//! displacement modes for the calculation of element stiffnesses or stresses*, Finite Elem. Anal. Des. 7 (1990)
+//! 229-241.
 
 use nalgebra::SMatrix;
 

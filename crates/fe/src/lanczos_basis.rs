@@ -1,4 +1,5 @@
-//! The M-orthonormal basis of the mode search and its projected problem; see [`crate::modes`] for the relation it keeps.
+//! The M-orthonormal basis of the mode search and its projected problem; see [`crate::modes`] for the relation it
+//! keeps.
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, Scale, Side};

@@ -73,9 +73,9 @@
 //! # Limits
 //!
 //! Small displacements, linear isotropic material, one material per model, zero-displacement
-//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the integration points, the
-//! nodes or the centre are refused, so collapsed hexahedra are not accepted: use wedges. Linear tetrahedra are not on offer:
-//! they are far too stiff in bending. Nearly incompressible material locks in
+//! constraints and rigid groups only; one density. Elements with a Jacobian that is not positive at the integration
+//! points, the nodes or the centre are refused, so collapsed hexahedra are not accepted: use wedges. Linear tetrahedra
+//! are not on offer: they are far too stiff in bending. Nearly incompressible material locks in
 //! [`Element::Hex8`] and has not been studied with the incompatible modes.
 
 mod assembly;

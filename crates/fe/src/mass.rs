@@ -1,7 +1,8 @@
 //! Consistent mass matrix: M_ij = ∫ ρ N_i N_j dV in each of the three directions.
 //!
 //! Integrated by [`Element::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
-//! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are inner unknowns of its stiffness only.
+//! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are
+//! inner unknowns of its stiffness only.
 
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
@@ -65,8 +66,8 @@ pub fn assemble_mass(
     })
 }
 
-/// M X (3 n × columns) over all degrees of freedom of a model, held or not, element by element: for the few products that need
-/// no matrix, such as those with rigid motions.
+/// M X (3 n × columns) over all degrees of freedom of a model, held or not, element by element: for the few products
+/// that need no matrix, such as those with rigid motions.
 ///
 /// # Errors
 /// [`FeError::DensityOutOfRange`]; [`FeError::SizeMismatch`] when X has other rows; [`FeError::Element`].
@@ -110,8 +111,8 @@ pub fn mass_product(
     Ok(product)
 }
 
-/// Mass moments ρ∫(1, x, y, z, x², y², z², xy, yz, zx) dV of a model of one density, from the same points as M: RᵀMR of the rigid
-/// motions R without a matrix, because they are linear in x as the shape functions are.
+/// Mass moments ρ∫(1, x, y, z, x², y², z², xy, yz, zx) dV of a model of one density, from the same points as M: RᵀMR of
+/// the rigid motions R without a matrix, because they are linear in x as the shape functions are.
 ///
 /// # Errors
 /// [`FeError::DensityOutOfRange`]; [`FeError::Element`].

@@ -79,13 +79,14 @@ impl FeModel {
         Self::from_blocks(nodes, vec![block], material)
     }
 
-    /// Checks and keeps a mesh of one or several kinds of elements; empty blocks are left out. Elements that share a face
-    /// must agree on its nodes (hex8 with wedge6, hex20 with wedge15); that is not checked here.
+    /// Checks and keeps a mesh of one or several kinds of elements; empty blocks are left out. Elements that share a
+    /// face must agree on its nodes (hex8 with wedge6, hex20 with wedge15); that is not checked here.
     ///
     /// # Errors
-    /// [`FeError::ConnectivityLength`], [`FeError::NoElements`], [`FeError::TooLarge`], [`FeError::CoordinateNotFinite`],
-    /// [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and [`FeError::Element`] naming the first
-    /// element whose Jacobian is not positive at all integration points, nodes and the centre.
+    /// [`FeError::ConnectivityLength`], [`FeError::NoElements`], [`FeError::TooLarge`],
+    /// [`FeError::CoordinateNotFinite`], [`FeError::NodeOutOfRange`], [`FeError::NodeWithoutElement`], and
+    /// [`FeError::Element`] naming the first element whose Jacobian is not positive at all integration points, nodes
+    /// and the centre.
     pub fn from_blocks(
         nodes: Vec<[f64; 3]>,
         mut blocks: Vec<ElementBlock>,

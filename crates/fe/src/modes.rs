@@ -111,8 +111,8 @@ pub struct ModeSettings {
 }
 
 impl ModeSettings {
-    /// `count` modes of a held body to 1e-10, with blocks of 8: ω² is then right to rounding, and the residual of K and M,
-    /// which weighs the higher modes left in a shape with their ω², is below some 1e-8 too.
+    /// `count` modes of a held body to 1e-10, with blocks of 8: ω² is then right to rounding, and the residual of K and
+    /// M, which weighs the higher modes left in a shape with their ω², is below some 1e-8 too.
     pub fn new(count: usize) -> Self {
         Self {
             wanted: WantedModes::Lowest(count),

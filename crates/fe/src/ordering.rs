@@ -55,7 +55,8 @@ impl DofOrdering {
     /// of which the lower triangle is read; `kept` lists nodes.
     ///
     /// # Errors
-    /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is kept twice or does not exist.
+    /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is kept twice or does not
+    /// exist.
     pub fn interior_first(k: &StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
         let count = k.ncols() / 3;
         let mut place = vec![0i32; count];

@@ -16,9 +16,9 @@ pub struct QuadraticMesh<const N: usize = 20> {
 }
 
 impl QuadraticMesh<20> {
-    /// Twenty-node hexahedra. `place(a, b)` gives the position (m) of the node between two corners, given with their node
-    /// numbers: the middle of the chord where an edge is straight, a point of the curve near its middle where the body is
-    /// curved. It is asked once per edge, the smaller node number first.
+    /// Twenty-node hexahedra. `place(a, b)` gives the position (m) of the node between two corners, given with their
+    /// node numbers: the middle of the chord where an edge is straight, a point of the curve near its middle where the
+    /// body is curved. It is asked once per edge, the smaller node number first.
     ///
     /// # Panics
     /// If an element names a node that does not exist, or the nodes pass 2³².

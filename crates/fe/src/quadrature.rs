@@ -53,8 +53,8 @@ pub(crate) const WEDGE_6: [WeightedPoint; 6] = prism_rule(TRIANGLE_3, LINE_2);
 /// 6×3 points in the wedge: degree 4 in the triangle, 5 along ζ.
 pub(crate) const WEDGE_18: [WeightedPoint; 18] = prism_rule(TRIANGLE_6, LINE_3);
 
-/// Eight points in the tetrahedron, exact for degree 3, all weights positive. Source: P. Keast, Comput. Meth. Appl. Mech.
-/// Eng. 55 (1986) 339-348; J. Yu, ibid. 43 (1984) 349-353.
+/// Eight points in the tetrahedron, exact for degree 3, all weights positive. Source: P. Keast, Comput. Meth. Appl.
+/// Mech. Eng. 55 (1986) 339-348; J. Yu, ibid. 43 (1984) 349-353.
 pub(crate) const TET_8: [WeightedPoint; 8] = {
     const A: f64 = 0.328_163_302_516_381_7;
     const B: f64 = 0.108_047_249_898_428_6;
@@ -72,8 +72,8 @@ pub(crate) const TET_8: [WeightedPoint; 8] = {
     ]
 };
 
-/// Fourteen points in the tetrahedron, exact for degree 5, all weights positive. Source: N. J. Walkington, *Quadrature on
-/// simplices of arbitrary dimension*, Carnegie Mellon University, 2000.
+/// Fourteen points in the tetrahedron, exact for degree 5, all weights positive. Source: N. J. Walkington, *Quadrature
+/// on simplices of arbitrary dimension*, Carnegie Mellon University, 2000.
 pub(crate) const TET_14: [WeightedPoint; 14] = {
     const A: f64 = 0.310_885_919_263_300_6;
     const B: f64 = 0.092_735_250_310_891_23;

@@ -57,7 +57,8 @@ impl CondensedLoads {
         pick(&self.interior, &|i| common[i].0).transpose() * pick(&other.interior, &|i| common[i].1)
     }
 
-    /// Writes y_I of one load into a column over all interior displacements, as [`StaticCondensation::expand`] wants it.
+    /// Writes y_I of one load into a column over all interior displacements, as [`StaticCondensation::expand`] wants
+    /// it.
     ///
     /// # Panics
     /// If there is no such load or the column is shorter than the interior.
@@ -79,7 +80,8 @@ impl StaticCondensation {
         Self::announced(k, kept, |_| ())
     }
 
-    /// As [`StaticCondensation::new`]; `before` is told what will be factorised, so that it can say how long that takes.
+    /// As [`StaticCondensation::new`]; `before` is told what will be factorised, so that it can say how long that
+    /// takes.
     ///
     /// # Errors
     /// As [`StaticCondensation::new`].

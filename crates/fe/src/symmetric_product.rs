@@ -1,8 +1,8 @@
 //! Products of a symmetric sparse matrix with a few vectors, without the zeros that it stores.
 //!
-//! By symmetry column i is row i, so each row of the result is a sum over one column, rows in parallel and each always in
-//! the same order. Two thirds of a mass matrix in the pattern of the stiffness are zeros. faer's product scatters column
-//! by column, by one thread and zeros included; it took three quarters of a mode search.
+//! By symmetry column i is row i, so each row of the result is a sum over one column, rows in parallel and each always
+//! in the same order. Two thirds of a mass matrix in the pattern of the stiffness are zeros. faer's product scatters
+//! column by column, by one thread and zeros included; it took three quarters of a mode search.
 
 use faer::{Mat, MatRef};
 use rayon::prelude::*;

@@ -10,8 +10,8 @@
 //! 2-0, 0-3, 1-3, 2-3. Mid-edge nodes may lie off the chord. Natural coordinates ξ, η, ζ ≥ 0, ξ + η + ζ ≤ 1.
 //!
 //! Integration: eight points, exact for degree 3. The stiffness of a straight tetrahedron has degree 2 (four points are
-//! usual); the nodal forces of a constant stress, cofactors of ∂x/∂ξ times ∂N/∂ξ, have degree 3 where edges are curved, so
-//! that the patch test passes on curved elements too.
+//! usual); the nodal forces of a constant stress, cofactors of ∂x/∂ξ times ∂N/∂ξ, have degree 3 where edges are curved,
+//! so that the patch test passes on curved elements too.
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, appendix 3.I.
 

@@ -7,8 +7,8 @@
 //! Node order: 0-2 the lower triangle, counter-clockwise seen from the upper one; 3-5 above them. Natural coordinates
 //! ξ, η ≥ 0, ξ + η ≤ 1, −1 ≤ ζ ≤ 1.
 //!
-//! Integration: three points in the triangle times two along ζ, exact for the stiffness of a straight prism. The element
-//! locks in bending as the plain eight-node hexahedron does.
+//! Integration: three points in the triangle times two along ζ, exact for the stiffness of a straight prism. The
+//! element locks in bending as the plain eight-node hexahedron does.
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, sections 3.4 and 3.8.
 

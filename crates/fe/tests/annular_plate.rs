@@ -1,4 +1,5 @@
-//! Bending of an annular plate, bore clamped and outside free, against Mindlin's exact solution; made by tools/reference/annular_plate.py.
+//! Bending of an annular plate, bore clamped and outside free, against Mindlin's exact solution; made by
+//! tools/reference/annular_plate.py.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -14,14 +15,14 @@ const DENSITY: f64 = 7800.0;
 
 const THICKNESS_M: f64 = 2e-3;
 
-/// Lowest frequency (Hz) for 0 to 4 nodal diameters by Mindlin's theory, shear factor 5/6. Kirchhoff's are 332.89, 327.49,
-/// 397.67, 663.53, 1103.26: Leissa's λ² 6.66, 6.55, 7.96, 13.28, 22.07.
+/// Lowest frequency (Hz) for 0 to 4 nodal diameters by Mindlin's theory, shear factor 5/6. Kirchhoff's are 332.89,
+/// 327.49, 397.67, 663.53, 1103.26: Leissa's λ² 6.66, 6.55, 7.96, 13.28, 22.07.
 const EXACT_HZ: [f64; 5] = [332.5941, 326.8794, 396.2136, 660.9022, 1098.3280];
 
 /// Frequencies (Hz), lowest first, of the plate with two layers of quadratic elements.
 ///
-/// Clamped as a plate is: no displacement in the plane anywhere on the bore, no deflection of its middle line. Its faces may
-/// grow thicker and thinner there, as in the theory.
+/// Clamped as a plate is: no displacement in the plane anywhere on the bore, no deflection of its middle line. Its
+/// faces may grow thicker and thinner there, as in the theory.
 fn frequencies_hz(counts: [usize; 3], modes: usize) -> Vec<f64> {
     let ring = StructuredMesh::ring(counts, RADII_M, THICKNESS_M);
     let mesh = QuadraticMesh::new(ring.nodes, &ring.hexes, |_, ends| arc_middle(ends));
@@ -52,8 +53,8 @@ fn with_pairs(by_diameter: [f64; 5]) -> Vec<f64> {
     all
 }
 
-/// A plate theory leaves out terms of the order of (h/a)² = 4e-4; the rest is the mesh's, and falls by more than the square of the
-/// element length. The more nodal diameters, the shorter the waves.
+/// A plate theory leaves out terms of the order of (h/a)² = 4e-4; the rest is the mesh's, and falls by more than the
+/// square of the element length. The more nodal diameters, the shorter the waves.
 #[test]
 fn clamped_at_the_bore_and_free_outside() {
     let errors = |counts: [usize; 3]| -> Vec<f64> {

@@ -119,9 +119,9 @@ fn the_update_is_the_mesh_with_doubled_nodes() {
     }
 }
 
-/// Compliance that an edge crack of depth α W adds under a bending moment M: K_I = σ √(πa) F(α), σ = 6M/(bW²), and dC/da = 2 b K_I²/(E′ M²).
-/// F to 0.2 % for α up to 0.6: W. F. Brown, J. E. Srawley, ASTM STP 410 (1966); H. Tada, P. C. Paris, G. R. Irwin, The Stress Analysis of
-/// Cracks Handbook.
+/// Compliance that an edge crack of depth α W adds under a bending moment M: K_I = σ √(πa) F(α), σ = 6M/(bW²), and
+/// dC/da = 2 b K_I²/(E′ M²). F to 0.2 % for α up to 0.6: W. F. Brown, J. E. Srawley, ASTM STP 410 (1966); H. Tada, P.
+/// C. Paris, G. R. Irwin, The Stress Analysis of Cracks Handbook.
 fn bending_compliance(alpha: f64) -> f64 {
     let shape = |a: f64| (1.122 + a * (-1.40 + a * (7.33 + a * (-13.08 + a * 14.0)))).powi(2);
     let n = 2000;
@@ -139,7 +139,8 @@ fn bending_compliance(alpha: f64) -> f64 {
 fn moment(plate: &Plate) -> Load {
     let end = plate.end();
     let across = |n: usize| plate.model.nodes()[n][1] / WIDTH - 0.5;
-    // Any linear traction with the moment one will do, this far from the crack: lumped forces in proportion to the height.
+    // Any linear traction with the moment one will do, this far from the crack: lumped forces in proportion to the
+    // height.
     let edge = |n: usize| {
         if across(n).abs() > 0.5 - 1e-9 {
             0.5
@@ -155,7 +156,8 @@ fn moment(plate: &Plate) -> Load {
         .collect()
 }
 
-/// The energy of a field with a tip of r^½ is found with an error of first order; extrapolated so, it is the handbook's.
+/// The energy of a field with a tip of r^½ is found with an error of first order; extrapolated so, it is the
+/// handbook's.
 #[test]
 fn bending_of_a_cracked_plate_is_the_handbooks() {
     for alpha in [0.25, 0.5] {

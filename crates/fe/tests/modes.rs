@@ -135,7 +135,8 @@ fn a_free_body_has_six_rigid_motions() {
 
 /// A block on rollers (normal displacement zero on every face, no shear there) has the exact modes
 /// P: u = ∇(cos ax cos by cos cz), ω = c_p |k|, and S: two polarisations across k, one where a component of k vanishes,
-/// ω = c_s |k|; k = (iπ/L_x, jπ/L_y, lπ/L_z), with 2 polarisations for i, j, l > 0, 1 with one of them 0, none with two.
+/// ω = c_s |k|; k = (iπ/L_x, jπ/L_y, lπ/L_z), with 2 polarisations for i, j, l > 0, 1 with one of them 0, none with
+/// two.
 fn roller_block_exact(size: [f64; 3], material: &Material, count: usize) -> Vec<f64> {
     let lame = material.lame();
     let (p, s) = (

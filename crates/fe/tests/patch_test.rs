@@ -24,8 +24,8 @@ fn linear_field_is_exact_on_a_distorted_mesh() {
             .iter()
             .filter(|x| x.iter().all(|v| *v > 0.0 && *v < 1.0))
             .count();
-        // A mesh of 3³ cubes has 2³ inner corners and 3·3·2² inner edges. Wedges add 9·2 diagonals of inner squares across
-        // z, tetrahedra those across all three axes and one in each cube.
+        // A mesh of 3³ cubes has 2³ inner corners and 3·3·2² inner edges. Wedges add 9·2 diagonals of inner squares
+        // across z, tetrahedra those across all three axes and one in each cube.
         let expected = match element {
             Element::Hex8 | Element::Hex8Incompatible | Element::Wedge6 => 8,
             Element::Hex20 => 8 + 36,

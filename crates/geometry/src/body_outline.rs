@@ -1,8 +1,9 @@
-//! The axial contour of the body as a closed line of straight pieces and arcs: fillets put into the corners of hub, web and rim.
+//! The axial contour of the body as a closed line of straight pieces and arcs: fillets put into the corners of hub, web
+//! and rim.
 //!
 //! A fillet of radius ρ in a corner whose two sides make the angle φ is the arc tangent to both; it begins the length
-//! t = ρ/tan(φ/2) away from the corner, and its centre lies ρ/sin(φ/2) away on the bisector. It fits where the lengths t taken
-//! from both ends of every side do not pass the side's own length.
+//! t = ρ/tan(φ/2) away from the corner, and its centre lies ρ/sin(φ/2) away on the bisector. It fits where the lengths
+//! t taken from both ends of every side do not pass the side's own length.
 
 use crate::definition::{Blank, Contour, Web};
 use std::f64::consts::PI;
@@ -94,8 +95,8 @@ struct Corner {
     fillet: Option<(usize, f64)>,
 }
 
-/// Contour \[r, z\] of the body between the bore and a cylinder of radius `outer_m` inside the rim, counter-clockwise from the
-/// back of that cylinder.
+/// Contour \[r, z\] of the body between the bore and a cylinder of radius `outer_m` inside the rim, counter-clockwise
+/// from the back of that cylinder.
 ///
 /// # Errors
 /// [`FilletError`] with what fits.
@@ -261,8 +262,8 @@ fn rounded(corners: &[Corner]) -> Result<Vec<OutlineEdge>, FilletError> {
     Ok(edges)
 }
 
-/// Slope |dz/dr| of the web's faces above which moved layers of hexahedra are sheared too far: 60 degrees, a scaled Jacobian of
-/// one half.
+/// Slope |dz/dr| of the web's faces above which moved layers of hexahedra are sheared too far: 60 degrees, a scaled
+/// Jacobian of one half.
 const STEEP: f64 = 1.732;
 
 /// Why a contour is beyond moved layers of hexahedra; none where they follow it.

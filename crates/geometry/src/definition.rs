@@ -314,6 +314,24 @@ pub struct MeshSettings {
     pub plane_strain: bool,
 }
 
+impl MeshSettings {
+    /// The element lengths where a gear file gives none, in the unit of module and face width: along flank and fillet, in the body,
+    /// along the axis.
+    pub fn default_lengths(element: ElementKind, module: f64, face_width: f64) -> [f64; 4] {
+        // Quadratic tetrahedra on twice the lengths have about as many nodes as bricks of eight nodes.
+        let coarser = match element {
+            ElementKind::Tet10 => 2.0,
+            ElementKind::Hex8 | ElementKind::Hex8Incompatible | ElementKind::Hex20 => 1.0,
+        };
+        [
+            coarser * 0.3 * module,
+            coarser * 0.08 * module,
+            coarser * 1.2 * module,
+            coarser * face_width / 10.0,
+        ]
+    }
+}
+
 /// Whether the repetition of the gear is used to solve it. The numbers are the same to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -47,7 +47,8 @@ impl InputDocument {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`InputError`] when the file cannot be read, is no regular file, has more than [`MOST_TEXT_BYTES`] or is not UTF-8.
+    /// [`InputError`] when the file cannot be read, is no regular file, has more than [`MOST_TEXT_BYTES`] or is not
+    /// UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let file = path.display().to_string();
         let complaint = |line, problem| InputError {
@@ -82,8 +83,8 @@ impl InputDocument {
     ///
     /// # Errors
     /// [`InputError`] with the line of a syntax error, or with line and key of an unknown key, a missing key, a wrong
-    /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit only is
-    /// answered with the right key.
+    /// type, an unknown name or a number out of its range. An unknown key that differs from a known one by its unit
+    /// only is answered with the right key.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         let parsed = self.glance()?;
         let table: toml::Table = self.glance()?;

@@ -9,7 +9,7 @@
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
-//! | two gears at a centre distance | [`GearPair`] | `pair.rs` |
+//! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
 //!
 //! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
 //! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
@@ -24,6 +24,7 @@ pub mod involute;
 pub mod microgeometry;
 pub mod pair;
 pub mod profile_curve;
+mod tip_in_fillet;
 pub mod tooth;
 
 pub use definition::{

@@ -71,8 +71,8 @@ impl Microgeometry {
         profile + relief + lead
     }
 
-    /// Bound of the material added anywhere on the flank \[m\], zero or positive: what negative amounts and the flank angle add, each
-    /// where it adds most.
+    /// Bound of the material added anywhere on the flank \[m\], zero or positive: what negative amounts and the flank
+    /// angle add, each where it adds most.
     pub fn most_added_m(&self) -> f64 {
         let added = |amount_m: f64| (-amount_m).max(0.0);
         let profile = self.profile_crowning.map_or(0.0, |c| {

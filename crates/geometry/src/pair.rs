@@ -2,6 +2,7 @@
 
 use crate::definition::FlankSide;
 use crate::involute;
+use crate::tip_in_fillet;
 use crate::tooth::ToothGeometry;
 use std::f64::consts::TAU;
 
@@ -71,6 +72,17 @@ pub enum PairError {
         needed_mm: f64,
         /// Where the mate's involute starts.
         form_mm: f64,
+    },
+    /// A tip edge cuts into the other gear's fillet on its way through the tooth space.
+    #[error(
+        "the tip of gear {gear} cuts {depth_um:.2} um deep into the root fillet of its mate; shorten the tip or chamfer it, \
+         or raise the clearance or the centre distance"
+    )]
+    TipInFillet {
+        /// Gear whose tip is too long.
+        gear: usize,
+        /// Depth along the normal of the fillet.
+        depth_um: f64,
     },
     /// Contact is lost between two pairs.
     #[error(
@@ -191,6 +203,18 @@ impl GearPair {
                 backlash_mm: pair.backlash_m() * 1e3,
             });
         }
+        for (gear, tip, mate) in [
+            (1, &pair.gear_1, &pair.gear_2),
+            (2, &pair.gear_2, &pair.gear_1),
+        ] {
+            let depth_m = tip_in_fillet::depth_m(tip, mate, centre_distance_m);
+            if depth_m > ROUNDING_M {
+                return Err(PairError::TipInFillet {
+                    gear,
+                    depth_um: depth_m * 1e6,
+                });
+            }
+        }
         if pair.contact_ratio() < 1.0 {
             return Err(PairError::ContactRatio {
                 contact_ratio: pair.contact_ratio(),
@@ -257,8 +281,8 @@ impl GearPair {
         self.working_pressure_angle_rad.tan() + driver_angle_rad - pair as f64 * self.pitch_1_rad()
     }
 
-    /// Teeth of gear 1 and gear 2 that make pair p. A higher p comes later: on right flanks (gear 1 turns clockwise) gear
-    /// 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p.
+    /// Teeth of gear 1 and gear 2 that make pair p. A higher p comes later: on right flanks (gear 1 turns clockwise)
+    /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p.
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
         let pair = match self.flank {
             FlankSide::Right => pair,
@@ -300,12 +324,20 @@ impl GearPair {
         )
     }
 
-    /// Relative radius of curvature ρ \[m\] across the line of contact of two flanks that touch at the given roll angles:
-    /// 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)).
+    /// Relative radius of curvature ρ \[m\] across the line of contact of two flanks that touch at the given roll
+    /// angles: 1/ρ = cos β_b (1/(r_b1 ξ₁) + 1/(r_b2 ξ₂)).
     pub fn relative_radius_m(&self, roll_1_rad: f64, roll_2_rad: f64) -> f64 {
         let a = self.gear_1.base_radius_m * roll_1_rad;
         let b = self.gear_2.base_radius_m * roll_2_rad;
         a * b / ((a + b) * self.base_helix_angle_rad().cos())
+    }
+
+    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ + ρ₂))/ξ_i.
+    pub fn relative_radius_growth(&self, roll_rad: [f64; 2]) -> [f64; 2] {
+        let rho_1 = self.gear_1.base_radius_m * roll_rad[0];
+        let rho_2 = self.gear_2.base_radius_m * roll_rad[1];
+        let sum = rho_1 + rho_2;
+        [rho_2 / (sum * roll_rad[0]), rho_1 / (sum * roll_rad[1])]
     }
 
     /// Opening of the loaded flanks by misalignment, measured in the transverse plane, at axial position `z_m` and

@@ -136,7 +136,8 @@ impl ProfileCurve {
         self.point(b.piece, a.parameter + w * (b.parameter - a.parameter))
     }
 
-    /// Angle of the outline's tangent to the tooth's centre line \[rad\] at an arc length: π/2 on the root circle, small on the flank.
+    /// Angle of the outline's tangent to the tooth's centre line \[rad\] at an arc length: π/2 on the root circle,
+    /// small on the flank.
     pub fn tangent_angle_at_rad(&self, arc_length_m: f64) -> f64 {
         // Central differences on the exact curve, to 1e-8 of a radian.
         let step = 1e-5 * self.tooth.root_radius_m;
@@ -145,6 +146,11 @@ impl ProfileCurve {
             self.point_at(arc_length_m + step),
         );
         (b[1] - a[1]).atan2(b[0] - a[0])
+    }
+
+    /// Arc length \[m\] at which the root fillet begins; zero where there is no arc of the root circle.
+    pub fn root_arc_end_m(&self) -> f64 {
+        self.first_of(Piece::Fillet)
     }
 
     /// Arc length \[m\] at which the involute flank begins.
@@ -224,10 +230,10 @@ impl ProfileCurve {
         }
     }
 
-    /// Arc length \[m\] of the point of the outline, below the tip land, that has the same radius as `point_m`, and the distance
-    /// \[m\] of the two along their circle, positive towards the tooth's centre line. On the root arc, where all points have one
-    /// radius, the point at the same angle and the radial distance, positive outwards of the root circle. The inverse of
-    /// [`ProfileCurve::point_at`] on the outline itself.
+    /// Arc length \[m\] of the point of the outline, below the tip land, that has the same radius as `point_m`, and the
+    /// distance \[m\] of the two along their circle, positive towards the tooth's centre line. On the root arc, where
+    /// all points have one radius, the point at the same angle and the radial distance, positive outwards of the root
+    /// circle. The inverse of [`ProfileCurve::point_at`] on the outline itself.
     pub fn place_of(&self, point_m: [f64; 2]) -> (f64, f64) {
         let t = &self.tooth;
         let (radius, angle) = (point_m[0].hypot(point_m[1]), point_m[1].atan2(point_m[0]));

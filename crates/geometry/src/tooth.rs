@@ -223,8 +223,8 @@ impl ToothGeometry {
         self.helix_angle_rad.tan() / self.reference_radius_m
     }
 
-    /// Helix angle β_b on the base cylinder \[rad\], positive for a right hand: tan β_b = tan β cos α_t, which is the same
-    /// as sin β_b = sin β cos α_n.
+    /// Helix angle β_b on the base cylinder \[rad\], positive for a right hand: tan β_b = tan β cos α_t, which is the
+    /// same as sin β_b = sin β cos α_n.
     pub fn base_helix_angle_rad(&self) -> f64 {
         (self.base_radius_m * self.twist_rad_per_m()).atan()
     }
@@ -251,9 +251,10 @@ impl ToothGeometry {
         }
     }
 
-    /// Unit normal of a helical flank in the section at z = 0, into the material: the transverse normal n_t times cos β_b
-    /// and −sin β_b along +z on right flanks, +sin β_b on left ones. On the helicoid ∂P/∂z = (tan β_b e_t + e_z) besides a
-    /// part along the profile, with e_t = n_t on the right and −n_t on the left flank. Turn it with its section.
+    /// Unit normal of a helical flank in the section at z = 0, into the material: the transverse normal n_t times cos
+    /// β_b and −sin β_b along +z on right flanks, +sin β_b on left ones. On the helicoid ∂P/∂z = (tan β_b e_t + e_z)
+    /// besides a part along the profile, with e_t = n_t on the right and −n_t on the left flank. Turn it with its
+    /// section.
     pub fn flank_normal(&self, side: FlankSide, roll_rad: f64) -> [f64; 3] {
         let ([x, y], _) = self.flank_frame(side, roll_rad);
         let (sin, cos) = self.base_helix_angle_rad().sin_cos();
@@ -292,46 +293,38 @@ impl ToothGeometry {
 
     /// Fillet parameter at which an undercut trochoid crosses the involute.
     fn undercut_crossing(&self) -> Option<f64> {
-        // Positive while the trochoid runs in the tooth space, clockwise of the involute.
-        let clearance = |t: f64| {
+        // From the root circle, which lies below the base circle here, the trochoid runs inside what would be the tooth
+        // without undercut, and leaves it at the crossing.
+        let is_inside = |t: f64| {
             let p = self.trochoid.point_m(t);
             let r = p[0].hypot(p[1]);
-            if r < self.base_radius_m {
-                return None;
-            }
             let roll = involute::roll_angle_rad(r, self.base_radius_m);
-            Some(-self.half_angle_rad(roll) - p[1].atan2(p[0]))
+            r < self.base_radius_m || p[1].atan2(p[0]) > -self.half_angle_rad(roll)
         };
-        let end = 3.0 * self.reference_radius_m;
+        // The parameter grows from the root with the depth's own sign.
+        let end = 3.0 * self.reference_radius_m * self.trochoid.centre_depth_m.signum();
         let steps = 20_000;
-        let mut previous: Option<(f64, f64)> = None;
+        let mut low = 0.0;
         for k in 0..=steps {
             let t = end * k as f64 / steps as f64;
             let p = self.trochoid.point_m(t);
             if p[0].hypot(p[1]) > self.tip_radius_m {
                 break;
             }
-            let Some(value) = clearance(t) else { continue };
-            let Some((t0, v0)) = previous else {
-                if value >= 0.0 {
-                    return Some(t);
-                }
-                previous = Some((t, value));
+            if is_inside(t) {
+                low = t;
                 continue;
-            };
-            if v0 < 0.0 && value >= 0.0 {
-                let (mut low, mut high) = (t0, t);
-                for _ in 0..100 {
-                    let mid = 0.5 * (low + high);
-                    if clearance(mid).is_some_and(|v| v < 0.0) {
-                        low = mid
-                    } else {
-                        high = mid
-                    }
-                }
-                return Some(0.5 * (low + high));
             }
-            previous = Some((t, value));
+            let mut high = t;
+            for _ in 0..100 {
+                let mid = 0.5 * (low + high);
+                if is_inside(mid) {
+                    low = mid
+                } else {
+                    high = mid
+                }
+            }
+            return Some(0.5 * (low + high));
         }
         None
     }

@@ -184,8 +184,8 @@ fn helicoids_of_opposite_hand_touch_along_the_contact_line() {
             for z in [-10e-3, 0.0, 7e-3] {
                 let roll_1 = pair.roll_1_rad(theta, p) + z * pair.roll_slope_1_rad_per_m();
                 let roll_2 = pair.roll_2_rad(roll_1);
-                // Gear 1 turns against the mirror's sense (clockwise for right flanks), gear 2 with it; both stand so that
-                // tooth 0 touches at the pitch point when θ = 0.
+                // Gear 1 turns against the mirror's sense (clockwise for right flanks), gear 2 with it; both stand so
+                // that tooth 0 touches at the pitch point when θ = 0.
                 let theta_2 = theta * g1.base_radius_m / g2.base_radius_m;
                 let place = |g: &ToothGeometry, start: f64, tooth: usize, turn: f64| {
                     start

@@ -88,33 +88,21 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
     Ok(best)
 }
 
-/// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
-///
-/// # Errors
-/// [`MeshError::NoCut`] when no tooth space lies clear of the openings.
-pub fn body_problem(
-    gear: &GearDefinition,
-    ring_per_tooth: usize,
-) -> Result<BodyProblem, MeshError> {
-    let sectors = gear.sectors();
-    let teeth = gear.tooth.teeth / sectors;
-    let first_tooth = first_tooth(gear)?;
-    let pitch = TAU / gear.tooth.teeth as f64;
-    let start = (first_tooth as f64 - 0.5) * pitch;
-    let angle = TAU / sectors as f64;
-    let closed = sectors == 1;
-    let ring = ring_radius_m(gear);
-    let ring_size = ring * pitch / ring_per_tooth as f64;
-    let largest = gear.mesh.body_m;
-    let size = |r: f64| {
+/// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle too.
+pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
+    let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web);
+    move |r: f64| {
         let from_ring = ring_size + GRADING * (ring - r).abs();
-        let from_hub = gear.blank.web.map_or(f64::INFINITY, |web| {
+        let from_hub = web.map_or(f64::INFINITY, |web| {
             AT_HUB * largest + GRADING * (r - web.hub_radius_m).abs()
         });
         from_ring.min(from_hub).min(largest)
-    };
+    }
+}
 
-    // Circles that separate the regions, from the ring inwards, and whether the region below each is web only.
+/// Circles that separate the regions of the body, from the ring inwards, and whether the region below each is web only.
+pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
+    let ring = ring_radius_m(gear);
     let mut levels = vec![(ring, false)];
     if let Some(web) = gear.blank.web {
         if web.rim_inner_radius_m < ring - 1e-9 {
@@ -133,7 +121,28 @@ pub fn body_problem(
         levels.push((web.hub_radius_m, false));
     }
     levels.push((gear.blank.bore_radius_m, false));
+    levels
+}
 
+/// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
+///
+/// # Errors
+/// [`MeshError::NoCut`] when no tooth space lies clear of the openings.
+pub fn body_problem(
+    gear: &GearDefinition,
+    ring_per_tooth: usize,
+) -> Result<BodyProblem, MeshError> {
+    let sectors = gear.sectors();
+    let teeth = gear.tooth.teeth / sectors;
+    let first_tooth = first_tooth(gear)?;
+    let pitch = TAU / gear.tooth.teeth as f64;
+    let start = (first_tooth as f64 - 0.5) * pitch;
+    let angle = TAU / sectors as f64;
+    let closed = sectors == 1;
+    let ring = ring_radius_m(gear);
+    let ring_size = ring * pitch / ring_per_tooth as f64;
+    let size = element_length(gear, ring_size);
+    let levels = region_circles(gear);
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut add = |r: f64, phi: f64| {
         points.push([r * phi.cos(), r * phi.sin(), size(r)]);
@@ -177,7 +186,7 @@ pub fn body_problem(
             let radii = graded(
                 levels[i].0,
                 levels[i + 1].0,
-                size,
+                &size,
                 Pieces {
                     least: 2,
                     even: true,
@@ -247,8 +256,8 @@ pub fn body_problem(
     })
 }
 
-/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the middle of
-/// the side after it.
+/// Outline of an opening as (radius, polar angle from its centre): a multiple of four nodes, each followed by the
+/// middle of the side after it.
 fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
     match openings {
         Openings::Holes(h) => {
@@ -273,8 +282,8 @@ fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
     (x.hypot(y), y.atan2(x))
 }
 
-/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ... Sides
-/// are about `size` long; their middles stand between the nodes.
+/// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
+/// Sides are about `size` long; their middles stand between the nodes.
 fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,

@@ -1,9 +1,10 @@
 //! A crack in the cross-section of a tooth: a chain of sides of quads from the root's outline to the wanted tip.
 //!
-//! The mouth is the node of the outline next to the place asked for, moved there along the outline; from there the shortest chain of sides that keeps close to the
-//! straight line is followed to the node next to the wanted tip. That node is moved to the very place, and the nodes around give way as
-//! long as that makes the quads better: depth and angle are those asked for, the sides in between are as ragged as the mesh. All
-//! teeth have the same section, the sound ones too.
+//! The mouth is the node of the outline next to the place asked for, moved there along the outline; from there the
+//! shortest chain of sides that keeps close to the straight line is followed to the node next to the wanted tip. That
+//! node is moved to the very place, and the nodes around give way as long as that makes the quads better: depth and
+//! angle are those asked for, the sides in between are as ragged as the mesh. All teeth have the same section, the
+//! sound ones too.
 
 use crate::MeshError;
 use crate::tooth_cell::ToothCell;
@@ -162,8 +163,8 @@ fn is_inside(cell: &ToothCell, p: [f64; 2]) -> bool {
     })
 }
 
-/// The chain of sides from the mouth to the node next to the line's end: shortest where a side that ends d off the line counts
-/// 1 + (d/length)² times.
+/// The chain of sides from the mouth to the node next to the line's end: shortest where a side that ends d off the line
+/// counts 1 + (d/length)² times.
 fn follow(cell: &ToothCell, mouth: usize, line: &Line) -> Result<Vec<usize>, MeshError> {
     let edge = edge_nodes(cell);
     let next = neighbours(cell);
@@ -274,8 +275,8 @@ fn quality(nodes: &[[f64; 2]], quad: &[usize; 4]) -> f64 {
     (0..4).map(corner).fold(f64::INFINITY, f64::min)
 }
 
-/// Quads that touch the path short of its tip, to its left and to its right as it runs inwards: those along its sides, and from there
-/// across sides that end on the path.
+/// Quads that touch the path short of its tip, to its left and to its right as it runs inwards: those along its sides,
+/// and from there across sides that end on the path.
 fn sides(cell: &ToothCell, path: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let doubled: HashSet<usize> = path[..path.len() - 1].iter().copied().collect();
     let steps: HashSet<(usize, usize)> = path.windows(2).map(|s| (s[0], s[1])).collect();

@@ -25,10 +25,11 @@ impl CutLine {
         }
     }
 
-    /// Whether a point of the section \[x, y\] \[m\] lies below the cut, on it, or no more than `margin_m` above it, radially; so
-    /// do all points beside it.
+    /// Whether a point of the section \[x, y\] \[m\] lies below the cut, on it, or no more than `margin_m` above it,
+    /// radially; so do all points beside it.
     pub fn is_below(&self, [x, y]: [f64; 2], margin_m: f64) -> bool {
-        // The line runs counter-clockwise; the ray from the axis through the point meets the piece whose ends lie on its sides.
+        // The line runs counter-clockwise; the ray from the axis through the point meets the piece whose ends lie on
+        // its sides.
         let side = |p: [f64; 2]| p[0] * y - p[1] * x;
         let radius = self.points_m.windows(2).find_map(|ends| {
             let [a, b] = [ends[0], ends[1]];

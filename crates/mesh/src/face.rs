@@ -129,8 +129,8 @@ pub struct OutlineFace {
     pub nodes: Vec<u32>,
     /// Element behind it.
     pub element: u32,
-    /// Place of each node on the unrolled outline \[arc, z\] \[m\]: arc length from the centre of the tooth space of the side
-    /// asked for, and axial position. A helical tooth is turned back to z = 0 by [`crate::GearMesh::twist`].
+    /// Place of each node on the unrolled outline \[arc, z\] \[m\]: arc length from the centre of the tooth space of
+    /// the side asked for, and axial position. A helical tooth is turned back to z = 0 by [`crate::GearMesh::twist`].
     pub places_m: Vec<[f64; 2]>,
 }
 

@@ -1,8 +1,8 @@
 //! Nodes and elements of the whole gear, with the sets that the reduction needs.
 //!
 //! A quadratic mesh has the same section and layers; the section then has nodes in the middle of its edges too, and
-//! between two planes there is a level of nodes half way up, above the quads' corners only. Where elements are tetrahedra only
-//! the teeth are made of layers, each brick of them split (`tet_mesh.rs`); the body is a free mesh.
+//! between two planes there is a level of nodes half way up, above the quads' corners only. Where elements are
+//! tetrahedra only the teeth are made of layers, each brick of them split (`tet_mesh.rs`); the body is a free mesh.
 
 use crate::MeshError;
 use crate::elements::{ElementList, ElementShape};
@@ -38,7 +38,8 @@ pub struct GearMesh {
     pub quality: QualityReport,
     /// Where the body is no part of the layers: its nodes and elements.
     pub(crate) solid: Option<SolidBody>,
-    /// Heights of the nodes \[m\]: the planes between the layers and, with quadratic elements, the middles of the layers.
+    /// Heights of the nodes \[m\]: the planes between the layers and, with quadratic elements, the middles of the
+    /// layers.
     pub(crate) levels_m: Vec<f64>,
     /// Node by section node and level.
     pub(crate) node_of: Vec<u32>,
@@ -175,7 +176,8 @@ impl GearMesh {
         Some(self.element_of[quad * self.layers.count() + layer]).filter(|&id| id != NONE)
     }
 
-    /// Nodes above and below some nodes of the cross-section: those of the first, from −z to +z, then those of the second, ...
+    /// Nodes above and below some nodes of the cross-section: those of the first, from −z to +z, then those of the
+    /// second, ...
     fn columns(&self, section_nodes: impl IntoIterator<Item = usize>) -> Vec<u32> {
         let levels = 0..self.levels_m.len();
         section_nodes
@@ -240,8 +242,8 @@ impl GearMesh {
         self.elements_of(first..first + self.section.cell.quads.len())
     }
 
-    /// Nodes of a sector's part of hub, web and rim, with what it shares with the teeth, the i-th of each sector the image of
-    /// the i-th of sector 0. Outside the web's layers the shared ones are the teeth's alone.
+    /// Nodes of a sector's part of hub, web and rim, with what it shares with the teeth, the i-th of each sector the
+    /// image of the i-th of sector 0. Outside the web's layers the shared ones are the teeth's alone.
     pub fn body_nodes(&self, sector: usize) -> Vec<u32> {
         if let Some(solid) = &self.solid {
             return solid.nodes[sector].clone();
@@ -257,7 +259,8 @@ impl GearMesh {
         self.elements_of(self.section.body_quads[sector].clone())
     }
 
-    /// Nodes that a crack doubles on a tooth, and the elements on the side of the tooth's tip that get the doubles; none without a crack.
+    /// Nodes that a crack doubles on a tooth, and the elements on the side of the tooth's tip that get the doubles;
+    /// none without a crack.
     pub fn crack(&self, tooth: usize) -> Option<(Vec<u32>, Vec<u32>)> {
         let crack = self.section.crack.as_ref()?;
         let map = &self.section.cell_nodes[tooth];

@@ -1,8 +1,8 @@
 //! Where the planes between the layers lie below the rim: a contour moves them.
 //!
-//! Four heights bound the layers: outer faces and web faces. At the rim they are the planes of [`Layers`]; at a radius r below
-//! it the web faces are those of the contour, at the hub the outer faces too. In between a plane keeps its share of the
-//! distance, so that z(r) is continuous and every layer stays a layer.
+//! Four heights bound the layers: outer faces and web faces. At the rim they are the planes of [`Layers`]; at a radius
+//! r below it the web faces are those of the contour, at the hub the outer faces too. In between a plane keeps its
+//! share of the distance, so that z(r) is continuous and every layer stays a layer.
 
 use crate::layers::Layers;
 use gearmesh_geometry::{Contour, GearDefinition};

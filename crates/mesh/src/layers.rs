@@ -1,8 +1,8 @@
 //! Planes along the axis: aligned with the web's faces, about `axial_m` apart, closer at those faces.
 //!
-//! Where the web's face meets rim and hub the body has a sharp inner edge of 270°. Stress there is singular, and equal layers
-//! converge with little more than the first power of their thickness (2λ = 1.09, M. L. Williams, J. Appl. Mech. 19 (1952) 526).
-//! Layers that grow with the distance from the edge win that back.
+//! Where the web's face meets rim and hub the body has a sharp inner edge of 270°. Stress there is singular, and equal
+//! layers converge with little more than the first power of their thickness (2λ = 1.09, M. L. Williams, J. Appl. Mech.
+//! 19 (1952) 526). Layers that grow with the distance from the edge win that back.
 
 use crate::grading::{Pieces, graded};
 use gearmesh_geometry::{ElementKind, GearDefinition};
@@ -55,8 +55,8 @@ impl Layers {
         }
     }
 
-    /// Layers of a gear. The web has an even number of them, so that its middle, mid-face of a symmetric gear, is a node
-    /// plane; so has a solid gear. One layer in plane strain; equal
+    /// Layers of a gear. The web has an even number of them, so that its middle, mid-face of a symmetric gear, is a
+    /// node plane; so has a solid gear. One layer in plane strain; equal
     /// ones for the teeth above a body of tetrahedra, which do not know of the web.
     pub fn new(gear: &GearDefinition) -> Self {
         if gear.mesh.plane_strain {

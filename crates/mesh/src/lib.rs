@@ -1,6 +1,6 @@
-//! From a gear definition to hexahedra of eight or twenty nodes: one tooth cell and one body sector of the cross-section are meshed in quads
-//! by gmsh, copied round the axis and layered along it. Or to tetrahedra of ten nodes: the teeth by splitting such layers, the
-//! body as a free mesh of its revolved contour.
+//! From a gear definition to hexahedra of eight or twenty nodes: one tooth cell and one body sector of the
+//! cross-section are meshed in quads by gmsh, copied round the axis and layered along it. Or to tetrahedra of ten
+//! nodes: the teeth by splitting such layers, the body as a free mesh of its revolved contour.
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
@@ -21,6 +21,7 @@
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
+//! | how large the mesh will be, before it is made | [`MeshSize`] | `mesh_size.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
 //!
 //! Every node of the tooth outline lies on the exact profile, and its place along the outline is kept: loads and
@@ -36,6 +37,7 @@ pub mod gear_mesh;
 pub mod grading;
 pub mod heights;
 pub mod layers;
+pub mod mesh_size;
 pub mod mid_sides;
 pub mod plane_mesher;
 pub mod python;
@@ -54,6 +56,7 @@ pub use cut_line::CutLine;
 pub use elements::{ElementList, ElementShape};
 pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
+pub use mesh_size::MeshSize;
 
 /// Why no mesh could be made.
 #[derive(Debug, thiserror::Error)]

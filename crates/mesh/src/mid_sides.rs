@@ -1,7 +1,8 @@
 //! Nodes in the middle of the sides of quads, for quadratic elements.
 //!
-//! A side that is a piece of the outline, of a circle or of an opening has its node on that curve, half way along it, so that
-//! the parabola through the three nodes meets the curve to the fourth power of its length. All other sides are straight.
+//! A side that is a piece of the outline, of a circle or of an opening has its node on that curve, half way along it,
+//! so that the parabola through the three nodes meets the curve to the fourth power of its length. All other sides are
+//! straight.
 
 use crate::plane_mesher::PlaneMesh;
 use std::collections::HashMap;
@@ -20,7 +21,8 @@ impl CurvedSides {
         self.0.insert(key(a, b), middle);
     }
 
-    /// The sides between consecutive nodes of a chain are arcs of one circle about the axis; `points` are all nodes' \[x, y\].
+    /// The sides between consecutive nodes of a chain are arcs of one circle about the axis; `points` are all nodes'
+    /// \[x, y\].
     pub fn insert_arcs(
         &mut self,
         chain: &[usize],

@@ -57,8 +57,8 @@ pub struct PlaneMesh {
 }
 
 impl PlaneMesh {
-    /// Adds a node in the middle of every quad, where the curved sides put it: half the sum of the middles of the sides less a
-    /// quarter of that of the corners (Coons' patch). The sides must have their middles.
+    /// Adds a node in the middle of every quad, where the curved sides put it: half the sum of the middles of the sides
+    /// less a quarter of that of the corners (Coons' patch). The sides must have their middles.
     pub fn add_centres(&mut self) -> Vec<usize> {
         let first = self.nodes.len();
         for (quad, middles) in self.quads.iter().zip(&self.mid_sides) {

@@ -1,6 +1,6 @@
 //! Scaled Jacobian of hexahedra: the smallest, over the eight corners, of the Jacobian determinant divided by the
-//! product of the three edge lengths. 1 for a brick, 0 where a corner collapses, negative where it is inverted. The edges of a
-//! twenty-node hexahedron are parabolas; at its corners their tangents take the place of the edges.
+//! product of the three edge lengths. 1 for a brick, 0 where a corner collapses, negative where it is inverted. The
+//! edges of a twenty-node hexahedron are parabolas; at its corners their tangents take the place of the edges.
 //! For ten-node tetrahedra its place is taken by the distortion of their edges, [`tetrahedron_jacobian`].
 //! Source: Knupp, *Achieving finite element mesh quality via optimization of the Jacobian matrix norm* (2000).
 
@@ -108,9 +108,9 @@ const TET_NODES: [[f64; 3]; 10] = [
 /// The corners at the ends of each edge of a tetrahedron; edge k has node 4 + k in its middle.
 pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
-/// Distortion of a ten-node tetrahedron: the smallest Jacobian determinant at its nodes over that of the tetrahedron with
-/// straight edges between the same corners. 1 where edges are straight with their nodes in the middle; 0 or less where the
-/// element is folded, or its corners are the wrong way round.
+/// Distortion of a ten-node tetrahedron: the smallest Jacobian determinant at its nodes over that of the tetrahedron
+/// with straight edges between the same corners. 1 where edges are straight with their nodes in the middle; 0 or less
+/// where the element is folded, or its corners are the wrong way round.
 pub fn tetrahedron_jacobian(nodes: &[[f64; 3]; 10]) -> f64 {
     let det = |m: [[f64; 3]; 3]| {
         m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])

@@ -39,8 +39,8 @@ pub struct Section {
     pub first_tooth: usize,
     /// Section node of each node of the body sector (hub, web, rim), by sector.
     pub body_nodes: Vec<Vec<usize>>,
-    /// Body sector nodes on its edge at the smaller angle, outwards to inwards, without those on the ring; empty when there
-    /// is one sector.
+    /// Body sector nodes on its edge at the smaller angle, outwards to inwards, without those on the ring; empty when
+    /// there is one sector.
     pub body_right_side: Vec<usize>,
     /// Section quads of each body sector.
     pub body_quads: Vec<Range<usize>>,
@@ -61,8 +61,8 @@ impl Section {
         }
     }
 
-    /// Meshes one tooth and one sector of the body and copies them. Where elements are tetrahedra the body is not made of layers:
-    /// then the section is that of the teeth alone.
+    /// Meshes one tooth and one sector of the body and copies them. Where elements are tetrahedra the body is not made
+    /// of layers: then the section is that of the teeth alone.
     ///
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when no sector can be cut.

@@ -40,7 +40,8 @@ pub struct SolidBody {
 
 /// What the teeth look like from below.
 pub struct Foot {
-    /// Mesh node by tooth, place along the ring's inner circle and plane; the last place of a tooth is the first of the next.
+    /// Mesh node by tooth, place along the ring's inner circle and plane; the last place of a tooth is the first of the
+    /// next.
     pub ring: Vec<Vec<Vec<u32>>>,
     /// Heights of the planes \[m\].
     pub planes_m: Vec<f64>,
@@ -61,10 +62,12 @@ pub fn edge(a: u32, b: u32) -> [u32; 2] {
 }
 
 impl SolidBody {
-    /// Meshes one sector below the teeth and joins its copies to them; nodes and elements are added to those of the teeth.
+    /// Meshes one sector below the teeth and joins its copies to them; nodes and elements are added to those of the
+    /// teeth.
     ///
     /// # Errors
-    /// [`MeshError`] when gmsh is missing or fails, when no sector can be cut, or when the mesh does not meet the teeth.
+    /// [`MeshError`] when gmsh is missing or fails, when no sector can be cut, or when the mesh does not meet the
+    /// teeth.
     pub fn new(
         gear: &GearDefinition,
         python: &PythonEnvironment,
@@ -305,8 +308,8 @@ impl Sector {
 }
 
 impl GearMesh {
-    /// Edges of the body whose middles were taken off a curved surface because an element would have been folded there; zero
-    /// in hexahedra.
+    /// Edges of the body whose middles were taken off a curved surface because an element would have been folded there;
+    /// zero in hexahedra.
     pub fn straightened_edges(&self) -> usize {
         self.solid.as_ref().map_or(0, |solid| solid.straightened)
     }

@@ -20,7 +20,8 @@ const SAME_M: f64 = 1e-8;
 /// What is asked of the mesher for the body of a gear.
 ///
 /// # Errors
-/// [`MeshError::NoCut`] when no tooth space lies clear of the openings; [`SolidMeshError`] for a contour that cannot be.
+/// [`MeshError::NoCut`] when no tooth space lies clear of the openings; [`SolidMeshError`] for a contour that cannot
+/// be.
 pub fn solid_problem(
     gear: &GearDefinition,
     ring_pieces: usize,

@@ -1,7 +1,7 @@
 //! A gear in ten-node tetrahedra: the teeth as layers of split bricks, the body below them as a free mesh.
 //!
-//! The teeth have nodes on the true profile and equal meshes, as those of hexahedra have: a brick of 27 nodes has one in the middle
-//! of every edge of its six tetrahedra, on the outline those of the face diagonals too.
+//! The teeth have nodes on the true profile and equal meshes, as those of hexahedra have: a brick of 27 nodes has one
+//! in the middle of every edge of its six tetrahedra, on the outline those of the face diagonals too.
 
 use crate::MeshError;
 use crate::elements::{ElementList, ElementShape};
@@ -17,7 +17,8 @@ use crate::twist::Twist;
 use gearmesh_geometry::GearDefinition;
 use std::collections::{BTreeMap, HashSet};
 
-/// The triangles in a rectangle of nine nodes, three on each level, for either diagonal: corners, then middles of sides.
+/// The triangles in a rectangle of nine nodes, three on each level, for either diagonal: corners, then middles of
+/// sides.
 const OUTLINE_TRIANGLES: [[usize; 6]; 4] = [
     [0, 2, 8, 1, 5, 4],
     [0, 8, 6, 4, 7, 3],
@@ -29,7 +30,8 @@ impl GearMesh {
     /// Meshes a gear in tetrahedra.
     ///
     /// # Errors
-    /// [`MeshError`] when gmsh is missing or fails, or when elements are more distorted than `min_scaled_jacobian` allows.
+    /// [`MeshError`] when gmsh is missing or fails, or when elements are more distorted than `min_scaled_jacobian`
+    /// allows.
     pub(crate) fn in_tetrahedra(
         gear: &GearDefinition,
         python: &PythonEnvironment,
@@ -141,9 +143,9 @@ impl GearMesh {
         }
     }
 
-    /// The two triangles of the outline in front of a split brick: section nodes at the start, in the middle and at the end of its
-    /// piece of the outline, arc lengths of start and end \[m\], layer, first element of the brick. The diagonal is the one that
-    /// the elements have.
+    /// The two triangles of the outline in front of a split brick: section nodes at the start, in the middle and at the
+    /// end of its piece of the outline, arc lengths of start and end \[m\], layer, first element of the brick. The
+    /// diagonal is the one that the elements have.
     pub(crate) fn split_faces(
         &self,
         [start, middle, end]: [usize; 3],

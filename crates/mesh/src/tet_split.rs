@@ -1,9 +1,10 @@
 //! Bricks above the quads of a tooth's section, split into tetrahedra that meet those of their neighbours.
 //!
-//! A quad is cut along a diagonal, the prism above each triangle into three tetrahedra. Where the prism's sides are cut follows
-//! from an order of the section's nodes alone: from the lower node of the earlier one to the upper node of the later one
-//! (J. Dompierre et al., *How to subdivide pyramids, prisms and hexahedra into tetrahedra*, 8th Int. Meshing Roundtable 1999).
-//! So two prisms cut their common side alike, layers lie on each other, and all teeth are split in the same way.
+//! A quad is cut along a diagonal, the prism above each triangle into three tetrahedra. Where the prism's sides are cut
+//! follows from an order of the section's nodes alone: from the lower node of the earlier one to the upper node of the
+//! later one (J. Dompierre et al., *How to subdivide pyramids, prisms and hexahedra into tetrahedra*, 8th Int. Meshing
+//! Roundtable 1999). So two prisms cut their common side alike, layers lie on each other, and all teeth are split in
+//! the same way.
 
 use crate::tooth_cell::ToothCell;
 
@@ -13,8 +14,8 @@ pub const TETRAHEDRA: usize = 6;
 /// A corner of a brick: number in the quad, and below (0) or above (1).
 pub type BrickCorner = (usize, usize);
 
-/// Order of the nodes of a tooth cell by which sides are cut. Along both sides of the cell it runs inwards, so that neighbouring
-/// teeth agree, and along the ring's inner circle counter-clockwise.
+/// Order of the nodes of a tooth cell by which sides are cut. Along both sides of the cell it runs inwards, so that
+/// neighbouring teeth agree, and along the ring's inner circle counter-clockwise.
 pub fn node_order(cell: &ToothCell) -> Vec<usize> {
     let count = cell.nodes.len();
     let mut order: Vec<usize> = (0..count).map(|n| 2 * count + n).collect();
@@ -28,8 +29,8 @@ pub fn node_order(cell: &ToothCell) -> Vec<usize> {
     order
 }
 
-/// The tetrahedra of the brick above a quad, corners 0-2 counter-clockwise seen from corner 3, by the order of the quad's nodes
-/// and their places \[x, y\]; the quad is cut along its shorter diagonal.
+/// The tetrahedra of the brick above a quad, corners 0-2 counter-clockwise seen from corner 3, by the order of the
+/// quad's nodes and their places \[x, y\]; the quad is cut along its shorter diagonal.
 pub fn tetrahedra(order: [usize; 4], places: [[f64; 2]; 4]) -> [[BrickCorner; 4]; TETRAHEDRA] {
     let diagonal =
         |a: usize, b: usize| (places[a][0] - places[b][0]).hypot(places[a][1] - places[b][1]);
@@ -70,8 +71,8 @@ mod tests {
         [SQUARE[corner][0], SQUARE[corner][1], level as f64]
     }
 
-    /// Whatever the order of the nodes: six tetrahedra the right way round fill the brick, and its sides are cut from the lower
-    /// earlier to the upper later node.
+    /// Whatever the order of the nodes: six tetrahedra the right way round fill the brick, and its sides are cut from
+    /// the lower earlier to the upper later node.
     #[test]
     fn every_order_fills_the_brick() {
         let mut orders = Vec::new();

@@ -347,6 +347,11 @@ impl ToothBlocks {
         self.bottom.len() - 1
     }
 
+    /// Number of pieces of the edge that a tooth shares with the next one.
+    pub fn side_pieces(&self) -> usize {
+        self.right_side.len() - 1
+    }
+
     /// Puts the mesher's quads to the blocks, with nodes in the middle of their sides for quadratic elements.
     pub fn finish(self, mut mesh: PlaneMesh, shape: ElementShape) -> ToothCell {
         let above_cut = mesh

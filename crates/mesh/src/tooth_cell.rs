@@ -1,4 +1,5 @@
-//! One tooth with the ring below it, meshed: quads, their outline, edges and cut. Its blocks are those of `tooth_blocks.rs`.
+//! One tooth with the ring below it, meshed: quads, their outline, edges and cut. Its blocks are those of
+//! `tooth_blocks.rs`.
 
 use gearmesh_geometry::{ElementKind, GearDefinition};
 

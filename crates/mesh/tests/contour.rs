@@ -56,8 +56,8 @@ web = [{ diameter_mm = 20.0, z_mm = [-1.0, 3.0] }, { diameter_mm = 38.0, z_mm = 
     }
 }
 
-/// Cones between circles: ∫ 2πr t dr with t linear in r, and hub faces beyond those of the rim. Chords for circles lose volume
-/// with the square of the element length.
+/// Cones between circles: ∫ 2πr t dr with t linear in r, and hub faces beyond those of the rim. Chords for circles lose
+/// volume with the square of the element length.
 #[test]
 fn volume_of_a_conical_web_and_a_stepped_hub() {
     let blank = "kind = \"contour\"

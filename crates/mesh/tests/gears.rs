@@ -18,8 +18,12 @@ fn source(name: &str) -> String {
 }
 
 fn mesh(text: &str) -> (GearDefinition, GearMesh) {
+    mesh_of(text, "body_mm = 2.6\n")
+}
+
+fn mesh_of(text: &str, further: &str) -> (GearDefinition, GearMesh) {
     let coarse =
-        format!("{text}\n[mesh]\nflank_mm = 1.2\nfillet_mm = 0.5\nbody_mm = 2.6\naxial_mm = 4.0\n");
+        format!("{text}\n[mesh]\nflank_mm = 1.2\nfillet_mm = 0.5\naxial_mm = 4.0\n{further}");
     let gear = GearDefinition::from_document(&InputDocument::new("gear.toml", coarse)).unwrap();
     let mesh = GearMesh::new(&gear, &PythonEnvironment::find().unwrap()).unwrap();
     (gear, mesh)
@@ -182,4 +186,52 @@ fn slots_that_do_not_divide_the_teeth_and_drilled_holes() {
     check(&drilled, |g| {
         thin_rim_volume(g) - 19.0 * PI * 0.005f64.powi(2) * 0.005
     });
+}
+
+/// The estimate made before meshing: how far off it is. Blocks of teeth are counted, the free mesh of the body is guessed.
+#[test]
+fn the_size_of_a_mesh_is_known_before_it_is_made() {
+    let holes = "[blank.holes]\ncount = 6\npitch_circle_diameter_mm = 88.0\ndiameter_mm = 20.0\n";
+    let drilled = source("wheel_47_drilled.toml");
+    for (name, text) in [
+        ("solid", source("gear1.toml")),
+        ("thin rim", source("gear2.toml")),
+        ("slots", source("gear3.toml")),
+        ("helical", source("gearbox_67.toml")),
+        (
+            "six holes",
+            drilled.split("[mesh]").next().unwrap().to_owned(),
+        ),
+        ("quadratic", source("gear2.toml") + "#hex20"),
+    ] {
+        assert!(name != "six holes" || text.contains(&holes[..21]));
+        let element = if text.ends_with("#hex20") {
+            "element = \"hex20\"\n"
+        } else {
+            ""
+        };
+        let (gear, mesh) = mesh_of(&text, &format!("{element}body_mm = 6.0\n"));
+        let size = gearmesh_mesh::MeshSize::estimate(&gear).unwrap();
+        let off = |found: f64, true_one: usize| found / true_one as f64 - 1.0;
+        let sector: std::collections::BTreeSet<u32> = mesh
+            .body_elements(0)
+            .iter()
+            .flat_map(|&e| mesh.elements.nodes(e).to_vec())
+            .collect();
+        let all = [
+            ("nodes", off(size.nodes, mesh.nodes.len())),
+            ("elements", off(size.elements, mesh.elements.len())),
+            ("tooth", off(size.tooth_nodes, mesh.cell_nodes(0).len())),
+            (
+                "cut",
+                if gear.sectors() == 1 {
+                    0.0
+                } else {
+                    off(size.cut_nodes, mesh.cut_nodes(0).len())
+                },
+            ),
+            ("sector", off(size.sector_nodes, sector.len())),
+        ];
+        println!("{name}: {all:.3?} of {}", mesh.nodes.len());
+    }
 }

@@ -1,5 +1,5 @@
-//! Writing beside and renaming: a killed run or a full disk leaves the old file or none. Outputs are never links: what a link points to
-//! is not overwritten.
+//! Writing beside and renaming: a killed run or a full disk leaves the old file or none. Outputs are never links: what
+//! a link points to is not overwritten.
 
 use std::fs::{File, TryLockError};
 use std::io::Write;
@@ -64,11 +64,12 @@ pub(crate) fn write_atomically(
     write_atomically_from((folder_of(path), TEMPORARY_SUFFIX), path, fill)
 }
 
-/// Lets something else write a file, under a temporary name in the folder of `path` that has the same ending, and gives it its name when it
-/// is whole. The temporary file is there already, empty.
+/// Lets something else write a file, under a temporary name in the folder of `path` that has the same ending, and gives
+/// it its name when it is whole. The temporary file is there already, empty.
 ///
 /// # Errors
-/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as it was.
+/// Those of `fill`, [`FileError::NotARegularFile`], [`FileError::OutputIsALink`], [`FileError::Io`]; `path` is then as
+/// it was.
 pub fn write_by<E: From<FileError>>(
     path: &Path,
     fill: impl FnOnce(&Path) -> Result<(), E>,
@@ -80,8 +81,8 @@ pub fn write_by<E: From<FileError>>(
     })
 }
 
-/// [`write_atomically`] with the temporary file in another folder of the same file system, under a name that ends in `suffix`: one killed
-/// while writing leaves it there, until the same file is written again.
+/// [`write_atomically`] with the temporary file in another folder of the same file system, under a name that ends in
+/// `suffix`: one killed while writing leaves it there, until the same file is written again.
 ///
 /// # Errors
 /// Those of [`write_atomically`].

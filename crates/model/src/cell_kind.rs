@@ -1,7 +1,7 @@
 //! The volume elements that a mesh can have, by their nodes.
 
-/// Kind of a volume element. Node order as in VTK, except that wedges number their lower triangle counter-clockwise seen from
-/// the upper one, as Abaqus and gmsh do.
+/// Kind of a volume element. Node order as in VTK, except that wedges number their lower triangle counter-clockwise
+/// seen from the upper one, as Abaqus and gmsh do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKind {
     /// Hexahedron: 0-3 round the bottom, counter-clockwise seen from the top; 4-7 above them.

@@ -1,4 +1,5 @@
-//! A sealed file with long columns: written from a [`RowLog`] block by block, read column by column. Neither holds all of it in memory.
+//! A sealed file with long columns: written from a [`RowLog`] block by block, read column by column. Neither holds all
+//! of it in memory.
 //!
 //! Besides the columns, which are the one-dimensional datasets under `columns/`, the file is an ordinary [`DataTree`].
 
@@ -41,7 +42,8 @@ pub struct Column {
 /// process killed meanwhile leaves its half file where the log is, and nothing beside `path`.
 ///
 /// # Errors
-/// As [`DataTree::write`], and those of reading the log; [`FileError::Altered`] if its rows are not those that were appended.
+/// As [`DataTree::write`], and those of reading the log; [`FileError::Altered`] if its rows are not those that were
+/// appended.
 ///
 /// # Panics
 /// If there are not as many columns as the log has.

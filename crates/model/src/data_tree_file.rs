@@ -2,8 +2,8 @@
 //! and `data_tree_read` are the only ones that call libhdf5.
 //!
 //! Arrays are stored contiguous and uncompressed: the low bits of compliance coefficients are close to random and
-//! compress badly, reading is one copy, and an uncompressed array can never be larger than its file, so that its size is
-//! checked before memory is asked for.
+//! compress badly, reading is one copy, and an uncompressed array can never be larger than its file, so that its size
+//! is checked before memory is asked for.
 //!
 //! libhdf5's file locks are off. A named file never changes, so there is nothing to lock; and a child process that was
 //! started while a file was open would hold the lock (libhdf5 opens files without close-on-exec) and keep others out.

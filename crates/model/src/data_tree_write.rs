@@ -16,8 +16,9 @@ impl DataTree {
     /// Writes the tree as a sealed HDF5 file, atomically.
     ///
     /// # Errors
-    /// [`FileError::InvalidName`], [`FileError::NotANumber`], [`FileError::NulInText`], [`FileError::NotARegularFile`], and where the disk
-    /// or libhdf5 refuses [`FileError::Io`] or [`FileError::Hdf5`]; an older file of that name is then untouched.
+    /// [`FileError::InvalidName`], [`FileError::NotANumber`], [`FileError::NulInText`], [`FileError::NotARegularFile`],
+    /// and where the disk or libhdf5 refuses [`FileError::Io`] or [`FileError::Hdf5`]; an older file of that name is
+    /// then untouched.
     pub fn write(&self, path: &Path, format: &FileFormat) -> Result<(), FileError> {
         self.check_names(path)?;
         self.check_numbers(path)?;

@@ -1,5 +1,5 @@
-//! The groups of a reduced gear's file that the dynamics reads: rigid body, reference point, modes. All are optional; files
-//! before version 3 have none.
+//! The groups of a reduced gear's file that the dynamics reads: rigid body, reference point, modes. All are optional;
+//! files before version 3 have none.
 
 use std::path::Path;
 

@@ -9,8 +9,8 @@
 //!
 //! All files but the log are of one kind: HDF5 with named arrays that carry their unit, axis labels and description,
 //! root attributes `format`, `formatVersion`, `software`, `softwareVersion` and `date`, and a seal (size and BLAKE3
-//! digest of the bytes) in the HDF5 user block. Writing is atomic: the file appears complete under its name, or the old one
-//! stays. Reading checks the seal before libhdf5 parses a byte, so that a truncated or altered file is a typed
+//! digest of the bytes) in the HDF5 user block. Writing is atomic: the file appears complete under its name, or the old
+//! one stays. Reading checks the seal before libhdf5 parses a byte, so that a truncated or altered file is a typed
 //! [`FileError`] and never a wrong number.
 //!
 //! No other crate calls HDF5.

@@ -6,9 +6,9 @@ use thiserror::Error;
 
 use crate::cell_kind::CellKind;
 
-/// Endings of the formats of other programs in which meshes are written: those whose files such programs were seen to read
-/// (tests/python/test_exports.py). Not .med: meshio writes its elements inside out for Salome and gmsh; not .cgns, .ugrid and others that
-/// meshio itself cannot read back.
+/// Endings of the formats of other programs in which meshes are written: those whose files such programs were seen to
+/// read (tests/python/test_exports.py). Not .med: meshio writes its elements inside out for Salome and gmsh; not .cgns,
+/// .ugrid and others that meshio itself cannot read back.
 pub const EXPORT_ENDINGS: [&str; 8] = [
     ".bdf", ".inp", ".msh", ".nas", ".vtk", ".vtu", ".xdmf", ".xmf",
 ];
@@ -136,8 +136,8 @@ impl MeshData {
         })
     }
 
-    /// Removes the nodes that belong to no element, from sets and fields too, and returns how many there were. The others keep
-    /// their order.
+    /// Removes the nodes that belong to no element, from sets and fields too, and returns how many there were. The
+    /// others keep their order.
     ///
     /// # Panics
     /// If an index or the length of a field is out of range; see [`MeshData::validate`].
@@ -255,9 +255,9 @@ impl MeshData {
         Ok(())
     }
 
-    /// Checks that faces fit together and that the Jacobian of the straight element is positive at every corner: no element is
-    /// inside out, collapsed or numbered in another order. What mid-edge nodes do to it is the finite element model's to
-    /// check.
+    /// Checks that faces fit together and that the Jacobian of the straight element is positive at every corner: no
+    /// element is inside out, collapsed or numbered in another order. What mid-edge nodes do to it is the finite
+    /// element model's to check.
     ///
     /// # Errors
     /// [`MeshDataError::BadCell`], [`MeshDataError::MixedOrder`], and all of [`MeshData::validate`].

@@ -26,8 +26,8 @@ pub struct ModalBasis {
     pub flank: Vec<f64>,
     /// gᵀΦ (strain per m kg^½), `[mode][gauge]`.
     pub gauges: Vec<f64>,
-    /// ΦᵀMR (kg^½, and kg^½ m for rotations), `[mode][motion]`: x, y, z, rotations about x, y, z through the origin of the
-    /// gear's frame, on the axis at mid-face.
+    /// ΦᵀMR (kg^½, and kg^½ m for rotations), `[mode][motion]`: x, y, z, rotations about x, y, z through the origin of
+    /// the gear's frame, on the axis at mid-face.
     pub coupling: Vec<f64>,
 }
 
@@ -76,8 +76,8 @@ impl ReducedGear {
     }
 
     /// The residual flexibility C − NᵀΦ Ω⁻² ΦᵀN between two flanks (m/N), normal loads, `[load L][response L]` as
-    /// [`ReducedGear::c_hub_block`]: what the body gives way statically beyond its modes. Over all loads together it is positive
-    /// semidefinite, and each further mode lessens it.
+    /// [`ReducedGear::c_hub_block`]: what the body gives way statically beyond its modes. Over all loads together it is
+    /// positive semidefinite, and each further mode lessens it.
     ///
     /// # Errors
     /// [`ReducedGearError::NoModes`].

@@ -1,9 +1,9 @@
 //! Everything that a file claims to hold is in the file itself, and no more than its length.
 //!
-//! HDF5 can keep an array in another file (external and virtual datasets, external links) and can name one array many times
-//! (soft and hard links). The seal covers the bytes of one file only, so what lies elsewhere would be read unchecked, from any
-//! place of the machine; and many names of one array would take many times the file's length in memory. gearmesh's
-//! writer uses none of this. All of it is looked for before the first array is read.
+//! HDF5 can keep an array in another file (external and virtual datasets, external links) and can name one array many
+//! times (soft and hard links). The seal covers the bytes of one file only, so what lies elsewhere would be read
+//! unchecked, from any place of the machine; and many names of one array would take many times the file's length in
+//! memory. gearmesh's writer uses none of this. All of it is looked for before the first array is read.
 
 use std::path::Path;
 
@@ -16,9 +16,9 @@ use crate::file_error::FileError;
 /// Walks through all groups and datasets of an open file of the given length.
 ///
 /// # Errors
-/// [`FileError::StoredElsewhere`] for links and for datasets kept in other files, [`FileError::TooLarge`] if one array or
-/// all arrays together claim more bytes than the file has, [`FileError::InvalidName`] for groups nested too deeply or in a
-/// circle, [`FileError::Hdf5`].
+/// [`FileError::StoredElsewhere`] for links and for datasets kept in other files, [`FileError::TooLarge`] if one array
+/// or all arrays together claim more bytes than the file has, [`FileError::InvalidName`] for groups nested too deeply
+/// or in a circle, [`FileError::Hdf5`].
 pub(crate) fn check_own_storage(
     path: &Path,
     file: &File,

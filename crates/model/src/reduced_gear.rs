@@ -105,8 +105,8 @@ pub struct Provenance {
     pub dofs: usize,
     /// Wall-clock time of each stage in seconds, in the order they ran.
     pub stage_seconds: Vec<(String, f64)>,
-    /// What was done, as counts by name, for example `factorisations` and `right-hand sides`. Empty in files of programs
-    /// that did not count.
+    /// What was done, as counts by name, for example `factorisations` and `right-hand sides`. Empty in files of
+    /// programs that did not count.
     pub effort: Vec<(String, f64)>,
 }
 
@@ -122,8 +122,8 @@ pub struct ReductionChecks {
 }
 
 impl ReductionChecks {
-    /// Name among the further checks of the mesh's estimated relative error in the deflection of the loaded tooth without its
-    /// near field, C_g, under a load over the whole width in the middle of the flank.
+    /// Name among the further checks of the mesh's estimated relative error in the deflection of the loaded tooth
+    /// without its near field, C_g, under a load over the whole width in the middle of the flank.
     pub const LOADED_TOOTH_ERROR: &str = "mesh error of the deflection, loaded tooth";
     /// The same of other teeth, C_hub: the largest at the next two on either side and the opposite one.
     pub const OTHER_TEETH_ERROR: &str = "mesh error of the deflection, other teeth";
@@ -160,9 +160,10 @@ pub struct ReducedGear {
     pub grid: FlankGrid,
     /// Hands of flank that carry loads; the index into this list is the flank index of all arrays.
     pub flanks: Vec<Flank>,
-    /// C_hub in m/N, `[load tooth in sector z/N][load flank f][response tooth z][response flank f][load L][response L]`:
-    /// deflection along the inward normal at the response point for a unit force along the inward normal at the load
-    /// point, hub held, no crack. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
+    /// C_hub in m/N,
+    /// `[load tooth in sector z/N][load flank f][response tooth z][response flank f][load L][response L]`: deflection
+    /// along the inward normal at the response point for a unit force along the inward normal at the load point, hub
+    /// held, no crack. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
     pub c_hub: Vec<f64>,
     /// C_tooth in m/N, `[flank f][load L][response L]`: the same on the tooth-only submodel, equal for all teeth.
     pub c_tooth: Vec<f64>,

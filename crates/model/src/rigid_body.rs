@@ -14,8 +14,8 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// RᵀMR (6 × 6) over x, y, z, rotations about x, y, z of the reference point, with the static moments S = m × (centre −
-    /// reference):
+    /// RᵀMR (6 × 6) over x, y, z, rotations about x, y, z of the reference point, with the static moments S = m ×
+    /// (centre − reference):
     ///
     /// ```text
     /// [ m 1      −[S]× ]      kinetic energy ½ ṙᵀ (RᵀMR) ṙ,   ṙ = (velocity of the point, angular velocity)
@@ -62,9 +62,9 @@ impl RigidBody {
 pub struct ReferencePoint {
     /// Where it is, in the frame of the gear (m).
     pub place_m: [f64; 3],
-    /// NᵀR, `[tooth][flank][load][component][motion]`: displacement at a grid load along inward normal, profile tangential
-    /// towards the tip, axial +z, per unit motion of the reference point (m/m, and m/rad for rotations). Its transpose is
-    /// the force and moment on the point per unit load.
+    /// NᵀR, `[tooth][flank][load][component][motion]`: displacement at a grid load along inward normal, profile
+    /// tangential towards the tip, axial +z, per unit motion of the reference point (m/m, and m/rad for rotations). Its
+    /// transpose is the force and moment on the point per unit load.
     pub flank: Vec<f64>,
 }
 

@@ -1,9 +1,10 @@
 //! Rows of numbers appended to a plain file while a run goes on.
 //!
-//! 64-bit floats, little-endian, row after row, nothing else: a file that is cut in the midst of a row by a crash loses that row only,
-//! and a run that resumes cuts it to the rows that its checkpoint counts. The log has no seal of its own: its digest so far stands in the
-//! checkpoint ([`RowLog::digest`]), and rows are compared with it when a run resumes and when they become columns. HDF5 comes at the end
-//! ([`write_columns`](crate::write_columns)): libhdf5 may leave a file unreadable that it had open when the process was killed.
+//! 64-bit floats, little-endian, row after row, nothing else: a file that is cut in the midst of a row by a crash loses
+//! that row only, and a run that resumes cuts it to the rows that its checkpoint counts. The log has no seal of its
+//! own: its digest so far stands in the checkpoint ([`RowLog::digest`]), and rows are compared with it when a run
+//! resumes and when they become columns. HDF5 comes at the end ([`write_columns`](crate::write_columns)): libhdf5 may
+//! leave a file unreadable that it had open when the process was killed.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -41,8 +42,8 @@ impl RowLog {
     /// Goes on after `rows` rows, whose [`RowLog::digest`] must be `digest`; what was written later is cut off.
     ///
     /// # Errors
-    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Altered`] if they are not those
-    /// that were written, [`FileError::Io`].
+    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Altered`] if they are not
+    /// those that were written, [`FileError::Io`].
     pub fn resume(path: &Path, columns: usize, rows: u64, digest: &str) -> Result<Self, FileError> {
         let mut log = Self::open(path, columns, rows)?;
         log.hasher = log.hash_rows()?;
@@ -50,8 +51,8 @@ impl RowLog {
         Ok(log)
     }
 
-    /// Whether the file that is open still stands under its name. The process that had the log before may have removed it between
-    /// its being opened and locked here.
+    /// Whether the file that is open still stands under its name. The process that had the log before may have removed
+    /// it between its being opened and locked here.
     pub fn has_its_name(&self) -> bool {
         #[cfg(unix)]
         {

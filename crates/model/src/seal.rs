@@ -41,11 +41,12 @@ pub(crate) fn write_seal(file: &mut File, path: &Path) -> Result<(), FileError> 
         .map_err(io("write"))
 }
 
-/// Checks length and content of a file against its seal, and that libhdf5 can walk through its texts; returns the length.
+/// Checks length and content of a file against its seal, and that libhdf5 can walk through its texts; returns the
+/// length.
 ///
 /// # Errors
-/// [`FileError::Io`], [`FileError::NotReadable`], [`FileError::NotAGearmeshFile`], [`FileError::Truncated`], [`FileError::Altered`],
-/// [`FileError::BrokenTexts`].
+/// [`FileError::Io`], [`FileError::NotReadable`], [`FileError::NotAGearmeshFile`], [`FileError::Truncated`],
+/// [`FileError::Altered`], [`FileError::BrokenTexts`].
 pub(crate) fn verify_seal(path: &Path) -> Result<u64, FileError> {
     let (mut file, stored) = open_sealed(path)?;
     let io = |source| FileError::Io {
@@ -76,8 +77,8 @@ pub(crate) fn verify_seal(path: &Path) -> Result<u64, FileError> {
     Ok(stored.length)
 }
 
-/// The digest of a gearmesh file's content as its seal states it, 64 hexadecimal digits; names the model a result was made
-/// from. Does not read the content.
+/// The digest of a gearmesh file's content as its seal states it, 64 hexadecimal digits; names the model a result was
+/// made from. Does not read the content.
 ///
 /// # Errors
 /// As for reading the file, except that an altered content is not noticed.
@@ -171,7 +172,8 @@ fn parse_seal(block: &[u8]) -> Option<Seal> {
     (seal_text(length, &digest) == text).then_some(Seal { length, digest })
 }
 
-/// Whether the HDF5 superblock follows the seal and says that addresses and lengths have eight bytes, as the walk through the texts takes them.
+/// Whether the HDF5 superblock follows the seal and says that addresses and lengths have eight bytes, as the walk
+/// through the texts takes them.
 fn has_usual_sizes(file: &mut File) -> std::io::Result<bool> {
     let mut head = Vec::new();
     file.seek(SeekFrom::Start(SEAL_BYTES))?;

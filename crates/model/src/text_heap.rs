@@ -1,15 +1,16 @@
 //! The tables of texts of an HDF5 file (global heap collections), walked before libhdf5 does.
 //!
-//! Every text is an object of a collection, and libhdf5 walks through a collection by adding up the lengths that its objects state: an object that
-//! states a length of zero is an endless loop, one that states a huge length leads out of the memory. Layout ("HDF5 File Format Specification
-//! Version 3.0", III.E "Global Heap"), numbers little-endian:
+//! Every text is an object of a collection, and libhdf5 walks through a collection by adding up the lengths that its
+//! objects state: an object that states a length of zero is an endless loop, one that states a huge length leads out of
+//! the memory. Layout ("HDF5 File Format Specification Version 3.0", III.E "Global Heap"), numbers little-endian:
 //!
 //! ```text
 //! collection   "GCOL"  version 1  3 bytes 0  length of the collection with this head (8 bytes)  objects
 //! object       index (2)  references (2)  0 (4)  length (8)  content, filled up to a multiple of 8 bytes
 //! ```
 //!
-//! The object with index 0 is the free space at the end; its length counts its own head. Less than one head at the end is free, too.
+//! The object with index 0 is the free space at the end; its length counts its own head. Less than one head at the end
+//! is free, too.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};

@@ -35,7 +35,8 @@ type NaturalModes<'py> = (
 ///
 /// Both triangles are stored, by columns: scipy.sparse.csc_matrix takes the tuple as it is. Young's modulus in Pa;
 /// element is "hex8", "hex8-incompatible", "hex20", "tet10", "wedge6" or "wedge15", one that the mesh has; other
-/// elements of the mesh keep the formulation of their kind. Degree of freedom 3 n + a is the displacement of node n along axis a.
+/// elements of the mesh keep the formulation of their kind. Degree of freedom 3 n + a is the displacement of node n
+/// along axis a.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, young_pa, poisson, element = "hex8-incompatible"))]
 pub(crate) fn stiffness<'py>(
@@ -156,8 +157,9 @@ pub(crate) fn solve<'py>(
 /// Strain (m, 6) of every element from the displacement (n, 3) in metres of its nodes.
 ///
 /// The columns are xx, yy, zz, xy, yz, xz with engineering shear. natural is the point of each element in its own
-/// coordinates (hexahedra -1 to 1, tetrahedra and triangles of wedges 0 to 1); the default is each element's centre. The condensed modes of "hex8-incompatible" are part of the
-/// strain; they vanish at the centre. The other arguments are those of stiffness.
+/// coordinates (hexahedra -1 to 1, tetrahedra and triangles of wedges 0 to 1); the default is each element's centre.
+/// The condensed modes of "hex8-incompatible" are part of the strain; they vanish at the centre. The other arguments
+/// are those of stiffness.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, young_pa, poisson, element, displacement, natural = None))]
 pub(crate) fn strain<'py>(

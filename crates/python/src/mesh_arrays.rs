@@ -15,9 +15,9 @@ type FloatRows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 /// Reads a mesh file into a dict of NumPy arrays.
 ///
-/// Keys: points (n, 3) in metres, cells {kind: (m, nodes)} with the kinds hex8, hex20, tet10, wedge6, wedge15, point_sets
-/// {name: indices}, point_fields and cell_fields {name: (rows, components)}; the elements of cell_fields are those of cells,
-/// kind after kind.
+/// Keys: points (n, 3) in metres, cells {kind: (m, nodes)} with the kinds hex8, hex20, tet10, wedge6, wedge15,
+/// point_sets {name: indices}, point_fields and cell_fields {name: (rows, components)}; the elements of cell_fields are
+/// those of cells, kind after kind.
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let mesh = py
@@ -53,8 +53,8 @@ pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyD
     Ok(result)
 }
 
-/// Writes a mesh file from arrays: points (n, 3) in metres, cells {kind: (m, nodes)} as read_mesh returns them, sets and
-/// fields by name.
+/// Writes a mesh file from arrays: points (n, 3) in metres, cells {kind: (m, nodes)} as read_mesh returns them, sets
+/// and fields by name.
 ///
 /// Fields are (rows, components). Every element must have a positive Jacobian at each corner.
 #[pyfunction]
@@ -104,8 +104,8 @@ pub(crate) fn point_rows(array: &FloatRows<'_>, metres_per_unit: f64) -> PyResul
         .collect())
 }
 
-/// Node indices, element by element; the array must have as many columns as the elements have nodes and hold no negative
-/// index.
+/// Node indices, element by element; the array must have as many columns as the elements have nodes and hold no
+/// negative index.
 pub(crate) fn cell_rows(
     kind: CellKind,
     array: &PyArrayLike2<'_, i64, AllowTypeChange>,

@@ -19,11 +19,12 @@ use crate::solver_decks::{DeckOptions, write_abaqus, write_nastran};
 /// A node set becomes a field of this name and the set's.
 const SET_PREFIX: &str = "set:";
 
-/// Writes a mesh file in a format of other programs, chosen by the extension of out_path: .bdf .nas (Nastran), .inp (Abaqus, CalculiX), .msh
-/// (gmsh), .vtk .vtu .xdmf .xmf (ParaView).
+/// Writes a mesh file in a format of other programs, chosen by the extension of out_path: .bdf .nas (Nastran), .inp
+/// (Abaqus, CalculiX), .msh (gmsh), .vtk .vtu .xdmf .xmf (ParaView).
 ///
-/// length_unit is the unit of the coordinates in the written file, "m" or "mm"; incompatible_modes makes hexahedra of an .inp file C3D8I in
-/// place of C3D8. The file is read back before it gets its name; returned are the names of sets and fields that the format does not hold.
+/// length_unit is the unit of the coordinates in the written file, "m" or "mm"; incompatible_modes makes hexahedra of
+/// an .inp file C3D8I in place of C3D8. The file is read back before it gets its name; returned are the names of sets
+/// and fields that the format does not hold.
 #[pyfunction]
 #[pyo3(signature = (mesh_h5, out_path, length_unit = "m", incompatible_modes = false))]
 pub(crate) fn export_mesh(
@@ -121,10 +122,10 @@ fn write_deck(
 
 /// Reads any format that meshio reads into a mesh file: volume elements, node sets and fields.
 ///
-/// Volume elements are hexahedra of 8 or 20 nodes, tetrahedra of 10, wedges of 6 or 15; others raise ValueError. length_unit is
-/// the unit of the coordinates in the file that is read, "m" or "mm". Node sets are those of the file, fields named
-/// "set:...", and the nodes of its sets of elements (Abaqus *ELSET, gmsh physical groups), also of surface elements. These,
-/// line and point elements and nodes of no volume element are left out; returned is what was.
+/// Volume elements are hexahedra of 8 or 20 nodes, tetrahedra of 10, wedges of 6 or 15; others raise ValueError.
+/// length_unit is the unit of the coordinates in the file that is read, "m" or "mm". Node sets are those of the file,
+/// fields named "set:...", and the nodes of its sets of elements (Abaqus *ELSET, gmsh physical groups), also of surface
+/// elements. These, line and point elements and nodes of no volume element are left out; returned is what was.
 #[pyfunction]
 #[pyo3(signature = (in_path, out_h5, length_unit = "m"))]
 pub(crate) fn import_mesh(
@@ -337,8 +338,8 @@ fn from_meshio(
     Ok((mesh, left_out))
 }
 
-/// VTK's own program numbers the lower triangle of a wedge the other way round than Abaqus and gmsh; files of both kinds go by the
-/// same name. Where all wedges of a mesh are inside out, upper and lower triangle are exchanged.
+/// VTK's own program numbers the lower triangle of a wedge the other way round than Abaqus and gmsh; files of both
+/// kinds go by the same name. Where all wedges of a mesh are inside out, upper and lower triangle are exchanged.
 fn turn_wedges(mesh: &mut MeshData) {
     for (kind, halves) in [
         (CellKind::Wedge6, &[(0, 3)][..]),
@@ -365,8 +366,8 @@ fn turn_wedges(mesh: &mut MeshData) {
     }
 }
 
-/// The nodes of each named set of elements: meshio's `cell_sets`, and in gmsh's older format the physical groups, numbers of the
-/// elements whose names stand in `field_data`.
+/// The nodes of each named set of elements: meshio's `cell_sets`, and in gmsh's older format the physical groups,
+/// numbers of the elements whose names stand in `field_data`.
 fn element_sets(incoming: &Bound<'_, PyAny>) -> PyResult<BTreeMap<String, Vec<u32>>> {
     let py = incoming.py();
     let mut sets: BTreeMap<String, Vec<u32>> = BTreeMap::new();

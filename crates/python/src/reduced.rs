@@ -13,9 +13,10 @@ use crate::errors::file_error;
 ///
 /// c_hub has the axes load tooth in sector, load flank, response tooth, response flank, load, response (m/N); c_tooth
 /// flank, load, response. A load is roll station * len(z_m) + axial station. gauges is a list of dicts with adjoint
-/// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N. near_field, the calibration of the local term, is
-/// a dict with contact_m2_per_n (place) and mesh_m2_per_n (flank, load station, response station), or None in old files. crack, which is not
-/// in c_hub, is a dict with rows (row, tooth, load) whose products over the row are what it adds for loads on its side, or None.
+/// (tooth, flank, load, component) and own_tooth (flank, load) in 1/N. near_field, the calibration of the local term,
+/// is a dict with contact_m2_per_n (place) and mesh_m2_per_n (flank, load station, response station), or None in old
+/// files. crack, which is not in c_hub, is a dict with rows (row, tooth, load) whose products over the row are what it
+/// adds for loads on its side, or None.
 #[pyfunction]
 pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let gear = py

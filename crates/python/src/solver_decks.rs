@@ -1,7 +1,8 @@
 //! Meshes as input of finite element programs: Abaqus and CalculiX (.inp), Nastran (.bdf).
 //!
-//! Written here and not by meshio, whose files fail: CalculiX reads 20 columns of a number and meshio writes 23; a Nastran field has
-//! 16 columns and a negative coordinate of meshio's takes 17; hexahedra become C3D8RH, a hybrid element with one point of integration.
+//! Written here and not by meshio, whose files fail: CalculiX reads 20 columns of a number and meshio writes 23; a
+//! Nastran field has 16 columns and a negative coordinate of meshio's takes 17; hexahedra become C3D8RH, a hybrid
+//! element with one point of integration.
 
 use std::io::{self, Write};
 
@@ -80,7 +81,8 @@ const fn abaqus_name(kind: CellKind, incompatible_modes: bool) -> &'static str {
     }
 }
 
-/// Writes nodes, elements (property 1 with material 1, which the user states) and node sets (`SET1`) as Nastran bulk data.
+/// Writes nodes, elements (property 1 with material 1, which the user states) and node sets (`SET1`) as Nastran bulk
+/// data.
 pub(crate) fn write_nastran(
     out: &mut impl Write,
     mesh: &MeshData,

@@ -42,8 +42,8 @@ pub struct FlankPressure {
     pub peak_pressure_pa: f64,
 }
 
-/// Half width and peak pressure under the line load `line_load_n_per_m` (normal force over the length of the contact line) at the roll
-/// angle ξ₁ of gear 1.
+/// Half width and peak pressure under the line load `line_load_n_per_m` (normal force over the length of the contact
+/// line) at the roll angle ξ₁ of gear 1.
 ///
 /// # Errors
 /// [`FlankPressureError`], see its variants.

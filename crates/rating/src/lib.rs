@@ -12,8 +12,8 @@
 //! | a table or slopes | cycles to failure of an amplitude | [`SnCurve`] |
 //! | cycles and an S-N curve | damage, life | [`miner_damage`], [`history_damage`] |
 //!
-//! The root section's stress is nominal: no notch factor. Recovered root strain holds the notch already; its S-N table must be one
-//! of local stress. SI units; megapascals exist in S-N tables only. Equations: docs/theory/rating.md.
+//! The root section's stress is nominal: no notch factor. Recovered root strain holds the notch already; its S-N table
+//! must be one of local stress. SI units; megapascals exist in S-N tables only. Equations: docs/theory/rating.md.
 
 mod contact_length;
 mod damage;

@@ -19,7 +19,8 @@ impl MeanStress {
     /// The equivalent amplitude σ_ar \[Pa\] of a stress cycle.
     ///
     /// # Errors
-    /// [`DamageError::TensileStrength`] for a strength that is not positive, [`DamageError::MeanAboveStrength`] for a mean that reaches it.
+    /// [`DamageError::TensileStrength`] for a strength that is not positive, [`DamageError::MeanAboveStrength`] for a
+    /// mean that reaches it.
     pub fn equivalent_amplitude_pa(&self, cycle: &Cycle) -> Result<f64, DamageError> {
         let Self::Goodman {
             tensile_strength_pa: strength,

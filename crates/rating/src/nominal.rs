@@ -1,10 +1,13 @@
-//! Nominal stresses of a pair, spur or helical, under its normal force: Lewis's root stress of both gears and Hertz's flank pressure.
+//! Nominal stresses of a pair, spur or helical, under its normal force: Lewis's root stress of both gears and Hertz's
+//! flank pressure.
 //!
-//! Root: one tooth bears all, σ = F_t/(b m_n Y) with F_t = F cos β_b r_b/r at the reference circle and Y of the [`VirtualGear`]. Force and
-//! length of the tooth both grow by 1/cos β in the normal section, so that the transverse force and the face width stand for them.
+//! Root: one tooth bears all, σ = F_t/(b m_n Y) with F_t = F cos β_b r_b/r at the reference circle and Y of the
+//! [`VirtualGear`]. Force and length of the tooth both grow by 1/cos β in the normal section, so that the transverse
+//! force and the face width stand for them.
 //!
-//! Flank: the line load is F over the [`shortest_contact_length_m`]. From an overlap ratio of 1 on the pressure is that of the pitch
-//! point; that of spur teeth is the largest in single contact; between them it is linear in ε_β, as in ISO 6336-2:2006, 6.2 (Z_B, Z_D).
+//! Flank: the line load is F over the [`shortest_contact_length_m`]. From an overlap ratio of 1 on the pressure is that
+//! of the pitch point; that of spur teeth is the largest in single contact; between them it is linear in ε_β, as in ISO
+//! 6336-2:2006, 6.2 (Z_B, Z_D).
 
 use crate::contact_length::shortest_contact_length_m;
 use crate::flank_pressure::{FlankPressureError, flank_pressure};
@@ -54,8 +57,8 @@ pub struct NominalStresses {
 }
 
 impl NominalRating {
-    /// The rating of a pair that was made of two gears with these teeth; its force acts at `load` for Lewis's stress, over the width of the
-    /// narrower gear.
+    /// The rating of a pair that was made of two gears with these teeth; its force acts at `load` for Lewis's stress,
+    /// over the width of the narrower gear.
     ///
     /// # Errors
     /// [`NominalError`].
@@ -118,8 +121,9 @@ impl NominalRating {
     }
 }
 
-/// Roll angles of gear 1 between which one pair of teeth bears all, in the transverse section. ρ₁ρ₂/(ρ₁ + ρ₂) has its maximum between the
-/// ends of a stretch of the path, so its minimum is at one of them. With two pairs everywhere it is the pitch point.
+/// Roll angles of gear 1 between which one pair of teeth bears all, in the transverse section. ρ₁ρ₂/(ρ₁ + ρ₂) has its
+/// maximum between the ends of a stretch of the path, so its minimum is at one of them. With two pairs everywhere it is
+/// the pitch point.
 fn single_contact_ends_rad(pair: &GearPair) -> Vec<f64> {
     let [start, end] = [pair.roll_start_1_rad, pair.roll_end_1_rad];
     let pitch = pair.pitch_1_rad();

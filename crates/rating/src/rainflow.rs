@@ -1,9 +1,9 @@
 //! Rainflow counting of a load history by the three-point rule of ASTM E1049-85.
 //!
-//! Ranges between turning points are read in order. When the newest range X is at least its predecessor Y, Y is counted and its two
-//! points are taken out: as one cycle (section 5.4.4), or, if Y holds the start of the history, as half a cycle, with the start
-//! alone taken out. What is left at the end counts as half cycles. A history that repeats is begun at its maximum, and every count is
-//! then a whole cycle (section 5.4.5).
+//! Ranges between turning points are read in order. When the newest range X is at least its predecessor Y, Y is counted
+//! and its two points are taken out: as one cycle (section 5.4.4), or, if Y holds the start of the history, as half a
+//! cycle, with the start alone taken out. What is left at the end counts as half cycles. A history that repeats is
+//! begun at its maximum, and every count is then a whole cycle (section 5.4.5).
 
 /// Why a history cannot be counted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -66,7 +66,8 @@ impl Cycle {
     }
 }
 
-/// The history's first and last values and the peaks and valleys between; a plateau is one point, a constant history one point in all.
+/// The history's first and last values and the peaks and valleys between; a plateau is one point, a constant history
+/// one point in all.
 ///
 /// # Errors
 /// [`RainflowError`].
@@ -76,8 +77,8 @@ pub fn turning_points(history: &[f64]) -> Result<Vec<f64>, RainflowError> {
     points.finish()
 }
 
-/// [`turning_points`] of a history that comes value by value: what lies between two turns is not kept. Their [`rainflow()`] is that of the
-/// history.
+/// [`turning_points`] of a history that comes value by value: what lies between two turns is not kept. Their
+/// [`rainflow()`] is that of the history.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TurningPoints {
     points: Vec<f64>,

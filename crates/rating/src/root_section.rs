@@ -1,15 +1,18 @@
 //! The critical section of a spur tooth's root under a load at one point of the flank, and Lewis's form factor.
 //!
-//! The load F acts along the flank's normal at the roll angle ξ. It makes the angle φ = ξ − ψ_b with the normal of the tooth's
-//! centre line and meets that line at the radius r_v = r_b/cos φ. A section at the distance x from the gear's axis, s = 2|y| thick, bears
+//! The load F acts along the flank's normal at the roll angle ξ. It makes the angle φ = ξ − ψ_b with the normal of the
+//! tooth's centre line and meets that line at the radius r_v = r_b/cos φ. A section at the distance x from the gear's
+//! axis, s = 2|y| thick, bears
 //!
 //! ```text
 //! σ_b = 6 F cos φ h/(b s²),     h = r_v − x          and the compression  F sin φ/(b s)
 //! ```
 //!
-//! - [`RootConstruction::Parabola`] (W. Lewis 1892): the section where σ_b is largest. There a parabola with its vertex at r_v, a beam of
-//!   equal strength, touches the profile: tan τ = |y|/(2h), with the profile's angle τ against the centre line.
-//! - [`RootConstruction::Tangent30`] (ISO 6336-3, H. Hofer 1947): the section where the fillet's tangent makes 30° with the centre line.
+//! - [`RootConstruction::Parabola`] (W. Lewis 1892): the section where σ_b is largest. There a parabola with its vertex
+//!   at r_v, a beam of equal strength, touches the profile: tan τ = |y|/(2h), with the profile's angle τ against the
+//!   centre line.
+//! - [`RootConstruction::Tangent30`] (ISO 6336-3, H. Hofer 1947): the section where the fillet's tangent makes 30° with
+//!   the centre line.
 //!
 //! Lewis's factor is Y = s²/(6 h m), so that σ = F_t/(b m Y) for a tangential force F_t across the tooth.
 
@@ -145,14 +148,15 @@ impl RootSection {
         self.thickness_m * self.thickness_m / (6.0 * self.lever_m * module_m)
     }
 
-    /// Form factor of ISO 6336-3, Y_F = 6 (h/m) cos φ/((s/m)² cos α): σ_F0 = F_t Y_F/(b m) without its notch factor Y_S.
+    /// Form factor of ISO 6336-3, Y_F = 6 (h/m) cos φ/((s/m)² cos α): σ_F0 = F_t Y_F/(b m) without its notch factor
+    /// Y_S.
     pub fn iso_form_factor(&self, module_m: f64, pressure_angle_rad: f64) -> f64 {
         self.load_angle_rad.cos() / (self.lewis_factor(module_m) * pressure_angle_rad.cos())
     }
 
-    /// Nominal bending stress 6 F cos φ h/(b s²) \[Pa\] under the normal force F \[N\] over the face width b \[m\]: tension on the loaded
-    /// side, positive. Only the part of F across the tooth bends it; Lewis's own formula takes the tangential force at the pitch circle for
-    /// it ([`lewis_stress_pa`]).
+    /// Nominal bending stress 6 F cos φ h/(b s²) \[Pa\] under the normal force F \[N\] over the face width b \[m\]:
+    /// tension on the loaded side, positive. Only the part of F across the tooth bends it; Lewis's own formula takes
+    /// the tangential force at the pitch circle for it ([`lewis_stress_pa`]).
     pub fn bending_stress_pa(&self, normal_force_n: f64, face_width_m: f64) -> f64 {
         6.0 * normal_force_n * self.load_angle_rad.cos() * self.lever_m
             / (face_width_m * self.thickness_m * self.thickness_m)
@@ -164,8 +168,9 @@ impl RootSection {
     }
 }
 
-/// Lewis's bending stress σ = F_t/(b m Y) \[Pa\]: tangential force F_t \[N\] at the pitch circle, face width b and module m \[m\]. Against
-/// [`RootSection::bending_stress_pa`] it is higher by cos α/cos φ, some per cent for a load at the tip.
+/// Lewis's bending stress σ = F_t/(b m Y) \[Pa\]: tangential force F_t \[N\] at the pitch circle, face width b and
+/// module m \[m\]. Against [`RootSection::bending_stress_pa`] it is higher by cos α/cos φ, some per cent for a load at
+/// the tip.
 pub fn lewis_stress_pa(
     tangential_force_n: f64,
     face_width_m: f64,
@@ -184,8 +189,8 @@ pub enum LoadPoint {
     Tip,
 }
 
-/// Roll angle \[rad\] of the highest point of single contact of a spur tooth: ε_α − 1 base pitches below the end of its flank, that is one
-/// base pitch from the other end of the path.
+/// Roll angle \[rad\] of the highest point of single contact of a spur tooth: ε_α − 1 base pitches below the end of its
+/// flank, that is one base pitch from the other end of the path.
 ///
 /// # Errors
 /// [`RootSectionError::NoSingleContact`] from a contact ratio of 2 on, [`RootSectionError::Helical`].

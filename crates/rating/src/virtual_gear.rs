@@ -1,9 +1,9 @@
 //! The spur gear that a helical tooth resembles in its normal section: its root is rated in place of the helical one's.
 //!
-//! ISO 6336-3:2006, 6.2.3: z_n = z/(cos²β_b cos β) teeth (z/cos³β in textbooks, 1.5 % more at β = 20°), the normal module and rack,
-//! d_n = m_n z_n, d_an = d_n + d_a − d, ε_αn = ε_α/cos²β_b. z_n is no whole number. What is asked of the gear is taken from the
-//! spur gears of the whole numbers on both sides of it, in proportion, as from a table: a form factor is off by ≈ 0.7/z³ that way,
-//! 1e-4 at 18 teeth. A spur tooth is its own.
+//! ISO 6336-3:2006, 6.2.3: z_n = z/(cos²β_b cos β) teeth (z/cos³β in textbooks, 1.5 % more at β = 20°), the normal
+//! module and rack, d_n = m_n z_n, d_an = d_n + d_a − d, ε_αn = ε_α/cos²β_b. z_n is no whole number. What is asked of
+//! the gear is taken from the spur gears of the whole numbers on both sides of it, in proportion, as from a table: a
+//! form factor is off by ≈ 0.7/z³ that way, 1e-4 at 18 teeth. A spur tooth is its own.
 
 use crate::root_section::{
     LoadPoint, RootConstruction, RootSection, RootSectionError, highest_single_contact_roll_rad,
@@ -79,7 +79,8 @@ impl VirtualGear {
         transverse_contact_ratio / self.base_cos_squared
     }
 
-    /// Lewis's factor Y (in normal modules) by the parabola, for a load at the given point in a pair with the transverse contact ratio ε_α.
+    /// Lewis's factor Y (in normal modules) by the parabola, for a load at the given point in a pair with the
+    /// transverse contact ratio ε_α.
     ///
     /// # Errors
     /// [`RootSectionError`], see its variants.

@@ -1,6 +1,6 @@
 //! Gauges of one gear, ready to be read for any forces on contact lines.
 
-use gearmesh_contact::{AxialSpread, RollHats, RollPlace};
+use gearmesh_contact::{AxialSpread, ProfileHats, ProfilePlace};
 use gearmesh_model::{Flank, GaugeRows, ReducedGear, ReducedGearError};
 
 /// Force on one slice of this gear.
@@ -13,7 +13,7 @@ pub struct LoadedSlice {
     /// Roll angle on this gear \[rad\].
     pub roll_rad: f64,
     /// Components along this flank's inward normal and towards the tip, over the force: (1, 0) on a flank without
-    /// friction, see [`gearmesh_contact::ContactLine::force_components`].
+    /// friction, see [`gearmesh_contact::ContactPatch::force_components`].
     pub components: [f64; 2],
     /// Normal force of the contact \[N\].
     pub force_n: f64,
@@ -28,13 +28,14 @@ pub struct Strain {
     pub method_2: f64,
 }
 
-/// Several gauges of one gear for loads on one hand of flank, read together: strain per newton on a slice at a roll station.
+/// Several gauges of one gear for loads on one hand of flank, read together: strain per newton on a slice at a roll
+/// station.
 #[derive(Debug, Clone)]
 pub struct GaugeArray {
     count: usize,
     slices: usize,
     stations: usize,
-    hats: RollHats,
+    hats: ProfileHats,
     /// `[tooth][station][slice][gauge]` of (method 1 normal, method 2 normal, method 2 tangential).
     rows: Vec<[f64; 3]>,
 }
@@ -85,7 +86,7 @@ impl GaugeArray {
             count: gauges.len(),
             slices,
             stations,
-            hats: RollHats::new(&grid.roll_angles_rad),
+            hats: ProfileHats::of_involute(&grid.roll_angles_rad),
             rows,
         })
     }
@@ -98,12 +99,12 @@ impl GaugeArray {
 
     /// Where a roll angle lies between the stations; slices of one contact line share it.
     #[must_use]
-    pub fn place(&self, roll_rad: f64) -> RollPlace {
+    pub fn place(&self, roll_rad: f64) -> ProfilePlace {
         self.hats.place(roll_rad)
     }
 
     /// Adds the strain under the force on one slice at a place; one entry a gauge. No allocation.
-    pub fn add(&self, loaded: &LoadedSlice, place: &RollPlace, strain: &mut [Strain]) {
+    pub fn add(&self, loaded: &LoadedSlice, place: &ProfilePlace, strain: &mut [Strain]) {
         let [normal, tangential] = loaded.components;
         for (station, weight) in place.shares() {
             let first = (loaded.tooth * self.stations + station) * self.slices + loaded.slice;
@@ -170,7 +171,7 @@ mod tests {
             .map(|k| 100.0 + 30.0 * k as f64)
             .collect();
         let roll_rad = 0.37;
-        let place = RollHats::new(&model.grid.roll_angles_rad).place(roll_rad);
+        let place = ProfileHats::of_involute(&model.grid.roll_angles_rad).place(roll_rad);
         let loaded = |tooth: usize, components: [f64; 2]| {
             forces
                 .iter()

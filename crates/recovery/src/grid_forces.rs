@@ -1,7 +1,7 @@
 //! Slice forces as forces on the unit loads of the flank grid: what the whole finite element model is loaded with.
 
 use crate::gauge_reader::LoadedSlice;
-use gearmesh_contact::{AxialSpread, RollHats};
+use gearmesh_contact::{AxialSpread, ProfileHats};
 use gearmesh_model::FlankGrid;
 
 /// Force on one unit load of one tooth.
@@ -23,7 +23,7 @@ pub fn grid_forces(
     spread: &AxialSpread,
     slices: impl IntoIterator<Item = LoadedSlice>,
 ) -> Vec<GridLoadForce> {
-    let hats = RollHats::new(&grid.roll_angles_rad);
+    let hats = ProfileHats::of_involute(&grid.roll_angles_rad);
     let mut forces = Vec::new();
     for loaded in slices {
         for (station, weight) in hats.place(loaded.roll_rad).shares() {

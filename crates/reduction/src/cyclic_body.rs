@@ -61,11 +61,17 @@ impl CyclicBody {
         progress.stage("condensing a tooth");
         let tooth = ToothSubstructure::new(mesh, model)?;
         lap("tooth factor");
-        progress.stage("condensing a sector");
+        progress.stage(match mesh.sectors() {
+            1 => "condensing the body, which does not repeat",
+            _ => "condensing a sector",
+        });
         let sector = SectorSubstructure::new(mesh, model, fixed, &tooth, progress)?;
         lap("sector factor");
         progress.stage("factoring harmonics");
-        let interface = CyclicInterface::new(sector.condensation().stiffness(), sector.sectors)?;
+        let at_cuts = sector.condensation().stiffness();
+        let interface = CyclicInterface::counted(at_cuts, sector.sectors, |done, all| {
+            progress.advance(done, all);
+        })?;
         lap("harmonics");
         let mut places = vec![Place::Fixed; mesh.nodes.len()];
         for s in 0..sector.sectors {

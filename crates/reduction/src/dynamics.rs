@@ -28,7 +28,8 @@ pub struct Dynamics {
     pub solves: Option<usize>,
 }
 
-/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all gauges.
+/// Computes what the definition asks for. `loads` are those of tooth 0, flank by flank; `gauges` the rows of all
+/// gauges.
 ///
 /// # Errors
 /// [`ReductionError`] when there are no modes in the range or the search does not converge.
@@ -49,6 +50,7 @@ pub fn dynamics(
     let Some(density) = gear.material.density_kg_per_m3 else {
         return Ok(result);
     };
+    progress.stage("mass");
     if gear.hub == HubSupport::Fixed && gear.modes.is_none() {
         result.rigid_body = Some(body.rigid_body(density)?);
         return Ok(result);

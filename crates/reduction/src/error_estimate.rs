@@ -1,28 +1,32 @@
-//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from coarser meshes.
+//! Discretisation error of the reduced compliance, on the loaded tooth and on others, and of the gauges, from coarser
+//! meshes.
 //!
-//! Coarser sections and coarser layers may change a figure in opposite senses: incompatible modes make coarse sections too soft, thick layers
-//! are too stiff. A mesh that is coarser in both would show their difference only. So a first mesh has longer elements in the section (by s = 1.5), a
-//! second one in the section and along the axis, and the sizes of both changes are added:
+//! Coarser sections and coarser layers may change a figure in opposite senses: incompatible modes make coarse sections
+//! too soft, thick layers are too stiff. A mesh that is coarser in both would show their difference only. So a first
+//! mesh has longer elements in the section (by s = 1.5), a second one in the section and along the axis, and the sizes
+//! of both changes are added:
 //!
 //! ```text
 //! error = S (|fine − sections| + |sections − both|)/(s^p − 1)
 //! ```
 //!
-//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain), S = 2. Deflections: smooth bodies converge with
-//! p = 2, at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see `gearmesh_mesh::layers`); p = 1 is taken, S = 3. S is the
-//! factor of safety of Roache's grid convergence index: 3 where two meshes tell nothing of the order, 1.25 where three have confirmed
-//! it. What is found against converged quadratic elements is up to 1.5 times the bare estimate of a gauge, 2.7 times that of a deflection:
-//! graded meshes are not similar to the last element. In plane strain, and of tetrahedra, which have no layers along the axis, one coarser
-//! mesh tells all.
+//! Gauges: p = 2, as strain at element centres has it and is found (1.8 to 2.5 in plane strain), S = 2. Deflections:
+//! smooth bodies converge with p = 2, at the sharp inner edges between web, rim and hub p falls to 2λ = 1.09 (see
+//! `gearmesh_mesh::layers`); p = 1 is taken, S = 3. S is the factor of safety of Roache's grid convergence index: 3
+//! where two meshes tell nothing of the order, 1.25 where three have confirmed it. What is found against converged
+//! quadratic elements is up to 1.5 times the bare estimate of a gauge, 2.7 times that of a deflection: graded meshes
+//! are not similar to the last element. In plane strain, and of tetrahedra, which have no layers along the axis, one
+//! coarser mesh tells all.
 //!
-//! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994) 405-413.
+//! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
+//! 405-413.
 
 use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
-use crate::{ReductionError, Silent};
+use crate::{Progress, ReductionError, Within};
 use gearmesh_geometry::{ElementKind, GearDefinition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows};
@@ -114,13 +118,23 @@ pub fn estimate(
     c_hub: &[f64],
     c_tooth: &[f64],
     grid: &FlankGrid,
+    progress: &dyn Progress,
 ) -> Result<ErrorEstimate, ReductionError> {
     let fine = reduced_figures(gear, gauges, c_hub, c_tooth, grid);
     let one_step = gear.mesh.plane_strain || gear.mesh.element == ElementKind::Tet10;
     let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
     let mut meshes = vec![fine];
-    for &axial in steps {
-        meshes.push(mesh_figures(&coarsened(gear, axial), python, grid)?);
+    for (k, &axial) in steps.iter().enumerate() {
+        let progress = Within {
+            all: progress,
+            part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
+        };
+        meshes.push(mesh_figures(
+            &coarsened(gear, axial),
+            python,
+            grid,
+            &progress,
+        )?);
     }
     let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
         let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
@@ -176,8 +190,10 @@ fn mesh_figures(
     gear: &GearDefinition,
     python: &PythonEnvironment,
     grid: &FlankGrid,
+    progress: &dyn Progress,
 ) -> Result<Figures, ReductionError> {
-    let body = GearBody::new(gear, python, &Silent)?;
+    let body = GearBody::new(gear, python, progress)?;
+    progress.stage("solving");
     let count = grid.len();
     let side = gear.reduction.flanks[0];
     let loads = flank_loads(gear, &body.mesh, grid, 0, side);
@@ -197,7 +213,7 @@ fn mesh_figures(
         rows.push(row);
     }
     let rows: Vec<&SparseVector> = rows.iter().collect();
-    let all = body.readings(&rows, &normals, &Silent);
+    let all = body.readings(&rows, &normals, progress);
     // Normal loads of a row's own tooth; the line load stands on tooth 0.
     let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
     let deflection = |tooth: usize| {

@@ -1,7 +1,8 @@
 //! Integration points on the part of a face that lies in a rectangle of the unrolled tooth outline.
 //!
 //! Faces stand there as polygons between their corners, cut at the rectangle's edges. Neighbouring polygons share their
-//! edges, so that nothing is left out or counted twice. A polygon of four corners is the bilinear image of the unit square,
+//! edges, so that nothing is left out or counted twice. A polygon of four corners is the bilinear image of the unit
+//! square,
 //!
 //! ```text
 //! x(u, v) = (1−u)(1−v) p₀ + u (1−v) p₁ + u v p₂ + (1−u) v p₃
@@ -123,8 +124,8 @@ mod tests {
         }
     }
 
-    /// A rectangle in pieces of every shape: polynomials of degree six are integrated exactly over a window in it, and the
-    /// shape functions of all pieces reproduce the place.
+    /// A rectangle in pieces of every shape: polynomials of degree six are integrated exactly over a window in it, and
+    /// the shape functions of all pieces reproduce the place.
     #[test]
     fn all_shapes_integrate_over_a_window() {
         let (a, b, c, d, m) = ([0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0], [1.2, 0.7]);

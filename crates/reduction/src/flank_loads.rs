@@ -2,12 +2,12 @@
 //!
 //! Load (i, j) is the traction h_i(ξ) h_j(z) d(ξ), scaled to a total of one newton, on the flank surface; d is the
 //! inward normal, the profile tangent towards the tip, or +z. Consistent nodal loads: ∫ N_a h_i h_j d dA with the shape
-//! functions of the element faces. The integral is split at the stations, so that in each piece Gauss's rule is exact up to
-//! the curvature of the involute.
+//! functions of the element faces. The integral is split at the stations, so that in each piece Gauss's rule is exact
+//! up to the curvature of the involute.
 //!
 //! Helical teeth: the section at z is turned by the mesh's twist, and the inward normal has an axial component,
-//! n = cos β_b n_t ∓ sin β_b e_z (− on right flanks of a right-hand gear). The profile tangent stays in the section. The
-//! flank's area grows by the same factor 1/cos β_b everywhere and drops out of the unit loads.
+//! n = cos β_b n_t ∓ sin β_b e_z (− on right flanks of a right-hand gear). The profile tangent stays in the section.
+//! The flank's area grows by the same factor 1/cos β_b everywhere and drops out of the unit loads.
 
 use crate::face_overlap::overlap_points;
 use crate::toothed_mesh::ToothedMesh;

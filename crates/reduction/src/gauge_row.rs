@@ -1,12 +1,14 @@
 //! A strain gauge as one row of nodal weights: ε = gᵀd.
 //!
-//! The strain of a surface point is that of the element behind it, rotated to the direction of the profile (seed 004, 4.4).
+//! The strain of a surface point is that of the element behind it, rotated to the direction of the profile (seed 004,
+//! 4.4).
 //!
 //! *Quadratic elements*: its mean over what the faces have in common with the gauge.
 //!
-//! *Linear elements*: their strain is accurate at the centres of the faces only. In each layer of elements it is taken there
-//! and as linear between the centres; the mean over the gauge's length is that of this broken line, since a gauge that
-//! covers a part of a face should not read its centre. Layers are averaged with the width that gauge and layer have in common.
+//! *Linear elements*: their strain is accurate at the centres of the faces only. In each layer of elements it is taken
+//! there and as linear between the centres; the mean over the gauge's length is that of this broken line, since a gauge
+//! that covers a part of a face should not read its centre. Layers are averaged with the width that gauge and layer
+//! have in common.
 
 use crate::ReductionError;
 use crate::face_overlap::overlap_points;

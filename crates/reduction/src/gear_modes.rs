@@ -1,8 +1,8 @@
 //! Natural modes of a gear held at its bore: the search by harmonics or in the whole gear, and what each mode is like.
 //!
-//! A gear that repeats is searched harmonic by harmonic, on the nodes of one sector (`harmonic_problem.rs`). Wanted by number, it
-//! takes two passes: the lowest of each harmonic give a frequency below which as many modes lie, and then each harmonic
-//! that might have more below it is searched up to it.
+//! A gear that repeats is searched harmonic by harmonic, on the nodes of one sector (`harmonic_problem.rs`). Wanted by
+//! number, it takes two passes: the lowest of each harmonic give a frequency below which as many modes lie, and then
+//! each harmonic that might have more below it is searched up to it.
 
 use crate::cyclic_body::CyclicBody;
 use crate::gear_body::{GearBody, Solver};
@@ -78,8 +78,8 @@ impl GearBody {
     /// Finds the natural modes in a range and hands each with its full field (Cartesian
     /// displacements of all nodes, modal mass 1) to `each`.
     ///
-    /// Where the gear repeats, a pair of equal frequencies is two shapes turned against each other by a quarter period; how
-    /// they lie against the teeth is arbitrary.
+    /// Where the gear repeats, a pair of equal frequencies is two shapes turned against each other by a quarter period;
+    /// how they lie against the teeth is arbitrary.
     ///
     /// # Errors
     /// [`ReductionError::ModesInPlaneStrain`]; [`ReductionError::NoModes`] where there are none in the range;

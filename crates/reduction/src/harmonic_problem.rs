@@ -7,11 +7,12 @@
 //! ```
 //!
 //! The unknowns z are those of sector 0 without its cut L, which is e^{ikα} times its cut R. Written as real numbers
-//! (Re z, Im z) the problem is a real symmetric one of twice the size, each frequency of which occurs twice: z and i z are
-//! the two members of the pair (the same shape, turned by a quarter of its period). For k = 0 and k = N/2 the factor e^{ikα} is
-//! real; z then is real too, and the frequencies are single.
+//! (Re z, Im z) the problem is a real symmetric one of twice the size, each frequency of which occurs twice: z and i z
+//! are the two members of the pair (the same shape, turned by a quarter of its period). For k = 0 and k = N/2 the
+//! factor e^{ikα} is real; z then is real too, and the frequencies are single.
 //!
-//! With z of modal mass 1 in the sector, Σ_s |u(s)|²_M = N/2 for complex and N for real harmonics: [`HarmonicProblem::scale`].
+//! With z of modal mass 1 in the sector, Σ_s |u(s)|²_M = N/2 for complex and N for real harmonics:
+//! [`HarmonicProblem::scale`].
 //!
 //! The static condensation of a sector is exact for forces; for K⁻¹ M, what the search needs, it is just another way to
 //! solve: M z inwards to the cuts, one small Hermitian system, and outwards again. Source: D. L. Thomas (1979), as in
@@ -111,8 +112,8 @@ impl<'a> SectorMass<'a> {
     }
 }
 
-/// One harmonic. A vector is (Re z, Im z), or z alone where it is real; z over the sector's nodes without cut L, then over
-/// the inner nodes of its teeth, three displacements each.
+/// One harmonic. A vector is (Re z, Im z), or z alone where it is real; z over the sector's nodes without cut L, then
+/// over the inner nodes of its teeth, three displacements each.
 pub(crate) struct HarmonicProblem<'a> {
     mass: &'a SectorMass<'a>,
     harmonic: usize,
@@ -256,7 +257,8 @@ impl HarmonicProblem<'_> {
         result
     }
 
-    /// The shape z (one vector) in a sector, real, over the sector's nodes and then over the nodes of each of its teeth.
+    /// The shape z (one vector) in a sector, real, over the sector's nodes and then over the nodes of each of its
+    /// teeth.
     pub fn in_sector(&self, shape: &[f64], sector: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
         let body = self.mass.body;
         let x = MatRef::from_column_major_slice(shape, shape.len(), 1);

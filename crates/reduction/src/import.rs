@@ -1,11 +1,11 @@
 //! The reduction of a gear that was meshed elsewhere.
 //!
-//! The whole gear is factorised and every tooth's own loads are solved: nothing is known of how the mesh repeats. Near field and
-//! C_tooth belong to a tooth's mesh and the model holds one of each; where teeth differ in mesh they are the means over the
-//! teeth, and the largest departure from them is kept as a check.
+//! The whole gear is factorised and every tooth's own loads are solved: nothing is known of how the mesh repeats. Near
+//! field and C_tooth belong to a tooth's mesh and the model holds one of each; where teeth differ in mesh they are the
+//! means over the teeth, and the largest departure from them is kept as a check.
 //!
-//! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis and
-//! the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
+//! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis
+//! and the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
 
 use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
@@ -69,11 +69,12 @@ struct ToothBlocks {
     plane: Vec<f64>,
 }
 
-/// Reduces a gear on a mesh from elsewhere. The mesh file, as [`read_body`] gives it, is checked against the definition.
+/// Reduces a gear on a mesh from elsewhere. The mesh file, as [`read_body`] gives it, is checked against the
+/// definition.
 ///
 /// # Errors
-/// [`ReductionError`] when the mesh is not the gear's, or not held, a gauge covers nothing, or an identity is violated by
-/// more than round-off explains.
+/// [`ReductionError`] when the mesh is not the gear's, or not held, a gauge covers nothing, or an identity is violated
+/// by more than round-off explains.
 pub fn reduce_imported(
     gear: &GearDefinition,
     body: &MeshedBody,

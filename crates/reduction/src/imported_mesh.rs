@@ -1,12 +1,12 @@
 //! A gear that was meshed elsewhere: its bore, its teeth and the faces of their outlines.
 //!
-//! Node sets say which nodes lie on the bore and on each flank. Everything else follows from where nodes are: a face of the
-//! boundary whose nodes all lie on the exact profile of a tooth belongs to its outline, and its place there, arc length and z of
-//! each node, is that of the profile point at the same radius. So root fillets need no set.
+//! Node sets say which nodes lie on the bore and on each flank. Everything else follows from where nodes are: a face of
+//! the boundary whose nodes all lie on the exact profile of a tooth belongs to its outline, and its place there, arc
+//! length and z of each node, is that of the profile point at the same radius. So root fillets need no set.
 //!
-//! The tooth-only submodel is cut where the definition's own mesh would be cut ([`CutLine`]): elements with a corner above the
-//! line belong to it, and their nodes on or below the line are held. In a mesh that has the line among its edges this is the
-//! submodel of the tooth's own mesh; otherwise the cut is a staircase one element deep.
+//! The tooth-only submodel is cut where the definition's own mesh would be cut ([`CutLine`]): elements with a corner
+//! above the line belong to it, and their nodes on or below the line are held. In a mesh that has the line among its
+//! edges this is the submodel of the tooth's own mesh; otherwise the cut is a staircase one element deep.
 
 use crate::ReductionError;
 use crate::imported_check::ImportCheck;
@@ -44,8 +44,8 @@ impl ImportedMesh {
     /// Checks a mesh against the definition and finds its teeth.
     ///
     /// # Errors
-    /// [`ReductionError::Imported`] that says what is missing or in the wrong place; [`ReductionError::Fe`] naming an element
-    /// that is inside out.
+    /// [`ReductionError::Imported`] that says what is missing or in the wrong place; [`ReductionError::Fe`] naming an
+    /// element that is inside out.
     pub fn new(
         gear: &GearDefinition,
         body: &MeshedBody,

@@ -20,6 +20,7 @@
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
+//! | memory that all this will take, before it is taken | `memory_estimate.rs` |
 //! | a crack in one tooth, as rows added to the compliance | `root_crack.rs` |
 //! | the whole displacement and stress field | `field.rs` |
 //!
@@ -44,6 +45,7 @@ mod imported_check;
 pub mod imported_error;
 pub mod imported_mesh;
 mod imported_outline;
+pub mod memory_estimate;
 pub mod mode_figures;
 pub mod near_field;
 mod part;
@@ -61,6 +63,7 @@ pub mod whole_gear;
 pub use gear_body::GearBody;
 pub use gear_modes::GearModes;
 pub use import::{read_body, reduce_imported};
+pub use memory_estimate::{MemoryEstimate, OfflineJob};
 pub use mode_figures::GearMode;
 pub use reduce::{ReductionOptions, reduce};
 
@@ -157,6 +160,26 @@ impl Progress for Silent {
     fn stage(&self, _name: &str) {}
     fn advance(&self, _done: usize, _total: usize) {}
     fn expect(&self, _seconds: f64) {}
+}
+
+/// The stages of a part of a longer job, each named after it.
+pub(crate) struct Within<'a> {
+    pub(crate) all: &'a dyn Progress,
+    pub(crate) part: String,
+}
+
+impl Progress for Within<'_> {
+    fn stage(&self, name: &str) {
+        self.all.stage(&format!("{}, {name}", self.part));
+    }
+
+    fn advance(&self, done: usize, total: usize) {
+        self.all.advance(done, total);
+    }
+
+    fn expect(&self, seconds: f64) {
+        self.all.expect(seconds);
+    }
 }
 
 /// The model file's word for a side.

@@ -1,8 +1,8 @@
 //! The calibration of the local term: the near field of a narrow load in plane strain, on a fine section of one tooth
 //! and on the gear's own mesh.
 //!
-//! Both problems have the supports of the tooth-only submodel: the cut and the opposite side of the tooth held. What lies
-//! beyond them is the same in both, so that their difference is what the mesh and its hats get wrong near the load
+//! Both problems have the supports of the tooth-only submodel: the cut and the opposite side of the tooth held. What
+//! lies beyond them is the same in both, so that their difference is what the mesh and its hats get wrong near the load
 //! (docs/theory/near_field.md). The calibration belongs to a tooth and its mesh, not to the body: it is made once.
 
 use crate::ReductionError;
@@ -51,8 +51,9 @@ pub fn extrapolated(fine: f64, coarse: f64) -> f64 {
     fine + (fine - coarse) / (COARSENING * COARSENING - 1.0)
 }
 
-/// Roll angles of the places. Where the pressure reaches the edge (distance below a₀) c₀ is no logarithm any more: there
-/// they stand at fixed multiples of a₀; farther down with equal steps of a measure that is dense towards both ends.
+/// Roll angles of the places. Where the pressure reaches the edge (distance below a₀) c₀ is no logarithm any more:
+/// there they stand at fixed multiples of a₀; farther down with equal steps of a measure that is dense towards both
+/// ends.
 pub fn places(gear: &GearDefinition) -> Vec<f64> {
     let (profile, module) = (&gear.profile, gear.tooth.module_m);
     let (low, high) = (profile.form_roll_rad, profile.flank_end_roll_rad);
@@ -150,8 +151,9 @@ pub fn calibration(
     })
 }
 
-/// The same from a tooth in tetrahedra, which is no stack of layers with one field: all of its width, not twisted, loads uniform over
-/// it, no node moves along the axis, and the mean over the width is taken (docs/theory/imported_mesh.md).
+/// The same from a tooth in tetrahedra, which is no stack of layers with one field: all of its width, not twisted,
+/// loads uniform over it, no node moves along the axis, and the mean over the width is taken
+/// (docs/theory/imported_mesh.md).
 fn mean_mesh_compliance(
     gear: &GearDefinition,
     mesh: &GearMesh,
@@ -167,8 +169,8 @@ fn mean_mesh_compliance(
     Ok(line_compliance(grid, &products, gear.tooth.face_width_m))
 }
 
-/// Deflections per line load \[m²/N\], `[load station][response station]`, from those of all loads of a flank in plane strain,
-/// `[response][load]`: loads and means over the width.
+/// Deflections per line load \[m²/N\], `[load station][response station]`, from those of all loads of a flank in plane
+/// strain, `[response][load]`: loads and means over the width.
 pub(crate) fn line_compliance(grid: &FlankGrid, products: &[f64], width_m: f64) -> Vec<f64> {
     let (count, stations) = (grid.len(), grid.roll_angles_rad.len());
     let lines: Vec<_> = (0..stations).map(|i| line_load(grid, i)).collect();

@@ -34,8 +34,8 @@ pub struct ReductionOptions {
 
 /// Reduces a gear to its compliance at the flanks. The finite element model is handed back for pictures.
 ///
-/// C_hub = NᵀK⁻¹N is found for the teeth of one repeating sector only, against all teeth; loads are integrated and C_tooth =
-/// NᵀW is solved once, because all teeth have the same mesh.
+/// C_hub = NᵀK⁻¹N is found for the teeth of one repeating sector only, against all teeth; loads are integrated and
+/// C_tooth = NᵀW is solved once, because all teeth have the same mesh.
 ///
 /// # Errors
 /// [`ReductionError`] when the gear cannot be meshed or held, a gauge covers nothing, or an identity is violated by
@@ -127,7 +127,7 @@ pub fn reduce(
             loaded_tooth,
             other_teeth,
             gauges: errors,
-        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid)?;
+        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid, progress)?;
         for (name, error) in [
             (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
             (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
@@ -296,9 +296,9 @@ pub(crate) fn asymmetry(
     worst / largest
 }
 
-/// Largest difference, relative to the largest value, between rows of C_hub and what all teeth read of the solved fields
-/// of some loads. By repetition C_hub is made of products of half solves, symmetric by construction: this goes the
-/// other way, out to every tooth again.
+/// Largest difference, relative to the largest value, between rows of C_hub and what all teeth read of the solved
+/// fields of some loads. By repetition C_hub is made of products of half solves, symmetric by construction: this goes
+/// the other way, out to every tooth again.
 fn rows_by_fields(
     body: &GearBody,
     normals: &[&SparseVector],

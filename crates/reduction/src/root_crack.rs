@@ -1,7 +1,8 @@
 //! A crack in one tooth of an otherwise sound gear, as rows that add to the compliance.
 //!
-//! The cracked gear is the sound one with the nodes along the crack doubled ([`DoubledNodes`]): everything is solved with the sound gear's
-//! factor, by its repetition. With K_p the coupling of the jumps and S their stiffness, loads i, j and gauges g have
+//! The cracked gear is the sound one with the nodes along the crack doubled ([`DoubledNodes`]): everything is solved
+//! with the sound gear's factor, by its repetition. With K_p the coupling of the jumps and S their stiffness, loads i,
+//! j and gauges g have
 //!
 //! ```text
 //! S = K_pp − K_pᵀK⁻¹K_p = LLᵀ,   R = −L⁻¹ K_pᵀK⁻¹ [N, g],   C_c = C + RᵀR,   R ≈ V Vᵀ R: rows φ = Vᵀ R
@@ -20,7 +21,8 @@ use gearmesh_fe::DoubledNodes;
 use gearmesh_geometry::{CrackDefinition, GearDefinition};
 use gearmesh_model::{GaugeRows, RootCrack};
 
-/// Eigenvalues of RRᵀ below this share of the largest compliance that the crack adds are left out: no compliance errs by more.
+/// Eigenvalues of RRᵀ below this share of the largest compliance that the crack adds are left out: no compliance errs
+/// by more.
 const LEFT_OUT: f64 = 1e-8;
 /// Jumps that are solved for together: a batch takes the displacements of all sectors for each.
 const BATCH: usize = 32;
@@ -31,7 +33,8 @@ pub const CRACK_SYMMETRY: &str = "symmetry of the crack's stiffness";
 pub struct CrackedRows {
     /// For the model.
     pub crack: RootCrack,
-    /// Added to each gauge's [`GaugeRows::adjoint`] on the flanks of the crack's side: `[gauge][tooth][load][component]`.
+    /// Added to each gauge's [`GaugeRows::adjoint`] on the flanks of the crack's side:
+    /// `[gauge][tooth][load][component]`.
     pub gauges: Vec<Vec<f64>>,
     /// Asymmetry of the jumps' condensed stiffness, relative.
     pub asymmetry: f64,
@@ -42,7 +45,8 @@ pub struct CrackedRows {
 /// Computes the rows of a gear's crack. `loads` are those of the crack's side of tooth 0.
 ///
 /// # Errors
-/// [`ReductionError::AtCrack`] where loads or gauges touch the crack, [`ReductionError::Fe`] where the crack cuts a part off.
+/// [`ReductionError::AtCrack`] where loads or gauges touch the crack, [`ReductionError::Fe`] where the crack cuts a
+/// part off.
 pub fn root_crack(
     gear: &GearDefinition,
     definition: &CrackDefinition,

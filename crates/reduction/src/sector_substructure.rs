@@ -148,7 +148,8 @@ impl SectorSubstructure {
         &self.cuts
     }
 
-    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of [`SectorSubstructure::body_nodes`].
+    /// Stiffness of hub, web and rim without the tooth cells, three rows for each of
+    /// [`SectorSubstructure::body_nodes`].
     pub fn body_stiffness(&self) -> SparseColMatRef<'_, usize, f64> {
         self.body_stiffness.as_ref()
     }
@@ -256,11 +257,15 @@ fn assemble(
                 .map(move |row| (dof(own, row), dof(own, column), block[(row, column)]))
         })
     });
-    let triplets: Vec<Triplet<usize, usize, f64>> = from_body
-        .chain(from_teeth)
-        .filter(|(row, column, _)| row >= column)
-        .map(|(row, column, value)| Triplet::new(row, column, value))
-        .collect();
+    // Some gigabytes where one sector has all teeth: room for just as many, instead of a list that doubles as it grows.
+    let of_tooth = block.ncols() * (block.ncols() + 1) / 2;
+    let mut triplets = Vec::with_capacity(body.compute_nnz() + tooth_nodes.len() * of_tooth);
+    triplets.extend(
+        from_body
+            .chain(from_teeth)
+            .filter(|(row, column, _)| row >= column)
+            .map(|(row, column, value)| Triplet::new(row, column, value)),
+    );
     SparseColMat::try_new_from_triplets(3 * nodes, 3 * nodes, &triplets)
         .map_err(|_| FeError::OutOfMemory { bytes: 0 })
 }

@@ -5,8 +5,8 @@ use gearmesh_mesh::{GearMesh, OutlineFace};
 
 /// A mesh with teeth.
 pub trait ToothedMesh {
-    /// Faces of one side of a tooth between two arc lengths \[m\] from the centre of that side's tooth space, including those
-    /// that are partly outside.
+    /// Faces of one side of a tooth between two arc lengths \[m\] from the centre of that side's tooth space, including
+    /// those that are partly outside.
     fn outline_faces(&self, tooth: usize, side: FlankSide, arc_m: [f64; 2]) -> Vec<OutlineFace>;
 
     /// Turn of the teeth per metre of z \[rad/m\], positive for a right hand.
@@ -15,7 +15,8 @@ pub trait ToothedMesh {
     /// Elements of the tooth-only submodel: the tooth above the cut.
     fn tooth_elements(&self, tooth: usize) -> Vec<u32>;
 
-    /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut and the opposite side of the tooth above it.
+    /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut and the opposite side of the tooth above
+    /// it.
     fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32>;
 }
 

@@ -8,8 +8,8 @@ const WEAKEST_HARMONIC: f64 = 1e-5;
 
 /// Text tables of comparisons, grouped by quantity in the order of their first occurrence.
 ///
-/// For each quantity: the overall figures, the angle offset with the best correlation (applied to nothing), the stated uncertainty of the
-/// reference, the harmonics. Values are in the unit of the
+/// For each quantity: the overall figures, the angle offset with the best correlation (applied to nothing), the stated
+/// uncertainty of the reference, the harmonics. Values are in the unit of the
 /// quantity (µm, µε); differences are ours/reference − 1.
 pub fn comparison_table(comparisons: &[SeriesComparison]) -> String {
     let mut text = String::new();

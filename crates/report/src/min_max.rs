@@ -1,4 +1,5 @@
-//! Fewer points for a chart: of every bin the smallest and the largest value, in the order in which they come, so that no peak is lost.
+//! Fewer points for a chart: of every bin the smallest and the largest value, in the order in which they come, so that
+//! no peak is lost.
 
 /// Bins of a chart.
 const BINS: usize = 1500;

@@ -78,7 +78,8 @@ pub fn overlaid_pairs(results: &[(String, &SceneResult)]) -> Option<Section> {
     )
 }
 
-/// Multibody results of one kind, transient or speed sweeps, with the names of their files; none where there are fewer than two.
+/// Multibody results of one kind, transient or speed sweeps, with the names of their files; none where there are fewer
+/// than two.
 ///
 /// # Errors
 /// [`FileError`] if a column cannot be read.

@@ -13,8 +13,8 @@
 //! ```
 //!
 //! Style, script and data are inside the file: the numbers as base64 of 32-bit floats, the charts drawn by uPlot (MIT,
-//! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security policy in the
-//! page forbids every request. All texts are escaped.
+//! vendored in assets/ with its licence), the field pictures by a small rasteriser on a canvas. A content security
+//! policy in the page forbids every request. All texts are escaped.
 
 mod field_picture;
 mod line_chart;

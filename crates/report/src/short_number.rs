@@ -13,8 +13,8 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// The unit in which an engineer reads a quantity whose largest amount is `largest`, and the factor that brings it there: stress and pressure
-/// in MPa, line load and stiffness in N/mm, small lengths in µm or mm.
+/// The unit in which an engineer reads a quantity whose largest amount is `largest`, and the factor that brings it
+/// there: stress and pressure in MPa, line load and stiffness in N/mm, small lengths in µm or mm.
 #[must_use]
 pub fn usual_unit(unit: &'static str, largest: f64) -> (f64, &'static str) {
     match unit {

@@ -5,8 +5,9 @@
 //! | one gear pair, static positions over driver angles | `[pair]` | [`pair`] |
 //! | a multibody system | `[[body]]` | [`system`] |
 //!
-//! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`] tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs multibody systems, [`study`] runs one of
-//! them again and again with keys that vary.
+//! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
+//! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs
+//! multibody systems, [`study`] runs one of them again and again with keys that vary.
 
 mod named_files;
 pub mod pair;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// All files that texts of a TOML document name, relative to `folder`: by the name in the document, sorted. A text that only happens to be
-/// the name of a file is among them.
+/// All files that texts of a TOML document name, relative to `folder`: by the name in the document, sorted. A text that
+/// only happens to be the name of a file is among them.
 pub fn named_files(text: &str, folder: &Path) -> BTreeMap<String, PathBuf> {
     let mut found = BTreeMap::new();
     if let Ok(table) = text.parse::<toml::Table>() {

@@ -17,8 +17,8 @@ enum SceneTables {
     System(Box<SystemTables>),
 }
 
-/// JSON Schema (draft 2020-12) of scene files: of a pair, or of a multibody system. What depends on other keys, such as the keys of one mesh
-/// model, is said in the descriptions and checked when the scene is read.
+/// JSON Schema (draft 2020-12) of scene files: of a pair, or of a multibody system. What depends on other keys, such as
+/// the keys of one mesh model, is said in the descriptions and checked when the scene is read.
 pub fn scene() -> Schema {
     schema_for!(SceneTables)
 }

@@ -11,8 +11,8 @@ const ANALYTIC: &str = "model = \"analytic\"\nslices = 9\n";
 const DAMPING: &str =
     "damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 }";
 
-/// F_t tan β_b on gear 2 along +z, on which a right-hand gear 1 presses with its right flanks; at rest to what the changing stiffness of the teeth
-/// adds, and a step of time for each model.
+/// F_t tan β_b on gear 2 along +z, on which a right-hand gear 1 presses with its right flanks; at rest to what the
+/// changing stiffness of the teeth adds, and a step of time for each model.
 #[test]
 fn bearings_carry_the_axial_force_of_every_model() {
     let shipped = text("dynamics_helical.toml");
@@ -48,7 +48,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
         let value = |element: &str, channel: &str| outputs.value(element, channel);
         let axial = value("bearing 2", "force_shaft_z_N").abs() / (tangential_n * helix.tan());
         let normal = value("mesh", "normal_force_right_N") * helix.cos() / tangential_n;
-        // F_t, F_r and F_a on gear 1: those of the normal force with the working pressure angle and β_b, and what the bearing of gear 2 bears.
+        // F_t, F_r and F_a on gear 1: those of the normal force with the working pressure angle and β_b, and what the
+        // bearing of gear 2 bears.
         let [tangential, radial, axial_1] = ["tangential", "radial", "axial"]
             .map(|part| value("mesh", &format!("{part}_force_1_N")));
         let transverse_n = value("mesh", "normal_force_right_N") * helix.cos();
@@ -81,7 +82,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
             (bears("force_world_x_N") / -radial - 1.0).abs() < 3e-3,
             "{model}"
         );
-        // Each slice's line load is that of its most loaded pair of teeth: no more than all pairs together, no less than their mean.
+        // Each slice's line load is that of its most loaded pair of teeth: no more than all pairs together, no less
+        // than their mean.
         let slices =
             (1..10).map_while(|k| outputs.get("mesh", &format!("line_load_slice_{k}_N_per_m")));
         let slices: Vec<f64> = slices.collect();

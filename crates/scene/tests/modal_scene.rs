@@ -102,8 +102,8 @@ fn modes_are_chosen_by_frequency() {
     );
 }
 
-/// A static pair and a multibody mesh of reduced gears of unequal width with other slices each, the narrow one 1 mm off the middle: contact on the
-/// overlap only, one transmission error; faces that do not overlap are refused by the key.
+/// A static pair and a multibody mesh of reduced gears of unequal width with other slices each, the narrow one 1 mm off
+/// the middle: contact on the overlap only, one transmission error; faces that do not overlap are refused by the key.
 #[test]
 fn mates_of_unequal_width_touch_where_their_faces_overlap() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,7 +1,8 @@
-//! A sweep through the resonance of an oscillator with stops: the response jumps at another speed on the way up than on the way down.
+//! A sweep through the resonance of an oscillator with stops: the response jumps at another speed on the way up than on
+//! the way down.
 //!
-//! A carriage on a spring carries a rotor out of balance, whose speed is prescribed; beyond a clearance on either side stops add to the
-//! stiffness. By harmonic balance, an amplitude A at the speed ω satisfies
+//! A carriage on a spring carries a rotor out of balance, whose speed is prescribed; beyond a clearance on either side
+//! stops add to the stiffness. By harmonic balance, an amplitude A at the speed ω satisfies
 //!
 //! ```text
 //! (k(A) − M ω²)² + (c ω)² = (m e ω²/A)²,     k(A) = k₀ + k₁ (2/π) (arccos(b/A) − (b/A) √(1 − (b/A)²)) beyond b
@@ -166,8 +167,8 @@ fn balanced(omega: f64, clearance: f64) -> Vec<f64> {
     crossings.map(|w| w[0]).collect()
 }
 
-/// The stops bend the resonance to higher speeds: on the way up the response stays on the upper branch until it ends, on the way down it
-/// stays below until the lower branch ends.
+/// The stops bend the resonance to higher speeds: on the way up the response stays on the upper branch until it ends,
+/// on the way down it stays below until the lower branch ends.
 #[test]
 fn a_response_with_stops_jumps_at_other_speeds_up_than_down() {
     let clearance = 1e-3;

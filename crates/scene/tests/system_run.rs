@@ -39,7 +39,8 @@ fn assert_same(a: &SystemResult, b: &SystemResult) {
     assert_eq!((&a.head, &a.sweep), (&b.head, &b.sweep));
 }
 
-/// A run that is stopped after every single step, its process state thrown away each time, writes the bits of one that was not.
+/// A run that is stopped after every single step, its process state thrown away each time, writes the bits of one that
+/// was not.
 #[test]
 fn a_run_stopped_after_every_step_writes_the_same_result() {
     for (params, start) in [
@@ -213,7 +214,8 @@ impl ForceElement for FromNowhere {
     }
 }
 
-/// Energy out of nothing is seen beside the million joules that a flywheel just has; an honest load of the same size passes.
+/// Energy out of nothing is seen beside the million joules that a flywheel just has; an honest load of the same size
+/// passes.
 #[test]
 fn energy_is_judged_against_the_work_done() {
     let run = |made_up: bool| {
@@ -312,7 +314,8 @@ fn equilibria_follow_the_load_factor() {
     assert!(result.record.is_none());
 }
 
-/// A driver turns a spring through two revolutions and back: angle counted, moment k a, and the opposite on the other side.
+/// A driver turns a spring through two revolutions and back: angle counted, moment k a, and the opposite on the other
+/// side.
 #[test]
 fn equilibria_follow_a_driver_over_several_turns() {
     let values: Vec<f64> = (0..=40)

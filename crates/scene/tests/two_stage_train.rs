@@ -1,4 +1,5 @@
-//! The shipped two-stage train at rest: both stages are found though the coupling alone would let the shafts turn by many teeth.
+//! The shipped two-stage train at rest: both stages are found though the coupling alone would let the shafts turn by
+//! many teeth.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;

@@ -1,8 +1,9 @@
 //! Campbell map: spectra of short blocks of a run-up, each at its speed, over frequency or over order.
 //!
-//! Over frequency, the lines of an order m lie on the straight m·speed/2π and resonances stand upright; a block of T seconds
-//! resolves 1/T, and while the speed changes by Δω in it an order m smears over m Δω/2π. Over order, the signal is resampled to the shaft's
-//! angle first ([`crate::resampling`]): orders stand upright and do not smear, resonances do.
+//! Over frequency, the lines of an order m lie on the straight m·speed/2π and resonances stand upright; a block of T
+//! seconds resolves 1/T, and while the speed changes by Δω in it an order m smears over m Δω/2π. Over order, the signal
+//! is resampled to the shaft's angle first ([`crate::resampling`]): orders stand upright and do not smear, resonances
+//! do.
 
 use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use crate::resampling::Resampler;

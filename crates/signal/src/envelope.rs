@@ -1,13 +1,13 @@
 //! Envelope of a band of a signal by the Hilbert transform.
 //!
 //! The band-passed signal x and its Hilbert transform y make the analytic signal x + iy, whose spectrum has no negative
-//! frequencies; its modulus is the envelope (A. V. Oppenheim, R. W. Schafer, *Discrete-Time Signal Processing*, ch. 12). Band-pass
-//! and Hilbert transform are made in one go in the Fourier domain, on the series as it is.
+//! frequencies; its modulus is the envelope (A. V. Oppenheim, R. W. Schafer, *Discrete-Time Signal Processing*, ch.
+//! 12). Band-pass and Hilbert transform are made in one go in the Fourier domain, on the series as it is.
 //!
 //! # What the ends do
-//! The transform takes the series as one period. If it is not, the jump from its end to its start rings through the band: about
-//! 1/edge width (in units of time) at both ends is not to be trusted. The middle is exact for a signal whose modulated band
-//! lies between `low + edge` and `high − edge`.
+//! The transform takes the series as one period. If it is not, the jump from its end to its start rings through the
+//! band: about 1/edge width (in units of time) at both ends is not to be trusted. The middle is exact for a signal
+//! whose modulated band lies between `low + edge` and `high − edge`.
 
 use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use crate::fourier::RealFourier;
@@ -17,8 +17,8 @@ use std::f64::consts::PI;
 /// Fewest samples of a band-pass.
 const FEWEST_SAMPLES: usize = 8;
 
-/// A band in cycles per unit (Hz, or orders). The gain is 1 from `low + edge` to `high − edge` and falls to 0 at `low` and `high` by
-/// half a cosine.
+/// A band in cycles per unit (Hz, or orders). The gain is 1 from `low + edge` to `high − edge` and falls to 0 at `low`
+/// and `high` by half a cosine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
     /// Lower end; 0 or above.

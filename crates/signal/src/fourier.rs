@@ -38,8 +38,8 @@ impl RealFourier {
         Ok(lines)
     }
 
-    /// The samples with the lines X_k, normalised so that it undoes [`RealFourier::lines`]. The mean and the Nyquist line must
-    /// be real. `lines` is used up as scratch.
+    /// The samples with the lines X_k, normalised so that it undoes [`RealFourier::lines`]. The mean and the Nyquist
+    /// line must be real. `lines` is used up as scratch.
     pub(crate) fn samples_of(&self, lines: &mut [Complex64]) -> Result<Vec<f64>, SeriesError> {
         let mut samples = self.inverse.make_output_vec();
         self.inverse

@@ -15,8 +15,8 @@
 //! | one or two signals | RMS, kurtosis, crest factor, peak-to-peak, correlation, largest deviation | [`statistics`] |
 //!
 //! Angles are in rad, an *order* is a number of periods in one revolution of the shaft whose angle is the abscissa
-//! (the driver's where nothing else is said). Nothing here knows the unit of the quantity: what goes in comes out. Equations and
-//! accuracies: docs/theory/signals.md.
+//! (the driver's where nothing else is said). Nothing here knows the unit of the quantity: what goes in comes out.
+//! Equations and accuracies: docs/theory/signals.md.
 
 pub mod alignment;
 pub mod angle_series;

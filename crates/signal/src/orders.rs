@@ -58,9 +58,9 @@ pub enum OrderError {
 ///
 /// x(θ) = c_0 + Σ_{k≥1} Re(c_k e^{i m θ}) = c_0 + Σ A_k cos(m θ + φ_k),
 ///
-/// so that A_k = |c_k| is the **amplitude of the cosine** (half its peak-to-peak) and φ_k = arg c_k its phase; c_0 is the
-/// mean. c_k = (2/N) Σ_j x_j e^{−2πi jk/N}, without the factor 2 for k = 0 and, if N is even, k = N/2 (whose imaginary part is zero).
-/// Parseval: mean of x² = c_0² + ½ Σ |c_k|² (Nyquist line without the ½).
+/// so that A_k = |c_k| is the **amplitude of the cosine** (half its peak-to-peak) and φ_k = arg c_k its phase; c_0 is
+/// the mean. c_k = (2/N) Σ_j x_j e^{−2πi jk/N}, without the factor 2 for k = 0 and, if N is even, k = N/2 (whose
+/// imaginary part is zero). Parseval: mean of x² = c_0² + ½ Σ |c_k|² (Nyquist line without the ½).
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrderSpectrum {
     coefficients: Vec<Complex64>,

@@ -1,23 +1,23 @@
 //! Band-limited resampling: time to shaft angle, back, and from one rate to another.
 //!
-//! A value between samples is the sum over the neighbours with a sinc under a Kaiser window (A. V. Oppenheim, R. W. Schafer,
-//! *Discrete-Time Signal Processing*, sections 4.6 and 7.5):
+//! A value between samples is the sum over the neighbours with a sinc under a Kaiser window (A. V. Oppenheim, R. W.
+//! Schafer, *Discrete-Time Signal Processing*, sections 4.6 and 7.5):
 //!
 //! ```text
 //! x(p) = (1/s) Σ_{|p−j| ≤ L s} x_j sinc((p − j)/s) I₀(β √(1 − ((p − j)/(L s))²))/I₀(β)
 //! ```
 //!
-//! with the position p in samples, L the half width, and s ≥ 1 the new step over the old one where the new grid is coarser (the sinc
-//! is then also the filter against aliasing). β = √((πL(1 − b))² − π²) puts the window's main lobe between b and 2 − b times the lower
-//! of the two Nyquist frequencies.
+//! with the position p in samples, L the half width, and s ≥ 1 the new step over the old one where the new grid is
+//! coarser (the sinc is then also the filter against aliasing). β = √((πL(1 − b))² − π²) puts the window's main lobe
+//! between b and 2 − b times the lower of the two Nyquist frequencies.
 //!
 //! # Accuracy
-//! A tone of amplitude A below b times the lower Nyquist frequency comes out within A e^{−β}: 2.4e-9 with the default L = 32, b = 0.8.
-//! Between b and 2 − b it is damped and folds into that same band, not below it. Nothing is invented at the ends: the result
-//! begins and ends where all L s neighbours exist.
+//! A tone of amplitude A below b times the lower Nyquist frequency comes out within A e^{−β}: 2.4e-9 with the default L
+//! = 32, b = 0.8. Between b and 2 − b it is damped and folds into that same band, not below it. Nothing is invented at
+//! the ends: the result begins and ends where all L s neighbours exist.
 //!
-//! The shaft's angle between its samples is the polynomial of degree five through the six nearest ones: its error falls with the
-//! sixth power of the sampling step, and times the signal's slope it is the error of the signal.
+//! The shaft's angle between its samples is the polynomial of degree five through the six nearest ones: its error falls
+//! with the sixth power of the sampling step, and times the signal's slope it is the error of the signal.
 
 use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use std::f64::consts::{PI, TAU};
@@ -68,7 +68,8 @@ pub struct GridSamples {
 }
 
 impl Resampler {
-    /// An interpolation over `half_width` neighbours on each side that is right up to `band` (above 0, below 1) of the Nyquist frequency.
+    /// An interpolation over `half_width` neighbours on each side that is right up to `band` (above 0, below 1) of the
+    /// Nyquist frequency.
     ///
     /// # Errors
     /// [`SeriesError::Setting`] where half_width·(1 − band) is below 1.5: no window fits.
@@ -114,7 +115,8 @@ impl Resampler {
     /// `angle_rad`: the shaft's angle at each sample, increasing.
     ///
     /// # Errors
-    /// [`SeriesError`]: lengths, values, angles that do not increase, a grid that is too fine, or a series that is too short.
+    /// [`SeriesError`]: lengths, values, angles that do not increase, a grid that is too fine, or a series that is too
+    /// short.
     pub fn to_angle(
         &self,
         samples: &[f64],
@@ -187,7 +189,8 @@ impl Resampler {
         self.run(angle_rad.len(), series.values.len(), at)
     }
 
-    /// From one uniform rate to another. Grid point i of the result is at the time i/`new_rate_hz` after the first sample.
+    /// From one uniform rate to another. Grid point i of the result is at the time i/`new_rate_hz` after the first
+    /// sample.
     ///
     /// # Errors
     /// As [`Resampler::to_angle`].
@@ -272,8 +275,8 @@ fn sinc(x: f64) -> f64 {
     }
 }
 
-/// Coefficients c_k of I₀(β √y)/I₀(β) = Σ_k c_k y^k for 0 ≤ y ≤ 1, from I₀(x) = Σ_k ((x/2)^k/k!)². All are positive, so that the sum is
-/// exact to rounding.
+/// Coefficients c_k of I₀(β √y)/I₀(β) = Σ_k c_k y^k for 0 ≤ y ≤ 1, from I₀(x) = Σ_k ((x/2)^k/k!)². All are positive, so
+/// that the sum is exact to rounding.
 fn kaiser_polynomial(beta: f64) -> Vec<f64> {
     let quarter = 0.25 * beta * beta;
     let mut coefficients = vec![1.0];
@@ -315,7 +318,8 @@ fn position_of_angle(angle_rad: &[f64], before: usize, angle: f64) -> f64 {
         .min(angle_rad.len() - ANGLE_POINTS);
     let nodes = &angle_rad[base..base + ANGLE_POINTS];
     let excess = |position: f64| lagrange(nodes, position - base as f64) - angle;
-    // Regula falsi with Illinois' rule (the end that stays twice counts half): it needs no slope and stays between the samples.
+    // Regula falsi with Illinois' rule (the end that stays twice counts half): it needs no slope and stays between the
+    // samples.
     let (mut a, mut b) = (before as f64, (before + 1) as f64);
     let (mut fa, mut fb) = (angle_rad[before] - angle, angle_rad[before + 1] - angle);
     let rounding = 4.0 * f64::EPSILON * angle.abs();

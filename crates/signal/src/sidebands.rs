@@ -1,8 +1,8 @@
 //! Sidebands of a carrier: the lines at carrier ± n·modulator of an amplitude spectrum.
 //!
-//! An amplitude-modulated tone A (1 + m cos 2πf_m t) cos 2πf_c t has the lines A at f_c and A m/2 at f_c ± f_m: the ratio of
-//! the first sidebands is half the degree of modulation. Gears: carrier = mesh frequency or a multiple of it (or an order),
-//! modulator = shaft frequency (or order 1).
+//! An amplitude-modulated tone A (1 + m cos 2πf_m t) cos 2πf_c t has the lines A at f_c and A m/2 at f_c ± f_m: the
+//! ratio of the first sidebands is half the degree of modulation. Gears: carrier = mesh frequency or a multiple of it
+//! (or an order), modulator = shaft frequency (or order 1).
 
 use crate::error::{SeriesError, check_setting};
 use crate::spectrum::Spectrum;
@@ -29,15 +29,17 @@ pub struct SidebandSettings {
     pub modulator: f64,
     /// Sidebands on each side.
     pub pairs: u32,
-    /// Lines on each side of the nearest one among which the largest is taken: 0 where carrier and sidebands are on lines.
+    /// Lines on each side of the nearest one among which the largest is taken: 0 where carrier and sidebands are on
+    /// lines.
     pub search_lines: usize,
 }
 
 /// The sidebands from −pairs to +pairs with the carrier in the middle.
 ///
 /// # Errors
-/// [`SeriesError::OutsideSpectrum`] where a sideband would lie below 0 or above the highest line, [`SeriesError::SidebandsMerge`] where two
-/// sidebands would read the same line, [`SeriesError::Setting`] for a carrier without amplitude or a modulator that is not positive.
+/// [`SeriesError::OutsideSpectrum`] where a sideband would lie below 0 or above the highest line,
+/// [`SeriesError::SidebandsMerge`] where two sidebands would read the same line, [`SeriesError::Setting`] for a carrier
+/// without amplitude or a modulator that is not positive.
 pub fn sideband_table(
     spectrum: &Spectrum,
     settings: SidebandSettings,

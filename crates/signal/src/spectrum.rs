@@ -1,16 +1,17 @@
 //! Amplitude spectrum and power spectral density of a uniform series, over time or over an angle.
 //!
-//! Throughout, a *unit* is what the sampling rate counts in: with samples per second the lines are in Hz, with samples per
-//! revolution they are in orders. With N samples, rate f_s, weights w_j and X_k = Σ_j w_j x_j e^{−2πi jk/N}, line k is at k f_s/N and
+//! Throughout, a *unit* is what the sampling rate counts in: with samples per second the lines are in Hz, with samples
+//! per revolution they are in orders. With N samples, rate f_s, weights w_j and X_k = Σ_j w_j x_j e^{−2πi jk/N}, line k
+//! is at k f_s/N and
 //!
 //! ```text
 //! amplitude   A_k = c_k |X_k| / Σ w_j                 the A of A cos(…), not its RMS;  k = 0: |mean|
 //! density     S_k = c_k |X_k|² / (f_s Σ w_j²)         single-sided;  Σ_k S_k f_s/N = Σ (w x)²/Σ w²: the mean square
 //! ```
 //!
-//! with c_k = 2, but 1 for k = 0 and for the Nyquist line of an even N. The mean is **not** taken off. Sources: G. Heinzel, A. Rüdiger,
-//! R. Schilling, *Spectrum and spectral density estimation by the DFT*, MPI for Gravitational Physics 2002; P. D. Welch,
-//! IEEE Trans. Audio Electroacoustics 15 (1967).
+//! with c_k = 2, but 1 for k = 0 and for the Nyquist line of an even N. The mean is **not** taken off. Sources: G.
+//! Heinzel, A. Rüdiger, R. Schilling, *Spectrum and spectral density estimation by the DFT*, MPI for Gravitational
+//! Physics 2002; P. D. Welch, IEEE Trans. Audio Electroacoustics 15 (1967).
 
 use crate::error::{SeriesError, check_rate, check_samples, check_setting};
 use crate::fourier::RealFourier;
@@ -163,8 +164,8 @@ impl Spectrum {
         Ok(peak)
     }
 
-    /// Place of the largest line between two places, refined by the parabola through the logarithms of it and its neighbours:
-    /// under Hann, a tone that stands alone is met within 0.02 lines.
+    /// Place of the largest line between two places, refined by the parabola through the logarithms of it and its
+    /// neighbours: under Hann, a tone that stands alone is met within 0.02 lines.
     ///
     /// # Errors
     /// As [`Spectrum::peak`].
@@ -227,13 +228,14 @@ pub struct WelchSettings {
     pub window: Window,
 }
 
-/// Power spectral density as the mean over the blocks that fit (Welch). One block without window: Parseval holds exactly.
+/// Power spectral density as the mean over the blocks that fit (Welch). One block without window: Parseval holds
+/// exactly.
 ///
 /// Samples after the last whole block are not used.
 ///
 /// # Errors
-/// [`SeriesError::TooShort`] if not one block fits, [`SeriesError::Setting`] for an overlap that is not below the block, otherwise as
-/// [`BlockTransform`].
+/// [`SeriesError::TooShort`] if not one block fits, [`SeriesError::Setting`] for an overlap that is not below the
+/// block, otherwise as [`BlockTransform`].
 pub fn power_spectral_density(
     samples: &[f64],
     samples_per_unit: f64,

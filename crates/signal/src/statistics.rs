@@ -57,11 +57,13 @@ pub fn rms(x: &[f64]) -> Result<f64, StatisticsError> {
     Ok((x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt())
 }
 
-/// Kurtosis m₄/m₂² of the distribution (means taken off, m_k = mean of (x − mean)^k): 1.5 for a sine over whole periods, 1 for a
-/// square wave, 3 for Gaussian noise, more where there are impulses. From n samples of Gaussian noise it scatters by √(24/n).
+/// Kurtosis m₄/m₂² of the distribution (means taken off, m_k = mean of (x − mean)^k): 1.5 for a sine over whole
+/// periods, 1 for a square wave, 3 for Gaussian noise, more where there are impulses. From n samples of Gaussian noise
+/// it scatters by √(24/n).
 ///
 /// # Errors
-/// [`StatisticsError::Empty`]; [`StatisticsError::Constant`] where the signal varies by no more than rounding of its mean.
+/// [`StatisticsError::Empty`]; [`StatisticsError::Constant`] where the signal varies by no more than rounding of its
+/// mean.
 pub fn kurtosis(x: &[f64]) -> Result<f64, StatisticsError> {
     let mean = mean(x)?;
     let (mut second, mut fourth) = (0.0, 0.0);
@@ -91,8 +93,8 @@ pub fn crest_factor(x: &[f64]) -> Result<f64, StatisticsError> {
 /// Pearson's correlation coefficient, −1 … 1 (means taken off).
 ///
 /// # Errors
-/// [`StatisticsError::Empty`], [`StatisticsError::Lengths`]; [`StatisticsError::Constant`] where one signal varies by no more than
-/// rounding of its mean.
+/// [`StatisticsError::Empty`], [`StatisticsError::Lengths`]; [`StatisticsError::Constant`] where one signal varies by
+/// no more than rounding of its mean.
 pub fn correlation(x: &[f64], y: &[f64]) -> Result<f64, StatisticsError> {
     same_length(x, y)?;
     let (mean_x, mean_y) = (mean(x)?, mean(y)?);

@@ -1,13 +1,15 @@
-//! Time-synchronous average: what repeats with a shaft or a mesh stays, everything else falls with the number of periods.
+//! Time-synchronous average: what repeats with a shaft or a mesh stays, everything else falls with the number of
+//! periods.
 //!
-//! The samples are uniform in the angle, with a whole number P of samples in the period that is averaged over (a turn, or a mesh
-//! period; resample to such a grid first, see [`crate::resampling`]):
+//! The samples are uniform in the angle, with a whole number P of samples in the period that is averaged over (a turn,
+//! or a mesh period; resample to such a grid first, see [`crate::resampling`]):
 //!
 //! ```text
 //! average_j = (1/n) Σ_{r<n} x_{j + rP},        residual = x − average, repeated
 //! ```
 //!
-//! A tone of order ν (in periods) comes out multiplied by the comb's gain |sin(πnν)/(n sin(πν))|: 1 for whole ν, at most 1/(n
+//! A tone of order ν (in periods) comes out multiplied by the comb's gain |sin(πnν)/(n sin(πν))|: 1 for whole ν, at
+//! most 1/(n
 //! |sin πν|) otherwise (P. D. McFadden, Mechanical Systems and Signal Processing 1 (1987) 83).
 
 use crate::error::{SeriesError, check_samples, check_setting};
@@ -22,15 +24,16 @@ pub struct SynchronousAverage {
     pub periods: usize,
     /// Samples minus the average, over the averaged periods.
     pub residual: Vec<f64>,
-    /// Kurtosis of the residual (3 for Gaussian noise, above for impulses); none where the residual is zero to rounding.
+    /// Kurtosis of the residual (3 for Gaussian noise, above for impulses); none where the residual is zero to
+    /// rounding.
     pub residual_kurtosis: Option<f64>,
 }
 
 /// Averages the first `periods` periods of `samples_per_period` samples each.
 ///
 /// # Errors
-/// [`SeriesError::Setting`] for no period or a period of no samples, [`SeriesError::TooShort`] if the series is shorter than that,
-/// [`SeriesError::NotFinite`].
+/// [`SeriesError::Setting`] for no period or a period of no samples, [`SeriesError::TooShort`] if the series is shorter
+/// than that, [`SeriesError::NotFinite`].
 pub fn synchronous_average(
     samples: &[f64],
     samples_per_period: usize,

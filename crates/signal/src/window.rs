@@ -16,8 +16,8 @@ pub enum Window {
     /// a = ½, ½.
     #[default]
     Hann,
-    /// Five terms, made for amplitudes. Coefficients: G. D'Antona, A. Ferrero, *Digital Signal Processing for Measurement
-    /// Systems*, Springer 2006, p. 72.
+    /// Five terms, made for amplitudes. Coefficients: G. D'Antona, A. Ferrero, *Digital Signal Processing for
+    /// Measurement Systems*, Springer 2006, p. 72.
     FlatTop,
 }
 

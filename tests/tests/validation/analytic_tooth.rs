@@ -1,4 +1,5 @@
-//! Validation of the `analytic` tooth, a beam on an elastic ring, against finite elements of whole gears in plane strain, from 12 teeth up.
+//! Validation of the `analytic` tooth, a beam on an elastic ring, against finite elements of whole gears in plane
+//! strain, from 12 teeth up.
 
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
@@ -13,9 +14,10 @@ use std::f64::consts::PI;
 const LINE_LOAD: f64 = 1e5;
 const HALF_WIDTH: f64 = 0.05e-3;
 
-/// The deflection without what the contact flattens the flank down to the tooth's centre line (Weber), of finite elements and of the beam
-/// on its ring, along the flank. The beam's stresses are in balance but not the true ones: it is softer, by the theorem of least complementary energy, and the
-/// ring's share must not spoil it at few teeth. Measured with quadratic elements: 7 to 11 % softer from 12 to 60 teeth.
+/// The deflection without what the contact flattens the flank down to the tooth's centre line (Weber), of finite
+/// elements and of the beam on its ring, along the flank. The beam's stresses are in balance but not the true ones: it
+/// is softer, by the theorem of least complementary energy, and the ring's share must not spoil it at few teeth.
+/// Measured with quadratic elements: 7 to 11 % softer from 12 to 60 teeth.
 #[test]
 fn the_analytic_tooth_is_that_of_finite_elements() {
     for (teeth, shift, bore_mm) in [(12, 0.3, 12.0), (17, 0.2, 20.0), (40, 0.0, 50.0)] {

@@ -1,5 +1,5 @@
-//! The tooth-only submodel (cut and opposite side held) under a Hertz pressure over parts of its width: a mesh of quadratic
-//! hexahedra, graded to the contact in all directions. What is not tooth-only, C_g, is smooth and added.
+//! The tooth-only submodel (cut and opposite side held) under a Hertz pressure over parts of its width: a mesh of
+//! quadratic hexahedra, graded to the contact in all directions. What is not tooth-only, C_g, is smooth and added.
 
 use gearmesh_fe::{
     DofMap, EDGE_CORNERS, Element, Factor, FeModel, Material, QuadraticMesh, assemble_stiffness,
@@ -26,8 +26,8 @@ pub struct GradedTooth {
 }
 
 impl GradedTooth {
-    /// Mean deflection of each of `slices` slices \[m/N\] under a newton spread evenly over slice `loaded`. `slices` divides
-    /// [`PARTS`].
+    /// Mean deflection of each of `slices` slices \[m/N\] under a newton spread evenly over slice `loaded`. `slices`
+    /// divides [`PARTS`].
     pub fn deflections(&self, slices: usize, loaded: usize) -> Vec<f64> {
         let parts = PARTS / slices;
         let mean = |i: usize| -> f64 {
@@ -201,8 +201,8 @@ fn planes(width_m: f64, factor: f64) -> Vec<f64> {
     planes
 }
 
-/// Consistent nodal shares of a unit force, pressed on by a Hertz pressure across and evenly along a layer, on each row of faces
-/// that it touches.
+/// Consistent nodal shares of a unit force, pressed on by a Hertz pressure across and evenly along a layer, on each row
+/// of faces that it touches.
 fn hertz_shares(section: &ContactSection, half_width_m: f64) -> Vec<(usize, [f64; 8])> {
     assert_eq!([EDGE_CORNERS[0], EDGE_CORNERS[4]], [[0, 1], [4, 5]]);
     assert_eq!([EDGE_CORNERS[8], EDGE_CORNERS[9]], [[0, 4], [1, 5]]);

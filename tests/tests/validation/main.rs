@@ -1,5 +1,5 @@
-//! Validation of whole gears and pairs against other programs, finer meshes and reference records. One binary, so that it links
-//! once and long tests run beside each other.
+//! Validation of whole gears and pairs against other programs, finer meshes and reference records. One binary, so that
+//! it links once and long tests run beside each other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod analytic_tooth;

@@ -63,8 +63,9 @@ fn deflection(gear: &ReducedGear, radius_m: f64, at_tooth: usize) -> f64 {
     global + local
 }
 
-/// Coarse against fine, element lengths apart by 1.5 (the coarse fillet is the default's): compliance within 2 %, strain at the gauges within 3 %, and the
-/// program's own estimate made from the fine mesh alone is of the size of the true change, not of another.
+/// Coarse against fine, element lengths apart by 1.5 (the coarse fillet is the default's): compliance within 2 %,
+/// strain at the gauges within 3 %, and the program's own estimate made from the fine mesh alone is of the size of the
+/// true change, not of another.
 #[test]
 fn a_finer_mesh_changes_little() {
     let coarse = coarse();

@@ -1,4 +1,5 @@
-//! Validation of the mesh errors that `reduce` states: on the default mesh they cover the difference from quadratic elements.
+//! Validation of the mesh errors that `reduce` states: on the default mesh they cover the difference from quadratic
+//! elements.
 
 use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;
@@ -115,4 +116,14 @@ fn stated_errors_cover_the_true_ones_on_a_thin_rim() {
     let gear = "[tooth]\nteeth = 24\nmodule_mm = 3.0\nface_width_mm = 12.0\n[blank]\nkind = \"thin-rim\"\nbore_diameter_mm = 20.0\n\
                 hub_diameter_mm = 32.0\nrim_inner_diameter_mm = 54.0\nweb_thickness_mm = 3.0\n";
     check("thin rim", gear, "");
+}
+
+/// Tooth 0 stands over the middle of a slot, where it gives way most.
+#[test]
+#[ignore = "minutes: a sector of eight teeth in quadratic elements"]
+fn stated_errors_cover_the_true_ones_over_three_slots() {
+    let gear = "[tooth]\nteeth = 24\nmodule_mm = 3.0\nface_width_mm = 12.0\n[blank]\nkind = \"thin-rim\"\nbore_diameter_mm = 20.0\n\
+                hub_diameter_mm = 30.0\nrim_inner_diameter_mm = 56.0\nweb_thickness_mm = 4.0\n[blank.slots]\ncount = 3\n\
+                inner_radius_mm = 18.5\nouter_radius_mm = 24.5\nwidth_deg = 70.0\nphase_deg = 0.0\ncorner_radius_mm = 2.0\n";
+    check("three slots", gear, "");
 }

@@ -1,5 +1,5 @@
-//! Validation: the calibrated flank deflection against an independent, converged plane-strain solution of the whole gear
-//! (reference/plane_gear), on coarse to fine flank meshes; and what the other local terms make of it.
+//! Validation: the calibrated flank deflection against an independent, converged plane-strain solution of the whole
+//! gear (reference/plane_gear), on coarse to fine flank meshes; and what the other local terms make of it.
 
 use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};

@@ -1,7 +1,7 @@
 //! Validation: static transmission error of a solid pair (z 50/50, m 3 mm, b 20 mm) in plane strain against an
 //! independent, resolved contact solution (reference/solid_*), at every position, on and beyond the path of contact.
 
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, PathExtension, StaticContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, GearPair, Misalignment};

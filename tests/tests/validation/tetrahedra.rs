@@ -47,9 +47,9 @@ fn write_columns(path: &Path, columns: &[Vec<f64>]) {
     std::fs::write(path, bytes).unwrap();
 }
 
-/// Cyclic substructures against the whole gear at once, by elements assembled elsewhere: xᵀKx agrees to rounding, displacements
-/// solve K u = f, and the compliances between the loads, near and far, are off by less than 1e-8: u_iᵀ(f_j − K u_j) is what a
-/// solution with that K would add to them.
+/// Cyclic substructures against the whole gear at once, by elements assembled elsewhere: xᵀKx agrees to rounding,
+/// displacements solve K u = f, and the compliances between the loads, near and far, are off by less than 1e-8:
+/// u_iᵀ(f_j − K u_j) is what a solution with that K would add to them.
 #[test]
 #[ignore = "a whole gear in Python, a minute"]
 fn stiffness_and_displacements_are_those_of_scikit_fem() {

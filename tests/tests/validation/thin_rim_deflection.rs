@@ -1,5 +1,6 @@
-//! What a thin rim adds to the deflection: the gear less the same gear with a solid blank, on the loaded tooth, the next two on either
-//! side and the opposite one. Converged on the default mesh, and the program's estimate of its error is of the right size.
+//! What a thin rim adds to the deflection: the gear less the same gear with a solid blank, on the loaded tooth, the
+//! next two on either side and the opposite one. Converged on the default mesh, and the program's estimate of its error
+//! is of the right size.
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
@@ -43,7 +44,8 @@ fn steps(teeth: usize) -> [usize; 6] {
     [0, 1, teeth - 1, 2, teeth - 2, teeth / 2]
 }
 
-/// Deflection \[m/N\] in the middle of the flank at [`steps`] from `tooth`, uniform load there; C_g on the loaded tooth.
+/// Deflection \[m/N\] in the middle of the flank at [`steps`] from `tooth`, uniform load there; C_g on the loaded
+/// tooth.
 fn deflections(gear: &ReducedGear, tooth: usize) -> [f64; 6] {
     let grid = &gear.grid;
     let (station, n) = (grid.roll_angles_rad.len() / 2, grid.z_m.len());

@@ -1,10 +1,12 @@
-//! `cargo xtask bench offline`: time and memory of the offline stage beside other programs on the same meshes.
+//! `cargo xtask bench offline`: time and memory of the offline stage beside other programs on the same meshes. `cargo xtask bench chain`: steps of
+//! multibody systems.
 //!
 //! A list of cases, each a child process; one that fails or is too big tells why in its row and the next one runs.
 
 mod accuracy;
 mod accuracy_page;
 mod case;
+mod chain;
 mod host;
 mod page;
 
@@ -22,6 +24,7 @@ use crate::steps::build_program;
 use crate::workspace::Workspace;
 pub use accuracy::accuracy_cost;
 use case::{measure, stages};
+pub use chain::chain;
 use host::Host;
 use page::{Figures, MeshSize, Row, STATED_LOADS};
 

@@ -36,6 +36,7 @@ Usage: cargo xtask <COMMAND>
                   time and memory of the offline stage beside other programs, into docs/benchmarks/offline.md
                   --quick     the two smallest meshes only, into out/offline-quick.md
                   --program   measures this program, with the Python in GEARMESH_PYTHON, and builds nothing
+  bench chain     time of a step over the number of bodies beside Exudyn, into docs/benchmarks/chain.md
   accuracy-cost [--quick] [--program PATH]
                   error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
                   the quick page into out/accuracy-cost-quick.md
@@ -69,6 +70,7 @@ enum Command {
     RustTests(Vec<String>),
     Demo(Vec<String>),
     BenchOffline(bench::Options),
+    BenchChain(bench::Options),
     AccuracyCost(bench::Options),
     Prepare,
     Help,
@@ -92,6 +94,7 @@ impl Command {
             ("bench", ["offline", rest @ ..]) => {
                 bench_options("bench offline", rest).map(Self::BenchOffline)
             }
+            ("bench", ["chain"]) => Ok(Self::BenchChain(bench::Options::default())),
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
@@ -103,7 +106,9 @@ impl Command {
             ("test" | "rust-tests" | "prepare", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
-            ("bench", _) => Err("`bench` needs what to measure: `bench offline`".into()),
+            ("bench", _) => {
+                Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
+            }
             (other, _) => Err(format!("unknown command `{other}`")),
         }
     }
@@ -134,6 +139,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
     let workspace = Workspace::find()?;
     match &command {
         Command::BenchOffline(options) => return bench::offline(&workspace, options),
+        Command::BenchChain(options) => return bench::chain(&workspace, options),
         Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
         _ => {}
     }
@@ -145,9 +151,11 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             Ok(ExitCode::SUCCESS)
         }
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
-        Command::Prepare | Command::Help | Command::BenchOffline(_) | Command::AccuracyCost(_) => {
-            Ok(ExitCode::SUCCESS)
-        }
+        Command::Prepare
+        | Command::Help
+        | Command::BenchOffline(_)
+        | Command::BenchChain(_)
+        | Command::AccuracyCost(_) => Ok(ExitCode::SUCCESS),
     }
 }
 
@@ -222,7 +230,7 @@ mod tests {
         );
         assert_eq!(
             parse("bench online"),
-            Err("`bench` needs what to measure: `bench offline`".into())
+            Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
         );
     }
 

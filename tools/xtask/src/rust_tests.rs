@@ -1,9 +1,9 @@
 //! The Rust tests, as many processes at a time as there are cores.
 //!
-//! `cargo test` runs one binary after another, and while the last long test of a binary runs the other cores wait. Here cargo
-//! builds the binaries and names them; each is cut into parts, one for each module of tests, which share what they have made in
-//! memory; the parts run side by side, one test after another in each. A line of the harness ends with each test: that is
-//! how long it took.
+//! `cargo test` runs one binary after another, and while the last long test of a binary runs the other cores wait. Here
+//! cargo builds the binaries and names them; each is cut into parts, one for each module of tests, which share what
+//! they have made in memory; the parts run side by side, one test after another in each. A line of the harness ends
+//! with each test: that is how long it took.
 
 mod binaries;
 mod part;
@@ -18,18 +18,19 @@ use crate::steps::Extent;
 use crate::venv::Venv;
 use part::{Part, PartResult};
 
-/// Programs that take minutes. They are cut and start first, so that none is left alone at the end; the others in cargo's order.
+/// Programs that take minutes. They are cut and start first, so that none is left alone at the end; the others in
+/// cargo's order.
 const LONG: [&str; 2] = ["reduction verification", "tests validation"];
 
 /// Tests listed at the end.
 const SLOWEST: usize = 10;
 
-/// Builds with `build`, a call of `cargo test` without arguments of its harness, and runs the tests of the programs named in
-/// `only`, of all where it is empty. All parts run, whatever fails.
+/// Builds with `build`, a call of `cargo test` without arguments of its harness, and runs the tests of the programs
+/// named in `only`, of all where it is empty. All parts run, whatever fails.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] where something does not build, [`XtaskError::TestsFailed`] with the names of what failed or of
-/// programs that are not there.
+/// [`XtaskError::Failed`] where something does not build, [`XtaskError::TestsFailed`] with the names of what failed or
+/// of programs that are not there.
 pub fn run(build: Command, venv: &Venv, extent: Extent, only: &[String]) -> Result<(), XtaskError> {
     let start = Instant::now();
     let binaries = binaries::built(build)?;

@@ -30,8 +30,8 @@ fn command<'a>(mut command: Command) -> Step<'a> {
     Box::new(move || run_checked(&mut command))
 }
 
-/// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of packages
-/// would unite other features, and what several steps need would be compiled for each.
+/// Everything that CI runs, in order, up to the first failure. Each step names the whole workspace: another choice of
+/// packages would unite other features, and what several steps need would be compiled for each.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] names the command that failed.

@@ -2,8 +2,9 @@
 
 use crate::arguments::MeshArguments;
 use crate::failure::Failure;
-use crate::{console, offline, output_name};
+use crate::{console, memory, offline, output_name};
 use gearmesh_mesh::GearMesh;
+use gearmesh_reduction::OfflineJob;
 use serde_json::json;
 
 /// Runs the command.
@@ -12,6 +13,8 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     let gear = offline::gear(&arguments.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "nodes and elements are");
+    let even_if_short = arguments.even_if_memory_is_short;
+    memory::demand(&gear, &arguments.gear, OfflineJob::Mesh, even_if_short)?;
     let mesh = GearMesh::new(&gear, &offline::python()?)
         .map_err(|e| Failure::from(gearmesh_reduction::ReductionError::from(e)))?;
     // Refused here too, where the finite element model would refuse an element.

@@ -5,10 +5,10 @@ use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::length_unit::LengthUnit;
 use crate::offline::MeshFields;
-use crate::{console, offline, output_name};
+use crate::{console, memory, offline, output_name};
 use gearmesh_geometry::{GearDefinition, ModeRange};
 use gearmesh_model::{Field, RigidBody};
-use gearmesh_reduction::{GearBody, GearMode, GearModes, ReductionError};
+use gearmesh_reduction::{GearBody, GearMode, GearModes, OfflineJob, ReductionError};
 use serde_json::json;
 
 /// Runs the command.
@@ -22,6 +22,12 @@ pub fn run(a: &ModesArguments) -> Result<(), Failure> {
     let range = range(a, &gear)?;
     let density = gear.material.density_kg_per_m3;
     let density = density.ok_or(ReductionError::NoDensity)?;
+    memory::demand(
+        &gear,
+        &a.gear,
+        OfflineJob::Modes(range),
+        a.even_if_memory_is_short,
+    )?;
     let bar = StageBar::new(&gear.name);
     let body = GearBody::new(&gear, &offline::python()?, &bar)?;
     let rigid = body.rigid_mass(density).map_err(ReductionError::from)?;

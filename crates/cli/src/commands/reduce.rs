@@ -2,8 +2,9 @@
 
 use crate::arguments::ReduceArguments;
 use crate::failure::Failure;
-use crate::{console, offline, output_name};
+use crate::{console, memory, offline, output_name};
 use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
+use gearmesh_reduction::OfflineJob;
 use serde_json::json;
 
 /// Runs the command.
@@ -19,6 +20,8 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
         }
         None => {
             offline::note_element(&gear);
+            let even_if_short = arguments.even_if_memory_is_short;
+            memory::demand(&gear, &arguments.gear, OfflineJob::Reduction, even_if_short)?;
             offline::reduced(&gear, !arguments.no_error_estimate)?.0
         }
     };

@@ -98,7 +98,8 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
     }
 }
 
-/// Amplitudes of values at the places of a series over frequency or order, mean removed. Orders end where the resampling is no longer right.
+/// Amplitudes of values at the places of a series over frequency or order, mean removed. Orders end where the
+/// resampling is no longer right.
 fn spectrum(
     series: &Series,
     values: &[f64],

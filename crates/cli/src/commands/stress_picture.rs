@@ -10,7 +10,8 @@ use gearmesh_reduction::GearBody;
 use gearmesh_report::scene_page::GearPicture;
 use gearmesh_scene::{LoadedScene, SceneResult};
 
-/// Pictures of both gears of a result, which are meshed again for it; of gears that have no cross-section of quadrilaterals none, with the reason.
+/// Pictures of both gears of a result, which are meshed again for it; of gears that have no cross-section of
+/// quadrilaterals none, with the reason.
 pub fn pictures(
     loaded: &LoadedScene,
     result: &SceneResult,

@@ -143,7 +143,8 @@ fn files_of_many_megabytes_are_refused_unread() {
     );
 }
 
-/// A message shows names and numbers of a table, and nothing of a file that is none: a scene could name any file of the machine.
+/// A message shows names and numbers of a table, and nothing of a file that is none: a scene could name any file of the
+/// machine.
 #[test]
 fn no_line_of_another_file_is_printed() {
     let secret = "hunter2";

@@ -343,3 +343,45 @@ fn a_missing_mesh_file_is_seen_by_check() {
         &["blank.file: the mesh file", "nowhere.inp does not exist"],
     );
 }
+
+/// Memory is estimated before it is taken: 0.03 mm on a 500 mm face took 60 GB before it aborted.
+#[test]
+fn a_mesh_that_no_machine_holds_is_refused_before_it_is_made() {
+    let wide = changed(SOLID, "face_width_mm = 12.0", "face_width_mm = 500.0");
+    let text = changed(&wide, "axial_mm = 3.0", "axial_mm = 0.03");
+    let desk = Desk::new();
+    let file = desk.file("gear.toml", &text);
+    let place = format!("{}:{}: ", file.display(), line_of(&text, "axial_mm"));
+    for (command, output) in [("mesh", "output.vtu"), ("reduce", "output.h5")] {
+        let output = desk.path(output);
+        let answer = gearmesh(&[command, argument(&file), "-o", argument(&output)]);
+        let parts = [
+            &place,
+            "mesh.axial_mm",
+            "nodes",
+            "GB of memory",
+            "GB are free",
+            "times its default",
+            "--even-if",
+        ];
+        refused(&answer, 2, &parts);
+        assert_eq!(desk.names(), ["gear.toml"]);
+    }
+}
+
+#[test]
+fn more_modes_than_memory_holds_are_refused() {
+    let text = changed(
+        SOLID,
+        "poisson = 0.3",
+        "poisson = 0.3\ndensity_kg_per_m3 = 7850.0",
+    );
+    let desk = Desk::new();
+    let file = desk.file("gear.toml", &text);
+    let answer = gearmesh(&["modes", argument(&file), "--count", "100000000"]);
+    refused(
+        &answer,
+        2,
+        &["modes", "the natural modes take", "ask for fewer"],
+    );
+}

@@ -182,7 +182,8 @@ fn numbers_that_are_none_are_refused() {
     );
 }
 
-/// One vocabulary for both kinds of scene: the former name is read with a note and means the same; keys of gear meshes are refused by name.
+/// One vocabulary for both kinds of scene: the former name is read with a note and means the same; keys of gear meshes
+/// are refused by name.
 #[test]
 fn friction_has_the_names_of_gear_meshes() {
     let desk = Desk::new();

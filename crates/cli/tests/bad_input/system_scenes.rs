@@ -2,8 +2,8 @@
 
 use crate::common::{Desk, argument, changed, gearmesh, line_of, refused, succeeds};
 
-/// A multibody scene that is wrong or that its first steps refuse: exit code 2 from `plan`, place and cause on standard error. What else a scene
-/// can get wrong is in crates/scene/tests/bad_scenes.
+/// A multibody scene that is wrong or that its first steps refuse: exit code 2 from `plan`, place and cause on standard
+/// error. What else a scene can get wrong is in crates/scene/tests/bad_scenes.
 #[test]
 fn a_multibody_scene_that_cannot_be_is_explained() {
     const SWING: &str = r#"title = "swing"

@@ -19,6 +19,7 @@ mod recover;
 mod report;
 mod run;
 mod schema;
+mod shipped_gearboxes;
 mod unequal_pair;
 
 use common::{Desk, argument, succeeds, workshop};

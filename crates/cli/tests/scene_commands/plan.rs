@@ -32,7 +32,8 @@ fn plan_counts_what_run_computes() {
     assert_eq!(result.strain.len(), 1);
 }
 
-/// Planned with its gauges; a flank that one model does not carry, a gauge that it does not have and a body that cannot be rigid are refused.
+/// Planned with its gauges; a flank that one model does not carry, a gauge that it does not have and a body that cannot
+/// be rigid are refused.
 #[test]
 fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
     let scene = hybrid_scene();

@@ -42,8 +42,8 @@ fn run_prints_the_harmonics_of_the_mesh_cycle() {
     }
 }
 
-/// The two local terms describe the same teeth; they differ by what one of them gets wrong, some per cent. The calibrated one is
-/// what a scene gets that does not name any.
+/// The two local terms describe the same teeth; they differ by what one of them gets wrong, some per cent. The
+/// calibrated one is what a scene gets that does not name any.
 #[test]
 fn the_calibrated_local_term_is_the_default() {
     let desk = Desk::new();
@@ -92,8 +92,8 @@ fn slices_narrower_than_elements_change_little() {
     assert!((narrow / wide - 1.0).abs() < 0.01, "{wide} {narrow}");
 }
 
-/// With tip edges in contact the pair never gives way more than without them, gives way less at the change of pairs, and
-/// everything that reads a result copes with the further lines.
+/// With tip edges in contact the pair never gives way more than without them, gives way less at the change of pairs,
+/// and everything that reads a result copes with the further lines.
 #[test]
 fn an_extended_path_runs_through_recovery_and_report() {
     let desk = Desk::new();

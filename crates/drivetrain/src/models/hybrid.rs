@@ -13,43 +13,37 @@
 //! A root crack adds to C where its tooth is in contact, by the tooth's number.
 //! Right and left flanks are solved one by one: a tooth wedged on both flanks at once does not feel itself across.
 
-use gearmesh_contact::contact_lines::{ContactLine, ContactLines};
-use gearmesh_contact::contact_slices::ContactSlice;
-use gearmesh_contact::nlcp::{FLOOR_FRACTION, LocalLawError, NlcpError};
-use gearmesh_contact::slice_contact::{Given, Separations, SliceContact};
-use gearmesh_contact::{ContactZone, LocalContact, SliceLayout};
+use gearmesh_contact::slice_contact::SliceContact;
+use gearmesh_contact::{
+    ContactLines, ContactPatch, ContactZone, Drive, FlankPlace, LocalContact, PatchBalance,
+    SliceLayout, nlcp::FLOOR_FRACTION,
+};
 use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
-use crate::flank_contacts::{FlankContacts, Section, ToothContact};
+use crate::flank_contacts::{FlankContacts, TeethLine};
+use crate::flank_modes::flank_of;
 use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
-/// A pair whose nearest slice is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
+/// A slice that is open by more than this many times the deepest penetration of all is left out. No unit. What loaded
 /// teeth make of other flanks' gaps is at most their own deflection times √(C_ii/C_jj), which stays below 3 on one gear.
 const OUT_OF_REACH: f64 = 3.0;
 
-/// A section or contact that is left out.
+/// A contact that is left out.
 const NOWHERE: usize = usize::MAX;
-
-/// Separation \[m\] of a slice whose flank is gone.
-const GONE_M: f64 = 1.0;
 
 /// The teeth of two reduced gears on one side.
 #[derive(Debug, Clone)]
 pub struct ReducedTeeth {
     slices: SliceContact,
     floor_n: f64,
-    helical: bool,
-    /// Number of each section among the places that are solved for: lines of spur teeth, slices of helical ones.
-    place: Vec<usize>,
     /// Row of each contact in the problem.
     row: Vec<usize>,
-    active: Vec<ContactLine>,
-    touching: Vec<ContactSlice>,
-    separation: Vec<f64>,
-    ones: Vec<f64>,
+    /// Teeth of the lines within reach.
+    teeth: Vec<[usize; 2]>,
+    patches: Vec<ContactPatch>,
     unit: Vec<f64>,
     change: Vec<f64>,
     /// φ/ω of each row, `[row][mode]`; one array a gear.
@@ -109,26 +103,34 @@ impl ReducedTeeth {
         (local, displacement_m): (LocalContact, f64),
         nominal_force_n: f64,
     ) -> Result<Self, DrivetrainError> {
-        positive("hybrid mesh", "the nominal force in N", nominal_force_n)?;
         let lines = ContactLines {
-            pair: pair.clone().on_flanks(side),
+            pair: pair.clone(),
             microgeometry_1: Microgeometry::default(),
             microgeometry_2: Microgeometry::default(),
             extension: None,
             zone: ContactZone::new(models.map(|model| model.face_width_m), displacement_m),
         };
-        let slices = SliceContact::new(lines, models[0], models[1], local)?;
+        // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
+        let most_lines = lines.most_pairs() + 2;
+        let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
+        let flanks = (teeth, flank_of(side));
+        let slices = SliceContact::of_gears(models, flanks, (local, displacement_m), most_lines)?;
+        Self::of_flanks(slices, nominal_force_n)
+    }
+
+    /// The contact of any two elastic flanks.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`].
+    pub fn of_flanks(slices: SliceContact, nominal_force_n: f64) -> Result<Self, DrivetrainError> {
+        positive("hybrid mesh", "the nominal force in N", nominal_force_n)?;
         let capacity = slices.capacity();
         let empty = || Vec::with_capacity(capacity);
         Ok(Self {
             floor_n: FLOOR_FRACTION * nominal_force_n / slices.slices() as f64,
-            helical: pair.is_helical(),
-            place: Vec::with_capacity(capacity),
             row: Vec::with_capacity(capacity),
-            active: Vec::with_capacity(capacity),
-            touching: Vec::with_capacity(capacity),
-            separation: empty(),
-            ones: vec![1.0; capacity],
+            teeth: Vec::with_capacity(capacity),
+            patches: Vec::with_capacity(capacity),
             unit: empty(),
             change: empty(),
             modal_rows: [empty(), empty()],
@@ -157,81 +159,27 @@ impl ReducedTeeth {
         })
     }
 
-    /// Takes the lines within reach and the separations of a pose.
+    /// Takes the patches within reach.
     fn take(&mut self, flanks: &FlankContacts) {
-        self.active.clear();
-        self.touching.clear();
-        self.separation.clear();
-        self.place.clear();
-        self.place.resize(flanks.sections.len(), NOWHERE);
+        self.teeth.clear();
+        self.patches.clear();
         self.row.clear();
         self.row.resize(flanks.contacts.len(), NOWHERE);
-        let least = |contacts: &[ToothContact]| {
-            let gaps = contacts.iter().map(|contact| contact.gap_m);
-            gaps.fold(f64::INFINITY, f64::min)
-        };
-        let reach = -OUT_OF_REACH * least(&flanks.contacts);
+        let reach = OUT_OF_REACH * flanks.deepest_overlap_m();
         for line in &flanks.lines {
+            let begin = self.patches.len();
             let (first, count) = line.contacts;
-            let contacts = &flanks.contacts[first..first + count];
-            if least(contacts) > reach {
-                continue;
-            }
-            let number = self.active.len();
-            self.active.push(contact_line(line.teeth, &line.middle));
-            if self.helical {
-                for (i, contact) in (first..).zip(contacts) {
-                    if contact.gap_m <= reach {
-                        self.take_slice(flanks, i, number, line.teeth);
-                    }
+            for i in first..first + count {
+                if flanks.contacts[i].gap_m <= reach {
+                    self.row[i] = self.patches.len();
+                    self.patches
+                        .push(patch(flanks, (self.teeth.len(), line), i));
                 }
-            } else {
-                self.take_line(contacts, (first, number), line.middle.share);
+            }
+            if self.patches.len() > begin {
+                self.teeth.push(line.teeth);
             }
         }
-    }
-
-    /// All slices of a spur line; those whose flank is gone far away.
-    fn take_line(
-        &mut self,
-        contacts: &[ToothContact],
-        (first, number): (usize, usize),
-        share: f64,
-    ) {
-        let section = self.active[number];
-        let begin = self.touching.len();
-        let centres = self.slices.slice_centres_m().iter().enumerate();
-        (self.touching).extend(centres.map(|(slice, &z_m)| ContactSlice {
-            line: number,
-            slice,
-            share,
-            z_m,
-            section,
-        }));
-        self.separation.resize(self.touching.len(), GONE_M);
-        for (i, contact) in (first..).zip(contacts) {
-            let row = begin + contact.slice;
-            self.place[contact.section] = number;
-            self.row[i] = row;
-            self.separation[row] = contact.gap_m;
-        }
-    }
-
-    /// One slice of a helical line.
-    fn take_slice(&mut self, flanks: &FlankContacts, i: usize, line: usize, teeth: [usize; 2]) {
-        let contact = &flanks.contacts[i];
-        let section = flanks.section(contact);
-        let row = self.touching.len();
-        self.place[contact.section] = row;
-        self.row[i] = row;
-        self.separation.push(contact.gap_m);
-        self.touching.push(ContactSlice {
-            line,
-            slice: contact.slice,
-            share: section.share,
-            z_m: self.slices.slice_centres_m()[contact.slice],
-            section: contact_line(teeth, section),
-        });
     }
 
     /// Takes from the compliance what the modes give way at rest.
@@ -242,7 +190,7 @@ impl ReducedTeeth {
             if count == 0 {
                 continue;
             }
-            rows.resize(self.touching.len() * count, 0.0);
+            rows.resize(self.patches.len() * count, 0.0);
             for (number, &row) in self.row.iter().enumerate() {
                 if row != NOWHERE {
                     let scaled = rows[row * count..].iter_mut().zip(modal.shape(number));
@@ -259,13 +207,10 @@ impl ReducedTeeth {
     fn begin_solution(&mut self) {
         let slices = self.slices.slices();
         self.change.clear();
-        for (number, line) in self.active.iter().enumerate() {
-            let teeth = [line.tooth_1, line.tooth_2];
-            let known = self.known.of_teeth(teeth, slices);
-            let first = self.change.len();
-            let own = (self.touching[first..].iter()).take_while(|slice| slice.line == number);
-            let force = |slice: &ContactSlice| known.map_or(0.0, |forces| forces[slice.slice]);
-            self.change.extend(own.map(force));
+        for on_line in self.patches.chunk_by(|a, b| a.line == b.line) {
+            let known = self.known.of_teeth(on_line[0].teeth, slices);
+            let force = |patch: &ContactPatch| known.map_or(0.0, |forces| forces[patch.slice]);
+            self.change.extend(on_line.iter().map(force));
         }
         if self.change.iter().any(|force| *force > 0.0) {
             self.slices.start_from(&self.change);
@@ -298,7 +243,7 @@ impl ReducedTeeth {
 
     fn fill_tangent(&mut self, loads: &mut TeethLoads) {
         let n = self.row.len();
-        let size = self.touching.len();
+        let size = self.patches.len();
         self.change.resize(size, 0.0);
         self.unit.clear();
         self.unit.resize(size, 0.0);
@@ -317,43 +262,50 @@ impl ReducedTeeth {
         }
     }
 
-    fn fill_energy(&mut self, flanks: &FlankContacts, loads: &mut TeethLoads) {
+    fn fill_energy(&self, flanks: &FlankContacts, loads: &mut TeethLoads) {
         for (number, section) in flanks.sections.iter().enumerate() {
-            let place = self.place[number];
-            if place == NOWHERE || !self.slices.carries(place) {
+            let (first, count) = section.contacts;
+            let loaded = (first..first + count).filter(|i| loads.normal_n[*i] > 0.0);
+            let rows = loaded.map(|i| self.row[i]);
+            if rows.clone().next().is_none() {
                 continue;
             }
             for gear in 0..2 {
                 // At the end of a flank the contact no longer walks.
                 if section.walks(gear) {
-                    loads.energy_by_roll[number][gear] = (self.slices).energy_by_roll(place, gear)
+                    let walking = rows.clone().map(|row| self.slices.energy_by_u(row, gear));
+                    loads.energy_by_roll[number][gear] = walking.sum::<f64>()
                         - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
             }
             if section.share_gradient != Vector6::zeros() {
-                loads.energy_by_share[number] = self.slices.energy_by_share(place);
+                let growing = rows.map(|row| self.slices.energy_by_share(row));
+                loads.energy_by_share[number] = growing.sum();
             }
         }
     }
 }
 
-fn contact_line(teeth: [usize; 2], section: &Section) -> ContactLine {
-    ContactLine {
-        pair: 0,
-        tooth_1: teeth[0],
-        tooth_2: teeth[1],
-        roll_1_rad: section.touching_roll_rad[0],
-        roll_2_rad: section.touching_roll_rad[1],
-        path_m: 0.0,
-        tip: None,
-    }
-}
-
-fn local_law_error(teeth: [usize; 2], cause: LocalLawError) -> DrivetrainError {
-    DrivetrainError::LocalLaw {
-        tooth_1: teeth[0],
-        tooth_2: teeth[1],
-        cause,
+/// The patch of a contact.
+fn patch(flanks: &FlankContacts, (number, line): (usize, &TeethLine), i: usize) -> ContactPatch {
+    let contact = &flanks.contacts[i];
+    let section = flanks.section(contact);
+    ContactPatch {
+        teeth: line.teeth,
+        line: number,
+        slice: contact.slice,
+        places: [0, 1].map(|gear: usize| FlankPlace {
+            u: section.touching_roll_rad[gear],
+            v: contact.heights_m[gear],
+        }),
+        share: section.share,
+        length_m: section.length_m,
+        radius_m: section.radius_m,
+        radius_growth: section.radius_growth,
+        normal: [0, 1, 2].map(|axis: usize| contact.gradient[axis]),
+        gap_m: contact.gap_m,
+        balance: PatchBalance::ALONG_NORMALS,
+        edge: None,
     }
 }
 
@@ -365,35 +317,16 @@ impl TeethModel for ReducedTeeth {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
-            self.active.clear();
-            self.touching.clear();
+            self.patches.clear();
+            self.teeth.clear();
             return Ok(());
         }
         self.check_displacement(flanks)?;
         self.take(flanks);
-        let size = self.touching.len();
-        if size > self.slices.capacity() {
-            return Err(NlcpError::TooLarge {
-                size,
-                capacity: self.slices.capacity(),
-            }
-            .into());
-        }
-        (self
-            .slices
-            .prepare_with_rates(&self.active, &self.touching, self.floor_n))
-        .map_err(|(cause, slice)| {
-            let line = &self.touching[slice].section;
-            local_law_error([line.tooth_1, line.tooth_2], cause)
-        })?;
+        (self.slices).prepare(&self.patches, self.floor_n, true)?;
         self.take_modes_out(flanks);
         self.begin_solution();
-        let separations = Separations {
-            separation_m: &self.separation,
-            closing: &self.ones[..size],
-            lever_m: &self.ones[..size],
-        };
-        self.slices.solve(separations, Given::Approach(0.0))?;
+        self.slices.solve(Drive::TransmissionError(0.0))?;
         let forces = self.slices.forces_n();
         for (force, &row) in loads.normal_n.iter_mut().zip(&self.row) {
             if row != NOWHERE {
@@ -416,7 +349,7 @@ impl TeethModel for ReducedTeeth {
         forces_n: &mut [f64],
     ) {
         forces_n.fill(0.0);
-        let size = self.touching.len();
+        let size = self.patches.len();
         if size == 0 {
             return;
         }
@@ -443,15 +376,14 @@ impl TeethModel for ReducedTeeth {
     fn remember(&mut self) {
         self.known.teeth.clear();
         self.known.forces_n.clear();
-        if self.touching.is_empty() {
+        if self.patches.is_empty() {
             return;
         }
-        let teeth = self.active.iter().map(|line| [line.tooth_1, line.tooth_2]);
-        self.known.teeth.extend(teeth);
+        self.known.teeth.extend(&self.teeth);
         let slices = self.slices.slices();
-        self.known.forces_n.resize(self.active.len() * slices, 0.0);
-        for (slice, force) in self.touching.iter().zip(self.slices.forces_n()) {
-            self.known.forces_n[slice.line * slices + slice.slice] = *force;
+        self.known.forces_n.resize(self.teeth.len() * slices, 0.0);
+        for (patch, force) in self.patches.iter().zip(self.slices.forces_n()) {
+            self.known.forces_n[patch.line * slices + patch.slice] = *force;
         }
     }
 

@@ -5,9 +5,12 @@ mod backlash;
 mod effects;
 mod energy;
 mod exchange;
+mod invariance;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;
 mod models;
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
 mod two_bodies;
 mod zone;
 

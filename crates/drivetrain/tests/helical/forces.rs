@@ -2,7 +2,7 @@
 
 use crate::mesh_common::running_pair::calibrated_gear;
 use crate::mesh_common::*;
-use gearmesh_contact::static_contact::Drive;
+use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, StaticContact};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;

@@ -39,7 +39,7 @@ fn slices_are_those_of_the_static_scene() {
                 lines.at(theta, &mut active);
                 let mut expected = Vec::new();
                 for line in active.iter().enumerate() {
-                    lines.push_slices(line, &slice_planes(), WIDTH / SLICES as f64, &mut expected);
+                    lines.push_patches(line, &layout(SLICES), None, &mut expected);
                 }
                 let phi = angles(&pair, side, theta, 0.0);
                 let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
@@ -48,14 +48,15 @@ fn slices_are_those_of_the_static_scene() {
                 assert_eq!(own.clone().count(), expected.len(), "{theta}");
                 for contact in own {
                     let (section, line) = (found.section(contact), &found.lines[contact.line]);
-                    let twin = expected.iter().find(|twin| {
-                        let teeth = [twin.section.tooth_1, twin.section.tooth_2];
-                        teeth == line.teeth && twin.slice == contact.slice
-                    });
+                    let twin = expected
+                        .iter()
+                        .find(|twin| twin.teeth == line.teeth && twin.slice == contact.slice);
                     let twin = twin.unwrap_or_else(|| panic!("{:?}", line.teeth));
                     assert!((section.share - twin.share).abs() < 1e-10);
                     partly += usize::from(section.share < 1.0);
-                    let rolls = [twin.section.roll_1_rad, twin.section.roll_2_rad];
+                    assert!((section.length_m / twin.length_m - 1.0).abs() < 1e-6);
+                    assert!((section.radius_m / twin.radius_m - 1.0).abs() < 1e-10);
+                    let rolls = twin.places.map(|place| place.u);
                     for (own, other) in section.roll_rad.iter().zip(rolls) {
                         assert!((own - other).abs() < 1e-12, "{own} {other}");
                     }

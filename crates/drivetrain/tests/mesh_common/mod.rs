@@ -129,7 +129,7 @@ pub fn mesh_spring(pair: &GearPair) -> MeshSpring {
 /// The pair of the made-up gears at rest, over one pitch at `points` positions.
 pub fn own_curve(pair: &GearPair, torque_nm: f64, points: usize) -> (PairCurve, Vec<f64>) {
     use gearmesh_contact::mesh_stiffness::MeshStiffness;
-    use gearmesh_contact::{ContactLines, StaticContact, static_contact::Drive};
+    use gearmesh_contact::{ContactLines, Drive, StaticContact};
     let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
     let lines = ContactLines {
         pair: pair.clone(),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use gearmesh_contact::RollHats;
+use gearmesh_contact::ProfileHats;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation};
@@ -38,7 +38,7 @@ fn frequency_squared(mode: usize) -> f64 {
 /// derivative by that angle.
 fn at_hats(gear: &ReducedGear, roll_rad: f64, shape: impl Fn(f64) -> f64) -> (f64, f64) {
     let stations = &gear.grid.roll_angles_rad;
-    let place = RollHats::new(stations).place(roll_rad);
+    let place = ProfileHats::of_involute(stations).place(roll_rad);
     let last = (stations.len() - 1) as f64;
     let sum = |shares: &mut dyn Iterator<Item = (usize, f64)>| {
         shares
@@ -177,12 +177,12 @@ fn friction_on_a_turning_mode_is_its_moment() {
         let turns = |gear: ReducedGear, tooth: &ToothGeometry| {
             let radius = tooth.base_radius_m;
             let axial = gear.grid.z_m.len();
-            let hats = RollHats::new(&gear.grid.roll_angles_rad);
+            let hats = ProfileHats::of_involute(&gear.grid.roll_angles_rad);
             let mut flank = Vec::new();
             for _ in 0..gear.teeth {
                 for sigma in [1.0, -1.0] {
                     for load in 0..gear.grid.len() {
-                        let roll_rad = hats.centroids_rad()[load / axial];
+                        let roll_rad = hats.centroids()[load / axial];
                         flank.extend([sigma * radius, sigma * radius * roll_rad, 0.0]);
                     }
                 }

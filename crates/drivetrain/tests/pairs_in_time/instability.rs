@@ -41,7 +41,8 @@ impl TeethModel for SquareWave {
         let Some(line) = flanks.lines.first() else {
             return Ok(());
         };
-        let place = ((line.middle.roll_rad[0] - self.begin_rad) / self.pitch_rad).rem_euclid(1.0);
+        let place = ((flanks.sections[line.section].roll_rad[0] - self.begin_rad) / self.pitch_rad)
+            .rem_euclid(1.0);
         let stiffness = if place < self.part {
             self.stiff
         } else {

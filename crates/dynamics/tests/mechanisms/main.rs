@@ -1,10 +1,13 @@
-//! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position. One program, so that its
-//! libraries are linked once.
+//! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position; chains;
+//! force elements with coordinates of their own; any free system. One program, so that its libraries are linked once.
 #![allow(clippy::unwrap_used)] // test code
 
 mod andrews;
 mod five_bars;
 mod own_coordinates;
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
+mod random_systems;
 mod sparse;
 
 #[path = "../problems"]

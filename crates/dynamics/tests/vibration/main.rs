@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // test code
 
 mod beams;
+mod large_systems;
 mod modal_body;
 mod natural_frequencies;
 mod parametric_excitation;

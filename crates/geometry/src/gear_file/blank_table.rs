@@ -40,7 +40,8 @@ pub(super) struct BlankTable {
     length_unit: Option<LengthUnit>,
     /// "mesh": set of nodes or elements on the bore; "bore" where not given.
     bore_set: Option<String>,
-    /// "mesh": sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where not given.
+    /// "mesh": sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where
+    /// not given.
     flank_sets: Option<String>,
 }
 
@@ -157,7 +158,8 @@ impl BlankTable {
         )
     }
 
-    /// Where the mesh is and how its sets are called; the names are those that `gearmesh mesh` gives unless told otherwise.
+    /// Where the mesh is and how its sets are called; the names are those that `gearmesh mesh` gives unless told
+    /// otherwise.
     fn check_meshed(
         &self,
         document: &InputDocument,

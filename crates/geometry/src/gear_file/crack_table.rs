@@ -22,9 +22,11 @@ pub(super) struct CrackTable {
     side: FlankSide,
     /// Depth.
     depth_mm: f64,
-    /// Direction against the tooth's centre line: 0 towards the centre of the gear, 90 straight across; at right angles to the profile where not given.
+    /// Direction against the tooth's centre line: 0 towards the centre of the gear, 90 straight across; at right angles
+    /// to the profile where not given.
     angle_deg: Option<f64>,
-    /// Place of the mouth: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is given.
+    /// Place of the mouth: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where
+    /// neither is given.
     tangent_deg: Option<f64>,
     /// Place of the mouth: its radius.
     radius_mm: Option<f64>,

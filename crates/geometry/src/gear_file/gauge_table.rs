@@ -18,7 +18,8 @@ pub(super) struct GaugeTable {
     tooth: usize,
     /// Side of the tooth.
     side: FlankSide,
-    /// Place: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is given.
+    /// Place: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is
+    /// given.
     tangent_deg: Option<f64>,
     /// Place: radius.
     radius_mm: Option<f64>,
@@ -77,8 +78,8 @@ impl GaugeTable {
     }
 }
 
-/// Where on the root fillet something sits, by `tangent_deg` or `radius_mm`; the 30 degree tangent where neither is given. `what`: what
-/// is placed, in words.
+/// Where on the root fillet something sits, by `tangent_deg` or `radius_mm`; the 30 degree tangent where neither is
+/// given. `what`: what is placed, in words.
 pub(super) fn root_position(
     keys: &TableKeys,
     curve: &ProfileCurve,

@@ -86,11 +86,8 @@ impl MeshTable {
             ));
         }
         let (element, chosen_because) = self.check_element(&keys, tooth, blank)?;
-        // Quadratic tetrahedra on twice the lengths have about as many nodes as bricks of eight nodes.
-        let coarser = match element {
-            ElementKind::Tet10 => 2.0,
-            _ => 1.0,
-        };
+        let [flank_mm, fillet_mm, body_mm, axial_mm] =
+            MeshSettings::default_lengths(element, module_mm, width_mm);
         let quality = self.min_scaled_jacobian.unwrap_or(0.2);
         keys.require(
             "min_scaled_jacobian",
@@ -101,30 +98,10 @@ impl MeshTable {
         Ok(MeshSettings {
             element,
             chosen_because,
-            flank_m: size_m(
-                "flank_mm",
-                self.flank_mm,
-                coarser * 0.3 * module_mm,
-                module_mm,
-            )?,
-            fillet_m: size_m(
-                "fillet_mm",
-                self.fillet_mm,
-                coarser * 0.08 * module_mm,
-                0.5 * module_mm,
-            )?,
-            body_m: size_m(
-                "body_mm",
-                self.body_mm,
-                coarser * 1.2 * module_mm,
-                10.0 * module_mm,
-            )?,
-            axial_m: size_m(
-                "axial_mm",
-                self.axial_mm,
-                coarser * width_mm / 10.0,
-                width_mm,
-            )?,
+            flank_m: size_m("flank_mm", self.flank_mm, flank_mm, module_mm)?,
+            fillet_m: size_m("fillet_mm", self.fillet_mm, fillet_mm, 0.5 * module_mm)?,
+            body_m: size_m("body_mm", self.body_mm, body_mm, 10.0 * module_mm)?,
+            axial_m: size_m("axial_mm", self.axial_mm, axial_mm, width_mm)?,
             min_scaled_jacobian: quality,
             plane_strain: self.plane_strain,
         })

@@ -24,7 +24,8 @@ pub(super) struct MicrogeometryTable {
     tip_relief_shape: Option<TipReliefShape>,
     /// Lead crowning: a parabola over the face, zero at mid-face, this at both ends; 0 where not given.
     lead_crowning_um: Option<f64>,
-    /// Slope of the flank line over the whole face width: removed at +z, added at -z, zero at mid-face; 0 where not given.
+    /// Slope of the flank line over the whole face width: removed at +z, added at -z, zero at mid-face; 0 where not
+    /// given.
     flank_angle_um: Option<f64>,
 }
 

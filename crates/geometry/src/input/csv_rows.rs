@@ -1,7 +1,7 @@
 //! Rows of comma separated text, with their lines.
 
-/// The rows of a table: fields between commas without the blanks around them, quotes as spreadsheet programs write them. Blank lines and
-/// lines that begin with `#` are passed over. A row may have any number of fields.
+/// The rows of a table: fields between commas without the blanks around them, quotes as spreadsheet programs write
+/// them. Blank lines and lines that begin with `#` are passed over. A row may have any number of fields.
 pub struct CsvRows {
     reader: csv::Reader<std::io::Cursor<Vec<u8>>>,
 }
@@ -9,8 +9,8 @@ pub struct CsvRows {
 impl CsvRows {
     /// The rows of a text.
     pub fn new(text: &str) -> Self {
-        // Spreadsheet programs put a byte order mark in front. The reader counts a line where it reads the line feed, so that each row
-        // has to end in one, and in nothing else.
+        // Spreadsheet programs put a byte order mark in front. The reader counts a line where it reads the line feed,
+        // so that each row has to end in one, and in nothing else.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let text = text.replace("\r\n", "\n") + "\n";
         let reader = csv::ReaderBuilder::new()

@@ -1,6 +1,6 @@
-//! The range of every number of an input file. Keys carry their unit, so the unit at the end of a key says how large its numbers may be:
-//! far beyond any machine, but small enough that no square or product of two of them leaves the range of the processor's numbers.
-//! What a single key allows beyond that is said where the key is read.
+//! The range of every number of an input file. Keys carry their unit, so the unit at the end of a key says how large
+//! its numbers may be: far beyond any machine, but small enough that no square or product of two of them leaves the
+//! range of the processor's numbers. What a single key allows beyond that is said where the key is read.
 
 /// What is allowed of the numbers of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,8 +44,8 @@ const UNITS: [(&str, f64); 26] = [
     ("SI", 1e18),
 ];
 
-/// Keys whose numbers have no unit and a wider range than others: load cycles, and the values of a study, whose range is that of the key
-/// they are put into.
+/// Keys whose numbers have no unit and a wider range than others: load cycles, and the values of a study, whose range
+/// is that of the key they are put into.
 const WIDE: [&str; 2] = ["cycles", "values"];
 
 /// Range of numbers without a unit.
@@ -107,7 +107,8 @@ impl NumberRange {
     }
 }
 
-/// The first number of a document that is out of its range, or text that holds a control character: dotted key and what is wrong.
+/// The first number of a document that is out of its range, or text that holds a control character: dotted key and what
+/// is wrong.
 pub(super) fn first_problem(table: &toml::Table) -> Option<(String, String)> {
     let (key, mut problem) = table
         .iter()

@@ -1,4 +1,5 @@
-//! What is looked at before an input file is read: a device never ends, a pipe waits for ever, and a file of many gigabytes fills the memory.
+//! What is looked at before an input file is read: a device never ends, a pipe waits for ever, and a file of many
+//! gigabytes fills the memory.
 
 use std::fs::{File, Metadata};
 use std::io::Read;

@@ -60,8 +60,8 @@ impl<'a> TableKeys<'a> {
         value.ok_or_else(|| self.error(key, format!("missing; {needed_by} needs it")))
     }
 
-    /// Complains about keys that are given but not used by the chosen kind. Each key comes with whether it is given and the kinds
-    /// that use it; `word` is the key that chooses the kind, which is empty
+    /// Complains about keys that are given but not used by the chosen kind. Each key comes with whether it is given and
+    /// the kinds that use it; `word` is the key that chooses the kind, which is empty
     /// where that key is not given.
     ///
     /// # Errors

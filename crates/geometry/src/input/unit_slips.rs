@@ -107,8 +107,8 @@ const USUAL: [Usual; 25] = [
 ];
 
 impl InputDocument {
-    /// Numbers of the file that look like those of another unit, each told as a complaint at its key. Zero is never one; a list is judged by its
-    /// largest magnitude. None for a text that is no TOML.
+    /// Numbers of the file that look like those of another unit, each told as a complaint at its key. Zero is never
+    /// one; a list is judged by its largest magnitude. None for a text that is no TOML.
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
         let mut found = Vec::new();

@@ -19,8 +19,9 @@ fn lewis_factor(definition: &ToothDefinition) -> f64 {
 }
 
 /// A rack tooth is a trapezium; the parabola from the load's vertex touches its straight flank where
-/// Y = (8/3) y_t tan α (1 + tan²α), y_t = π/4 − h_a tan α half the tip's thickness in modules (docs/theory/rating.md). With an addendum of
-/// 0.3 circular pitches, W. Lewis's own, that is 0.486 at 20°; his formula Y = π(0.154 − 0.912/z) and the tables have 0.484.
+/// Y = (8/3) y_t tan α (1 + tan²α), y_t = π/4 − h_a tan α half the tip's thickness in modules (docs/theory/rating.md).
+/// With an addendum of 0.3 circular pitches, W. Lewis's own, that is 0.486 at 20°; his formula Y = π(0.154 − 0.912/z)
+/// and the tables have 0.484.
 #[test]
 fn many_teeth_tend_to_the_rack() {
     let (tan, teeth) = (20f64.to_radians().tan(), 40_000);
@@ -37,8 +38,8 @@ fn many_teeth_tend_to_the_rack() {
     }
 }
 
-/// Values of the Lewis form factor Y, load at the tip, pressure angle 20°, full depth: R. G. Budynas, J. K. Nisbett, *Shigley's
-/// Mechanical Engineering Design*, 9th ed., table 14-2 (found in several public codes).
+/// Values of the Lewis form factor Y, load at the tip, pressure angle 20°, full depth: R. G. Budynas, J. K. Nisbett,
+/// *Shigley's Mechanical Engineering Design*, 9th ed., table 14-2 (found in several public codes).
 const SHIGLEY: [(usize, f64); 20] = [
     (12, 0.245),
     (13, 0.261),
@@ -75,11 +76,40 @@ fn deviations(definition: impl Fn(usize) -> ToothDefinition) -> [f64; 3] {
     ]
 }
 
-/// The table seems to go back to layouts on paper with an addendum of 0.3 circular pitches (an inference); with that addendum, a dedendum of 1.25 and a rack tip
-/// radius of 0.3 modules ours lies within −4.2 and +2.9 %, +0.4 % in the mean. The addendum of one module of today has the load higher:
-/// −8.2 to −1.1 %. The fillet matters below 30 teeth: 0.1 modules of tip radius are worth 3 to 4 %.
+/// The table seems to go back to layouts on paper with an addendum of 0.3 circular pitches (an inference). No source
+/// says how exact it is; Lewis's own formula Y = π(0.154 − 0.912/z), for the same teeth, is off it by 5.3 % (root of
+/// the mean square) and up to 8.2 %. What judges ours is that spread of the two sources: with that addendum, a dedendum
+/// of 1.25 and a rack tip radius of 0.3 modules it is nearer to the table, −4.2 to +2.9 %, +0.4 % in the mean. Those
+/// figures are held to a tenth of a per cent as well, so that a change is seen. The addendum of one module of today has
+/// the load higher, so every tooth is weaker: −8.2 to −1.1 %. The fillet matters below 30 teeth: 0.1 modules of tip
+/// radius are worth 3 to 4 %.
 #[test]
 fn the_published_table() {
+    let formula = |teeth: usize| PI * (0.154 - 0.912 / teeth as f64);
+    let off_formula = |&(teeth, published): &(usize, f64)| formula(teeth) / published - 1.0;
+    let root_mean_square =
+        |all: &[f64]| (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt();
+    let of_formula: Vec<f64> = SHIGLEY.iter().map(off_formula).collect();
+    let factor = |addendum, teeth| {
+        lewis_factor(&ToothDefinition {
+            addendum,
+            rack_tip_radius: 0.3,
+            ..standard(teeth)
+        })
+    };
+    let ours: Vec<f64> = SHIGLEY
+        .iter()
+        .map(|&(teeth, published)| factor(0.3 * PI, teeth) / published - 1.0)
+        .collect();
+    let largest = |all: &[f64]| all.iter().fold(0.0, |worst: f64, x| worst.max(x.abs()));
+    assert!(
+        root_mean_square(&ours) < root_mean_square(&of_formula),
+        "{ours:?}"
+    );
+    assert!(largest(&ours) < largest(&of_formula), "{ours:?}");
+    for (teeth, _) in SHIGLEY {
+        assert!(factor(1.0, teeth) < factor(0.3 * PI, teeth), "z {teeth}");
+    }
     let with = |addendum, rack_tip_radius| {
         deviations(|teeth| ToothDefinition {
             addendum,
@@ -89,7 +119,7 @@ fn the_published_table() {
     };
     let lewis = with(0.3 * PI, 0.3);
     assert!(lewis[0] > -0.043 && lewis[2] < 0.030, "{lewis:?}");
-    assert!(lewis[1].abs() < 0.006, "{lewis:?}");
+    assert!(lewis[1].abs() < 0.005, "{lewis:?}");
     let today = with(1.0, 0.3);
     assert!(today[0] > -0.083 && today[2] < -0.010, "{today:?}");
     let sharp = with(1.0, 0.2);
@@ -97,8 +127,10 @@ fn the_published_table() {
     assert!((0.25..0.45).contains(&fillet), "{fillet}");
 }
 
-/// Lewis's formulas of 1892, y = 0.124 − 0.684/z for 14.5° (15° in his paper) and 0.154 − 0.912/z for 20°, Y = πy, from 12 to 300
-/// teeth. With his addendum of 0.3 circular pitches, a dedendum of 1.157 and a tip radius of 0.25 modules ours lies within −4.6 and +3.9 %.
+/// Lewis's formulas of 1892, y = 0.124 − 0.684/z for 14.5° (15° in his paper) and 0.154 − 0.912/z for 20°, Y = πy, from
+/// 12 to 300 teeth. With his addendum of 0.3 circular pitches, a dedendum of 1.157 and a tip radius of 0.25 modules
+/// ours lies within −4.6 and +3.9 %: two numbers for all teeth cannot follow the drawings any closer, they are up to 8
+/// % off the table above.
 #[test]
 fn the_formulas_of_lewis() {
     for (degrees, a, b) in [(14.5f64, 0.124, 0.684), (20.0, 0.154, 0.912)] {
@@ -159,9 +191,9 @@ fn the_parabola_touches_the_profile_at_its_weakest_section() {
     }
 }
 
-/// ISO 6336-3:2006, section 6.2: s_Fn, h_Fe and Y_F of an external gear by its auxiliary values E, G, H and ϑ; another way to the same
-/// 30° tangent. Returns s_Fn/m, h_Fe/m, α_Fen, Y_F of a spur gear of z teeth, also of virtual ones, for a load at the radius `load_radius`
-/// (modules).
+/// ISO 6336-3:2006, section 6.2: s_Fn, h_Fe and Y_F of an external gear by its auxiliary values E, G, H and ϑ; another
+/// way to the same 30° tangent. Returns s_Fn/m, h_Fe/m, α_Fen, Y_F of a spur gear of z teeth, also of virtual ones, for
+/// a load at the radius `load_radius` (modules).
 pub fn iso_root(d: &ToothDefinition, z: f64, load_radius: f64) -> [f64; 4] {
     let alpha = d.pressure_angle_rad;
     let (h, rho, x) = (d.dedendum, d.rack_tip_radius, d.profile_shift);

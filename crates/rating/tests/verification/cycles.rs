@@ -85,8 +85,8 @@ fn short_and_bad_histories() {
     assert_eq!(table(&there_and_back), [(1.0, 1.0)]);
 }
 
-/// The four-point rule (another statement of the method): of four successive points the inner range is a cycle where both outer
-/// ranges hold it. Returns the cycles' ranges and the residue.
+/// The four-point rule (another statement of the method): of four successive points the inner range is a cycle where
+/// both outer ranges hold it. Returns the cycles' ranges and the residue.
 fn four_point(points: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let (mut ranges, mut open) = (Vec::new(), Vec::new());
     for &point in points {
@@ -153,7 +153,8 @@ proptest! {
 
     #[test]
     fn a_repeated_history_agrees_with_the_four_point_rule(x in history()) {
-        // Four-point on two passages, the second of which is stationary: what it closes more than on one is one passage.
+        // Four-point on two passages, the second of which is stationary: what it closes more than on one is one
+        // passage.
         let ranges_of = |times: usize| {
             let points = turning_points(&x.repeat(times)).unwrap();
             four_point(&points).0

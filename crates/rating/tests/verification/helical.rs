@@ -1,5 +1,5 @@
-//! Helical teeth: the virtual gear against ISO 6336-3's equations, contact lines against counting, pressure against ISO 6336-2's factors, and
-//! the limit of a vanishing helix.
+//! Helical teeth: the virtual gear against ISO 6336-3's equations, contact lines against counting, pressure against ISO
+//! 6336-2's factors, and the limit of a vanishing helix.
 
 use crate::bending::iso_root;
 use crate::teeth::{MODULE_M, geometry, standard};
@@ -43,8 +43,8 @@ fn pair(teeth: [usize; 2], helix_deg: f64, width_m: f64) -> ([ToothDefinition; 2
     (gears, pair)
 }
 
-/// Form factor Y_F of a helical tooth with the load at the highest point of single contact: by the virtual gears of this crate, and by the
-/// equations of ISO 6336-3:2006, 6.2, with a real number of teeth.
+/// Form factor Y_F of a helical tooth with the load at the highest point of single contact: by the virtual gears of
+/// this crate, and by the equations of ISO 6336-3:2006, 6.2, with a real number of teeth.
 fn form_factors(d: &ToothDefinition, transverse_contact_ratio: f64) -> [f64; 2] {
     let gear = VirtualGear::new(d).unwrap();
     let ratio = gear.contact_ratio(transverse_contact_ratio);
@@ -65,7 +65,8 @@ fn form_factors(d: &ToothDefinition, transverse_contact_ratio: f64) -> [f64; 2] 
     [ours.unwrap(), iso_root(d, z_n, load_radius)[3]]
 }
 
-/// Between whole numbers of virtual teeth ours is linear: at most 3e-4 off here, of the order of 1/z³. At a whole number it is exact.
+/// Between whole numbers of virtual teeth ours is linear: at most 3e-4 off here, of the order of 1/z³. At a whole
+/// number it is exact.
 #[test]
 fn the_virtual_gear_is_that_of_iso_6336_3() {
     let mut worst = [0.0_f64; 2];
@@ -131,8 +132,9 @@ fn contact_lines_are_as_short_as_counted() {
     }
 }
 
-/// σ_H0 = Z_H Z_E Z_ε √(F_t/(d₁ b) (u + 1)/u) of ISO 6336-2:2006 with Z_ε² = 1/ε_α: where the overlap ratio is a whole number the contact
-/// lines are as long all the time as the standard takes them to be. (Its Z_β, from experience, is no part of Hertz's pressure.)
+/// σ_H0 = Z_H Z_E Z_ε √(F_t/(d₁ b) (u + 1)/u) of ISO 6336-2:2006 with Z_ε² = 1/ε_α: where the overlap ratio is a whole
+/// number the contact lines are as long all the time as the standard takes them to be. (Its Z_β, from experience, is no
+/// part of Hertz's pressure.)
 #[test]
 fn the_pressure_is_that_of_iso_6336_2() {
     let (alpha_n, helix_deg) = (20f64.to_radians(), 18.0f64);
@@ -165,7 +167,8 @@ fn the_pressure_is_that_of_iso_6336_2() {
     }
 }
 
-/// As the helix vanishes everything tends to the spur pair: Y with β² (through z_n), the pressure with the overlap, hence with β.
+/// As the helix vanishes everything tends to the spur pair: Y with β² (through z_n), the pressure with the overlap,
+/// hence with β.
 #[test]
 fn a_vanishing_helix_is_a_spur_pair() {
     let load = LoadPoint::HighestSingleContact;

@@ -1,5 +1,5 @@
-//! A gear that was meshed elsewhere: the same numbers from our own mesh read back, agreement with a mesh of tetrahedra, and
-//! what is said when the mesh is not the gear.
+//! A gear that was meshed elsewhere: the same numbers from our own mesh read back, agreement with a mesh of tetrahedra,
+//! and what is said when the mesh is not the gear.
 
 use crate::small_gears::{self, MESH, QUADRATIC, SOLID, difference, reduced};
 use gearmesh_fe::{QuadraticMesh, arc_middle, chord_middle};
@@ -174,8 +174,8 @@ fn in_tetrahedra(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
     data
 }
 
-/// Deflection of the middle station under one newton over the whole width, calibrated: C_hub and what the near field adds
-/// for the same contact on every mesh.
+/// Deflection of the middle station under one newton over the whole width, calibrated: C_hub and what the near field
+/// adds for the same contact on every mesh.
 fn deflection(model: &ReducedGear) -> f64 {
     let flank = model.flanks[0];
     let (count, axial) = (model.grid.len(), model.grid.z_m.len());

@@ -1,4 +1,5 @@
-//! Verification of the reduction on small gears. One binary, so that it links once and long tests run beside each other.
+//! Verification of the reduction on small gears. One binary, so that it links once and long tests run beside each
+//! other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod cyclic_symmetry;

@@ -297,8 +297,8 @@ fn mass_and_inertia_are_the_volume_integrals_of_the_mesh() {
     assert!(rigid.centre_m[2] > 1e-4);
 }
 
-/// Loads under rigid motions have closed forms: a normal load on the right flank has the lever arm r_b about the axis, and
-/// all act as unit forces at their points.
+/// Loads under rigid motions have closed forms: a normal load on the right flank has the lever arm r_b about the axis,
+/// and all act as unit forces at their points.
 #[test]
 fn the_rows_of_the_reference_point_are_forces_and_moments() {
     let (gear, model, _) = reduced(SOLID, ON_A_POINT);
@@ -461,8 +461,8 @@ fn the_free_gear_on_its_reference_point_comes_back_from_the_basis() {
         assert!(errors[1][k] <= errors[0][k] + 1e-12 && errors[2][k] <= errors[1][k] + 1e-12);
         assert!(errors[2][k] < 5e-3, "{errors:?}");
     }
-    // Six modes know the lowest ones only; 48 bring the worst of the first six from beyond recognition to 0.4 %, the pair
-    // that the hub's inertia changes least to 1e-6.
+    // Six modes know the lowest ones only; 48 bring the worst of the first six from beyond recognition to 0.4 %, the
+    // pair that the hub's inertia changes least to 1e-6.
     assert!(
         errors[0][5] > 0.1 && errors[2][0] < 1e-5 && errors[2][3] < 1e-5,
         "{errors:?}"

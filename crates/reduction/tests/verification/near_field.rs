@@ -1,4 +1,5 @@
-//! The calibration in plane strain: order of convergence, interpolation between the places, and the law of the load width.
+//! The calibration in plane strain: order of convergence, interpolation between the places, and the law of the load
+//! width.
 
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::input::InputDocument;
@@ -64,8 +65,8 @@ fn the_contact_deflection_converges() {
     }
 }
 
-/// Between the places the interpolated c₀ is the computed one to 0.1 %; within a₀ of the edge, where the pressure is cut
-/// off and c₀ itself says little, to 0.5 %.
+/// Between the places the interpolated c₀ is the computed one to 0.1 %; within a₀ of the edge, where the pressure is
+/// cut off and c₀ itself says little, to 0.5 %.
 #[test]
 fn the_places_are_dense_enough() {
     let gear = gear("");
@@ -126,8 +127,8 @@ fn the_load_width_enters_by_its_logarithm() {
     }
 }
 
-/// W is symmetric, the same for both mirror-image flanks, and the energy of a load spread over hats is below that of the
-/// narrow pressure.
+/// W is symmetric, the same for both mirror-image flanks, and the energy of a load spread over hats is below that of
+/// the narrow pressure.
 #[test]
 fn the_mesh_part_is_a_compliance() {
     let gear = gear("flank_mm = 0.8\n");

@@ -67,7 +67,8 @@ fn meshed(gear: &GearDefinition) -> (GearMesh, FeModel) {
     (mesh, model)
 }
 
-/// What a gauge reads of a displacement field given at the nodes, and the sum of the absolute terms: the scale of rounding.
+/// What a gauge reads of a displacement field given at the nodes, and the sum of the absolute terms: the scale of
+/// rounding.
 fn reading(
     row: &[(usize, f64)],
     mesh: &GearMesh,

@@ -1,4 +1,5 @@
-//! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and by its depth.
+//! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and by
+//! its depth.
 
 #[path = "../../../../tests/support/whole_compliance.rs"]
 mod whole_compliance;

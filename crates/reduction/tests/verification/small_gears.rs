@@ -8,7 +8,8 @@ use gearmesh_reduction::{GearBody, ReductionOptions, Silent, reduce};
 
 /// Element lengths.
 pub const MESH: &str = "flank_mm = 1.5\nfillet_mm = 0.6\nbody_mm = 4.0\naxial_mm = 3.0\n";
-/// As long as the mesh's quality allows: for what holds on every mesh to rounding, such as two ways to solve the same equations.
+/// As long as the mesh's quality allows: for what holds on every mesh to rounding, such as two ways to solve the same
+/// equations.
 pub const COARSE: &str = "flank_mm = 2.4\nfillet_mm = 1.2\nbody_mm = 6.0\naxial_mm = 6.0\n";
 /// Twenty nodes an element, and not twice as many degrees of freedom as [`MESH`] has with eight.
 pub const QUADRATIC: &str =

@@ -1,5 +1,5 @@
-//! Gears in ten-node tetrahedra: the mesh is one body without gaps, has the volume of its contour with fillets, repeats; the
-//! teeth deflect as those of hexahedra; small fillets lead to the sharp contour.
+//! Gears in ten-node tetrahedra: the mesh is one body without gaps, has the volume of its contour with fillets,
+//! repeats; the teeth deflect as those of hexahedra; small fillets lead to the sharp contour.
 
 use crate::small_gears::{CONTOUR, FILLETED, SLOTS, SOLID, TETRAHEDRA, THIN_RIM, gear, reduced};
 use gearmesh_geometry::body_outline::body_outline;
@@ -17,7 +17,8 @@ fn holes(count: usize, phase_deg: f64) -> String {
     )
 }
 
-/// Volume of the body of revolution and of teeth and ring, without openings: 2π ∮ ½ r² dz and the section's area times width.
+/// Volume of the body of revolution and of teeth and ring, without openings: 2π ∮ ½ r² dz and the section's area times
+/// width.
 fn volume_m3(gear: &GearDefinition) -> f64 {
     let (width, ring) = (gear.tooth.face_width_m, ring_radius_m(gear));
     let mut body = 0.0;
@@ -52,7 +53,8 @@ fn volume_m3(gear: &GearDefinition) -> f64 {
     body + (2.0 * gear.tooth.teeth as f64 * half - PI * ring * ring) * width
 }
 
-/// One closed surface, each inner face between two elements, sectors that are images, a bore, loaded flanks that are covered.
+/// One closed surface, each inner face between two elements, sectors that are images, a bore, loaded flanks that are
+/// covered.
 fn is_whole(gear: &GearDefinition, openings_m3: f64) {
     let mesh = GearMesh::new(gear, &PythonEnvironment::find().unwrap()).unwrap();
     let model = model_of(gear, &mesh).unwrap();
@@ -170,8 +172,8 @@ fn a_thin_rim_with_slots_is_whole() {
     is_whole(&gear, 3.0 * area * 0.004);
 }
 
-/// ∫ t dA over a hole that no kink of the web crosses would be its area times the thickness at its middle; here a fillet of the
-/// kink lies in it: integrated on rings of the web between the outline's edges.
+/// ∫ t dA over a hole that no kink of the web crosses would be its area times the thickness at its middle; here a
+/// fillet of the kink lies in it: integrated on rings of the web between the outline's edges.
 #[test]
 fn holes_through_a_kink_with_a_fillet_leave_it_whole() {
     for (count, phase) in [(9, 11.0), (5, 7.0)] {
@@ -223,8 +225,8 @@ fn a_helical_gear_is_whole() {
     is_whole(&gear, 0.0);
 }
 
-/// Mean normal deflection over the width under a line load in the middle of the flank, at the load and at the opposite tooth,
-/// by C_hub with the calibrated near field: what the user reads.
+/// Mean normal deflection over the width under a line load in the middle of the flank, at the load and at the opposite
+/// tooth, by C_hub with the calibrated near field: what the user reads.
 fn deflections(gear: &GearDefinition) -> [f64; 2] {
     let (model, _) = reduced(gear, false);
     let grid = &model.grid;
@@ -301,8 +303,9 @@ fn a_helical_gear_deflects_as_one_of_hexahedra() {
     }
 }
 
-/// Fillets of radius ρ stiffen; as ρ falls the deflection rises to that of the sharp contour in moved layers of hexahedra: what is
-/// missing falls to less than 0.6 with each halving, and to less than 1 % at 0.5 mm. (0.25 mm would cost as much as the others.)
+/// Fillets of radius ρ stiffen; as ρ falls the deflection rises to that of the sharp contour in moved layers of
+/// hexahedra: what is missing falls to less than 0.6 with each halving, and to less than 1 % at 0.5 mm. (0.25 mm would
+/// cost as much as the others.)
 #[test]
 #[ignore = "four gears with small elements in their fillets, half a minute"]
 fn small_fillets_lead_to_the_sharp_contour() {

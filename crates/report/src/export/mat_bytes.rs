@@ -1,8 +1,9 @@
-//! Tables as a MATLAB file of level 5, which MATLAB, Octave and SciPy read: each a struct with `data` (rows × columns), `columns` (their
-//! names), and `texts` with `text_columns` where it has columns of text.
+//! Tables as a MATLAB file of level 5, which MATLAB, Octave and SciPy read: each a struct with `data` (rows × columns),
+//! `columns` (their names), and `texts` with `text_columns` where it has columns of text.
 //!
-//! Source: MathWorks, "MAT-File Format", chapter 1 (level 5). An element is a type, a number of bytes and the bytes, filled up to a multiple
-//! of eight; an array (miMATRIX) holds its flags with the class, dimensions, name and content as elements of their own.
+//! Source: MathWorks, "MAT-File Format", chapter 1 (level 5). An element is a type, a number of bytes and the bytes,
+//! filled up to a multiple of eight; an array (miMATRIX) holds its flags with the class, dimensions, name and content
+//! as elements of their own.
 
 use super::{Cells, ExportError, Table};
 

@@ -4,7 +4,8 @@ use gearmesh_scene::system_run::SystemResult;
 
 use super::{ExportError, Table, ratings_table};
 
-/// `rows` of transient and static results, `windows` of a sweep, `modes` and `shapes` of natural frequencies; `ratings`.
+/// `rows` of transient and static results, `windows` of a sweep, `modes` and `shapes` of natural frequencies;
+/// `ratings`.
 ///
 /// # Errors
 /// [`ExportError::File`] if a column cannot be read.
@@ -57,7 +58,8 @@ fn windows(result: &SystemResult) -> Table {
     table
 }
 
-/// A row for each operating point and mode; shares of the kinetic energy by body and of the strain energy by force element.
+/// A row for each operating point and mode; shares of the kinetic energy by body and of the strain energy by force
+/// element.
 fn modes(result: &SystemResult) -> Table {
     let mut table = Table::new("modes");
     let all = || {

@@ -26,8 +26,8 @@ pub struct ViewWindow {
     pub width_mm: f64,
 }
 
-/// A picture of a field on a plane mesh: wheel or +/− to zoom, drag or arrows to move, value under the cursor, colour bar
-/// with an upper end that the reader can change.
+/// A picture of a field on a plane mesh: wheel or +/− to zoom, drag or arrows to move, value under the cursor, colour
+/// bar with an upper end that the reader can change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -74,8 +74,8 @@ impl FieldPicture {
         self
     }
 
-    /// Ends of the colour scale; without it, from 0 (or the smallest value below 0) to the largest value. A stress field with
-    /// a load that acts at a point needs an upper end.
+    /// Ends of the colour scale; without it, from 0 (or the smallest value below 0) to the largest value. A stress
+    /// field with a load that acts at a point needs an upper end.
     #[must_use]
     pub fn colour_range(mut self, low: f64, high: f64) -> Self {
         self.colour_range = Some([low, high]);

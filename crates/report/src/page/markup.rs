@@ -18,7 +18,8 @@ pub(super) fn escape(text: &str) -> String {
     safe
 }
 
-/// JSON that cannot end its script element or open a comment: `<`, `>` and `&` occur in strings only and are written as \u escapes.
+/// JSON that cannot end its script element or open a comment: `<`, `>` and `&` occur in strings only and are written as
+/// \u escapes.
 pub(super) fn json_for_script(value: &serde_json::Value) -> serde_json::Result<String> {
     let json = serde_json::to_string(value)?;
     Ok(json

@@ -146,8 +146,8 @@ pub(super) fn scaled<'a>(
     unit
 }
 
-/// The axis of a motion's speed, and the factor that brings rad/s to its rpm: a motion that only turns in the negative sense is drawn by its
-/// amount, so that faster is to the right.
+/// The axis of a motion's speed, and the factor that brings rad/s to its rpm: a motion that only turns in the negative
+/// sense is drawn by its amount, so that faster is to the right.
 pub(super) fn speed_axis(speeds_rad_per_s: impl Iterator<Item = f64>) -> (Axis, f64) {
     let rpm = 60.0 / TAU;
     if speeds_rad_per_s.fold(f64::NEG_INFINITY, f64::max) < 0.0 {

@@ -104,7 +104,8 @@ pub(super) fn key_figures(r: &SystemResult) -> Result<KeyFigures, FileError> {
     Ok(figures)
 }
 
-/// Meshes and bearings at a glance, and folded all other force elements: the value of one equilibrium, figures of several.
+/// Meshes and bearings at a glance, and folded all other force elements: the value of one equilibrium, figures of
+/// several.
 fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> {
     let heads: &[&str] = match r.rows.rows() {
         1 => &["value"],

@@ -30,7 +30,8 @@ const SPECTRUM_END: f64 = 12.0;
 /// Meshes whose figures head a page.
 const MOST_MESHES: usize = 4;
 
-/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other kinds of results none.
+/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other kinds of
+/// results none.
 pub(super) fn key_figures(r: &SystemResult) -> KeyFigures {
     let mut figures = KeyFigures::new();
     let columns = || r.rows.columns().iter().map(|c| &*c.name).zip(&r.statistics);

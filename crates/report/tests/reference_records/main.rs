@@ -1,4 +1,5 @@
-//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for; records of unequal pairs.
+//! The records of the repository can be read, and the rig pipeline shows in them what the gears are known for; records
+//! of unequal pairs.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod unequal_teeth;

@@ -21,7 +21,6 @@ impl ContactPlaces {
     /// The places at driver angles.
     pub(super) fn new(loaded: &LoadedScene, angles_rad: &[f64], slots: usize) -> Self {
         let (slices, slice_width_m) = (loaded.layout.slices, loaded.layout.width_m());
-        let zone = &loaded.layout.reference;
         let empty = vec![0.0; angles_rad.len() * slots * slices];
         let mut places = Self {
             roll_1_rad: empty.clone(),
@@ -29,11 +28,11 @@ impl ContactPlaces {
             width_m: empty,
         };
         for (angle, &angle_rad) in angles_rad.iter().enumerate() {
-            for slice in loaded.slices_at(angle_rad) {
-                let at = (angle * slots + slice.line) * slices + slice.slice;
-                places.roll_1_rad[at] = slice.section.roll_1_rad;
-                places.z_m[at] = zone.heights_m(slice.z_m)[0];
-                places.width_m[at] = slice_width_m * slice.share;
+            for patch in loaded.patches_at(angle_rad) {
+                let at = (angle * slots + patch.line) * slices + patch.slice;
+                places.roll_1_rad[at] = patch.places[0].u;
+                places.z_m[at] = patch.places[0].v;
+                places.width_m[at] = slice_width_m * patch.share;
             }
         }
         places

@@ -1,5 +1,6 @@
-//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs` says what will
-//! be computed, `run.rs` computes, `coverage.rs` says how much of each period that sees, `result.rs` keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
+//! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks, `plan.rs`
+//! says what will be computed, `run.rs` computes, `coverage.rs` says how much of each period that sees, `result.rs`
+//! keeps and stores, `rating.rs` judges, `warnings.rs` tells where the model's assumptions are strained.
 
 mod contact_places;
 mod coverage;

@@ -428,7 +428,12 @@ impl SceneResult {
             te_m: tree.take_f64(path, "te_m", &curves)?,
             unloaded_m: tree.take_f64(path, "te_unloaded_m", &[angles])?,
             torque_1_nm: tree.take_f64(path, "torque_1_Nm", &curves)?,
-            axial_force_1_n: tree.take_f64(path, "axial_force_1_N", &curves)?,
+            axial_force_1_n: if tree.arrays.contains_key("axial_force_1_N") {
+                tree.take_f64(path, "axial_force_1_N", &curves)?
+            } else {
+                // Version 1 knew spur gears only.
+                vec![0.0; torques * angles]
+            },
             secant_n_per_m: tree.take_f64(path, "stiffness_secant_N_per_m", &curves)?,
             tangent_n_per_m: tree.take_f64(path, "stiffness_tangent_N_per_m", &curves)?,
             slots,

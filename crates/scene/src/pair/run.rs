@@ -8,9 +8,8 @@ use super::scene_file::Scene;
 use super::warnings::{Assumption, Warnings};
 use crate::periods::PairPeriods;
 use gearmesh_contact::mesh_stiffness::MeshStiffness;
-use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
-    AxialSpread, ContactError, ContactLines, ContactSlice, PathExtension, SliceLayout,
+    AxialSpread, ContactError, ContactLines, ContactPatch, Drive, PathExtension, SliceLayout,
     StaticContact,
 };
 use gearmesh_geometry::input::InputDocument;
@@ -42,10 +41,7 @@ pub enum RunError {
 impl RunError {
     /// True when the input is to blame, not the computation.
     pub fn is_input(&self) -> bool {
-        !matches!(
-            self,
-            Self::Contact(ContactError::Nlcp { .. } | ContactError::LocalLaw { .. })
-        )
+        !matches!(self, Self::Contact(cause) if cause.is_computation())
     }
 }
 
@@ -202,42 +198,31 @@ impl LoadedScene {
             .collect()
     }
 
-    /// The slices that touch or may touch at a driver angle.
-    pub fn slices_at(&self, driver_angle_rad: f64) -> Vec<ContactSlice> {
-        let (centres, width) = (self.layout.centres_m(), self.layout.width_m());
-        let mut lines = Vec::new();
+    /// The patches that touch or may touch at a driver angle.
+    pub fn patches_at(&self, driver_angle_rad: f64) -> Vec<ContactPatch> {
+        let friction = self.scene.contact.friction;
+        let (mut lines, mut patches) = (Vec::new(), Vec::new());
         self.lines.at(driver_angle_rad, &mut lines);
-        let mut slices = Vec::new();
         for line in lines.iter().enumerate() {
-            self.lines.push_slices(line, &centres, width, &mut slices);
+            (self.lines).push_patches(line, &self.layout, friction, &mut patches);
         }
-        slices
+        patches
     }
 
-    /// Slices with their forces `[line][slice]` as gear 1 or gear 2 bears them.
+    /// Patches with their forces `[line][slice]` as gear 1 or gear 2 bears them.
     pub fn loaded_slices<'a>(
         &'a self,
         gear: usize,
-        slices: &'a [ContactSlice],
+        patches: &'a [ContactPatch],
         forces_n: &'a [f64],
     ) -> impl Iterator<Item = LoadedSlice> + 'a {
         let count = self.layout.slices;
-        slices.iter().map(move |slice| {
-            let line = &slice.section;
-            let (tooth, roll_rad) = if gear == 1 {
-                (line.tooth_1, line.roll_1_rad)
-            } else {
-                (line.tooth_2, line.roll_2_rad)
-            };
-            let friction = self.scene.contact.friction;
-            let ratio = friction.map_or(0.0, |f| f.ratio(line.path_m));
-            LoadedSlice {
-                tooth,
-                slice: slice.slice,
-                roll_rad,
-                components: line.force_components(gear - 1, ratio),
-                force_n: forces_n[slice.line * count + slice.slice],
-            }
+        patches.iter().map(move |patch| LoadedSlice {
+            tooth: patch.teeth[gear - 1],
+            slice: patch.slice,
+            roll_rad: patch.places[gear - 1].u,
+            components: patch.force_components(gear - 1),
+            force_n: forces_n[patch.line * count + patch.slice],
         })
     }
 
@@ -444,8 +429,8 @@ fn solve_torque(
         let first = k * slots * slices;
         c.force[first..first + forces.len()].copy_from_slice(forces);
         let mut heaviest = (0.0, 1.0);
-        for on_line in contact.active_slices().chunk_by(|a, b| a.line == b.line) {
-            let force = |s: &ContactSlice| contact.force_n(s);
+        for on_line in contact.patches().chunk_by(|a, b| a.line == b.line) {
+            let force = |s: &ContactPatch| contact.force_n(s);
             let sum: f64 = on_line.iter().map(force).sum();
             if sum > heaviest.0 {
                 // Largest over mean line load; a slice partly on the path counts with its share.
@@ -454,7 +439,7 @@ fn solve_torque(
                 heaviest = (sum, largest * length / sum);
             }
         }
-        for (number, slice) in contact.active_slices().iter().enumerate() {
+        for (number, slice) in contact.patches().iter().enumerate() {
             let (half_width, pressure) = contact.hertz(number, contact.force_n(slice));
             c.pressure[first + slice.line * slices + slice.slice] = pressure;
             worst[0] = worst[0].max(half_width / least_distance);
@@ -487,10 +472,10 @@ pub fn strain(
         return Ok(Vec::new());
     }
     let flank = flank_of(loaded.scene.flank);
-    let slices_at: Vec<Vec<ContactSlice>> = result
+    let patches_at: Vec<Vec<ContactPatch>> = result
         .angle_rad
         .iter()
-        .map(|&angle| loaded.slices_at(angle))
+        .map(|&angle| loaded.patches_at(angle))
         .collect();
     gauges
         .par_iter()
@@ -502,7 +487,7 @@ pub fn strain(
                 .map(|k| {
                     let (torque, angle) = (k / result.angles(), k % result.angles());
                     let forces = result.position_forces(torque, angle);
-                    reader.read(loaded.loaded_slices(gear, &slices_at[angle], forces))
+                    reader.read(loaded.loaded_slices(gear, &patches_at[angle], forces))
                 })
                 .collect();
             Ok(StrainSeries {

@@ -1,4 +1,5 @@
-//! Ratings of scenes of both kinds: is a tooth strong enough, and for how long; judged after the run from what it has given.
+//! Ratings of scenes of both kinds: is a tooth strong enough, and for how long; judged after the run from what it has
+//! given.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
@@ -7,8 +8,9 @@
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
 //! | what came out, in memory and in result files | [`RatingResult`] | `result.rs` |
 //!
-//! Where histories and forces come from is said by each kind of scene: `system/assembly/ratings.rs` and `system_run/rating.rs` take
-//! columns of a run in time, `pair/rating.rs` the positions of a pair. Equations: docs/theory/rating.md.
+//! Where histories and forces come from is said by each kind of scene: `system/assembly/ratings.rs` and
+//! `system_run/rating.rs` take columns of a run in time, `pair/rating.rs` the positions of a pair. Equations:
+//! docs/theory/rating.md.
 
 mod fatigue_job;
 mod nominal_figures;

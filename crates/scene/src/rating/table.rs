@@ -1,5 +1,5 @@
-//! `[[rating]]` of scenes of both kinds. Which gauge or mesh is meant is said by other keys in each: `body`, `mesh` and `from_s` in multibody
-//! scenes, `gear` in those of a pair.
+//! `[[rating]]` of scenes of both kinds. Which gauge or mesh is meant is said by other keys in each: `body`, `mesh` and
+//! `from_s` in multibody scenes, `gear` in those of a pair.
 //!
 //! | kind | what | keys |
 //! | --- | --- | --- |
@@ -36,19 +36,20 @@ pub struct RatingTable {
     pub sn_table: Option<PathBuf>,
     /// `fatigue`: method of strain recovery, 1 or 2; 2 where not given.
     pub method: Option<usize>,
-    /// `fatigue`: "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces); "plane-strain" where
-    /// not given.
+    /// `fatigue`: "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces);
+    /// "plane-strain" where not given.
     pub surface: Option<SurfaceWord>,
     /// `fatigue`: "none" or "goodman"; "none" where not given.
     pub mean_stress: Option<MeanStressWord>,
     /// `fatigue` with "goodman": tensile strength of the material.
     pub tensile_strength_MPa: Option<f64>,
-    /// `fatigue`: "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not given.
+    /// `fatigue`: "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not
+    /// given.
     pub passage: Option<PassageWord>,
     /// `nominal`, multibody scenes: name of a `[[gear_mesh]]`.
     pub mesh: Option<String>,
-    /// `nominal`: where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer and for any contact
-    /// ratio; the former where not given.
+    /// `nominal`: where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer
+    /// and for any contact ratio; the former where not given.
     pub load_point: Option<LoadPointWord>,
 }
 

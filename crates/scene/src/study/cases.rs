@@ -131,8 +131,8 @@ impl StudyScenes {
     }
 }
 
-/// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder. `progress` is told how many of how many
-/// are done.
+/// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder. `progress` is
+/// told how many of how many are done.
 ///
 /// # Errors
 /// [`StudyError`] for the study as a whole; that of a case stands with the case.

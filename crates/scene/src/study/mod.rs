@@ -6,8 +6,8 @@
 //! | the scene of a case | [`varied`] | `varied_scene.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs` |
 //!
-//! The result of a case is named by a digest of all that it depends on: a study that is broken off goes on where it was, and one that
-//! gets a further value computes that value only.
+//! The result of a case is named by a digest of all that it depends on: a study that is broken off goes on where it
+//! was, and one that gets a further value computes that value only.
 
 mod cases;
 mod study_file;

@@ -33,7 +33,8 @@ pub struct StudyTables {
 pub struct ParameterTable {
     /// Name in the table.
     pub name: String,
-    /// Keys of the scene that all take the value: dotted paths, items of lists by number from 0: "gear_mesh.0.exponent".
+    /// Keys of the scene that all take the value: dotted paths, items of lists by number from 0:
+    /// "gear_mesh.0.exponent".
     pub keys: Vec<String>,
     /// Numbers or texts, one case each.
     #[schemars(with = "Vec<ValueSchema>")]

@@ -8,7 +8,8 @@ use gearmesh_geometry::input::InputDocument;
 use super::study_file::{Case, Study};
 use crate::system::SystemScene;
 
-/// The scene of a case. A key must stand in the scene already, and its new value must be of the same kind: a study varies what a scene says.
+/// The scene of a case. A key must stand in the scene already, and its new value must be of the same kind: a study
+/// varies what a scene says.
 ///
 /// # Errors
 /// [`InputError`] of the study for a key that the scene does not have, of the scene for a value that it refuses.

@@ -67,11 +67,13 @@ pub struct BuiltMesh {
     pub base_radii_m: [f64; 2],
     /// Model as in the scene.
     pub model: &'static str,
-    /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of centres.
+    /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of
+    /// centres.
     pub frequency_hz: f64,
 }
 
-/// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and `…_method2_ustrain`.
+/// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and
+/// `…_method2_ustrain`.
 #[derive(Debug, Clone)]
 pub struct BuiltGauge {
     /// Name as in the model.
@@ -97,7 +99,8 @@ pub struct RatingJob {
     pub from_s: f64,
     /// Columns that it reads.
     pub columns: Vec<String>,
-    /// Column of the turns of the gauge's gear, which say whether the history is a revolution; used where it is written.
+    /// Column of the turns of the gauge's gear, which say whether the history is a revolution; used where it is
+    /// written.
     pub turn_column: Option<String>,
     /// What is made of them.
     pub rule: RatingRule,

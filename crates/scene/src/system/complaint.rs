@@ -6,8 +6,8 @@ use gearmesh_geometry::InputError;
 use super::scene::SystemScene;
 
 impl SystemScene {
-    /// The complaint of a system at the place in the file that it is about: the first joint that it names, the force element that failed, the
-    /// step that is too large; the file as a whole otherwise.
+    /// The complaint of a system at the place in the file that it is about: the first joint that it names, the force
+    /// element that failed, the step that is too large; the file as a whole otherwise.
     pub fn complaint(&self, error: &DynamicsError) -> InputError {
         let key = match error {
             DynamicsError::Contradiction { joints, .. } => {
@@ -29,8 +29,8 @@ impl SystemScene {
             .map(|(key, _)| key)
     }
 
-    /// Dotted path and name of everything that has a name, in the three groups within which names must differ: bodies and shafts, joints and
-    /// motions, force elements.
+    /// Dotted path and name of everything that has a name, in the three groups within which names must differ: bodies
+    /// and shafts, joints and motions, force elements.
     pub(super) fn named_tables(&self) -> [Vec<(String, String)>; 3] {
         let t = &self.tables;
         let named = |list: &str, names: Vec<String>| -> Vec<(String, String)> {

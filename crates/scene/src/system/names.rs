@@ -6,8 +6,8 @@ use gearmesh_geometry::input::InputDocument;
 /// Longest name, in characters.
 const LONGEST: usize = 100;
 
-/// Demands that the names of all parts can stand in the names of columns, which are paths in a result file. Told before the run, which
-/// would otherwise fail when it writes.
+/// Demands that the names of all parts can stand in the names of columns, which are paths in a result file. Told before
+/// the run, which would otherwise fail when it writes.
 ///
 /// # Errors
 /// [`InputError`] at the first name that cannot.

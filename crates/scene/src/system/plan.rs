@@ -11,7 +11,8 @@ use super::tables::run::{Direction, Run, Schedule};
 /// Degrees of freedom up to which the plan seeks the highest natural frequency: a second or less.
 const MOST_FOR_MODES: usize = 120;
 
-/// Steps a period of the highest natural frequency below which the plan says so: the scheme damps what it does not resolve.
+/// Steps a period of the highest natural frequency below which the plan says so: the scheme damps what it does not
+/// resolve.
 const RESOLVED: f64 = 10.0;
 
 /// Size and effects of a scene, and what its run costs.

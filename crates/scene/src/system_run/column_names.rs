@@ -32,8 +32,8 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     found.unwrap_or((name, ""))
 }
 
-/// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, radial and axial forces of bearings, root strain, line loads, speeds,
-/// other force elements and joints, beams of shafts, all else.
+/// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, radial and axial forces of
+/// bearings, root strain, line loads, speeds, other force elements and joints, beams of shafts, all else.
 pub fn rank(name: &str) -> u8 {
     let parts: Vec<&str> = name.split('/').collect();
     let [kind, owners @ .., channel] = &parts[..] else {
@@ -72,8 +72,8 @@ pub fn is_prominent(name: &str) -> bool {
     name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
 }
 
-/// Which columns are other than zero by more than rounding, measured by the largest value that has their unit. A column is its name with its
-/// least and largest value.
+/// Which columns are other than zero by more than rounding, measured by the largest value that has their unit. A column
+/// is its name with its least and largest value.
 pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns
@@ -83,8 +83,8 @@ pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone
         .collect()
 }
 
-/// Which columns vary by more than rounding, measured by the largest value that has their unit. A column is its name with its least and
-/// largest value.
+/// Which columns vary by more than rounding, measured by the largest value that has their unit. A column is its name
+/// with its least and largest value.
 pub fn varying<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns

@@ -4,10 +4,11 @@
 //! wall = T Σ_k [(1 − w) a_k + w b_k]/n        a_k, b_k: wall time per simulated second without rows and with them
 //! ```
 //!
-//! w is the share of the time T in which rows are recorded: all of it but in a stepped sweep. Steps do not cost the same everywhere: teeth that only
-//! just touch are cheap, loaded ones are not, at high speed more corrections are needed, and an adaptive step changes its length. So each of
-//! n trials begins as the run does, from equilibrium where the scene says so, and takes its rows; a sweep is tried at several of its speeds.
-//! Not in it: what a motion comes to later than the trials last, reading the models, writing the file.
+//! w is the share of the time T in which rows are recorded: all of it but in a stepped sweep. Steps do not cost the
+//! same everywhere: teeth that only just touch are cheap, loaded ones are not, at high speed more corrections are
+//! needed, and an adaptive step changes its length. So each of n trials begins as the run does, from equilibrium where
+//! the scene says so, and takes its rows; a sweep is tried at several of its speeds. Not in it: what a motion comes to
+//! later than the trials last, reading the models, writing the file.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -147,7 +148,8 @@ impl RunCost {
     }
 }
 
-/// At most [`MOST_TRIALS`] of some values, those in the middle of equal parts: their mean is that of all by the midpoint rule.
+/// At most [`MOST_TRIALS`] of some values, those in the middle of equal parts: their mean is that of all by the
+/// midpoint rule.
 fn spread<T: Copy>(values: &[T]) -> Vec<T> {
     let count = values.len().min(MOST_TRIALS);
     (0..count)

@@ -1,5 +1,6 @@
-//! Angles over any number of turns, for output: each is taken next to its value at the last accepted step, so a step must turn by less
-//! than half a revolution. What [`RelativeAngle`](gearmesh_dynamics::relative_angle::RelativeAngle) is for joints, for any angle.
+//! Angles over any number of turns, for output: each is taken next to its value at the last accepted step, so a step
+//! must turn by less than half a revolution. What [`RelativeAngle`](gearmesh_dynamics::relative_angle::RelativeAngle)
+//! is for joints, for any angle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -48,8 +49,8 @@ impl<const N: usize> CountedAngles<N> {
     }
 }
 
-/// Cardan angles of a body, and how far it has turned about its own z axis since the start: twist of q₀⁻¹ q, whatever the tilt of the
-/// axis in the world, where Cardan angles may be singular.
+/// Cardan angles of a body, and how far it has turned about its own z axis since the start: twist of q₀⁻¹ q, whatever
+/// the tilt of the axis in the world, where Cardan angles may be singular.
 pub fn body_angles(
     start: &UnitQuaternion<f64>,
     orientation: &UnitQuaternion<f64>,

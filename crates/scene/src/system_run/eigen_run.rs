@@ -1,7 +1,8 @@
 //! `eigen`: natural frequencies about equilibria or motions, with the share of each body in them.
 
 use gearmesh_dynamics::{
-    NaturalMode, State, StaticParams, System, equilibrium, natural_modes, strain_shares,
+    DynamicsError, NaturalMode, State, StaticParams, System, equilibrium, natural_modes,
+    natural_modes_up_to, strain_shares,
 };
 use nalgebra::{DVector, Vector3};
 use std::ops::ControlFlow;
@@ -65,7 +66,7 @@ fn about(
             let mut found = None;
             simulation.run(f64::INFINITY, |step| {
                 if step.to.time_s >= settling.time_s * (1.0 - 1e-12) {
-                    found = Some(natural_modes(step.system, step.to));
+                    found = Some(modes_of(step.system, step.to, job));
                 }
                 if found.is_some() || options.stop.load(Ordering::Relaxed) {
                     ControlFlow::Break(())
@@ -83,15 +84,10 @@ fn about(
             for motion in found.held {
                 notes.push(format!("nothing resists {motion}: held where it was"));
             }
-            let modes = natural_modes(&mut system, &found.state)?;
+            let modes = modes_of(&mut system, &found.state, job)?;
             (system, found.state, modes)
         }
     };
-    let kept = modes.into_iter().filter(|mode| {
-        job.most_frequency_hz
-            .is_none_or(|most| mode.frequency_hz() <= most)
-    });
-    let modes: Vec<NaturalMode> = kept.collect();
     let strain = strain_shares(&mut system, &state, &modes)?;
     let participation = modes
         .iter()
@@ -103,6 +99,18 @@ fn about(
         participation,
         strain,
     }))
+}
+
+/// All modes about a state, or those up to the highest frequency that is asked for.
+fn modes_of(
+    system: &mut System,
+    state: &State,
+    job: &EigenJob,
+) -> Result<Vec<NaturalMode>, DynamicsError> {
+    match job.most_frequency_hz {
+        Some(most) => natural_modes_up_to(system, state, most),
+        None => natural_modes(system, state),
+    }
 }
 
 /// Share of each body in the kinetic energy of a mode: yᴴ M y of the body over the sum, y its amplitudes in body axes.

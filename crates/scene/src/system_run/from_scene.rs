@@ -97,8 +97,8 @@ pub(super) fn varied(motion: &str, function: Motion, load_factor: f64) -> Variat
     }
 }
 
-/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the angles; it begins at the
-/// start of the scene, where teeth touch.
+/// The points of a static series: every angle at every load factor. The angle is a function of a time that counts the
+/// angles; it begins at the start of the scene, where teeth touch.
 fn static_job(
     loaded: &LoadedSystem,
     load_factors: &[f64],

@@ -1,7 +1,7 @@
 //! Runs in time: `transient`, whose rows go to the log, and `speed-sweep`, whose rows go to the statistics of a window.
 //!
-//! Every so often, on demand, and never in the midst of a step, the run is broken off, its state is kept beside the result, and it goes
-//! on. A run that is resumed from there gives the same bits as one that was never stopped.
+//! Every so often, on demand, and never in the midst of a step, the run is broken off, its state is kept beside the
+//! result, and it goes on. A run that is resumed from there gives the same bits as one that was never stopped.
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Whether the steps of a run follow its meshes, at speeds that nobody could know before.
 //!
-//! What the scene states is checked before the run (system/assembly/mesh_frequency.rs); a gear that runs up under its loads, or an adaptive step
-//! that grows, is seen here.
+//! What the scene states is checked before the run (system/assembly/mesh_frequency.rs); a gear that runs up under its
+//! loads, or an adaptive step that grows, is seen here.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,8 @@ use super::error::SystemRunError;
 use super::job::MeshRecord;
 use crate::system::line_of_centres_rad_per_s;
 
-/// Steps that a mesh period has at least during a run: somewhat fewer than before it, so that a speed which only swings about the stated one
-/// ends no run.
+/// Steps that a mesh period has at least during a run: somewhat fewer than before it, so that a speed which only swings
+/// about the stated one ends no run.
 const STEPS_A_PERIOD: f64 = 8.0;
 
 struct Mesh {

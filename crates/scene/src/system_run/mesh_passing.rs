@@ -4,9 +4,10 @@
 //! ν_i = |∫ (ω_i − ω_c) dt| / 2π,      f = z₁ |∫ (ω₁ − ω_c) dt| / 2πT over the second half of the run
 //! ```
 //!
-//! ω_i: turn of gear i about its own axis; ω_c: turn of the line of centres about it (zero where the axes stand, that of
-//! the carrier in an epicyclic gear); T: length of that half, over which spectra go. What repeats with a gear's revolution — the strain at one of
-//! its teeth, its openings, errors and run-out — is whole once ν_i ≥ 1 (docs/theory/periods.md).
+//! ω_i: turn of gear i about its own axis; ω_c: turn of the line of centres about it (zero where the axes stand, that
+//! of the carrier in an epicyclic gear); T: length of that half, over which spectra go. What repeats with a gear's
+//! revolution — the strain at one of its teeth, its openings, errors and run-out — is whole once ν_i ≥ 1
+//! (docs/theory/periods.md).
 
 use std::f64::consts::TAU;
 

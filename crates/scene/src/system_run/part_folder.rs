@@ -6,11 +6,12 @@
 //! *.tmp           the result or a checkpoint, while it is written
 //! ```
 //!
-//! Who has rows.log open and locked owns the folder. A run that ends removes the files while it holds the lock; another that has opened
-//! rows.log meanwhile sees that its file has no name any more and begins again.
+//! Who has rows.log open and locked owns the folder. A run that ends removes the files while it holds the lock; another
+//! that has opened rows.log meanwhile sees that its file has no name any more and begins again.
 //!
-//! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole checkpoint finds
-//! its rows; later ones are cut off and computed again, to the same bits. Decision: docs/decisions/0006-unfinished-runs.md.
+//! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole
+//! checkpoint finds its rows; later ones are cut off and computed again, to the same bits. Decision:
+//! docs/decisions/0006-unfinished-runs.md.
 
 use std::ffi::OsString;
 use std::io::ErrorKind;
@@ -230,7 +231,8 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Runs that start as others end: each gets the folder for itself or is told that it is in use, and nothing is left.
+    /// Runs that start as others end: each gets the folder for itself or is told that it is in use, and nothing is
+    /// left.
     #[test]
     fn runs_that_begin_as_others_end_are_clean() {
         let desk = tempfile::tempdir().unwrap();

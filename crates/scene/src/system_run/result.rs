@@ -30,7 +30,8 @@ pub struct EigenResult {
     pub modes: Vec<NaturalMode>,
     /// Share of each body in the kinetic energy of each mode, `[mode][body]`.
     pub participation: Vec<Vec<f64>>,
-    /// Share of each force element in the strain energy of each mode, `[mode][element]`; empty in files of older programs.
+    /// Share of each force element in the strain energy of each mode, `[mode][element]`; empty in files of older
+    /// programs.
     pub strain: Vec<Vec<f64>>,
 }
 

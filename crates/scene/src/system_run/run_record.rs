@@ -42,17 +42,19 @@ pub struct RunRecord {
     pub supplied_j: f64,
     /// Largest error of the energy balance \[J\].
     pub largest_energy_error_j: f64,
-    /// Work done, whatever its sign: of loads and prescribed motions, heat, and of all forces on each degree of freedom \[J\]. Not a
-    /// number in results of versions that did not keep it.
+    /// Work done, whatever its sign: of loads and prescribed motions, heat, and of all forces on each degree of freedom
+    /// \[J\]. Not a number in results of versions that did not keep it.
     pub work_j: f64,
 }
 
-/// Share of the work done that the energy balance may be off by. Figures of a run are asked for to some per cent, and no force or stress can be
-/// trusted further than the energy that drives it. What a run is known to lose is far below: teeth that leave the rigid path take a deflection
-/// over two base pitches, below 0.5 % at the largest deflection that goes without a warning.
+/// Share of the work done that the energy balance may be off by. Figures of a run are asked for to some per cent, and
+/// no force or stress can be trusted further than the energy that drives it. What a run is known to lose is far below:
+/// teeth that leave the rigid path take a deflection over two base pitches, below 0.5 % at the largest deflection that
+/// goes without a warning.
 pub const MOST_ENERGY_ERROR: f64 = 0.01;
 
-/// Share of the energy that a system has to begin or to end with that counts as work where less is done: below it is rounding.
+/// Share of the energy that a system has to begin or to end with that counts as work where less is done: below it is
+/// rounding.
 const RESTING: f64 = 1e-6;
 
 /// Name in the file, unit, description, place in the record.

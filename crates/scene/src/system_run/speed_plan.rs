@@ -1,8 +1,9 @@
-//! A sweep of speeds as one run in time: the speed of a motion as a function of time, and the windows in which it is measured.
+//! A sweep of speeds as one run in time: the speed of a motion as a function of time, and the windows in which it is
+//! measured.
 //!
-//! Stepped: each speed has a slot of `settle_s + measure_s`. In the first quarter of the settling time the function goes there as STEP
-//! does, so that the state carries over and a jump of the response shows at the speed where it happens. Ramped: the speed changes
-//! evenly, each window is an equal part of the ramp.
+//! Stepped: each speed has a slot of `settle_s + measure_s`. In the first quarter of the settling time the function
+//! goes there as STEP does, so that the state carries over and a jump of the response shows at the speed where it
+//! happens. Ramped: the speed changes evenly, each window is an equal part of the ramp.
 
 use gearmesh_dynamics::{DynamicsError, Interpolation, Table, TimeFunction};
 

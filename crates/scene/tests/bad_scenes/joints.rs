@@ -36,7 +36,8 @@ fn contradictory_speeds_are_named() {
     );
 }
 
-/// A body that lies on its side cannot spin about its own z on a hinge along the world's: the speed would be dropped at the start.
+/// A body that lies on its side cannot spin about its own z on a hinge along the world's: the speed would be dropped at
+/// the start.
 #[test]
 fn a_speed_across_its_joints_axis_is_refused() {
     let scene = |kind: &str, axis: &str, cardan: &str| {

@@ -7,6 +7,9 @@ mod files;
 mod joints;
 mod keys;
 mod parts;
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
+mod random_scenes;
 
 use common::*;
 

@@ -1,5 +1,5 @@
-//! Scenes of two made-up reduced gears with modes and gauges, 30/41 teeth of module 3 mm, as model files in a folder of their own: what needs
-//! a model, but no finite elements.
+//! Scenes of two made-up reduced gears with modes and gauges, 30/41 teeth of module 3 mm, as model files in a folder of
+//! their own: what needs a model, but no finite elements.
 #![allow(clippy::unwrap_used, dead_code, missing_docs)]
 
 #[path = "../../../drivetrain/tests/mesh_common/mod.rs"]
@@ -45,7 +45,8 @@ pub fn write_models(folder: &Path) {
     }
 }
 
-/// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the end.
+/// Gear 1 drives at `speed_rpm` against 100 N m on gear 2; `of_gear_2` is put into its `[[body]]`, `further` at the
+/// end.
 pub fn scene(run: &str, speed_rpm: f64, of_gear_2: &str, further: &str) -> String {
     format!(
         r#"title = "made up"

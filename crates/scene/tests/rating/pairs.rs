@@ -1,4 +1,5 @@
-//! Scenes of a pair: against the functions of the rating crate on the same curves, over one revolution and over two, and what is refused.
+//! Scenes of a pair: against the functions of the rating crate on the same curves, over one revolution and over two,
+//! and what is refused.
 
 use crate::made_up_gears::pair;
 use crate::{STEEL, TABLE, folder, near};

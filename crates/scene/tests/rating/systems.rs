@@ -1,4 +1,5 @@
-//! Multibody scenes: against a case computed by hand, against the functions of the rating crate on the same columns, and what is refused.
+//! Multibody scenes: against a case computed by hand, against the functions of the rating crate on the same columns,
+//! and what is refused.
 
 use crate::common::load;
 use crate::made_up_gears::{YOUNG_PA, pair, scene};
@@ -17,8 +18,8 @@ use gearmesh_scene::system::{LoadedSystem, RatingJob, RatingRule, SystemPlan, Sy
 use gearmesh_scene::system_run::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Ten pulses of stress from 0 to 800 MPa in 5 s. N = 2·10⁶ (300/400)⁶ without regard to the mean; by Goodman with 1200 MPa the
-/// amplitude counts as 400/(1 − 400/1200) = 600 MPa, N = 2·10⁶/2⁶.
+/// Ten pulses of stress from 0 to 800 MPa in 5 s. N = 2·10⁶ (300/400)⁶ without regard to the mean; by Goodman with 1200
+/// MPa the amplitude counts as 400/(1 − 400/1200) = 600 MPa, N = 2·10⁶/2⁶.
 #[test]
 fn pulses_of_constant_amplitude_fail_as_computed_by_hand() {
     let pulses = TimeFunction::Sine {
@@ -222,8 +223,8 @@ fn ratings_are_those_of_the_written_columns() {
     }
 }
 
-/// The shipped helical pair has an overlap ratio of 1.016: F_t = F cos α_n cos β at the reference circle, and ISO 6336-2's
-/// Z_H Z_E Z_ε √(F_t/(d₁ b) (u + 1)/u) but for the 1.6 % of an axial pitch.
+/// The shipped helical pair has an overlap ratio of 1.016: F_t = F cos α_n cos β at the reference circle, and ISO
+/// 6336-2's Z_H Z_E Z_ε √(F_t/(d₁ b) (u + 1)/u) but for the 1.6 % of an axial pitch.
 #[test]
 fn a_helical_mesh_is_rated() {
     let rating = "[[rating]]\nkind = \"nominal\"\nmesh = \"mesh\"\n";

@@ -75,8 +75,8 @@ fn run(scene: &str) -> SystemResult {
     Desk::new().run(RunJob::from_scene(load(scene, &fe_models()).unwrap()).unwrap())
 }
 
-/// Speeds that nobody states follow on a turning carrier, whichever two of the three are known; the mesh frequency is that of the sun
-/// against the carrier.
+/// Speeds that nobody states follow on a turning carrier, whichever two of the three are known; the mesh frequency is
+/// that of the sun against the carrier.
 #[test]
 fn speeds_and_mesh_frequency_are_those_against_the_carrier() {
     for (more, [sun, carrier]) in [
@@ -118,8 +118,8 @@ fn speeds_and_mesh_frequency_are_those_against_the_carrier() {
     }
 }
 
-/// An ideal ratio holds on the moving axes over more than one turn of every part, and its reaction balances powers: with a torque T on the
-/// planet, T z_s/z_p on the sun's drive and −T (1 + z_s/z_p) on the carrier's.
+/// An ideal ratio holds on the moving axes over more than one turn of every part, and its reaction balances powers:
+/// with a torque T on the planet, T z_s/z_p on the sun's drive and −T (1 + z_s/z_p) on the carrier's.
 #[test]
 fn a_kinematic_planet_obeys_willis() {
     let torque = 3.0;
@@ -210,8 +210,8 @@ fn speeds_that_miss_a_kinematic_ratio_are_refused() {
     build(&stated("planet", &stated("sun", &text, -600.0), 683.333333)).unwrap();
 }
 
-/// What a reader of the result is told of the mesh is counted against the carrier, as before the run: the sun passes z_s |ω_s − ω_c|/2π teeth
-/// a second, and the planet makes its revolutions in the carrier.
+/// What a reader of the result is told of the mesh is counted against the carrier, as before the run: the sun passes
+/// z_s |ω_s − ω_c|/2π teeth a second, and the planet makes its revolutions in the carrier.
 #[test]
 fn passed_teeth_of_a_result_are_counted_against_the_carrier() {
     let (sun, carrier) = (-2400.0, 1500.0);

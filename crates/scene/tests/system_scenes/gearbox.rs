@@ -7,8 +7,8 @@ use crate::common::{Outputs, build, text};
 /// Forces of the bearings on the shafts \[N\], world axes: tools/reference/gearbox_statics.py.
 const BY_HAND: &str = include_str!("../../../../reference/gearbox_three_stage/data.csv");
 
-/// Within 2 % of each bearing's own force: the tooth forces' resultant does not stand in the middle of the width, as by hand, but
-/// where the shafts' bending puts it.
+/// Within 2 % of each bearing's own force: the tooth forces' resultant does not stand in the middle of the width, as by
+/// hand, but where the shafts' bending puts it.
 #[test]
 fn bearings_of_the_three_stage_gearbox_carry_what_statics_say() {
     let mut system = build(&text("gearbox_three_stage.toml")).unwrap().system;

@@ -35,8 +35,8 @@ fn assert_all_finite(result: &SystemResult) {
     }
 }
 
-/// The wheel slides out of mesh at 0.2 m/s. The tip circles touch at a = 57 · 2.6 + 2 · 2.6 (1 + 0.33) mm: from there on the gears are
-/// apart, and every number of the result is one.
+/// The wheel slides out of mesh at 0.2 m/s. The tip circles touch at a = 57 · 2.6 + 2 · 2.6 (1 + 0.33) mm: from there
+/// on the gears are apart, and every number of the result is one.
 #[test]
 fn a_gear_that_drifts_out_of_mesh_is_marked_as_apart() {
     let scene = changed(

@@ -82,7 +82,8 @@ fn stated_m(built: &BuiltSystem) -> f64 {
     1e-6 * bound.split(' ').next().unwrap().parse::<f64>().unwrap()
 }
 
-/// On any position the transmission error of the spring is that of the pair at rest, as near as the plan says; with more harmonics nearer.
+/// On any position the transmission error of the spring is that of the pair at rest, as near as the plan says; with
+/// more harmonics nearer.
 #[test]
 fn the_spring_has_the_transmission_error_of_the_pair() {
     let (folder, result) = folder();

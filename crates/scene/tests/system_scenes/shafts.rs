@@ -90,7 +90,8 @@ microgeometry = false
 stiffness_amplitude = 0.1
 "#;
 
-/// A lay shaft passes the speed on, its mass is all there, and the second mesh drives on left flanks because its gear 1 turns the other way.
+/// A lay shaft passes the speed on, its mass is all there, and the second mesh drives on left flanks because its gear 1
+/// turns the other way.
 #[test]
 fn a_train_over_a_beam_shaft() {
     let built = build(TRAIN).unwrap();

@@ -56,7 +56,8 @@ fn plans_say_what_is_computed_and_what_is_not() {
     }
 }
 
-/// The scenes that are shipped: those whose gears are gear files become systems, and the train turns at the speeds that it states.
+/// The scenes that are shipped: those whose gears are gear files become systems, and the train turns at the speeds that
+/// it states.
 #[test]
 fn shipped_scenes_are_built() {
     let mut built_ones = Vec::new();

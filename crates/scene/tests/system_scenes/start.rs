@@ -50,7 +50,8 @@ fn the_pendulum_swings_with_its_period() {
     );
 }
 
-/// Speeds and angles that the scene leaves open: gear 2 turns at the ratio, and its teeth touch where the closed form says.
+/// Speeds and angles that the scene leaves open: gear 2 turns at the ratio, and its teeth touch where the closed form
+/// says.
 #[test]
 fn gears_start_touching_at_the_right_speeds() {
     let scene = changed(
@@ -78,8 +79,8 @@ fn gears_start_touching_at_the_right_speeds() {
         .unwrap()
         .profile;
     let alpha = (2.0 * gear.base_radius_m / 0.15).acos();
-    // Half the angle of a tooth on the working pitch circle; right flanks touch on the line of centres when gear 1's tooth 0 stands turned
-    // back by it, and gear 2's space in front of it.
+    // Half the angle of a tooth on the working pitch circle; right flanks touch on the line of centres when gear 1's
+    // tooth 0 stands turned back by it, and gear 2's space in front of it.
     let half = gear.base_half_angle_rad - involute::involute_function(alpha);
     let expected = PI + half + half;
     let found = body(&built, "wheel").orientation.scaled_axis();
@@ -144,8 +145,8 @@ fn systems_can_be_varied() {
     );
 }
 
-/// The mirror image of a scene, driven in the other sense on its left flanks, has the same transmission error: zero at first touch, negative under
-/// load, without the backlash in it.
+/// The mirror image of a scene, driven in the other sense on its left flanks, has the same transmission error: zero at
+/// first touch, negative under load, without the backlash in it.
 #[test]
 fn a_mirrored_scene_has_the_same_transmission_error() {
     let right = changed(

@@ -80,8 +80,8 @@ fn long_steps_of_the_angle_end_where_short_ones_do() {
     }
 }
 
-/// Gears between two torques turn freely: what rounding and the tilt leave along that motion is no load. It was refused as one, or sent the
-/// iteration away.
+/// Gears between two torques turn freely: what rounding and the tilt leave along that motion is no load. It was refused
+/// as one, or sent the iteration away.
 #[test]
 fn a_tilted_pair_between_two_torques_comes_to_rest() {
     for model in ["iso6336", "analytic"] {

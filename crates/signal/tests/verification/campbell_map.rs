@@ -77,7 +77,8 @@ fn over_order_the_mesh_orders_stand() {
         assert!((row.speed_rad_per_s - speed).abs() < 1e-6 * speed);
         for (order, amplitude) in [(17.0, 1.0), (34.0, 0.5)] {
             let (line, found) = row.spectrum.peak(order - 1.5, order + 1.5).unwrap();
-            // The standing tone (order 60 to 300) is beyond order 50, or folds in only where the kernel lets pass: above 0.8·50.
+            // The standing tone (order 60 to 300) is beyond order 50, or folds in only where the kernel lets pass:
+            // above 0.8·50.
             assert!((row.spectrum.at(line) - order).abs() < 1e-12);
             assert!((found - amplitude).abs() < 1e-5, "{order}: {found}");
         }

@@ -42,7 +42,8 @@ fn a_tone_in_the_band_is_met_within_the_stated_error() {
 
 #[test]
 fn the_error_falls_exponentially_with_the_half_width() {
-    // e^{−β}, β → π L (1 − b): eight more neighbours on each side at b = 0.7 are worth a factor of e^{2.4π} = 1881 or more.
+    // e^{−β}, β → π L (1 − b): eight more neighbours on each side at b = 0.7 are worth a factor of e^{2.4π} = 1881 or
+    // more.
     let errors: Vec<f64> = [8, 16, 24]
         .map(|l| largest_error(&Resampler::new(l, 0.7).unwrap(), 2317.0))
         .to_vec();
@@ -147,8 +148,8 @@ fn down_sampling_to_few_orders_keeps_high_orders_out() {
         .map(|i| (10.0 * (series.start_rad + TAU * i as f64 / 100.0)).cos())
         .collect();
     let error = largest_difference(&series.values, &expected);
-    // Over time order 90 is a phase-modulated tone with sidebands 60 Hz = 3 orders apart. The twelfth, 3 J₁₂(3) = 7e-7, reaches the
-    // band where the kernel begins to pass.
+    // Over time order 90 is a phase-modulated tone with sidebands 60 Hz = 3 orders apart. The twelfth, 3 J₁₂(3) = 7e-7,
+    // reaches the band where the kernel begins to pass.
     assert!(error < 7e-7, "{error:e}");
 }
 

@@ -26,8 +26,8 @@ fn a_sine_on_a_line_has_its_amplitude() {
     }
 }
 
-/// Between two lines a tone loses what the window's transform says: sin(πd)/(πd) without window, sin(πd)/(πd (1 − d²)) under Hann, in
-/// general sin(πd)/(πd)·Σ_m (−1)^m (a_m/a_0) d²/(d² − m²), at d = ½.
+/// Between two lines a tone loses what the window's transform says: sin(πd)/(πd) without window, sin(πd)/(πd (1 − d²))
+/// under Hann, in general sin(πd)/(πd)·Σ_m (−1)^m (a_m/a_0) d²/(d² − m²), at d = ½.
 #[test]
 fn a_sine_between_two_lines_loses_what_the_window_says() {
     let flat_top = {
@@ -81,7 +81,8 @@ fn a_lone_tone_is_found_between_the_lines() {
 
 #[test]
 fn white_noise_has_a_flat_density_of_its_variance() {
-    // Variance 1 over the band 0 … f_s/2: S = 2/f_s. Of K Hann blocks half overlapped the mean over many lines scatters by well below 1 %.
+    // Variance 1 over the band 0 … f_s/2: S = 2/f_s. Of K Hann blocks half overlapped the mean over many lines scatters
+    // by well below 1 %.
     let rate = 5000.0;
     let x = gaussian_noise(400_000, 7);
     let density = power_spectral_density(

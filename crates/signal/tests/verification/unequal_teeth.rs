@@ -8,7 +8,8 @@ const TEETH: [usize; 2] = [23, 47];
 const HOLES: f64 = 6.0;
 const POINTS_PER_PITCH: usize = 24;
 
-/// Amplitude, order of the pinion, phase: eccentricity of the pinion and of the wheel, holes, mesh, its sidebands by the holes.
+/// Amplitude, order of the pinion, phase: eccentricity of the pinion and of the wheel, holes, mesh, its sidebands by
+/// the holes.
 fn lines() -> [(f64, f64, f64); 6] {
     let wheel = 23.0 / 47.0;
     [
@@ -39,7 +40,8 @@ fn series(teeth: usize, pitches: usize, start_rad: f64) -> AngleSeries {
     AngleSeries::new(&angle, &values, ShaftPeriod::new(pitches, teeth).unwrap()).unwrap()
 }
 
-/// Eccentricity of the pinion does not come again after the wheel's revolution: both need the hunting period, on either shaft.
+/// Eccentricity of the pinion does not come again after the wheel's revolution: both need the hunting period, on either
+/// shaft.
 #[test]
 fn every_order_comes_out_on_either_shaft() {
     for (own, mate, turns) in [(23, 47, 47), (47, 23, 23)] {
@@ -71,7 +73,8 @@ fn every_order_comes_out_on_either_shaft() {
     }
 }
 
-/// A tacho on the pinion that cuts every revolution keeps what is locked to the pinion and nothing of the wheel's holes.
+/// A tacho on the pinion that cuts every revolution keeps what is locked to the pinion and nothing of the wheel's
+/// holes.
 #[test]
 fn blocks_of_one_turn_keep_what_is_locked_to_it() {
     let input = series(23, 23 * 47, 0.0);

@@ -1,13 +1,13 @@
 //! `cargo xtask accuracy-cost`: error and cost of every element, mesh size and local term, in one table and one plot.
 //!
-//! Each case is the program itself, as a user runs it: `reduce`, then `compliance` at seven radii and two half widths for each
-//! local term, then a short `run` of the gear against itself. What a program does not know (an element of a later version)
-//! is a row that says so.
+//! Each case is the program itself, as a user runs it: `reduce`, then `compliance` at seven radii and two half widths
+//! for each local term, then a short `run` of the gear against itself. What a program does not know (an element of a
+//! later version) is a row that says so.
 //!
-//! The error in plane strain is that against `reference/plane_gear`, computed by other software. The error in three dimensions is
-//! that against the same figures plus what the third dimension changes: deflection of the whole gear less that in plane strain,
-//! both by the program on the meshes of [`REFERENCE_MM`] and extrapolated. The near field of the load is the same in both and
-//! cancels.
+//! The error in plane strain is that against `reference/plane_gear`, computed by other software. The error in three
+//! dimensions is that against the same figures plus what the third dimension changes: deflection of the whole gear less
+//! that in plane strain, both by the program on the meshes of [`REFERENCE_MM`] and extrapolated. The near field of the
+//! load is the same in both and cancels.
 
 use std::fs;
 use std::path::PathBuf;
@@ -27,7 +27,8 @@ use crate::workspace::Workspace;
 const ELEMENTS: [&str; 3] = ["hex8", "hex8-incompatible", "hex20"];
 /// Element lengths on the flank \[mm\]; all others are in the default's proportion to it.
 const FLANK_MM: [f64; 5] = [1.5, 1.2, 0.8, 0.55, 0.4];
-/// The finest in three dimensions \[mm\]. Quadratic elements stop earlier: from 0.8 to 0.55 mm they went from 0.06 to 0.05 %, in 23 GB.
+/// The finest in three dimensions \[mm\]. Quadratic elements stop earlier: from 0.8 to 0.55 mm they went from 0.06 to
+/// 0.05 %, in 23 GB.
 const FINEST_WHOLE_MM: f64 = 0.55;
 const FINEST_WHOLE_QUADRATIC_MM: f64 = 0.8;
 /// Pitches of the runs that time a position: enough for what a run does once, some 50 ms, to fade.
@@ -45,8 +46,8 @@ const FACE_WIDTH_MM: f64 = 20.0;
 /// Runs all cases, writes the page and the plot.
 ///
 /// # Errors
-/// [`XtaskError`] where the program does not build, the reference cannot be made or a file cannot be written; a case that fails is
-/// a row of the page.
+/// [`XtaskError`] where the program does not build, the reference cannot be made or a file cannot be written; a case
+/// that fails is a row of the page.
 pub fn accuracy_cost(workspace: &Workspace, options: &Options) -> Result<ExitCode, XtaskError> {
     let start = Instant::now();
     let bench = Bench::prepare(workspace, options)?;

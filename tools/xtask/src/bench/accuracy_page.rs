@@ -109,8 +109,8 @@ impl Reference {
 /// Radius \[mm\] and deflections \[µm\], one a half width.
 pub type PlaneGearRow = (f64, Vec<f64>);
 
-/// Half widths \[mm\] from the heads of the columns of `reference/plane_gear/data.csv`; radius \[mm\] and deflections \[µm\] of each
-/// row.
+/// Half widths \[mm\] from the heads of the columns of `reference/plane_gear/data.csv`; radius \[mm\] and deflections
+/// \[µm\] of each row.
 pub fn read_plane_gear(text: &str) -> Option<(Vec<f64>, Vec<PlaneGearRow>)> {
     let mut lines = text.lines();
     let half_widths = lines

@@ -28,8 +28,8 @@ impl Binary {
     }
 }
 
-/// Builds the test programs by `build`, a call of `cargo test`. Compiler messages go to the console, the list is read from
-/// cargo's JSON lines.
+/// Builds the test programs by `build`, a call of `cargo test`. Compiler messages go to the console, the list is read
+/// from cargo's JSON lines.
 ///
 /// # Errors
 /// [`XtaskError::Failed`] where something does not build, [`XtaskError::Io`] where cargo does not start.

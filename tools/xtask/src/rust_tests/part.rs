@@ -113,7 +113,8 @@ impl Part {
             source,
         };
         let mut child = command.spawn().map_err(failed)?;
-        // What goes to stderr past the harness (a child's message, an abort) is rare: read beside, shown after the rest.
+        // What goes to stderr past the harness (a child's message, an abort) is rare: read beside, shown after the
+        // rest.
         let stderr = child.stderr.take();
         let beside = std::thread::spawn(move || {
             let lines = stderr.map(|pipe| BufReader::new(pipe).lines());

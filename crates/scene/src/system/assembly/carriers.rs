@@ -1,7 +1,7 @@
 //! Which body carries which: a planet gear turns on its carrier, and goes round with it.
 //!
-//! Joints, bearings and shafts make a graph; seen from the ground, the body through which another one is reached carries it. At the start what
-//! is carried moves with its carrier,
+//! Joints, bearings and shafts make a graph; seen from the ground, the body through which another one is reached
+//! carries it. At the start what is carried moves with its carrier,
 //!
 //! ```text
 //! ẋ = ẋ_c + ω_c × (x − x_c) + (ω − ω_c) × (x − p)        p: on the axis on which it turns

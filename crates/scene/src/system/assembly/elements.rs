@@ -115,8 +115,8 @@ struct Connections<'a> {
 }
 
 impl Connections<'_> {
-    /// Adds the element that `make` gives for a table: finds its bodies, points at the table in complaints, notes the part. `named` holds the
-    /// names of the element and of its bodies.
+    /// Adds the element that `make` gives for a table: finds its bodies, points at the table in complaints, notes the
+    /// part. `named` holds the names of the element and of its bodies.
     fn add<E: ForceElement + 'static>(
         &mut self,
         (list, number): (&str, usize),

@@ -104,8 +104,8 @@ impl PlacedMotion {
         }
     }
 
-    /// The fastest speed about the joint's axis in a run that steps through time \[rad/s\], where the angle is driven: that of the values which
-    /// the run gives the motion, or the largest of its function, looked at often.
+    /// The fastest speed about the joint's axis in a run that steps through time \[rad/s\], where the angle is driven:
+    /// that of the values which the run gives the motion, or the largest of its function, looked at often.
     pub(super) fn fastest_spin(&self, run: &Run) -> Option<f64> {
         let at = |time_s: f64| match (&self.motion, self.driven) {
             (_, Driven::Place) => None,

@@ -4,8 +4,8 @@
 //! f = z₁ |ω₁ − ω_c|/2π,      ω_c = e·(d × ḋ)/|d × e|²
 //! ```
 //!
-//! ω₁: turn of gear 1 about its axis e; d: from gear 1's origin to gear 2's. ω_c is the turn of the line of centres, that of the carrier where
-//! axes are carried round; zero where they stand.
+//! ω₁: turn of gear 1 about its axis e; d: from gear 1's origin to gear 2's. ω_c is the turn of the line of centres,
+//! that of the carrier where axes are carried round; zero where they stand.
 
 use std::f64::consts::TAU;
 
@@ -18,11 +18,13 @@ use super::gear_mesh::PreparedMesh;
 use crate::system::scene::SystemScene;
 use crate::system::tables::gear_mesh::MeshModel;
 
-/// Steps that a mesh period needs at least: the scheme's error of a motion at the mesh frequency, |C| (2π/10)² with C of
-/// docs/theory/multibody.md, is then 3.4 % of its inertia force. At five steps it is 14 %, at two the mesh frequency itself is folded.
+/// Steps that a mesh period needs at least: the scheme's error of a motion at the mesh frequency, |C| (2π/10)² with C
+/// of docs/theory/multibody.md, is then 3.4 % of its inertia force. At five steps it is 14 %, at two the mesh frequency
+/// itself is folded.
 pub(crate) const STEPS_A_PERIOD: f64 = 10.0;
 
-/// How fast the line of centres turns about gear 1's axis \[rad/s\], from places and velocities of the two gears and that axis.
+/// How fast the line of centres turns about gear 1's axis \[rad/s\], from places and velocities of the two gears and
+/// that axis.
 pub(crate) fn line_of_centres_rad_per_s(
     between_m: &Vector3<f64>,
     rate_m_per_s: &Vector3<f64>,
@@ -55,7 +57,8 @@ pub(super) fn frequency_hz(mesh: &PreparedMesh, bodies: &Bodies) -> f64 {
     mesh.teeth[0] as f64 * (spin - carrier_rad_per_s(mesh, bodies)).abs() / TAU
 }
 
-/// Refuses a step that is too long for the meshes at the speeds that the scene states: those of the start and those to which its motions go.
+/// Refuses a step that is too long for the meshes at the speeds that the scene states: those of the start and those to
+/// which its motions go.
 pub(super) fn refuse_long_steps(
     scene: &SystemScene,
     meshes: &[PreparedMesh],

@@ -1,5 +1,5 @@
-//! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: damping, friction, errors; the stiffness of the simple models is in
-//! `mesh_stiffness.rs`.
+//! The model of a gear mesh's teeth from its `[[gear_mesh]]` table: damping, friction, errors; the stiffness of the
+//! simple models is in `mesh_stiffness.rs`.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,7 +17,8 @@ use gearmesh_model::ReducedGear;
 use super::gears::Gear;
 use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, MeshModel, PathWord};
 
-/// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene does not state.
+/// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
+/// does not state.
 pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
 
 pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<(), InputError> {

@@ -1,4 +1,5 @@
-//! Stiffness of `impact` and `iso6336` meshes: stated, after ISO 6336-1, or from the pair's own static curve; and what it is, in words.
+//! Stiffness of `impact` and `iso6336` meshes: stated, after ISO 6336-1, or from the pair's own static curve; and what
+//! it is, in words.
 
 use std::path::Path;
 
@@ -136,7 +137,8 @@ impl SceneMesh<'_> {
         }
     }
 
-    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank counts.
+    /// The single stiffness after ISO 6336-1 method B; the pinion is the gear with fewer teeth, the softer blank
+    /// counts.
     fn iso_stiffness(&self, line_load_n_per_m: f64) -> SingleStiffness {
         let [mut pinion, mut wheel] = self.gears.map(|gear| &gear.definition);
         if pinion.profile.teeth > wheel.profile.teeth {

@@ -1,11 +1,12 @@
-//! The static curve of a pair for its `impact` or `iso6336` mesh: from the result of a `[pair]` scene, or computed from the bodies' reduced gears.
+//! The static curve of a pair for its `impact` or `iso6336` mesh: from the result of a `[pair]` scene, or computed from
+//! the bodies' reduced gears.
 
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use gearmesh_contact::static_contact::Drive;
 use gearmesh_contact::{
-    ContactLines, ContactOptions, PathExtension, StaticContact, mesh_stiffness::MeshStiffness,
+    ContactLines, ContactOptions, Drive, PathExtension, StaticContact,
+    mesh_stiffness::MeshStiffness,
 };
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::InputDocument;
@@ -24,7 +25,8 @@ const MOST_HARMONICS: usize = 50;
 const POINTS_PER_PITCH: usize = 120;
 /// Radius of the tip edges of a curve that is computed, as in `[pair]` scenes that state none \[m\].
 const EDGE_RADIUS_M: f64 = 100e-6;
-/// Difference of the centre distances up to which a result belongs to the mesh \[m\]: it changes the stiffness by less than 1e-3.
+/// Difference of the centre distances up to which a result belongs to the mesh \[m\]: it changes the stiffness by less
+/// than 1e-3.
 const CENTRE_DISTANCE_M: f64 = 10e-6;
 
 /// Curves over whole pitches.

@@ -1,7 +1,7 @@
 //! `[[shaft]]` to bodies, and to the beams or fixed joints that hold them together.
 //!
-//! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and polar inertia of
-//! the shaft are exact. A body on a seat takes the station's place.
+//! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and
+//! polar inertia of the shaft are exact. A body on a seat takes the station's place.
 
 use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};

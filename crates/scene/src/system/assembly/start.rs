@@ -12,8 +12,8 @@ use crate::system::tables::UM;
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;
 
-/// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and where teeth stand
-/// whose angles are stated.
+/// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and
+/// where teeth stand whose angles are stated.
 pub(super) fn settle_phases(
     bodies: &mut Bodies,
     meshes: &[PreparedMesh],

@@ -1,5 +1,5 @@
-//! How fast bodies turn at the start whose speed nobody states: as their motion, shaft, fixed joint or mesh asks, on axes that may be carried
-//! round.
+//! How fast bodies turn at the start whose speed nobody states: as their motion, shaft, fixed joint or mesh asks, on
+//! axes that may be carried round.
 //!
 //! ```text
 //! z₁ (ω₁ − ω_c) + z₂ (ω₂ − ω_c) = 0        ω_c: turn of the line of centres (mesh_frequency.rs); Willis' equation
@@ -21,7 +21,8 @@ use crate::system::tables::connection::BearingTable;
 use crate::system::tables::gear_mesh::MeshModel;
 use crate::system::tables::joint::JointWord;
 
-/// Share by which speeds that a scene states on both gears of a `kinematic` mesh may miss its ratio: they are written with a few figures.
+/// Share by which speeds that a scene states on both gears of a `kinematic` mesh may miss its ratio: they are written
+/// with a few figures.
 const RATIO_IS_MET: f64 = 1e-6;
 
 /// Distance from an axis that counts as none \[m\]: rounding of places.
@@ -38,8 +39,8 @@ pub(super) struct Holds<'a> {
     pub shafts: &'a [PlacedShaft],
 }
 
-/// Gives speeds to bodies whose speed nobody states: those of motions, of the shaft or body that they are fixed to, and of the gears they
-/// mesh with. Bodies on a carrier that turns go along with it. A carrier that nobody drives stands.
+/// Gives speeds to bodies whose speed nobody states: those of motions, of the shaft or body that they are fixed to, and
+/// of the gears they mesh with. Bodies on a carrier that turns go along with it. A carrier that nobody drives stands.
 pub(super) fn settle_speeds(
     bodies: &mut Bodies,
     holds: Holds<'_>,
@@ -202,7 +203,8 @@ fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)
     carrier - (spin - carrier) * mesh.teeth[from] as f64 / mesh.teeth[to] as f64
 }
 
-/// Refuses speeds on both gears of a `kinematic` mesh that do not fit its ratio: the joint would change them at the start.
+/// Refuses speeds on both gears of a `kinematic` mesh that do not fit its ratio: the joint would change them at the
+/// start.
 pub(super) fn refuse_missed_ratios(
     bodies: &Bodies,
     meshes: &[PreparedMesh],

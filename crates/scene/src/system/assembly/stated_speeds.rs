@@ -1,4 +1,5 @@
-//! Speeds that bodies state against what their joints allow: what does not fit would be dropped at the start without a word.
+//! Speeds that bodies state against what their joints allow: what does not fit would be dropped at the start without a
+//! word.
 
 use std::f64::consts::TAU;
 

@@ -3,9 +3,9 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
-/// Stiffest support \[N/m or N·m/rad\]. Places are numbers of 16 digits: that of something 1 m away is rounded by 1e-16 m, which such a
-/// spring answers with 0.1 N. Programs that know no joints write 1e23 N/m for "rigid": its rounding alone would be 1e7 N and tear gears from
-/// their axes.
+/// Stiffest support \[N/m or N·m/rad\]. Places are numbers of 16 digits: that of something 1 m away is rounded by 1e-16
+/// m, which such a spring answers with 0.1 N. Programs that know no joints write 1e23 N/m for "rigid": its rounding
+/// alone would be 1e7 N and tear gears from their axes.
 const MOST: f64 = 1e15;
 
 /// Smallest step between two numbers about 1.

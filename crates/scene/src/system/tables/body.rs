@@ -11,18 +11,18 @@ use serde::Deserialize;
 pub struct BodyTable {
     /// Name by which the other tables know the body. "ground" is the world.
     pub name: String,
-    /// A gear file (.toml) or a reduced gear (.h5), relative to the scene: mass, inertia and teeth. The body's frame is the gear's: z along
-    /// the axis, origin at mid-face, tooth 0 on +x.
+    /// A gear file (.toml) or a reduced gear (.h5), relative to the scene: mass, inertia and teeth. The body's frame is
+    /// the gear's: z along the axis, origin at mid-face, tooth 0 on +x.
     pub gear: Option<PathBuf>,
     /// Mass; from the gear where not given.
     pub mass_kg: Option<f64>,
-    /// Inertia about the centre of mass, body axes: [Jxx, Jyy, Jzz] or [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz], off-diagonal entries −∫xy dm; from the
-    /// gear where not given.
+    /// Inertia about the centre of mass, body axes: [Jxx, Jyy, Jzz] or [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz], off-diagonal
+    /// entries −∫xy dm; from the gear where not given.
     pub inertia_kg_m2: Option<Vec<f64>>,
     /// Centre of mass from the body's origin, body axes; from the gear, or [0, 0, 0].
     pub centre_of_mass_mm: Option<[f64; 3]>,
-    /// Gears: "rigid"; "reduced", the static patterns of the model give way in `hybrid` meshes; "modal", its natural modes vibrate, too, and carry
-    /// their inertia. Rigid or reduced, as the meshes need, where not given.
+    /// Gears: "rigid"; "reduced", the static patterns of the model give way in `hybrid` meshes; "modal", its natural
+    /// modes vibrate, too, and carry their inertia. Rigid or reduced, as the meshes need, where not given.
     pub flexibility: Option<Flexibility>,
     /// `modal`: modes up to this frequency; all of the model where not given.
     #[serde(rename = "modes_up_to_Hz")]
@@ -31,13 +31,13 @@ pub struct BodyTable {
     pub modal_damping_ratio: Option<f64>,
     /// Origin of the body in the world; [0, 0, 0], or the seat on a shaft.
     pub position_mm: Option<[f64; 3]>,
-    /// Cardan angles: turned about x, then the new y, then the new z. With two angles, or none, a mesh may turn gear 2 about its z so that the
-    /// teeth touch.
+    /// Cardan angles: turned about x, then the new y, then the new z. With two angles, or none, a mesh may turn gear 2
+    /// about its z so that the teeth touch.
     pub cardan_deg: Option<Vec<f64>>,
     /// Velocity of the origin, world axes; [0, 0, 0] where not given.
     pub velocity_mm_per_s: Option<[f64; 3]>,
-    /// Speed about the body's own z, counter-clockwise positive. Where not given: that of its shaft, or what a mesh with a gear of stated speed
-    /// makes of it, or 0.
+    /// Speed about the body's own z, counter-clockwise positive. Where not given: that of its shaft, or what a mesh
+    /// with a gear of stated speed makes of it, or 0.
     pub speed_rpm: Option<f64>,
     /// Angular velocity, body axes, instead of `speed_rpm`.
     pub angular_velocity_rad_per_s: Option<[f64; 3]>,

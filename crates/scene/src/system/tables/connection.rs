@@ -1,5 +1,5 @@
-//! `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[bearing]]`: forces between two bodies. Places and axes are those of the world at
-//! the start.
+//! `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[bearing]]`: forces between two bodies. Places and axes are
+//! those of the world at the start.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -51,8 +51,8 @@ pub struct TorsionSpringTable {
     pub free_angle_deg: f64,
 }
 
-/// `[[bushing]]`: six components, for small relative rotations. Either the diagonals or the 6×6 matrices; order x, y, z, rotations about x, y, z,
-/// with z along `axis`.
+/// `[[bushing]]`: six components, for small relative rotations. Either the diagonals or the 6×6 matrices; order x, y,
+/// z, rotations about x, y, z, with z along `axis`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]

@@ -102,8 +102,8 @@ pub enum FlankErrorTable {
     },
 }
 
-/// Length in roll angle over which the edges of a spall fall where the scene states none: about the width of a Hertz contact on teeth of some
-/// millimetres' module.
+/// Length in roll angle over which the edges of a spall fall where the scene states none: about the width of a Hertz
+/// contact on teeth of some millimetres' module.
 const DEFAULT_EDGE_DEG: f64 = 0.5;
 
 impl FlankErrorTable {

@@ -1,5 +1,5 @@
-//! `friction` of gear meshes and of pairs: one vocabulary. A gear mesh knows how fast the flanks slide, a pair at rest only where they would
-//! turn round.
+//! `friction` of gear meshes and of pairs: one vocabulary. A gear mesh knows how fast the flanks slide, a pair at rest
+//! only where they would turn round.
 
 use gearmesh_contact::Friction as PathFriction;
 use gearmesh_drivetrain::Friction as SpeedFriction;
@@ -10,8 +10,8 @@ use serde::Deserialize;
 
 use super::{MM, UM};
 
-/// Sliding speed of the static coefficient where a scene states none \[mm/s\]: small against the sliding of gears that run at some rpm,
-/// large enough for steps of some microseconds.
+/// Sliding speed of the static coefficient where a scene states none \[mm/s\]: small against the sliding of gears that
+/// run at some rpm, large enough for steps of some microseconds.
 const DEFAULT_STATIC_SPEED_MM_PER_S: f64 = 10.0;
 /// Distance from the pitch point within which friction turns round in a pair where the scene states none \[µm\].
 const DEFAULT_REVERSAL_UM: f64 = 20.0;
@@ -28,7 +28,8 @@ pub enum FrictionTable {
         static_coefficient: Option<f64>,
         /// Gear meshes: sliding speed of the static coefficient; 10 where not given.
         static_speed_mm_per_s: Option<f64>,
-        /// Gear meshes: sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
+        /// Gear meshes: sliding speed from which the dynamic coefficient holds; ten times the static one where not
+        /// given.
         dynamic_speed_mm_per_s: Option<f64>,
         /// Pairs: distance from the pitch point within which friction turns round; 20 where not given.
         reversal_um: Option<f64>,

@@ -26,13 +26,14 @@ pub struct GearMeshTable {
     pub gear_2: String,
     /// Model of the teeth.
     pub model: MeshModel,
-    /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right flanks touch where gear 1
-    /// drives clockwise. "both" where not given. Not with `kinematic`.
+    /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right
+    /// flanks touch where gear 1 drives clockwise. "both" where not given. Not with `kinematic`.
     pub flanks: Option<FlanksWord>,
-    /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not. "extended" where not given. Not
-    /// with `kinematic`.
+    /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
+    /// "extended" where not given. Not with `kinematic`.
     pub path: Option<PathWord>,
-    /// Slices across the face width, 1 where not given. Not with `kinematic`, nor with `hybrid`, whose models state them.
+    /// Slices across the face width, 1 where not given. Not with `kinematic`, nor with `hybrid`, whose models state
+    /// them.
     pub slices: Option<usize>,
     /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
     pub stiffness_N_per_mm_e: Option<f64>,
@@ -42,25 +43,29 @@ pub struct GearMeshTable {
     pub damping_N_s_per_mm: Option<f64>,
     /// `impact` with damping: depth from which it acts in full.
     pub full_damping_depth_um: Option<f64>,
-    /// `impact`, `iso6336`: the stiffness of the pair itself, from its static curve at one torque, instead of a stated one.
+    /// `impact`, `iso6336`: the stiffness of the pair itself, from its static curve at one torque, instead of a stated
+    /// one.
     pub stiffness: Option<PairStiffnessTable>,
-    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor `stiffness` is given.
+    /// `iso6336`: mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor
+    /// `stiffness` is given.
     pub stiffness_N_per_mm_um: Option<f64>,
-    /// `iso6336` without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
+    /// `iso6336` without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not
+    /// given.
     pub line_load_N_per_mm: Option<f64>,
     /// `iso6336`: amplitude of the stiffness over the mesh cycle, over its mean, below 1; constant where not given.
     pub stiffness_amplitude: Option<f64>,
     /// `hybrid`: local contact; "calibrated" where not given.
     pub local: Option<LocalWord>,
-    /// `hybrid`: normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100 N/mm times the
-    /// face width where not given.
+    /// `hybrid`: normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice
+    /// force); 100 N/mm times the face width where not given.
     pub nominal_force_N: Option<f64>,
     /// Damping of `iso6336`, `analytic` and `hybrid`; none where not given.
     pub damping: Option<DampingTable>,
     /// Friction; none where not given. Not with `kinematic`.
     pub friction: Option<FrictionTable>,
-    /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336` know no flanks: with them
-    /// it must be set to false for gears that have microgeometry, but for `iso6336` with `stiffness`, whose curve holds it.
+    /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336`
+    /// know no flanks: with them it must be set to false for gears that have microgeometry, but for `iso6336` with
+    /// `stiffness`, whose curve holds it.
     pub microgeometry: Option<bool>,
     /// Errors and faults of gear 1. Not with `kinematic` and `iso6336`.
     #[serde(default)]
@@ -85,10 +90,11 @@ pub struct GearMeshTable {
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct PairStiffnessTable {
-    /// Result (.h5) of a `[pair]` scene of these gears, relative to the scene. Where not given, the curve is computed, as the models of the two
-    /// bodies' reduced gears have it.
+    /// Result (.h5) of a `[pair]` scene of these gears, relative to the scene. Where not given, the curve is computed,
+    /// as the models of the two bodies' reduced gears have it.
     pub from: Option<PathBuf>,
-    /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that scene's torques.
+    /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that
+    /// scene's torques.
     pub torque_Nm: f64,
     /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
     pub harmonics: Option<usize>,

@@ -1,5 +1,6 @@
-//! A table of numbers in a file: comma separated, `.` as the decimal sign, first line the heads; lines that begin with `#` and blank
-//! lines are passed over. Numbers are within the range of the unit in their head. Complaints name file, line and head.
+//! A table of numbers in a file: comma separated, `.` as the decimal sign, first line the heads; lines that begin with
+//! `#` and blank lines are passed over. Numbers are within the range of the unit in their head. Complaints name file,
+//! line and head.
 
 use std::path::Path;
 

@@ -23,7 +23,8 @@ pub struct RunTable {
     pub kind: RunKind,
     /// `transient`: end of the run.
     pub end_s: Option<f64>,
-    /// `static`, `eigen`: shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone where not given.
+    /// `static`, `eigen`: shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone
+    /// where not given.
     pub load_factors: Option<Vec<f64>>,
     /// `static`, `eigen`, `speed-sweep`: name of the `[[motion]]` that is varied.
     pub motion: Option<String>,

@@ -62,8 +62,8 @@ pub struct PartTable {
     pub inertia_kg_m2: [f64; 3],
 }
 
-/// `[[shaft.seat]]`: a body on the shaft. On a beam it takes the place of the station's own body, and the shaft's mass there is added to
-/// it; on a rigid shaft it is fixed.
+/// `[[shaft.seat]]`: a body on the shaft. On a beam it takes the place of the station's own body, and the shaft's mass
+/// there is added to it; on a rigid shaft it is fixed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SeatTable {

@@ -1,9 +1,18 @@
-//! The gears of seed 004 against the numbers stated for them, and gears that cannot be.
+//! The gears of pairs A and B (seed 004 in docs/sources.md) against the numbers stated for them, gears that cannot be,
+//! and what holds for gears, pairs and gear files of any numbers.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
+mod random_files;
+mod random_flanks;
+mod random_pairs;
+mod random_teeth;
+
+use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{
-    FlankSide, GearDefinition, GearPair, Misalignment, PairError, ProfileCurve,
+    FlankSide, GearDefinition, GearPair, Misalignment, PairError, ProfileCurve, ToothGeometry,
 };
 use std::path::Path;
 
@@ -80,7 +89,8 @@ fn the_profile_is_continuous_and_smooth_where_it_must_be() {
     for k in 1..=n {
         let p = curve.point_at(curve.length_m() * f64::from(k) / f64::from(n));
         let step = (p[0] - last[0]).hypot(p[1] - last[1]);
-        // A chord is shorter than its arc, most across the tip corner; it is never longer beyond the table's interpolation (2e-3).
+        // A chord is shorter than its arc, most across the tip corner; it is never longer beyond the table's
+        // interpolation (2e-3).
         let share = step * f64::from(n) / curve.length_m();
         assert!(
             share < 1.0 + 2e-3 && share > if k == 4404 { 0.6 } else { 0.998 },
@@ -218,6 +228,72 @@ fn pairs_that_cannot_run_say_why() {
         PairError::TipClearance { .. } | PairError::NoBacklash { .. }
     ));
     assert!(matches!(pair(0.1549), PairError::ContactRatio { .. }));
+}
+
+/// Found by a random pair: the tips reach the mates' flanks above the form circle and clear the root circle, but cut
+/// into the fillet in between.
+#[test]
+fn a_tip_that_cuts_into_the_fillet_is_refused() {
+    let gear = |teeth, profile_shift| {
+        ToothGeometry::new(&ToothDefinition {
+            teeth,
+            module_m: 0.2e-3,
+            pressure_angle_rad: 0.26128296931528644,
+            profile_shift,
+            addendum: 1.0191438449287265,
+            dedendum: 1.2455618511827362,
+            rack_tip_radius: 0.1922968072440458,
+            tip_diameter_m: None,
+            thickness_allowance_m: 17e-6,
+            tip_chamfer_m: 0.0,
+            face_width_m: 2e-3,
+            helix_angle_rad: 0.0,
+        })
+        .unwrap()
+    };
+    let pair = |a| {
+        GearPair::new(
+            gear(105, 0.618),
+            gear(130, 0.556),
+            a,
+            Misalignment::default(),
+        )
+    };
+    let references = 0.1e-3 * 235.0;
+    let verdicts: Vec<_> = (0..40)
+        .map(|k| pair(references + 0.2e-3 * (0.9 + 0.01 * f64::from(k))))
+        .collect();
+    // Closer, the tip meets the root circle; further away it runs clear.
+    let refused = |v: &Result<GearPair, PairError>| matches!(v, Err(PairError::TipInFillet { .. }));
+    assert!(verdicts.iter().any(refused), "{verdicts:?}");
+    assert!(matches!(
+        verdicts[0],
+        Err(PairError::NoBacklash { .. } | PairError::TipClearance { .. })
+    ));
+    assert!(verdicts[39].is_ok(), "{:?}", verdicts[39]);
+}
+
+/// Pairs that ship with the program run clear.
+#[test]
+fn shipped_pairs_run_clear() {
+    for (one, two, a) in [
+        ("gear1.toml", "gear2.toml", 150e-3),
+        ("gear1.toml", "gear3.toml", 150e-3),
+        ("helical1.toml", "helical2.toml", f64::NAN),
+        ("pinion_17.toml", "wheel_25_m10.toml", f64::NAN),
+    ] {
+        let (g1, g2) = (model(one).profile, model(two).profile);
+        let a = if a.is_nan() {
+            g1.reference_radius_m + g2.reference_radius_m + 0.3e-3
+        } else {
+            a
+        };
+        let pair = GearPair::new(g1, g2, a, Misalignment::default());
+        assert!(
+            !matches!(pair, Err(PairError::TipInFillet { .. })),
+            "{one}, {two}: {pair:?}"
+        );
+    }
 }
 
 #[test]

@@ -1,5 +1,10 @@
 //! Meshes of helical gears: every section is the spur mesh turned, the volume stays, openings and bore stay straight.
+//! And of gears of any numbers, spur and helical.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+
+#[path = "../../../../tests/support/property_cases.rs"]
+mod property_cases;
+mod random_gears;
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
@@ -49,7 +54,7 @@ fn mesh(helix_deg: f64, blank: &str) -> (GearDefinition, GearMesh) {
     (gear, mesh)
 }
 
-/// Volume of trilinear hexahedra, 3×3×3 Gauss: exact.
+/// Volume of trilinear hexahedra, 3×3×3 Gauss: exact. No element may be folded anywhere.
 fn volume(mesh: &GearMesh) -> f64 {
     let gauss = [
         (-(0.6f64.sqrt()), 5.0 / 9.0),
@@ -85,6 +90,7 @@ fn volume(mesh: &GearMesh) -> f64 {
                     let det = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1])
                         - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0])
                         + j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+                    assert!(det > 0.0, "a folded element: {p:?}");
                     sum += wx * wy * wz * det;
                 }
             }
@@ -105,8 +111,8 @@ fn section_area(mesh: &GearMesh) -> f64 {
         .sum()
 }
 
-/// Sections turn without change of area; between two planes a node runs along a chord, so that the section in between is
-/// the turned one made smaller: by |1 − t + t e^{iΔ}|² = 1 − 2t(1 − t)(1 − cos Δ), in the mean by (1 − cos Δ)/3.
+/// Sections turn without change of area; between two planes a node runs along a chord, so that the section in between
+/// is the turned one made smaller: by |1 − t + t e^{iΔ}|² = 1 − 2t(1 − t)(1 − cos Δ), in the mean by (1 − cos Δ)/3.
 #[test]
 fn the_volume_is_that_of_the_spur_mesh_but_for_the_chords() {
     for helix_deg in [25.0, -25.0] {

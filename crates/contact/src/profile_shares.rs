@@ -1,4 +1,4 @@
-//! How a force at a roll angle is shared by the hats of the roll stations.
+//! How a force at a place along the profile is shared by the hats of the stations.
 //!
 //! A hat is some tenths of a module wide, the true pressure next to nothing. What is narrower than a hat is the local term's
 //! affair; but the rest of the deflection, the bending of the tooth and the turn of its foot, is smooth over a hat, and a load
@@ -15,24 +15,24 @@
 //! continuous in ξ. At the outermost stations β is that of their inner neighbours. Beyond the outermost centroids the first
 //! two terms go on linearly, V stays as it is at the centroid: a force at the very edge of the flank is not extrapolated further.
 //!
-//! Hats are taken over the flank's area, r_b ξ dξ per width, as the loads are.
+//! Hats are taken over the flank's area, as the loads are: dA = a(u) du per width, on an involute flank, whose u is the roll angle ξ, r_b ξ dξ.
 
 /// Stations that share a force at most.
 pub const SHARES: usize = 4;
 
-/// The hats of the roll stations: their moments in roll angle.
+/// The hats of the stations along a profile: their moments in u.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RollHats {
-    centroids_rad: Vec<f64>,
-    /// [rad²].
+pub struct ProfileHats {
+    centroids: Vec<f64>,
+    /// u².
     variances: Vec<f64>,
-    /// β of stations 1, 2, ..., n − 2 as shares of the station's left neighbour, itself and the right one [1/rad²].
+    /// β of stations 1, 2, ..., n − 2 as shares of the station's left neighbour, itself and the right one per u².
     second_differences: Vec<[f64; 3]>,
 }
 
 /// A place between two hats' centroids and the shares of a force there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RollPlace {
+pub struct ProfilePlace {
     /// Lower station.
     pub station: usize,
     /// Share of the station above it in the linear interpolation between the two; may lie a little outside 0 to 1 beyond the
@@ -41,11 +41,11 @@ pub struct RollPlace {
     /// First of the stations that have shares, and their shares.
     first: usize,
     shares: [f64; SHARES],
-    /// How the shares change with the roll angle [1/rad].
+    /// How the shares change with u per u.
     rates: [f64; SHARES],
 }
 
-impl RollPlace {
+impl ProfilePlace {
     /// Stations with their shares of a force, which add up to one.
     pub fn shares(&self) -> impl Iterator<Item = (usize, f64)> + Clone {
         let first = self.first;
@@ -55,7 +55,7 @@ impl RollPlace {
             .filter(|(_, share)| *share != 0.0)
     }
 
-    /// Stations with the derivatives of their shares by the roll angle [1/rad], which add up to zero. Where one hat hands over to the
+    /// Stations with the derivatives of their shares by u per u, which add up to zero. Where one hat hands over to the
     /// next it is the derivative of the side above.
     pub fn rates(&self) -> impl Iterator<Item = (usize, f64)> + Clone {
         let first = self.first;
@@ -81,19 +81,24 @@ impl RollPlace {
     }
 }
 
-impl RollHats {
-    /// The hats of at least two stations, given by their roll angles.
-    pub fn new(stations_rad: &[f64]) -> Self {
-        let moments: Vec<[f64; 3]> = (0..stations_rad.len())
-            .map(|i| hat_moments(stations_rad, i))
+impl ProfileHats {
+    /// The hats of at least two stations of an involute flank, given by their roll angles.
+    pub fn of_involute(stations_rad: &[f64]) -> Self {
+        Self::new(stations_rad, |roll_rad| roll_rad)
+    }
+
+    /// The hats of at least two stations; `area`: the flank's area per width and u, up to a factor.
+    pub fn new(stations: &[f64], area: impl Fn(f64) -> f64) -> Self {
+        let moments: Vec<[f64; 3]> = (0..stations.len())
+            .map(|i| hat_moments(stations, &area, i))
             .collect();
-        let centroids_rad: Vec<f64> = moments.iter().map(|m| m[1] / m[0]).collect();
+        let centroids: Vec<f64> = moments.iter().map(|m| m[1] / m[0]).collect();
         let variances: Vec<f64> = moments
             .iter()
-            .zip(&centroids_rad)
+            .zip(&centroids)
             .map(|(m, c)| m[2] / m[0] - c * c)
             .collect();
-        let second_differences = centroids_rad
+        let second_differences = centroids
             .windows(3)
             .zip(variances.windows(3))
             .map(|(c, v)| {
@@ -107,33 +112,33 @@ impl RollHats {
             })
             .collect();
         Self {
-            centroids_rad,
+            centroids,
             variances,
             second_differences,
         }
     }
 
-    /// Roll angles of the hats' centroids.
-    pub fn centroids_rad(&self) -> &[f64] {
-        &self.centroids_rad
+    /// Places of the hats' centroids.
+    pub fn centroids(&self) -> &[f64] {
+        &self.centroids
     }
 
-    /// Where a roll angle lies, and the shares of a force there.
-    pub fn place(&self, roll_rad: f64) -> RollPlace {
-        let c = &self.centroids_rad;
+    /// Where a place lies between the stations, and the shares of a force there.
+    pub fn place(&self, u: f64) -> ProfilePlace {
+        let c = &self.centroids;
         let n = c.len();
-        let station = c.partition_point(|xi| *xi <= roll_rad).clamp(1, n - 1) - 1;
+        let station = c.partition_point(|c| *c <= u).clamp(1, n - 1) - 1;
         let (low, high) = (c[station], c[station + 1]);
-        let share = (roll_rad - low) / (high - low);
+        let share = (u - low) / (high - low);
         let first = station.saturating_sub(1).min(n.saturating_sub(4));
         let (mut shares, mut rates) = ([0.0; SHARES], [0.0; SHARES]);
-        let per_rad = 1.0 / (high - low);
+        let per_u = 1.0 / (high - low);
         shares[station - first] = 1.0 - share;
         shares[station + 1 - first] += share;
-        rates[station - first] = -per_rad;
-        rates[station + 1 - first] += per_rad;
+        rates[station - first] = -per_u;
+        rates[station + 1 - first] += per_u;
         if n > 2 {
-            let (inside, t) = (roll_rad.clamp(low, high), share.clamp(0.0, 1.0));
+            let (inside, t) = (u.clamp(low, high), share.clamp(0.0, 1.0));
             let moves = if (0.0..1.0).contains(&share) {
                 1.0
             } else {
@@ -142,9 +147,9 @@ impl RollHats {
             let spread = |i: usize| self.variances[i] + (c[i] - inside).powi(2);
             let (below, above) = (spread(station), spread(station + 1));
             let variance = (1.0 - t) * below + t * above;
-            let widens = (above - below) * per_rad
-                + 2.0 * ((1.0 - t) * (inside - low) - t * (high - inside));
-            for (at, weight, turn) in [(station, 1.0 - t, -per_rad), (station + 1, t, per_rad)] {
+            let widens =
+                (above - below) * per_u + 2.0 * ((1.0 - t) * (inside - low) - t * (high - inside));
+            for (at, weight, turn) in [(station, 1.0 - t, -per_u), (station + 1, t, per_u)] {
                 let middle = at.clamp(1, n - 2);
                 for (k, value) in self.second_differences[middle - 1].iter().enumerate() {
                     let slot = middle - 1 + k - first;
@@ -153,7 +158,7 @@ impl RollHats {
                 }
             }
         }
-        RollPlace {
+        ProfilePlace {
             station,
             share,
             first,
@@ -163,9 +168,9 @@ impl RollHats {
     }
 }
 
-/// ∫ h_i ξ^p ξ dξ of the hat of station i, p = 0, 1, 2.
-fn hat_moments(stations: &[f64], i: usize) -> [f64; 3] {
-    // Gauss's rule with three points: exact to degree 5, the integrand has 4.
+/// ∫ h_i u^p a du of the hat of station i, p = 0, 1, 2.
+fn hat_moments(stations: &[f64], area: impl Fn(f64) -> f64, i: usize) -> [f64; 3] {
+    // Gauss's rule with three points: exact to degree 5, the integrand of an involute flank has 4.
     let offset = (0.6_f64).sqrt();
     let mut moments = [0.0; 3];
     let below = i.checked_sub(1).map(|j| stations[j]);
@@ -175,7 +180,7 @@ fn hat_moments(stations: &[f64], i: usize) -> [f64; 3] {
             let xi = neighbour + half * (1.0 + at);
             let hat = 0.5 * (1.0 + at);
             for (p, moment) in moments.iter_mut().enumerate() {
-                *moment += half.abs() * weight * hat * xi.powi(p as i32 + 1);
+                *moment += half.abs() * weight * hat * area(xi) * xi.powi(p as i32);
             }
         }
     }
@@ -194,7 +199,7 @@ mod tests {
 
     /// ∫ f over the load of a unit force at a roll angle, by fine sums over the hats.
     fn read(stations: &[f64], roll: f64, f: impl Fn(f64) -> f64) -> f64 {
-        let hats = RollHats::new(stations);
+        let hats = ProfileHats::of_involute(stations);
         let steps = 4000;
         hats.place(roll)
             .shares()
@@ -220,8 +225,8 @@ mod tests {
 
     #[test]
     fn share_rates_are_the_slopes_of_the_shares() {
-        let hats = RollHats::new(&stations(9));
-        let c = hats.centroids_rad();
+        let hats = ProfileHats::of_involute(&stations(9));
+        let c = hats.centroids();
         for k in 0..=40 {
             // Beyond the outermost centroids, between them and on them.
             let roll = c[0] - 0.01 + (c[8] - c[0] + 0.02) * f64::from(k) / 40.0;
@@ -233,7 +238,7 @@ mod tests {
                 sum.abs() < 1e-10 && (moment - 1.0).abs() < 1e-10,
                 "{sum} {moment}"
             );
-            let dense = |place: &RollPlace| {
+            let dense = |place: &ProfilePlace| {
                 let mut all = [0.0; 9];
                 place.shares().for_each(|(i, share)| all[i] += share);
                 all
@@ -255,8 +260,8 @@ mod tests {
     fn a_load_reads_every_parabola_at_its_place() {
         for n in [3, 4, 5, 9] {
             let stations = stations(n);
-            let hats = RollHats::new(&stations);
-            let c = hats.centroids_rad();
+            let hats = ProfileHats::of_involute(&stations);
+            let c = hats.centroids();
             let (low, high) = (c[0], c[n - 1]);
             for k in 0..=20 {
                 let roll = low + (high - low) * f64::from(k) / 20.0;
@@ -275,7 +280,7 @@ mod tests {
 
     #[test]
     fn shares_are_continuous() {
-        let hats = RollHats::new(&stations(9));
+        let hats = ProfileHats::of_involute(&stations(9));
         let dense = |roll: f64| {
             let mut all = [0.0; 9];
             hats.place(roll).shares().for_each(|(i, s)| all[i] += s);
@@ -293,7 +298,7 @@ mod tests {
 
     #[test]
     fn two_stations_share_linearly() {
-        let hats = RollHats::new(&[0.2, 0.4]);
+        let hats = ProfileHats::of_involute(&[0.2, 0.4]);
         let place = hats.place(0.3);
         let shares: Vec<_> = place.shares().collect();
         assert_eq!(shares, [(0, 1.0 - place.share), (1, place.share)]);

@@ -1,0 +1,148 @@
+//! Text files: gears, scenes, studies, S-N tables, tables of numbers, records.
+
+use crate::{fuzz, mutation, root};
+use gearmesh_geometry::GearDefinition;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_report::ReferenceRecord;
+use gearmesh_scene::rating::sn_curve;
+use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::system_run::RunJob;
+use gearmesh_scene::{InputKind, SceneFile};
+use std::path::Path;
+
+const WHEEL: &str = include_str!("../../../../tests/support/wheel.toml");
+
+/// Shipped files of a kind.
+fn shipped(kind: InputKind) -> Vec<String> {
+    let mut paths: Vec<_> = std::fs::read_dir(root().join("fe_models"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
+    paths.sort();
+    let texts = paths
+        .iter()
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    texts
+        .filter(|text| InputKind::of(&document(text)).unwrap() == kind)
+        .collect()
+}
+
+fn document(text: &str) -> InputDocument {
+    InputDocument::new("case.toml", text)
+}
+
+fn fuzz_text(target: &str, usual: u64, corpus: &[String], read: impl Fn(&str)) {
+    assert!(!corpus.is_empty());
+    let make = |random: &mut fastrand::Rng| mutation::text(corpus, random).into_bytes();
+    fuzz(target, usual, make, |case| {
+        // Bytes that are no text are refused when the file is read.
+        if let Ok(text) = std::str::from_utf8(case) {
+            read(text);
+        }
+    });
+}
+
+#[test]
+fn gear_files() {
+    fuzz_text("gear", 1500, &shipped(InputKind::Gear), |text| {
+        let document = document(text);
+        let _ = document.unit_slips();
+        if let Ok(gear) = GearDefinition::from_document(&document) {
+            let profile = &gear.profile;
+            let radii = [
+                profile.base_radius_m,
+                profile.root_radius_m,
+                profile.tip_radius_m,
+            ];
+            assert!(radii.iter().all(|r| r.is_finite() && *r > 0.0), "{radii:?}");
+            assert!(gear.sectors() >= 1);
+        }
+    });
+}
+
+/// Read, loaded with the gears that it names, built, and made a run.
+fn scene_is_answered(text: &str, folder: &Path) {
+    let Ok(SceneFile::System(scene)) = SceneFile::from_document(document(text), folder) else {
+        return;
+    };
+    let Ok(loaded) = scene.load() else { return };
+    let _ = loaded.unit_slips();
+    if loaded.build().is_ok() {
+        let _ = RunJob::from_scene(loaded);
+    }
+}
+
+#[test]
+fn scenes() {
+    let folder = root().join("fe_models");
+    let mut corpus = shipped(InputKind::Scene);
+    corpus.push(WHEEL.to_owned());
+    fuzz_text("scene", 250, &corpus, |text| {
+        scene_is_answered(text, &folder)
+    });
+}
+
+#[test]
+fn studies() {
+    let folder = root().join("fe_models");
+    fuzz_text("study", 60, &shipped(InputKind::Study), |text| {
+        if let Ok(study) = Study::from_document(document(text), &folder) {
+            let _ = StudyScenes::new(&study);
+        }
+    });
+}
+
+#[test]
+fn sn_tables() {
+    fuzz_text("sn_table", 3000, &shipped(InputKind::SnTable), |text| {
+        let Ok(curve) = sn_curve(&document(text)) else {
+            return;
+        };
+        for amplitude_pa in [0.0, 1e-3, 1e6, 300e6, 1e9, 1e15] {
+            if let Ok(cycles) = curve.cycles_to_failure(amplitude_pa) {
+                // Zero where the slope is steep and the amplitude far above the table.
+                assert!(cycles >= 0.0, "{cycles} at {amplitude_pa}");
+            }
+        }
+    });
+}
+
+#[test]
+fn tables_of_numbers() {
+    let desk = tempfile::tempdir().unwrap();
+    let table = r#"torque_Nm = { table = { file = "rig.csv", column = "torque_Nm", interpolation = "monotone-cubic" } }"#;
+    let scene = WHEEL.replace("torque_Nm = 2.0", table);
+    let corpus = [
+        "# rig, Tuesday\ntime_s,torque_Nm\n0,1\n0.25,2.5\n0.5,-3e2\n1,4\n".to_owned(),
+        "\u{feff}torque_Nm, time_s, note\r\n1,0,a\r\n\r\n2,0.5,\"b, c\"\r\n3,1,\r\n".to_owned(),
+    ];
+    fuzz_text("number_table", 500, &corpus, |text| {
+        std::fs::write(desk.path().join("rig.csv"), text).unwrap();
+        scene_is_answered(&scene, desk.path());
+    });
+}
+
+#[test]
+fn records() {
+    let desk = tempfile::tempdir().unwrap();
+    let folder = root().join("reference/plane_gear");
+    let of = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let data: String = of("data.csv")
+        .lines()
+        .take(40)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    // Both files in one case, parted by a NUL.
+    let corpus = [format!("{}\0{data}", of("record.toml"))];
+    fuzz_text("record", 500, &corpus, |text| {
+        let (description, data) = text.split_once('\0').unwrap_or((text, ""));
+        std::fs::write(desk.path().join("record.toml"), description).unwrap();
+        std::fs::write(desk.path().join("data.csv"), data).unwrap();
+        if let Ok(record) = ReferenceRecord::read(desk.path()) {
+            for column in &record.columns {
+                let _ = record.series(column);
+            }
+        }
+    });
+}

@@ -1,0 +1,239 @@
+//! One correction of a static equilibrium.
+//!
+//! It is the smallest that solves Newton's equations, by singular values of the scaled matrix: directions that nothing resists are thereby found. In large
+//! systems a sparse factorisation comes first, and is taken if the matrix is regular by far.
+
+use std::sync::Arc;
+
+use faer::Mat;
+
+use crate::equations::Equations;
+use crate::error::DynamicsError;
+use crate::matrix::Matrix;
+use crate::saddle::{Saddle, SaddleForm};
+use crate::scheme::LinearSolver;
+use crate::system::System;
+
+/// Singular values below this share of the largest, after scaling, count as zero.
+const FREE: f64 = 1e-11;
+
+/// Share of the largest stiffness, scaled by the masses, that counts as rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// Share of the largest push anywhere with which a push is compared at least: below [`BALANCED`] times this it is rounding, such as what a body turned
+/// by rounding has of a load beside its direction.
+const FELT: f64 = 1e-5;
+
+/// Unknowns of motions and joints from which a sparse factorisation is tried first.
+const LARGE: usize = 300;
+
+/// Largest growth of a vector by the inverse of the scaled matrix at which it counts as regular: far from where singular values count as zero.
+const REGULAR: f64 = 1e9;
+
+/// A scaled Newton matrix, decomposed, with what it says about free motions.
+pub(crate) struct Correction {
+    /// δ and δλ, free directions at rest.
+    pub values: Vec<f64>,
+    /// Free motions, scaled to a largest entry of 1.
+    pub free: Vec<Vec<f64>>,
+    /// Load along each over the sum of all that pushes along it, whatever its sign.
+    pub share: Vec<f64>,
+    /// Load along each.
+    pub load: Vec<f64>,
+}
+
+/// The correction at an evaluated motion; `pushing`: all that pushes on each degree of freedom, whatever its sign.
+pub(crate) fn correct(
+    system: &System,
+    equations: &Equations,
+    pushing: &[f64],
+) -> Result<Correction, DynamicsError> {
+    let size = system.degrees_of_freedom() + system.kept.len();
+    if size >= LARGE
+        && let Some(correction) = by_sparse_factors(system, equations)
+    {
+        return Ok(correction);
+    }
+    by_singular_values(system, equations, pushing)
+}
+
+/// `None` if the matrix is singular or nearly so.
+fn by_sparse_factors(system: &System, equations: &Equations) -> Option<Correction> {
+    let diagonal = system.mass_diagonal();
+    let form = SaddleForm::new(&system.structure, &system.kept, LinearSolver::Automatic);
+    let mut saddle = Saddle::new(&diagonal, system.layout.massless(), &Arc::new(form));
+    let (n, m) = (diagonal.len(), system.equations());
+    // Over the largest scaled stiffness, so that entries are as large as those of joints.
+    let stiffest = (0..n).flat_map(|j| {
+        let column = equations.stiffness.entries(j);
+        let scaled = column.map(move |(i, k)| (i, j, k));
+        scaled.collect::<Vec<_>>()
+    });
+    let stiffest = stiffest.fold(0.0_f64, |most, (i, j, k)| {
+        most.max(k.abs() / (diagonal[i] * diagonal[j]).sqrt())
+    });
+    if stiffest <= 0.0 || !stiffest.is_finite() {
+        return None;
+    }
+    let mut matrix = Matrix::zeros(&system.structure.square);
+    let none = &equations.stiffness;
+    matrix.set_combination([0.0, 0.0, 1.0 / stiffest], [none, none, none]);
+    if !saddle.factor(&matrix, &equations.gradient, &equations.gradient) {
+        return None;
+    }
+    let (mut delta, mut mu) = (vec![0.0; n], vec![0.0; m]);
+    // The inverse, applied again and again, shows how small the smallest singular value is.
+    let length = |x: &[f64]| {
+        let squares = x.iter().zip(&diagonal).map(|(x, mass)| x * x * mass);
+        squares.sum::<f64>().sqrt()
+    };
+    let mut along: Vec<f64> = (0..n)
+        .map(|i| (1.0 + (i % 7) as f64) * diagonal[i].sqrt())
+        .collect();
+    let rest = vec![0.0; m];
+    for _ in 0..3 {
+        let before = {
+            let squares = along.iter().zip(&diagonal).map(|(x, mass)| x * x / mass);
+            squares.sum::<f64>().sqrt()
+        };
+        saddle.solve(&along, &rest, &mut delta, &mut mu);
+        let after = length(&delta);
+        if after.is_nan() || after > REGULAR * before {
+            return None;
+        }
+        if after == 0.0 {
+            break;
+        }
+        for ((place, value), mass) in along.iter_mut().zip(&delta).zip(&diagonal) {
+            *place = value * mass / after;
+        }
+    }
+    let right: Vec<f64> = equations.residual.iter().map(|r| -r / stiffest).collect();
+    let violation: Vec<f64> = equations.violation.iter().map(|x| -x).collect();
+    saddle.solve(&right, &violation, &mut delta, &mut mu);
+    let reactions = system.kept.iter().map(|&equation| mu[equation] * stiffest);
+    let values: Vec<f64> = delta.iter().copied().chain(reactions).collect();
+    values.iter().all(|x| x.is_finite()).then(|| Correction {
+        values,
+        free: Vec::new(),
+        share: Vec::new(),
+        load: Vec::new(),
+    })
+}
+
+fn by_singular_values(
+    system: &System,
+    equations: &Equations,
+    pushing: &[f64],
+) -> Result<Correction, DynamicsError> {
+    let n = equations.residual.len();
+    let kept = &system.kept;
+    let total = n + kept.len();
+    let mass: Vec<f64> = system
+        .mass_diagonal()
+        .iter()
+        .map(|mass| 1.0 / mass.sqrt())
+        .collect();
+    let weighs: Vec<bool> = system.masses().iter().map(|mass| *mass > 0.0).collect();
+    // Stiffness at the level of rounding is none: the largest stiffness and, over a radian, the loads say how much that is.
+    let noise = ROUNDING
+        * (0..n).fold(0.0_f64, |most, j| {
+            if !weighs[j] {
+                return most;
+            }
+            let column = equations.stiffness.entries(j).filter(|(i, _)| weighs[*i]);
+            let stiffest = column.fold(0.0_f64, |most, (i, k)| {
+                most.max((mass[i] * k * mass[j]).abs())
+            });
+            most.max(stiffest)
+                .max((equations.residual[j] * mass[j] * mass[j]).abs())
+        });
+    let entry = |i: usize, j: usize| match (i < n, j < n) {
+        // What has no mass is not measured by it.
+        (true, true)
+            if weighs[i]
+                && weighs[j]
+                && (mass[i] * equations.stiffness.get(i, j) * mass[j]).abs() <= noise =>
+        {
+            0.0
+        }
+        (true, true) => equations.stiffness.get(i, j),
+        (true, false) => equations.gradient.get(i, kept[j - n]),
+        (false, true) => equations.gradient.get(j, kept[i - n]),
+        (false, false) => 0.0,
+    };
+    // Scales that bring the largest entry of every row and column to about 1, from those of the mass matrix.
+    let mut scale = mass.clone();
+    scale.resize(total, 1.0);
+    for _ in 0..4 {
+        let most = |i: usize| {
+            (0..total).fold(0.0_f64, |most, j| {
+                most.max(
+                    (entry(i, j) * scale[j])
+                        .abs()
+                        .max((entry(j, i) * scale[j]).abs()),
+                )
+            })
+        };
+        let changes: Vec<f64> = (0..total).map(|i| most(i) * scale[i]).collect();
+        for (scale, change) in scale.iter_mut().zip(changes) {
+            if change > 0.0 {
+                *scale /= change.sqrt();
+            }
+        }
+    }
+    let scaled = Mat::from_fn(total, total, |i, j| scale[i] * entry(i, j) * scale[j]);
+    let singular = || DynamicsError::Singular {
+        what: "the static stiffness (it has entries that are not finite)",
+        time_s: 0.0,
+    };
+    let svd = scaled.svd().map_err(|_| singular())?;
+    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+    let right = |i: usize| {
+        -scale[i]
+            * if i < n {
+                equations.residual[i]
+            } else {
+                equations.violation[kept[i - n]]
+            }
+    };
+    let mut correction = Correction {
+        values: vec![0.0; total],
+        free: Vec::new(),
+        share: Vec::new(),
+        load: Vec::new(),
+    };
+    let most_push = pushing.iter().fold(0.0_f64, |most, push| most.max(*push));
+    for k in 0..total {
+        let along: f64 = (0..total).map(|i| u[(i, k)] * right(i)).sum();
+        if s[k] > FREE * s[0] {
+            for i in 0..total {
+                correction.values[i] += scale[i] * v[(i, k)] * along / s[k];
+            }
+            continue;
+        }
+        let motion: Vec<f64> = (0..n).map(|i| scale[i] * v[(i, k)]).collect();
+        let most = motion.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if most == 0.0 {
+            continue;
+        }
+        let motion: Vec<f64> = motion.iter().map(|x| x / most).collect();
+        let load: f64 = motion
+            .iter()
+            .zip(&equations.residual)
+            .map(|(x, r)| x * r)
+            .sum();
+        let pushes = motion.iter().zip(pushing);
+        let all: f64 = pushes.map(|(x, push)| (x * push).abs()).sum();
+        let all = all.max(FELT * most_push);
+        correction
+            .share
+            .push(if all > 0.0 { load.abs() / all } else { 0.0 });
+        correction.load.push(load);
+        correction.free.push(motion);
+    }
+    if correction.values.iter().any(|x| !x.is_finite()) {
+        return Err(singular());
+    }
+    Ok(correction)
+}

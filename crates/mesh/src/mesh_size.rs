@@ -1,0 +1,202 @@
+//! How large the mesh of a gear will be, from its definition alone, before gmsh is asked.
+//!
+//! The blocks of a tooth are structured and their edges are placed by [`ToothBlocks`]: their quads are counted. The body is meshed
+//! freely between circles whose element lengths are given: gmsh carries these lengths inwards, so that the quads between two
+//! circles lie between the integral of dA/h² with the wanted length h, which grows with the distance from both, and the same with a
+//! length that runs linearly from one circle to the other. Their geometric mean is taken; how far it is off stands in
+//! docs/theory/reduction.md.
+
+use crate::body::{element_length, region_circles};
+use crate::grading::{Pieces, graded};
+use crate::layers::Layers;
+use crate::tooth_blocks::ToothBlocks;
+use crate::tooth_cell::ring_radius_m;
+use gearmesh_geometry::{ElementKind, GearDefinition, Openings};
+use std::f64::consts::{PI, TAU};
+
+/// Radii at which an integral over a region takes its integrand.
+const SAMPLES: usize = 200;
+/// Nodes of a free mesh of ten-node tetrahedra in the volume of an element length cubed: 1.4 corners and seven edges at each.
+const TET_NODES: f64 = 11.0;
+/// Tetrahedra likewise.
+const TETRAHEDRA: f64 = 7.0;
+
+/// Sizes of a mesh and of its parts, estimated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshSize {
+    /// Nodes.
+    pub nodes: f64,
+    /// Elements.
+    pub elements: f64,
+    /// Nodes of one tooth with the ring below it.
+    pub tooth_nodes: f64,
+    /// Those of them that it shares with the rest.
+    pub foot_nodes: f64,
+    /// Nodes of hub, web and rim of one sector, with the feet of its teeth.
+    pub sector_nodes: f64,
+    /// Nodes of the cut between two sectors; none where one sector is the whole gear.
+    pub cut_nodes: f64,
+}
+
+/// Corners of quads, and quads, of a part of the cross-section.
+#[derive(Debug, Clone, Copy, Default)]
+struct Quads {
+    corners: f64,
+    quads: f64,
+}
+
+impl MeshSize {
+    /// Estimates the mesh of a gear. A gear that was meshed elsewhere has none to estimate.
+    pub fn estimate(gear: &GearDefinition) -> Option<Self> {
+        if gear.blank.meshed.is_some() {
+            return None;
+        }
+        let layers = Layers::new(gear);
+        let all = layers.count() as f64;
+        let web = if gear.blank.web.is_some() {
+            layers.web.len() as f64
+        } else {
+            all
+        };
+        let blocks = ToothBlocks::new(gear);
+        let (teeth, sectors) = (gear.tooth.teeth as f64, gear.sectors() as f64);
+        let side = blocks.side_pieces() as f64 + 1.0;
+        let ring = blocks.ring_pieces() as f64;
+        let cell = structured(&blocks);
+        let element = gear.mesh.element;
+        let ring_size = ring_radius_m(gear) * TAU / teeth / ring;
+        let column = |corners: f64, layers: f64| corners * nodes_a_corner(element, layers);
+
+        let tooth_nodes = column(cell.corners, all);
+        let own_nodes = column(cell.corners - side, all);
+        let mut size = Self {
+            nodes: teeth * own_nodes,
+            elements: teeth * cell.quads * all * elements_a_brick(element),
+            tooth_nodes,
+            foot_nodes: 0.0,
+            sector_nodes: 0.0,
+            cut_nodes: column(side, all),
+        };
+        let circles = region_circles(gear);
+        let below = if circles[0].1 { web } else { all };
+        size.foot_nodes = column(2.0 * side - 2.0, all) + column(ring + 1.0, below);
+        let length = element_length(gear, ring_size);
+        let mut body_nodes = 0.0;
+        for pair in circles.windows(2) {
+            let ((outer, web_only), (inner, _)) = (pair[0], pair[1]);
+            let layers = if web_only { web } else { all };
+            if element == ElementKind::Tet10 {
+                let share = web_share(gear, web_only);
+                let volume = cubes(gear, outer, inner, &length) * share;
+                body_nodes += TET_NODES * volume;
+                size.elements += TETRAHEDRA * volume;
+                let across = (outer - inner) * gear.tooth.face_width_m * share;
+                size.cut_nodes += 4.0 * across / gear.mesh.body_m.powi(2);
+                continue;
+            }
+            let quads = free_quads(gear, outer, inner, &length);
+            body_nodes += column(quads, layers);
+            size.elements += quads * layers;
+            let even = Pieces {
+                least: 2,
+                even: true,
+            };
+            let radial = graded(outer, inner, &length, even).len() as f64 - 1.0;
+            size.cut_nodes += column(radial, layers);
+        }
+        size.nodes += body_nodes;
+        size.sector_nodes = (body_nodes + teeth * (size.foot_nodes - column(side, all))) / sectors;
+        if sectors == 1.0 {
+            size.cut_nodes = 0.0;
+        }
+        Some(size)
+    }
+}
+
+/// Nodes above a corner of the cross-section, with those in the middles of the sides (as many as two corners have) and, in split bricks, of
+/// the quads.
+fn nodes_a_corner(element: ElementKind, layers: f64) -> f64 {
+    match element {
+        ElementKind::Hex8 | ElementKind::Hex8Incompatible => layers + 1.0,
+        ElementKind::Hex20 => 4.0 * layers + 3.0,
+        ElementKind::Tet10 => 4.0 * (2.0 * layers + 1.0),
+    }
+}
+
+/// Elements in a layer above a quad of the teeth.
+fn elements_a_brick(element: ElementKind) -> f64 {
+    match element {
+        ElementKind::Tet10 => crate::tet_split::TETRAHEDRA as f64,
+        ElementKind::Hex8 | ElementKind::Hex8Incompatible | ElementKind::Hex20 => 1.0,
+    }
+}
+
+/// The structured blocks of a tooth: each has as many quads as its edges have pieces, multiplied.
+fn structured(blocks: &ToothBlocks) -> Quads {
+    let mut size = Quads {
+        corners: blocks.problem.points.len() as f64,
+        quads: 0.0,
+    };
+    for region in &blocks.problem.regions {
+        let outline = &region.loops[0];
+        let place = |corner: usize| outline.iter().position(|&p| p == corner).unwrap_or(0);
+        let along = place(region.corners[1]).abs_diff(place(region.corners[0]));
+        let along = along.min(outline.len() - along);
+        let across = outline.len() / 2 - along;
+        size.quads += (along * across) as f64;
+        size.corners += ((along - 1) * (across - 1)) as f64;
+    }
+    size
+}
+
+/// Share of a ring of the body that openings leave.
+fn open_share(gear: &GearDefinition, outer: f64, inner: f64) -> f64 {
+    let Some(openings) = gear.blank.openings else {
+        return 1.0;
+    };
+    let (r_in, r_out) = openings.radii_m();
+    if r_in >= outer || r_out <= inner {
+        return 1.0;
+    }
+    let area = match openings {
+        Openings::Holes(holes) => holes.count as f64 * PI * holes.radius_m.powi(2),
+        Openings::Slots(slots) => {
+            0.5 * slots.count as f64 * slots.width_rad * (r_out.powi(2) - r_in.powi(2))
+        }
+    };
+    (1.0 - area / (PI * (outer.powi(2) - inner.powi(2)))).clamp(0.0, 1.0)
+}
+
+/// Share of the face width that the body fills between two circles.
+fn web_share(gear: &GearDefinition, web_only: bool) -> f64 {
+    match gear.blank.web {
+        Some(web) if web_only => web.thickness_m / gear.tooth.face_width_m,
+        _ => 1.0,
+    }
+}
+
+/// ∫ f(r) dr between two circles.
+fn over_radius(outer: f64, inner: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let step = (outer - inner) / SAMPLES as f64;
+    (0..SAMPLES)
+        .map(|k| step * f(inner + (k as f64 + 0.5) * step))
+        .sum()
+}
+
+/// Quads of a free mesh between two circles.
+fn free_quads(gear: &GearDefinition, outer: f64, inner: f64, length: &impl Fn(f64) -> f64) -> f64 {
+    let (at_outer, at_inner) = (length(outer), length(inner));
+    let wanted = over_radius(outer, inner, |r| TAU * r / length(r).powi(2));
+    let linear = over_radius(outer, inner, |r| {
+        let share = (outer - r) / (outer - inner);
+        TAU * r / (at_outer + share * (at_inner - at_outer)).powi(2)
+    });
+    (wanted * linear).sqrt() * open_share(gear, outer, inner)
+}
+
+/// Volume between two circles over the whole width, in element lengths cubed.
+fn cubes(gear: &GearDefinition, outer: f64, inner: f64, length: &impl Fn(f64) -> f64) -> f64 {
+    let width = gear.tooth.face_width_m;
+    over_radius(outer, inner, |r| TAU * r * width / length(r).powi(3))
+        * open_share(gear, outer, inner)
+}

@@ -1,0 +1,157 @@
+//! How much memory an offline job will take, before gmsh and the factorisations take it.
+//!
+//! Sizes of the mesh are those of [`MeshSize`]. What becomes of them was fitted to measured peaks (docs/theory/reduction.md): it tells gigabytes
+//! from tens of them, no more. Two times compete, the factorisation of the largest part and the checks with the mass at the end:
+//!
+//! ```text
+//! begin = a n + 16 own f²/2 + 1.3 · 8 · 18 d^(4/3)         n nodes of the gear, f degrees of freedom at the foot of a tooth,
+//! end   = b n + 8 · 18 d^(4/3) + 16 (N/2 + 1) c² + C_hub   d of the part, c of a cut, N sectors with `own` teeth each
+//! ```
+//!
+//! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular finite element mesh*,
+//! SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
+
+use gearmesh_geometry::{ElementKind, GearDefinition, MeshSettings, ModeRange, Symmetry};
+use gearmesh_mesh::MeshSize;
+
+/// Bytes a node before and after the checks: mesh, model and graph; stiffness of the parts, mass, full fields.
+const BYTES_A_NODE: [f64; 2] = [600.0, 3200.0];
+/// Bytes a node of a mesh alone, with what writes it.
+const BYTES_A_MESH_NODE: f64 = 1500.0;
+/// Nonzeros of the factor of a meshed solid over its degrees of freedom to the power of 4/3.
+const FILL: f64 = 18.0;
+/// Memory of a factorisation over that of its factor.
+const FACTORISATION: f64 = 1.3;
+/// Copies of C_hub while it is put together and stored.
+const C_HUB_COPIES: f64 = 4.0;
+/// Vectors held for each mode that is wanted, as long as the unknowns.
+const VECTORS_A_MODE: f64 = 4.0;
+const REAL: f64 = 8.0;
+
+/// What is to be done with a gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OfflineJob {
+    /// Its mesh.
+    Mesh,
+    /// Its reduction, with the natural modes that the definition asks for.
+    Reduction,
+    /// Natural modes in a range. How many there are up to a frequency nobody knows beforehand: they are left out.
+    Modes(ModeRange),
+}
+
+/// What a job will take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MemoryEstimate {
+    /// The mesh.
+    pub size: MeshSize,
+    /// Largest memory in use \[byte\].
+    pub bytes: f64,
+    /// The part of it that the natural modes take \[byte\].
+    pub modes_bytes: f64,
+    /// The key of `[mesh]` whose length is the smallest share of its default, and that share.
+    pub shortest: (&'static str, f64),
+}
+
+impl MemoryEstimate {
+    /// Estimates a job; none for a gear that was meshed elsewhere.
+    pub fn new(gear: &GearDefinition, job: OfflineJob) -> Option<Self> {
+        let size = MeshSize::estimate(gear)?;
+        let modes = match job {
+            OfflineJob::Mesh => None,
+            OfflineJob::Reduction => gear.modes,
+            OfflineJob::Modes(range) => Some(range),
+        };
+        let modes_bytes = match modes {
+            Some(ModeRange::Count(count)) => modes_bytes(gear, &size, count as f64),
+            Some(ModeRange::UpToHz(_)) | None => 0.0,
+        };
+        let bytes = match job {
+            OfflineJob::Mesh => BYTES_A_MESH_NODE * size.nodes,
+            OfflineJob::Reduction | OfflineJob::Modes(_) => reduction_bytes(gear, &size),
+        };
+        Some(Self {
+            size,
+            bytes: bytes + modes_bytes,
+            modes_bytes,
+            shortest: shortest(gear),
+        })
+    }
+}
+
+/// Whether one factorisation of everything is made.
+fn is_whole(gear: &GearDefinition) -> bool {
+    gear.reduction.symmetry == Symmetry::Off || gear.mesh.plane_strain
+}
+
+fn factor_bytes(nodes: f64) -> f64 {
+    REAL * FILL * (3.0 * nodes).powf(4.0 / 3.0)
+}
+
+fn reduction_bytes(gear: &GearDefinition, size: &MeshSize) -> f64 {
+    let (teeth, sectors) = (gear.tooth.teeth as f64, gear.sectors() as f64);
+    let own = teeth / sectors;
+    let grid = gear.reduction.roll_stations * (2 * gear.reduction.slices + 1);
+    let loads = (grid * gear.reduction.flanks.len()) as f64;
+    let c_hub = C_HUB_COPIES * REAL * own * loads * teeth * loads;
+    let [early, late] = BYTES_A_NODE.map(|bytes| bytes * size.nodes);
+    if is_whole(gear) {
+        // A cross-section's factor grows with its nodes times their logarithm only, and is small.
+        let power = if gear.mesh.plane_strain {
+            1.0
+        } else {
+            4.0 / 3.0
+        };
+        let factor = REAL * FILL * (3.0 * size.nodes).powf(power);
+        return (early + FACTORISATION * factor).max(late + factor + c_hub);
+    }
+    let foot = 3.0 * size.foot_nodes;
+    let tooth = factor_bytes(size.tooth_nodes) + 3.0 * REAL * foot.powi(2);
+    let feet = REAL * own * foot.powi(2);
+    let sector = factor_bytes(size.sector_nodes);
+    let cut = 3.0 * size.cut_nodes;
+    let harmonics = 2.0 * REAL * (0.5 * sectors + 1.0) * cut.powi(2);
+    let at_the_sector = early + tooth + feet + FACTORISATION * sector;
+    at_the_sector.max(late + tooth + sector + harmonics + c_hub)
+}
+
+fn modes_bytes(gear: &GearDefinition, size: &MeshSize, count: f64) -> f64 {
+    let unknowns = if is_whole(gear) {
+        3.0 * size.nodes
+    } else {
+        // Real and imaginary part of one sector's displacements.
+        let own = (gear.tooth.teeth / gear.sectors()) as f64;
+        6.0 * (size.sector_nodes + own * (size.tooth_nodes - size.foot_nodes))
+    };
+    VECTORS_A_MODE * REAL * unknowns * count
+}
+
+fn shortest(gear: &GearDefinition) -> (&'static str, f64) {
+    let mesh = &gear.mesh;
+    let defaults =
+        MeshSettings::default_lengths(mesh.element, gear.tooth.module_m, gear.tooth.face_width_m);
+    let shares = [
+        ("flank_mm", mesh.flank_m / defaults[0]),
+        ("fillet_mm", mesh.fillet_m / defaults[1]),
+        ("body_mm", mesh.body_m / defaults[2]),
+        // A cross-section has one layer.
+        (
+            "axial_mm",
+            if mesh.plane_strain {
+                f64::INFINITY
+            } else {
+                mesh.axial_m / defaults[3]
+            },
+        ),
+    ];
+    let quadratic = mesh.element == ElementKind::Hex20;
+    let least = shares
+        .into_iter()
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .unwrap_or(shares[2]);
+    // Quadratic elements have four times the nodes on the same lengths.
+    if quadratic && least.1 >= 1.0 {
+        ("element", 1.0)
+    } else {
+        least
+    }
+}
