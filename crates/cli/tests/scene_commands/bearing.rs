@@ -135,7 +135,7 @@ fn bad_loads_and_files_are_refused() {
     let file = desk.file("rollers.toml", rollers);
     let answer = gearmesh(&["bearing", argument(&file), "--load-N", "100,0,1"]);
     refused(&answer, 2, &["--load-N", "axial"]);
-    let file = desk.file("wrong.toml", &B218.replace("balls = 16", "balls = 99"));
+    let file = desk.file("wrong.toml", B218.replace("balls = 16", "balls = 99"));
     let answer = gearmesh(&["check", argument(&file)]);
     refused(&answer, 2, &["wrong.toml:3: balls", "found 99"]);
 }
