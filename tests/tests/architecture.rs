@@ -189,7 +189,8 @@ fn the_dynamics_crate_knows_no_gear() {
     assert_knows_no_gear(&rust_files("crates/dynamics/src"));
 }
 
-/// In the dynamics crate modules use each other in one direction: whoever reads a file needs those that it names, and those do not need it.
+/// In the dynamics crate modules use each other in one direction: whoever reads a file needs those that it names, and
+/// those do not need it.
 #[test]
 fn modules_of_the_dynamics_crate_form_no_circle() {
     let source = root().join("crates/dynamics/src");

@@ -1,5 +1,6 @@
 //! Gear pairs in time against what is known without time: pairs A and B at 10 rpm against the static contact, the
-//! spectrum of seed 002's pair against its mesh frequency.
+//! spectrum of the pair of *Defect Diagnosis and Modelling for A Rotating Machine* (seed 002 in docs/sources.md) against
+//! its mesh frequency.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../../crates/drivetrain/tests/mesh_common/mod.rs"]
@@ -25,7 +26,8 @@ use gearmesh_signal::{Window, amplitude_spectrum};
 use mesh_common::equilibrium;
 use scene::{Scene, record};
 
-/// A gear of seed 004 on a mesh that is coarse but the same for both sides of the comparison.
+/// A gear of pair A or B (seed 004 in docs/sources.md) on a mesh that is coarse but the same for both sides of the
+/// comparison.
 fn coarse(name: &str) -> (GearDefinition, ReducedGear) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../fe_models/{name}.toml"));
     let text = std::fs::read_to_string(path).unwrap();

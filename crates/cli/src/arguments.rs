@@ -42,7 +42,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Run a multibody scene again and again with some of its keys changed
     Study(StudyArguments),
-    /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness, life
+    /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness,
+    /// life
     Bearing(BearingArguments),
     /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
     BearingFrequencies(BearingFrequenciesArguments),

@@ -11,8 +11,8 @@ const GIGA: f64 = 1e9;
 /// Below this nobody waits or runs out of memory.
 const NOT_WORTH_A_NOTE: f64 = 0.3 * GIGA;
 
-/// Free memory \[byte\]: what the system can give without swapping, and free swap, within the limit of the control group. None where the
-/// system does not tell.
+/// Free memory \[byte\]: what the system can give without swapping, and free swap, within the limit of the control
+/// group. None where the system does not tell.
 fn free_bytes() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let kilobytes = |name: &str| -> Option<f64> {
@@ -92,7 +92,7 @@ fn advice(estimate: &MemoryEstimate) -> (&'static str, String) {
         "axial_mm" => "mesh.axial_mm",
         _ => "mesh.element",
     };
-    let problem = if share < 1.0 {
+    let problem = if share < 0.99 {
         format!("{shortest} is {share:.2} times its default: take longer elements")
     } else {
         "take longer elements (flank_mm, fillet_mm, body_mm, axial_mm of [mesh]), fewer loads (slices, roll_stations of [reduction]), or openings \

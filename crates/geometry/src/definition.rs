@@ -315,8 +315,8 @@ pub struct MeshSettings {
 }
 
 impl MeshSettings {
-    /// The element lengths where a gear file gives none, in the unit of module and face width: along flank and fillet, in the body,
-    /// along the axis.
+    /// The element lengths where a gear file gives none, in the unit of module and face width: along flank and fillet,
+    /// in the body, along the axis.
     pub fn default_lengths(element: ElementKind, module: f64, face_width: f64) -> [f64; 4] {
         // Quadratic tetrahedra on twice the lengths have about as many nodes as bricks of eight nodes.
         let coarser = match element {

@@ -332,7 +332,8 @@ impl GearPair {
         a * b / ((a + b) * self.base_helix_angle_rad().cos())
     }
 
-    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ + ρ₂))/ξ_i.
+    /// Growth of the relative radius, as a share of itself, per radian of roll on gear 1 and gear 2: (1 − ρ_i/(ρ₁ +
+    /// ρ₂))/ξ_i.
     pub fn relative_radius_growth(&self, roll_rad: [f64; 2]) -> [f64; 2] {
         let rho_1 = self.gear_1.base_radius_m * roll_rad[0];
         let rho_2 = self.gear_2.base_radius_m * roll_rad[1];

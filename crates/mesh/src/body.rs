@@ -88,7 +88,8 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
     Ok(best)
 }
 
-/// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle too.
+/// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle
+/// too.
 pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
     let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web);
     move |r: f64| {

@@ -1,10 +1,10 @@
 //! How large the mesh of a gear will be, from its definition alone, before gmsh is asked.
 //!
-//! The blocks of a tooth are structured and their edges are placed by [`ToothBlocks`]: their quads are counted. The body is meshed
-//! freely between circles whose element lengths are given: gmsh carries these lengths inwards, so that the quads between two
-//! circles lie between the integral of dA/h² with the wanted length h, which grows with the distance from both, and the same with a
-//! length that runs linearly from one circle to the other. Their geometric mean is taken; how far it is off stands in
-//! docs/theory/reduction.md.
+//! The blocks of a tooth are structured and their edges are placed by [`ToothBlocks`]: their quads are counted. The
+//! body is meshed freely between circles whose element lengths are given: gmsh carries these lengths inwards, so that
+//! the quads between two circles lie between the integral of dA/h² with the wanted length h, which grows with the
+//! distance from both, and the same with a length that runs linearly from one circle to the other. Their geometric mean
+//! is taken; how far it is off stands in docs/theory/reduction.md.
 
 use crate::body::{element_length, region_circles};
 use crate::grading::{Pieces, graded};
@@ -16,7 +16,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Radii at which an integral over a region takes its integrand.
 const SAMPLES: usize = 200;
-/// Nodes of a free mesh of ten-node tetrahedra in the volume of an element length cubed: 1.4 corners and seven edges at each.
+/// Nodes of a free mesh of ten-node tetrahedra in the volume of an element length cubed: 1.4 corners and seven edges at
+/// each.
 const TET_NODES: f64 = 11.0;
 /// Tetrahedra likewise.
 const TETRAHEDRA: f64 = 7.0;
@@ -113,8 +114,8 @@ impl MeshSize {
     }
 }
 
-/// Nodes above a corner of the cross-section, with those in the middles of the sides (as many as two corners have) and, in split bricks, of
-/// the quads.
+/// Nodes above a corner of the cross-section, with those in the middles of the sides (as many as two corners have) and,
+/// in split bricks, of the quads.
 fn nodes_a_corner(element: ElementKind, layers: f64) -> f64 {
     match element {
         ElementKind::Hex8 | ElementKind::Hex8Incompatible => layers + 1.0,

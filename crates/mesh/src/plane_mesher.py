@@ -24,8 +24,8 @@ FREE_ATTEMPTS = [
     (8, "split", 1.0),
     (6, "split", 0.6),
 ]
-# Smallest scaled Jacobian at which no further algorithm is tried, and below which smaller elements than were asked for are:
-# they are up to six times as many.
+# Smallest scaled Jacobian at which no further algorithm is tried, and below which smaller elements than were asked for
+# are: they are up to six times as many.
 GOOD = 0.4
 TOLERABLE = 0.3
 

@@ -70,7 +70,8 @@ pub struct GaugeRows {
     /// Estimated relative discretisation error of its strain, zero where it was not estimated.
     pub error_estimate_relative: f64,
     /// Strain per newton (1/N), `[tooth][flank][load][component]`; components: inward normal, profile tangential
-    /// towards the tip, axial +z. (K⁻¹g)ᵀN, method 2 of seed 004.
+    /// towards the tip, axial +z. (K⁻¹g)ᵀN, method 2 of
+    /// *Transmission Error and Strain Analysis of Lightweight Gears* (seed 004 in docs/sources.md).
     pub adjoint: Vec<f64>,
     /// Strain per newton (1/N), `[flank][load]`: gᵀW for normal loads on the gauge's own tooth. Method 1 is the normal
     /// component of `adjoint` less this on the own tooth.

@@ -1,7 +1,7 @@
 //! A strain gauge as one row of nodal weights: ε = gᵀd.
 //!
-//! The strain of a surface point is that of the element behind it, rotated to the direction of the profile (seed 004,
-//! 4.4).
+//! The strain of a surface point is that of the element behind it, rotated to the direction of the profile
+//! (*Transmission Error and Strain Analysis of Lightweight Gears*, section 4.4; seed 004 in docs/sources.md).
 //!
 //! *Quadratic elements*: its mean over what the faces have in common with the gauge.
 //!

@@ -140,7 +140,8 @@ pub struct RigView {
 }
 
 impl RigView {
-    /// The rig of seed 004 on a shaft of a pair, in blocks of so many of its revolutions.
+    /// The rig of pairs A and B (seed 004 in docs/sources.md) on a shaft of a pair, in blocks of so many of its
+    /// revolutions.
     pub fn of(
         pair: &PairOrders,
         shaft: Shaft,

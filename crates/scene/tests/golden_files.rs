@@ -1,7 +1,8 @@
 //! Files of every version that a program has written: each is read, and to the values that it was written with.
 //!
-//! They stand in reference/files and are never written anew: a reader that changes has to keep reading them. A new version of a format gets a
-//! new file: raise the number here and run this program with `--ignored`, which writes the files that are not there.
+//! They stand in reference/files and are never written anew: a reader that changes has to keep reading them. A new
+//! version of a format gets a new file: raise the number here and run this program with `--ignored`, which writes the
+//! files that are not there.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::path::{Path, PathBuf};

@@ -27,7 +27,8 @@ const MOST_PULSES: usize = 10_000_000;
 /// Fewest encoder pulses a turn: order 1 and its neighbours must be lines of the spectrum.
 const FEWEST_PULSES_PER_REVOLUTION: usize = 8;
 
-/// The settings of the rig; the default is the one of seed 004.
+/// The settings of the rig; the default is the one of *Transmission Error and Strain Analysis of Lightweight Gears*
+/// (seed 004 in docs/sources.md).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigSettings {
     /// Sampling rate of the front end in Hz.

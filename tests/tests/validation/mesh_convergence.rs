@@ -1,5 +1,5 @@
-//! Validation on gear 2 of seed 004: what a finer mesh changes in the numbers that people read, and the trend of the
-//! seed's table 3.
+//! Validation on gear 2 of pair A (seed 004 in docs/sources.md): what a finer mesh changes in the numbers that people
+//! read, and the trend of the seed's table 3.
 
 use crate::line_load::line_load_strain;
 use gearmesh_contact::LocalContact;

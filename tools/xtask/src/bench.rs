@@ -1,5 +1,5 @@
-//! `cargo xtask bench offline`: time and memory of the offline stage beside other programs on the same meshes. `cargo xtask bench chain`: steps of
-//! multibody systems.
+//! `cargo xtask bench offline`: time and memory of the offline stage beside other programs on the same meshes.
+//! `cargo xtask bench chain`: steps of multibody systems.
 //!
 //! A list of cases, each a child process; one that fails or is too big tells why in its row and the next one runs.
 

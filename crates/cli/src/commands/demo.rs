@@ -1,4 +1,4 @@
-//! `gearmesh demo`: gear pairs A and B of seed 004 from definition to report.
+//! `gearmesh demo`: gear pairs A and B (seed 004 in docs/sources.md) from definition to report.
 
 use crate::arguments::DemoArguments;
 use crate::commands::report::write_page;

@@ -1,4 +1,5 @@
-//! HDF5 files with a good seal and faults inside: models whose arrays and texts were changed, and files whose bytes were.
+//! HDF5 files with a good seal and faults inside: models whose arrays and texts were changed, and files whose bytes
+//! were.
 
 use crate::{fuzz, mutation};
 use fastrand::Rng;

@@ -40,17 +40,19 @@ fn stiffnesses_are_of_one_order() {
     };
     let standard = iso.mesh_n_per_m2(pair.contact_ratio()) * WIDTH;
     let found: Vec<f64> = CONFORMING.iter().map(|name| mean(name)).collect();
-    println!(
-        "stiffness over that of ISO 6336: {:.3?}",
-        found.iter().map(|k| k / standard).collect::<Vec<_>>()
-    );
+    // `impact` has its stiffness by a parameter, and the gears of `hybrid` are those of the contact tests, made up by a
+    // formula: only its order can be asked of them. What real gears give is in tests/tests/validation.
     for (name, stiffness) in CONFORMING.iter().zip(&found) {
         let ratio = stiffness / standard;
         assert!(
-            (0.4..2.5).contains(&ratio),
+            (0.5..2.0).contains(&ratio),
             "{name}: {stiffness:e}, ISO 6336 gives {standard:e}; all {found:?}"
         );
     }
+    // `analytic` has no number that could be chosen: elastic teeth on an elastic ring against ISO's formula for gears
+    // of this kind, solid discs of steel.
+    let analytic = found[2] / standard;
+    assert!((0.9..1.1).contains(&analytic), "{analytic}, all {found:?}");
     // The spring's mean is its parameter.
     assert!((found[1] / 3e8 - 1.0).abs() < 1e-3, "{}", found[1]);
 }

@@ -173,8 +173,9 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 proptest! {
     #![proptest_config(cases(4))]
 
-    /// No element is folded; the volume is that of the section but for the chords of the helix; the section differs from the
-    /// drawing by no more than the chords of its curves, and those shrink with the second power of the element length.
+    /// No element is folded; the volume is that of the section but for the chords of the helix; the section differs
+    /// from the drawing by no more than the chords of its curves, and those shrink with the second power of the element
+    /// length.
     #[test]
     fn the_volume_converges_to_that_of_the_drawing(gear in gears()) {
         let (coarse, fine) = (gear.mesh(1.0), gear.mesh(0.5));

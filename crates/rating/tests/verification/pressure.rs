@@ -1,4 +1,4 @@
-//! Hertz pressure of a pair against the textbook and seed 004.
+//! Hertz pressure of a pair against the textbook and the figures stated for pair A (seed 004 in docs/sources.md).
 
 use crate::teeth::{geometry, standard};
 use gearmesh_geometry::{GearPair, Material, Misalignment, ToothDefinition};

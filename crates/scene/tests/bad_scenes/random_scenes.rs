@@ -184,8 +184,8 @@ proptest! {
         prop_assert!(complaint.contains("did you mean") && complaint.contains("`body 0`"), "{complaint}");
     }
 
-    /// Shipped files with lines changed, removed, doubled or cut: read or refused, never a panic, and the building of what is
-    /// read neither.
+    /// Shipped files with lines changed, removed, doubled or cut: read or refused, never a panic, and the building of
+    /// what is read neither.
     #[test]
     fn damaged_files_are_read_or_refused(
         name in select(&[
