@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn collections_are_found_wherever_blocks_are_cut() {
-        let mut bytes = vec![b'G'; 100];
+        let mut bytes = [b'G'; 100];
         for place in [0, 30, 41, 92] {
             bytes[place..place + 8].copy_from_slice(HEAD);
         }
