@@ -92,7 +92,7 @@ fn advice(estimate: &MemoryEstimate) -> (&'static str, String) {
         "axial_mm" => "mesh.axial_mm",
         _ => "mesh.element",
     };
-    let problem = if share < 1.0 {
+    let problem = if share < 0.99 {
         format!("{shortest} is {share:.2} times its default: take longer elements")
     } else {
         "take longer elements (flank_mm, fillet_mm, body_mm, axial_mm of [mesh]), fewer loads (slices, roll_stations of [reduction]), or openings \

@@ -14,8 +14,8 @@ fn shipped(name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// Elements as long as a module allows, few loads: where the teeth carry hardly depends on them, and the bearings feel
-/// nothing else.
+/// Long elements (flank, fillet, body in modules, axis in face widths), few loads: where the teeth carry hardly depends
+/// on them, and the bearings feel nothing else.
 fn coarse(gear: &str) -> String {
     let value = |key: &str| -> f64 {
         let line = gear.lines().find(|line| line.starts_with(key)).unwrap();
@@ -23,23 +23,24 @@ fn coarse(gear: &str) -> String {
         number.trim().parse().unwrap()
     };
     let (module, width) = (value("module_mm"), value("face_width_mm"));
+    let (slices, [flank, fillet, body]) = if gear.contains("helix_angle_deg") {
+        (5, [1.0, 0.4, 8.0])
+    } else {
+        (2, [0.5, 0.2, 4.0])
+    };
     let end = gear.find("[reduction]").unwrap();
     let sound = gear[..end].split("[mesh]").next().unwrap();
-    let slices = if gear.contains("helix_angle_deg") {
-        5
-    } else {
-        2
-    };
-    let flank = if gear.contains("flanks = [\"left\"]") {
+    let side = if gear.contains("flanks = [\"left\"]") {
         "left"
     } else {
         "right"
     };
     format!(
-        "{sound}[reduction]\nslices = {slices}\nroll_stations = 4\nflanks = [\"{flank}\"]\n[mesh]\nflank_mm = {module}\nfillet_mm = {}\n\
-         body_mm = {}\naxial_mm = {}\n",
-        0.4 * module,
-        8.0 * module,
+        "{sound}[reduction]\nslices = {slices}\nroll_stations = 4\nflanks = [\"{side}\"]\n\
+         [mesh]\nflank_mm = {}\nfillet_mm = {}\nbody_mm = {}\naxial_mm = {}\n",
+        flank * module,
+        fillet * module,
+        body * module,
         0.5 * width
     )
 }
