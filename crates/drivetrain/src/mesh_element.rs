@@ -214,11 +214,15 @@ impl ForceElement for MeshElement {
         Ok(())
     }
 
+    fn admits(&self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let pose = Pose::from(&self.motion(view));
+        Ok(self.mesh.refuse_overlap(&pose)?)
+    }
+
     /// The forces of the last evaluation, which led to this motion, become the start of the next solutions.
     fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
-        let motion = self.motion(view);
         self.mesh.remember();
-        Ok(self.mesh.refuse_overlap(&Pose::from(&motion))?)
+        self.admits(view)
     }
 
     fn save(&self, out: &mut Vec<f64>) {

@@ -280,6 +280,15 @@ pub trait ForceElement: Send {
     /// Called once before the run, at its first motion: internal state begins here.
     fn begin(&mut self, _view: &View<'_>) {}
 
+    /// Asked after the last evaluation, which was at this motion, where an equilibrium is sought along a motion that nothing
+    /// resists: whether the element's model covers that motion.
+    ///
+    /// # Errors
+    /// A motion that the model does not cover: the search ends with this message.
+    fn admits(&self, _view: &View<'_>) -> Result<(), ElementFailure> {
+        Ok(())
+    }
+
     /// Called at the end of every accepted step and at every static equilibrium: internal state (turns, slip, warm starts) moves on here
     /// only.
     ///

@@ -207,6 +207,7 @@ fn settle(
         held,
     } = found;
     let mut push = FIRST_PUSH;
+    let mut pushed = false;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
         let at = At {
@@ -216,6 +217,10 @@ fn settle(
             load_factor,
         };
         system.evaluate(at, Detail::Tangents, equations)?;
+        if pushed {
+            // Along a free motion bodies may go where no element can follow them.
+            system.admits(state)?;
+        }
         let pushing = pushing(system, equations, lambda);
         let at_rest = balances(system, equations, &pushing, params.tolerance * size);
         moments_in_world(system, equations);
@@ -231,6 +236,7 @@ fn settle(
             ));
         }
         let last = iteration >= params.most_iterations;
+        pushed = unbalanced.is_some();
         if let Some(k) = unbalanced {
             if last {
                 return Err(unbalanced_error(system, &correction, k));

@@ -177,7 +177,7 @@ pub struct Calls {
     pub tangents: u64,
 }
 
-/// Bodies, joints and force elements; made by [`SystemBuilder`].
+/// Bodies, joints and force elements; made by [`SystemBuilder`](crate::SystemBuilder).
 pub struct System {
     pub(crate) bodies: Vec<Body>,
     pub(crate) inertias: Vec<Inertia>,
@@ -346,6 +346,22 @@ impl System {
             })?;
         }
         Ok(())
+    }
+
+    /// Whether all elements cover the motion of the last evaluation.
+    ///
+    /// # Errors
+    /// [`DynamicsError::Element`] of the first that does not.
+    pub(crate) fn admits(&self, state: &State) -> Result<(), DynamicsError> {
+        let view = view(&self.motions, &self.layout, state, 1.0);
+        self.slots.iter().try_for_each(|slot| {
+            let admitted = slot.element.admits(&slot.own(&view, state));
+            admitted.map_err(|source| DynamicsError::Element {
+                element: slot.element.name().to_owned(),
+                time_s: state.time_s,
+                source,
+            })
+        })
     }
 
     /// f̈ of every joint equation, and ḟ.

@@ -1,5 +1,7 @@
 //! Gear pairs at rest: tilted a little, and in steps of the angle that are longer than teeth.
 
+use std::sync::atomic::AtomicBool;
+
 use gearmesh_scene::system_run::{RunJob, SystemResult};
 
 use crate::common::{changed, fe_models, load};
@@ -110,5 +112,26 @@ fn a_tilted_pair_between_two_torques_comes_to_rest() {
                 "{model} {tilt_deg}: {force}"
             );
         }
+    }
+}
+
+/// A load that turns the wheel away from the only flanks that the mesh has is named by its sense, as in a run in time; the
+/// gears were sent round until their axes were said to be tilted.
+#[test]
+fn a_load_against_the_only_flanks_is_named() {
+    for model in ["iso6336", "analytic"] {
+        let text = changed(
+            &scene(model, 0.0, &[0.0]),
+            "torque_Nm = -100.0",
+            "torque_Nm = 100.0",
+        );
+        let desk = Desk::new();
+        let job = RunJob::from_scene(load(&text, &fe_models()).unwrap()).unwrap();
+        let failed = gearmesh_scene::system_run::run(job, &desk.options(&AtomicBool::new(false)));
+        let told = failed.unwrap_err().to_string();
+        assert!(
+            told.contains("left flanks") && told.contains("clockwise (torques negative about z)"),
+            "{model}: {told}"
+        );
     }
 }
