@@ -22,22 +22,29 @@ fn help_names_all_commands() {
     Usage: gearmesh <COMMAND>
     
     Commands:
-      mesh        Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus, CalculiX, Nastran
-      reduce      Reduce a gear to its compliance at the flanks (the offline stage)
-      modes       Find the natural frequencies and mode shapes of a gear, held at its bore
-      compliance  Print the deflection along a flank under a line load
-      plan        Say what a scene will compute
-      run         Run a scene
-      recover     Recover the strain of all gauges from a result, and whole fields on request
-      compare     Compare a result with a reference record
-      report      Write a report page
-      export      Export a result as a table: CSV, Parquet or MATLAB
-      signal      Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
-      check       Check a gear file, scene, study, S-N table, record, model or result
-      study       Run a multibody scene again and again with some of its keys changed
-      schema      Print the JSON Schema of scene, study or gear files
-      demo        Make gear pairs A and B from definition to report
-      help        Print this message or the help of the given subcommand(s)
+      mesh                 Mesh a gear and write it for other programs: ParaView, gmsh, Abaqus,
+                           CalculiX, Nastran
+      reduce               Reduce a gear to its compliance at the flanks (the offline stage)
+      modes                Find the natural frequencies and mode shapes of a gear, held at its bore
+      compliance           Print the deflection along a flank under a line load
+      plan                 Say what a scene will compute
+      run                  Run a scene
+      recover              Recover the strain of all gauges from a result, and whole fields on request
+      compare              Compare a result with a reference record
+      report               Write a report page
+      export               Export a result as a table: CSV, Parquet or MATLAB
+      signal               Analyse a column of a multibody result: spectra, orders, sidebands, envelope,
+                           averages
+      check                Check a gear file, bearing file, scene, study, S-N table, record, model or
+                           result
+      study                Run a multibody scene again and again with some of its keys changed
+      bearing              Find where a rolling bearing comes to rest under a load: load on every ball
+                           or roller, pressures, stiffness, life
+      bearing-frequencies  Print the frequencies of a rolling bearing: cage, ball or roller, passing of
+                           the races
+      schema               Print the JSON Schema of scene, study, gear or bearing files
+      demo                 Make gear pairs A and B from definition to report
+      help                 Print this message or the help of the given subcommand(s)
     
     Options:
       -h, --help     Print help

@@ -3,7 +3,7 @@
 All boundary nodes are given, so neighbouring regions and the two edges of a repeating sector match by construction.
 Structured regions are transfinite, every boundary piece a line with one element. Free regions are paved at twice the
 size and then split, which leaves quads only: there a line spans two boundary pieces, and its middle node is the given
-one. The next algorithm is tried on the regions that still have a poor quad; of each region the best mesh is taken.
+one. Of each region the best mesh is taken; smaller elements are tried where it still has a poor quad.
 """
 
 import json
@@ -24,6 +24,8 @@ FREE_ATTEMPTS = [
     (8, "split", 1.0),
     (6, "split", 0.6),
 ]
+# So many are made in any case and the best is taken: layers along the axis take off from the quality in the plane.
+ALWAYS = 3
 # Smallest scaled Jacobian at which no further algorithm is tried, and below which smaller elements than were asked for
 # are: they are up to six times as many.
 GOOD = 0.4
@@ -112,9 +114,10 @@ def best_mesh(problem):
     """Of each region the best of the attempts. All nodes on their edges are given, so regions need not be of one attempt."""
     best, last = {}, "triangles were left"
     poor = list(range(1, len(problem["surfaces"]) + 1))
-    for attempt in FREE_ATTEMPTS:
+    for number, attempt in enumerate(FREE_ATTEMPTS):
         wanted = GOOD if attempt[2] == 1.0 else TOLERABLE
-        poor = [tag for tag in poor if tag not in best or best[tag][2] < wanted]
+        if number >= ALWAYS:
+            poor = [tag for tag in poor if tag not in best or best[tag][2] < wanted]
         if not poor:
             continue
         try:
