@@ -165,6 +165,7 @@ fn sweep(result: &SystemResult) -> Vec<String> {
         }
         lines.push(line);
     }
+    lines.extend(result.incomplete_windows());
     lines
 }
 

@@ -88,6 +88,9 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
     let mut section = Section::new(format!("{}: speed sweep", r.head.title)).push(Text::paragraph(
         "Each speed goes on from the state that the one before has left: where the curves up and down differ, there are two motions.",
     ));
+    for line in r.incomplete_windows() {
+        section = section.push(Text::note(line));
+    }
     let (axis, per_unit) = speed_axis(sweep.windows.iter().map(|w| w.speed_rad_per_s));
     let rpm = |speed: f64| speed * per_unit;
     let mut speeds: Vec<f64> = sweep

@@ -98,6 +98,41 @@ impl SystemResult {
         Ok(found)
     }
 
+    /// Gears with gauges that go round less than once in some window of a speed sweep, in words; axes are taken to stand.
+    #[must_use]
+    pub fn incomplete_windows(&self) -> Vec<String> {
+        let Some(sweep) = &self.sweep else {
+            return Vec::new();
+        };
+        let mut lines = Vec::new();
+        for mesh in &self.head.meshes {
+            for (gear, body) in (1..).zip(&mesh.bodies) {
+                let strain = element_column(&mesh.name, &format!("strain_gear{gear}_"));
+                let spin = body_column(body, "angular_velocity_z_rad_per_s");
+                let spin = sweep.columns.iter().position(|column| *column == spin);
+                let gauged = sweep
+                    .columns
+                    .iter()
+                    .any(|column| column.starts_with(&strain));
+                let Some(spin) = spin.filter(|_| gauged) else {
+                    continue;
+                };
+                let windows = sweep.windows.iter().zip(&sweep.figures);
+                let stretches = windows
+                    .map(|(window, figures)| (figures[spin].mean, window.to_s - window.from_s));
+                if let Some((short, least)) = short_of_a_revolution(stretches) {
+                    lines.push(format!(
+                        "mesh `{}`: strain at teeth of `{body}` is incomplete in {short} of {} windows, which hold less than a revolution of it \
+                         ({least:.3} at the lowest speed); a longer `run.measure_s` covers it",
+                        mesh.name,
+                        sweep.windows.len()
+                    ));
+                }
+            }
+        }
+        lines
+    }
+
     fn records(&self, body: &str) -> bool {
         let name = body_column(body, "turn_rad");
         self.rows.columns().iter().any(|column| column.name == name)
@@ -156,5 +191,39 @@ impl SystemResult {
             revolutions: [revolutions(0, 0..rows), revolutions(1, 0..rows)],
             frequency_hz: passed / (times[rows - 1] - times[half]),
         })
+    }
+}
+
+/// How many stretches of (turning \[rad/s\], time \[s\]) hold less than a revolution, and the fewest revolutions; none where
+/// all hold one.
+fn short_of_a_revolution(stretches: impl Iterator<Item = (f64, f64)>) -> Option<(usize, f64)> {
+    let turns = stretches.map(|(rad_per_s, seconds)| rad_per_s.abs() * seconds / TAU);
+    let short = turns.filter(|turns| *turns < 1.0 - ROUNDING);
+    let (count, least) = short.fold((0, f64::INFINITY), |(count, least), turns| {
+        (count + 1, least.min(turns))
+    });
+    (count > 0).then_some((count, least))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_of_less_than_a_revolution_are_counted() {
+        let ten_hz = TAU * 10.0;
+        let windows = [
+            (-0.5 * ten_hz, 0.1),
+            (ten_hz, 0.1),
+            (-2.0 * ten_hz, 0.1),
+            (0.25 * ten_hz, 0.1),
+        ];
+        let (count, least) = short_of_a_revolution(windows.into_iter()).unwrap();
+        assert!(
+            count == 2 && (least - 0.25).abs() < 1e-12,
+            "{count} {least}"
+        );
+        assert_eq!(short_of_a_revolution([(ten_hz, 0.1)].into_iter()), None);
     }
 }
