@@ -2,12 +2,14 @@
 //!
 //! | sections | file |
 //! | --- | --- |
+//! | key figures, a line a channel | `at_a_glance.rs` |
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
 
+mod at_a_glance;
 mod columns;
 mod eigen;
 mod equilibria;
@@ -15,19 +17,20 @@ mod sweep;
 mod transient;
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{MeshPassing, SystemResult};
+use gearmesh_scene::system_run::{MeshPassing, SystemResult, is_prominent};
 
-use self::columns::mesh_frequencies;
-use crate::page::{Section, Text};
+use self::columns::turning;
+use crate::page::{KeyFigures, Section, Text};
 use crate::ratings;
 
 /// All sections of a result.
 pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
-    let mut sections = vec![overview(r)?];
+    let passings = r.mesh_passings()?;
+    let mut sections = vec![overview(r, &passings)?];
     match &r.kind[..] {
         "transient" => {
             sections.push(transient::histories(r)?);
-            sections.extend(transient::spectra(r)?);
+            sections.extend(transient::spectra(r, &passings)?);
             sections.push(transient::accuracy(r)?);
         }
         "speed-sweep" => {
@@ -35,7 +38,7 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
                 sections.push(sweep::sweep_section(r, sweep));
             }
         }
-        "static" => sections.push(equilibria::equilibria(r)?),
+        "static" => sections.extend(equilibria::equilibria(r)?),
         _ => sections.push(eigen::eigen(r)),
     }
     sections.extend(ratings::section(&r.head.title, &r.ratings));
@@ -43,14 +46,21 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
     Ok(sections)
 }
 
-fn overview(r: &SystemResult) -> Result<Section, FileError> {
+fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileError> {
+    let mut tables = Vec::new();
     let mut figures = match (&r.sweep, &r.kind[..]) {
         (Some(sweep), _) => sweep::key_figures(sweep),
-        (None, "static") => equilibria::key_figures(r)?,
-        _ => transient::key_figures(r),
+        (None, "transient" | "static") => {
+            let found = r.summaries(is_prominent)?;
+            let figures = at_a_glance::key_figures(r, &found);
+            tables = at_a_glance::tables(r, found, passings);
+            figures
+        }
+        _ => KeyFigures::new(),
     };
-    for (name, hz) in mesh_frequencies(r)? {
-        figures = figures.figure(format!("mesh frequency {name}"), format!("{hz:.3}"), "Hz");
+    for mesh in turning(passings) {
+        let label = format!("mesh frequency {}", mesh.mesh.name);
+        figures = figures.figure(label, format!("{:.3}", mesh.frequency_hz), "Hz");
     }
     if r.record.is_some() {
         let error = r.relative_energy_error().unwrap_or(f64::NAN);
@@ -63,14 +73,9 @@ fn overview(r: &SystemResult) -> Result<Section, FileError> {
     if !figures.is_empty() {
         section = section.push(figures);
     }
-    if r.kind == "transient" {
-        for table in transient::columns_tables(r)? {
-            if !table.is_empty() {
-                section = section.push(table);
-            }
-        }
+    for table in tables {
+        section = section.push(table);
     }
-    let passings = r.mesh_passings()?;
     if !passings.is_empty() {
         let lines: Vec<String> = passings.iter().map(MeshPassing::in_words).collect();
         section = section.push(Text::preformatted(lines.join("\n")));

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::system_run::{
-    ColumnSummary, EigenResult, MeshPassing, RunRecord, SystemResult, is_overdamped, is_prominent,
-    noticeable, rank, shares_in_words, split_unit,
+    ColumnSummary, EigenResult, MeshPassing, RunRecord, SystemResult, foremost, is_overdamped,
+    is_prominent, rank, shares_in_words, split_unit,
 };
 
 use crate::commands::periods::MARK;
@@ -71,45 +71,26 @@ fn effort(r: &RunRecord, relative_energy_error: f64) -> Vec<String> {
 }
 
 fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
-    let mut found = result.summaries(is_prominent).map_err(Failure::work)?;
+    let found = result.summaries(is_prominent).map_err(Failure::work)?;
     let passings = result.mesh_passings().map_err(Failure::work)?;
     let all = found.len();
-    let mut shown = {
-        let extremes = found
-            .iter()
-            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
-        noticeable(extremes).into_iter()
-    };
-    found.retain(|_| shown.next().unwrap_or(false));
-    found.sort_by_key(|column| rank(&column.name));
-    let stems = found.iter().map(|column| split_unit(&column.name).0);
-    let width = stems
-        .take(MOST_LINES)
-        .map(|stem| stem.chars().count())
-        .max();
-    let width = width.unwrap_or(0).max(6);
-    let mut lines = vec![format!(
-        "{:width$} {:<7} {:>11} {:>11} {:>11} {:>12}",
-        "column", "unit", "mean", "deviation", "pk-pk", "dominant Hz"
-    )];
-    for ColumnSummary {
-        name,
-        figures,
-        dominant_hz,
-    } in found.iter().take(MOST_LINES)
-    {
-        let (stem, unit) = split_unit(name);
-        let largest = figures.least.abs().max(figures.largest.abs());
-        let (factor, unit) = usual_unit(unit, largest);
-        let dominant = dominant_hz.map_or("-".to_owned(), |hz| format!("{hz:.3}"));
-        lines.push(format!(
-            "{stem:width$} {unit:<7} {:>11} {:>11} {:>11} {dominant:>12}{}",
-            short(factor * figures.mean),
-            short(factor * figures.deviation),
-            short(factor * figures.peak_to_peak()),
-            incomplete(&passings, name)
-        ));
-    }
+    let found = foremost(found);
+    let mut lines = table_of(
+        &found,
+        &["mean", "deviation", "pk-pk", "dominant Hz"],
+        |column, factor| {
+            let figures = &column.figures;
+            let dominant = column
+                .dominant_hz
+                .map_or("-".to_owned(), |hz| format!("{hz:.3}"));
+            vec![
+                short(factor * figures.mean),
+                short(factor * figures.deviation),
+                short(factor * figures.peak_to_peak()),
+                format!("{dominant:>11}{}", incomplete(&passings, &column.name)),
+            ]
+        },
+    );
     let shown = found.len().min(MOST_LINES);
     if shown < all {
         let zero = all - found.len();
@@ -120,6 +101,31 @@ fn columns(result: &SystemResult) -> Result<Vec<String>, Failure> {
     }
     lines.extend(passings.iter().map(MeshPassing::in_words));
     Ok(lines)
+}
+
+/// Names, units and cells of the first columns; `cells` takes a column and the factor to the unit in which it is read. A mark may stand behind
+/// the last cell.
+fn table_of(
+    found: &[ColumnSummary],
+    heads: &[&str],
+    cells: impl Fn(&ColumnSummary, f64) -> Vec<String>,
+) -> Vec<String> {
+    let shown = &found[..found.len().min(MOST_LINES)];
+    let stems = shown.iter().map(|column| split_unit(&column.name).0);
+    let width = stems.map(|stem| stem.chars().count()).max();
+    let width = width.unwrap_or(0).max(6);
+    let row = |name: &str, unit: &str, cells: Vec<String>| {
+        let cells = cells.iter().map(|cell| format!(" {cell:>11}"));
+        format!("{name:width$} {unit:<7}{}", cells.collect::<String>())
+    };
+    let heads = heads.iter().map(|head| (*head).to_owned());
+    let mut lines = vec![row("column", "unit", heads.collect())];
+    for column in shown {
+        let (stem, unit) = split_unit(&column.name);
+        let (factor, unit) = usual_unit(unit, column.figures.magnitude());
+        lines.push(row(stem, unit, cells(column, factor)));
+    }
+    lines
 }
 
 /// Mark of a line whose figures a longer run may change.
@@ -179,48 +185,21 @@ fn last_parts(name: &str) -> String {
 
 /// One line a column: the value where there is one equilibrium, mean and extremes over several.
 fn equilibria(result: &SystemResult) -> Result<Vec<String>, Failure> {
-    let mut found = Vec::new();
-    for column in result.rows.columns() {
-        if is_prominent(&column.name) || column.name.ends_with("/turn_rad") {
-            let values = result.rows.read(&column.name).map_err(Failure::work)?;
-            found.push((&column.name, values));
-        }
-    }
-    let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mut shown = {
-        let extremes = found
-            .iter()
-            .map(|(name, values)| (name.as_str(), least(values), largest(values)));
-        noticeable(extremes).into_iter()
-    };
-    found.retain(|_| shown.next().unwrap_or(false));
-    found.sort_by_key(|(name, _)| rank(name));
-    let stems = found.iter().map(|(name, _)| split_unit(name).0);
-    let width = stems
-        .take(MOST_LINES)
-        .map(|stem| stem.chars().count())
-        .max();
-    let width = width.unwrap_or(0).max(6);
+    let wanted = |name: &str| is_prominent(name) || name.ends_with("/turn_rad");
+    let found = foremost(result.summaries(wanted).map_err(Failure::work)?);
     let rows = result.rows.rows();
     let heads: &[&str] = match rows {
         1 => &["value"],
         _ => &["mean", "least", "largest", "pk-pk"],
     };
-    let head: String = heads.iter().map(|head| format!(" {head:>11}")).collect();
-    let mut lines = vec![format!("{:width$} {:<7}{head}", "column", "unit")];
-    for (name, values) in found.iter().take(MOST_LINES) {
-        let (stem, unit) = split_unit(name);
-        let (least, largest) = (least(values), largest(values));
-        let (factor, unit) = usual_unit(unit, least.abs().max(largest.abs()));
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let figures = [mean, least, largest, largest - least];
-        let figures = figures.iter().take(heads.len());
-        let cells: String = figures
-            .map(|x| format!(" {:>11}", short(factor * x)))
-            .collect();
-        lines.push(format!("{stem:width$} {unit:<7}{cells}"));
-    }
+    let mut lines = table_of(&found, heads, |column, factor| {
+        let f = column.figures;
+        let figures = [f.mean, f.least, f.largest, f.peak_to_peak()];
+        figures[..heads.len()]
+            .iter()
+            .map(|x| short(factor * x))
+            .collect()
+    });
     if found.len() > MOST_LINES {
         lines.push(format!("and {} more in the file", found.len() - MOST_LINES));
     }

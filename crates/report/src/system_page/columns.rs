@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
+use gearmesh_scene::system_run::{MeshPassing, SystemResult, rank, split_unit};
 
 use crate::page::{Axis, Section, Text};
 use crate::short_number::usual_unit;
@@ -40,13 +39,9 @@ pub(super) fn readable(name: &str) -> String {
     }
 }
 
-/// Mean mesh frequencies of the meshes that turned.
-pub(super) fn mesh_frequencies(r: &SystemResult) -> Result<Vec<(String, f64)>, FileError> {
-    let meshes = r.mesh_passings()?.into_iter();
-    let turning = meshes.filter(|mesh| mesh.frequency_hz > 0.0);
-    Ok(turning
-        .map(|mesh| (mesh.mesh.name, mesh.frequency_hz))
-        .collect())
+/// The meshes that turned.
+pub(super) fn turning(passings: &[MeshPassing]) -> impl Iterator<Item = &MeshPassing> {
+    passings.iter().filter(|mesh| mesh.frequency_hz > 0.0)
 }
 
 /// Columns that make one chart: title, unit, and the columns with the names of their curves.

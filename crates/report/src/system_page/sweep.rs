@@ -6,6 +6,7 @@ use gearmesh_scene::system_run::{
     Figures, SweepResult, SystemResult, Window, is_prominent, rank, split_unit,
 };
 
+use super::at_a_glance::MOST_MESHES;
 use super::columns::{MOST_CHARTS, quantity, readable, scaled, speed_axis};
 use super::transient::run_table;
 use crate::page::{
@@ -24,9 +25,6 @@ struct Curve {
     style: LineStyle,
     values: Vec<f64>,
 }
-
-/// Meshes whose figures head a page.
-const MOST_MESHES: usize = 4;
 
 /// Where transmission error and forces of each mesh swing most, and where a bearing's force is largest.
 pub(super) fn key_figures(sweep: &SweepResult) -> KeyFigures {

@@ -1,19 +1,13 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{
-    RunRecord, SystemResult, is_prominent, noticeable, rank, split_unit,
-};
+use gearmesh_scene::system_run::{MeshPassing, RunRecord, SystemResult, is_prominent, split_unit};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
-use super::columns::{
-    MOST_CHARTS, groups, left_out, mesh_frequencies, quantity, readable, scaled, varies,
-};
+use super::columns::{MOST_CHARTS, groups, left_out, quantity, scaled, turning, varies};
 use crate::min_max;
-use crate::page::{
-    Align, Axis, AxisScale, KeyFigures, LineChart, LineSeries, Section, Table, Text,
-};
-use crate::short_number::{short, usual_unit};
+use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
+use crate::short_number::short;
 
 /// Lines of a series that are transformed: the last so many.
 const LONGEST: usize = 1 << 20;
@@ -26,93 +20,6 @@ const HARMONICS: usize = 5;
 
 /// Highest frequency of a spectrum over the mesh frequency.
 const SPECTRUM_END: f64 = 12.0;
-
-/// Meshes whose figures head a page.
-const MOST_MESHES: usize = 4;
-
-/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other kinds of
-/// results none.
-pub(super) fn key_figures(r: &SystemResult) -> KeyFigures {
-    let mut figures = KeyFigures::new();
-    let columns = || r.rows.columns().iter().map(|c| &*c.name).zip(&r.statistics);
-    for mesh in r.head.meshes.iter().take(MOST_MESHES) {
-        let of_mesh = format!("elements/{}/", mesh.name);
-        let find = |channel: &str| {
-            let mut found =
-                columns().filter_map(|(name, f)| Some((name.strip_prefix(&of_mesh)?, f)));
-            found.find(|(name, _)| *name == channel).map(|(_, f)| f)
-        };
-        if let Some(te) = find("transmission_error_m") {
-            let label = format!("{}: TE peak to peak", mesh.name);
-            figures = figures.figure(label, short(1e6 * te.peak_to_peak()), "µm");
-        }
-        let sides = ["normal_force_right_N", "normal_force_left_N"];
-        let forces = sides.iter().filter_map(|side| find(side)).map(|f| f.mean);
-        if let Some(force) = forces.reduce(f64::max) {
-            let label = format!("{}: mean normal force", mesh.name);
-            figures = figures.figure(label, short(force), "N");
-        }
-    }
-    let radial = columns().filter(|(name, _)| name.ends_with("/force_radial_N"));
-    if let Some((name, f)) = radial.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest)) {
-        let bearing = name.split('/').nth(1).unwrap_or_default();
-        let label = format!("largest bearing force: {bearing}");
-        figures = figures.figure(label, short(f.largest), "N");
-    }
-    figures
-}
-
-/// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
-pub(super) const LAST_RANK: u8 = 5;
-
-/// Meshes, bearings and speeds at a glance, and folded all other force elements.
-pub(super) fn columns_tables(r: &SystemResult) -> Result<[Table; 2], FileError> {
-    let mut tables = [
-        Table::new("Meshes, bearings and speeds over the whole run"),
-        Table::new("Springs, couplings and beams over the whole run").folded(),
-    ]
-    .map(|table| {
-        table
-            .column("column", Align::Left)
-            .column("unit", Align::Left)
-            .column("mean", Align::Right)
-            .column("RMS about the mean", Align::Right)
-            .column("least", Align::Right)
-            .column("largest", Align::Right)
-            .column("peak to peak", Align::Right)
-            .column("dominant Hz", Align::Right)
-    });
-    let mut found = r.summaries(is_prominent)?;
-    let mut shown = {
-        let extremes = found
-            .iter()
-            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
-        noticeable(extremes).into_iter()
-    };
-    found.retain(|_| shown.next().unwrap_or(false));
-    found.sort_by_key(|column| rank(&column.name));
-    let passings = r.mesh_passings()?;
-    for column in found {
-        let (name, unit) = split_unit(&column.name);
-        let f = column.figures;
-        let (factor, unit) = usual_unit(unit, f.least.abs().max(f.largest.abs()));
-        let place = usize::from(rank(&column.name) > LAST_RANK);
-        let incomplete = passings
-            .iter()
-            .any(|mesh| mesh.leaves_incomplete(&column.name));
-        tables[place].push_row([
-            readable(name) + if incomplete { " (incomplete)" } else { "" },
-            unit.to_owned(),
-            short(factor * f.mean),
-            short(factor * f.deviation),
-            short(factor * f.least),
-            short(factor * f.largest),
-            short(factor * f.peak_to_peak()),
-            column.dominant_hz.map_or("-".to_owned(), short),
-        ]);
-    }
-    Ok(tables)
-}
 
 pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
     let times = r.rows.read("time_s")?;
@@ -147,9 +54,12 @@ pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
 }
 
 /// Amplitude spectra of the channels of force elements, second half of the run.
-pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
+pub(super) fn spectra(
+    r: &SystemResult,
+    passings: &[MeshPassing],
+) -> Result<Option<Section>, FileError> {
     let interval_s = r.interval_s()?;
-    let meshes = mesh_frequencies(r)?;
+    let meshes: Vec<&MeshPassing> = turning(passings).collect();
     let mut section = Section::new(format!("{}: spectra", r.head.title)).push(Text::paragraph(
         "Amplitudes over the second half of the run, mean removed, Hann window. Mesh frequencies are means over that half.",
     ));
@@ -175,7 +85,7 @@ pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
         }
         let end = meshes
             .iter()
-            .map(|(_, hz)| SPECTRUM_END * hz)
+            .map(|mesh| SPECTRUM_END * mesh.frequency_hz)
             .fold(0.0_f64, f64::max);
         let shown = if end > 0.0 {
             lines.partition_point(|f| *f <= end)
@@ -209,12 +119,12 @@ pub(super) fn spectra(r: &SystemResult) -> Result<Option<Section>, FileError> {
             let values = values.into_iter().map(|v| v.max(floor)).collect();
             chart = chart.series(LineSeries::new(curve.clone(), values));
         }
-        for (name, hz) in &meshes {
+        for mesh in &meshes {
             for k in 1..=HARMONICS {
                 chart = chart.mark(
-                    k as f64 * hz,
+                    k as f64 * mesh.frequency_hz,
                     if k == 1 {
-                        name.clone()
+                        mesh.mesh.name.clone()
                     } else {
                         format!("{k}×")
                     },

@@ -17,6 +17,18 @@ pub struct Figures {
 }
 
 impl Figures {
+    /// Of a series; not numbers without values.
+    pub fn of(values: &[f64]) -> Self {
+        let mut statistics = ColumnStatistics::new(1);
+        values.iter().for_each(|value| statistics.add(&[*value]));
+        statistics.figures()[0]
+    }
+
+    /// Largest amount.
+    pub fn magnitude(&self) -> f64 {
+        self.least.abs().max(self.largest.abs())
+    }
+
     /// √(mean² + deviation²)
     pub fn rms(&self) -> f64 {
         self.mean.hypot(self.deviation)

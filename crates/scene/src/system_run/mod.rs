@@ -35,7 +35,7 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, noticeable, rank, split_unit, varying};
+pub use column_names::{is_prominent, rank, split_unit, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
@@ -53,7 +53,7 @@ pub use recorder::{Course, Moment, Recorder, Selection};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use run_record::RunRecord;
 pub use speed_plan::{SpeedPlan, Window};
-pub use summary::ColumnSummary;
+pub use summary::{ColumnSummary, foremost};
 
 /// Runs a job and writes its result.
 ///

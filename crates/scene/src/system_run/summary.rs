@@ -1,9 +1,9 @@
-//! Figures of the columns of a transient result at a glance.
+//! Figures of the columns of a result at a glance.
 
-use gearmesh_model::{Column, FileError};
+use gearmesh_model::FileError;
 use gearmesh_signal::{Window, amplitude_spectrum};
 
-use super::column_names::varying;
+use super::column_names::{noticeable, rank, varying};
 use super::column_statistics::Figures;
 use super::result::SystemResult;
 
@@ -54,7 +54,7 @@ impl SystemResult {
         varying(columns.map(|(column, f)| (column.name.as_str(), f.least, f.largest)))
     }
 
-    /// Columns of a transient result whose names `wanted` accepts.
+    /// Columns of a run in time or of a static series whose names `wanted` accepts, in the order of the file.
     ///
     /// # Errors
     /// [`FileError`].
@@ -62,26 +62,51 @@ impl SystemResult {
         &self,
         wanted: impl Fn(&str) -> bool,
     ) -> Result<Vec<ColumnSummary>, FileError> {
+        let mut found = Vec::new();
+        if self.kind != "transient" {
+            for column in self.rows.columns().iter().filter(|c| wanted(&c.name)) {
+                found.push(ColumnSummary {
+                    name: column.name.clone(),
+                    figures: Figures::of(&self.rows.read(&column.name)?),
+                    dominant_hz: None,
+                });
+            }
+            return Ok(found);
+        }
         let interval_s = self.interval_s()?;
         let columns = self.rows.columns().iter().zip(&self.statistics);
-        let summary = |((column, figures), varies): ((&Column, &Figures), bool)| {
+        for ((column, figures), varies) in columns.zip(self.varying()) {
+            if !wanted(&column.name) {
+                continue;
+            }
             let dominant_hz = if varies && !is_progressive(&column.name) {
                 dominant_hz(&self.rows.read(&column.name)?, interval_s)
             } else {
                 None
             };
-            Ok(ColumnSummary {
+            found.push(ColumnSummary {
                 name: column.name.clone(),
                 figures: *figures,
                 dominant_hz,
-            })
-        };
-        columns
-            .zip(self.varying())
-            .filter(|((column, _), _)| wanted(&column.name))
-            .map(summary)
-            .collect()
+            });
+        }
+        Ok(found)
     }
+}
+
+/// The columns that are other than zero by more than rounding, those first that a reader asks for first.
+#[must_use]
+pub fn foremost(mut found: Vec<ColumnSummary>) -> Vec<ColumnSummary> {
+    let shown = {
+        let columns = found
+            .iter()
+            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
+        noticeable(columns)
+    };
+    let mut shown = shown.into_iter();
+    found.retain(|_| shown.next().unwrap_or(false));
+    found.sort_by_key(|column| rank(&column.name));
+    found
 }
 
 /// Columns that grow with the run: a frequency of theirs says nothing.

@@ -1,0 +1,147 @@
+//! What a reader asks first of a run in time or of equilibria: key figures, and a line for each channel.
+
+use gearmesh_scene::system_run::{
+    ColumnSummary, Figures, MeshPassing, SystemResult, foremost, rank, split_unit,
+};
+
+use super::columns::readable;
+use crate::page::{Align, KeyFigures, Table};
+use crate::short_number::{short, usual_unit};
+
+/// Meshes whose figures head a page.
+pub(super) const MOST_MESHES: usize = 4;
+
+/// The last rank that the first table of a page has: meshes, bearings, strain, line loads, speeds.
+const LAST_RANK: u8 = 5;
+
+/// What the figures of a column are of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// A run in time.
+    Time,
+    /// One equilibrium: each figure is the value.
+    Equilibrium,
+    /// Several equilibria.
+    Equilibria,
+}
+
+impl Extent {
+    fn of(r: &SystemResult) -> Self {
+        match (&r.kind[..], r.rows.rows()) {
+            ("transient", _) => Self::Time,
+            (_, 1) => Self::Equilibrium,
+            _ => Self::Equilibria,
+        }
+    }
+}
+
+/// Transmission error and tooth force of the meshes, and the largest radial force of a bearing; of other columns none.
+pub(super) fn key_figures(r: &SystemResult, found: &[ColumnSummary]) -> KeyFigures {
+    let extent = Extent::of(r);
+    let (te_label, te): (_, fn(&Figures) -> f64) = match extent {
+        Extent::Equilibrium => ("TE", |f| f.mean),
+        _ => ("TE peak to peak", Figures::peak_to_peak),
+    };
+    let (force_label, force): (_, fn(&Figures) -> f64) = match extent {
+        Extent::Time => ("mean normal force", |f| f.mean),
+        Extent::Equilibrium => ("normal force", |f| f.mean),
+        Extent::Equilibria => ("largest normal force", |f| f.largest),
+    };
+    let mut figures = KeyFigures::new();
+    for mesh in r.head.meshes.iter().take(MOST_MESHES) {
+        let of_mesh = format!("elements/{}/", mesh.name);
+        let channels = || {
+            found
+                .iter()
+                .filter_map(|c| Some((c.name.strip_prefix(&of_mesh)?, &c.figures)))
+        };
+        let errors = channels().filter(|(channel, _)| *channel == "transmission_error_m");
+        for (_, f) in errors {
+            let label = format!("{}: {te_label}", mesh.name);
+            figures = figures.figure(label, short(1e6 * te(f)), "µm");
+        }
+        let sides = channels().filter(|(channel, _)| channel.starts_with("normal_force_"));
+        if let Some(value) = sides.map(|(_, f)| force(f)).reduce(f64::max) {
+            let label = format!("{}: {force_label}", mesh.name);
+            figures = figures.figure(label, short(value), "N");
+        }
+    }
+    let radial = found
+        .iter()
+        .filter(|column| column.name.ends_with("/force_radial_N"));
+    let largest = |column: &ColumnSummary| column.figures.largest;
+    if let Some(column) = radial.max_by(|a, b| largest(a).total_cmp(&largest(b))) {
+        let bearing = column.name.split('/').nth(1).unwrap_or_default();
+        let label = format!("largest bearing force: {bearing}");
+        figures = figures.figure(label, short(largest(column)), "N");
+    }
+    figures
+}
+
+/// Meshes, bearings and speeds, and folded all other force elements; those without a column are left out.
+pub(super) fn tables(
+    r: &SystemResult,
+    found: Vec<ColumnSummary>,
+    passings: &[MeshPassing],
+) -> Vec<Table> {
+    let extent = Extent::of(r);
+    let (titles, heads): (_, &[&str]) = match extent {
+        Extent::Time => (
+            [
+                "Meshes, bearings and speeds over the whole run",
+                "Springs, couplings and beams over the whole run",
+            ],
+            &[
+                "mean",
+                "RMS about the mean",
+                "least",
+                "largest",
+                "peak to peak",
+                "dominant Hz",
+            ],
+        ),
+        Extent::Equilibrium => (
+            ["Meshes and bearings", "Springs, couplings and beams"],
+            &["value"],
+        ),
+        Extent::Equilibria => (
+            ["Meshes and bearings", "Springs, couplings and beams"],
+            &["mean", "least", "largest", "peak to peak"],
+        ),
+    };
+    let [first, rest] = titles.map(|title| {
+        let table = Table::new(title)
+            .column("column", Align::Left)
+            .column("unit", Align::Left);
+        let heads = heads.iter();
+        heads.fold(table, |table, head| table.column(*head, Align::Right))
+    });
+    let mut tables = [first, rest.folded()];
+    for column in foremost(found) {
+        let (name, unit) = split_unit(&column.name);
+        let f = column.figures;
+        let (factor, unit) = usual_unit(unit, f.magnitude());
+        let shown = |x: f64| short(factor * x);
+        let incomplete = passings
+            .iter()
+            .any(|mesh| mesh.leaves_incomplete(&column.name));
+        let mut row = vec![
+            readable(name) + if incomplete { " (incomplete)" } else { "" },
+            unit.to_owned(),
+            shown(f.mean),
+        ];
+        match extent {
+            Extent::Equilibrium => {}
+            Extent::Equilibria => row.extend([f.least, f.largest, f.peak_to_peak()].map(shown)),
+            Extent::Time => {
+                row.extend([f.deviation, f.least, f.largest, f.peak_to_peak()].map(shown));
+                row.push(column.dominant_hz.map_or("-".to_owned(), short));
+            }
+        }
+        tables[usize::from(rank(&column.name) > LAST_RANK)].push_row(row);
+    }
+    tables
+        .into_iter()
+        .filter(|table| !table.is_empty())
+        .collect()
+}
