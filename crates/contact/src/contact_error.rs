@@ -42,6 +42,12 @@ pub enum ContactError {
          which a multibody scene shows"
     )]
     NoFlanks,
+    /// No flanks are within reach of each other.
+    #[error("no flanks face each other there: the gears are out of mesh")]
+    NothingFaces,
+    /// The gears cannot mesh as they stand.
+    #[error("{0}")]
+    Flanks(Box<dyn std::error::Error + Send + Sync>),
     /// More patches than there is memory for.
     #[error("{found} slices face each other, more than the {most} that the pair was prepared for")]
     TooMany {

@@ -4,6 +4,7 @@
 //! the path of contact one by one. A slice that is partly on the path touches over that part only: it has the roll angle of the part's middle
 //! and a share of the slice's length, which goes to zero with its force. The transmission error is therefore continuous where a slice enters.
 
+use crate::contact_error::ContactError;
 use crate::contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 use crate::contact_zone::{ContactZone, SliceLayout};
 use crate::tip_contact::{PathExtension, TipContact, TipGear};
@@ -76,6 +77,17 @@ pub struct ContactLines {
 }
 
 impl ContactLines {
+    /// Refuses an extended path of helical teeth.
+    ///
+    /// # Errors
+    /// [`ContactError::HelicalExtension`].
+    pub fn refuse_helical_edges(&self) -> Result<(), ContactError> {
+        if self.pair.is_helical() && self.extension.is_some() {
+            return Err(ContactError::HelicalExtension);
+        }
+        Ok(())
+    }
+
     /// Fills `lines` with the pairs at a driver angle that are on the path of contact or, where it is extended, near
     /// enough to its ends. A pair is on the path or at one tip, never both.
     pub fn at(&self, driver_angle_rad: f64, lines: &mut Vec<ContactLine>) {

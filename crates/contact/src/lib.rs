@@ -17,6 +17,8 @@
 //! | where does a tip edge touch beyond the ends of the path | [`TipContact`] | `tip_contact.rs` |
 //! | forces of patches at given gaps | [`SliceContact`] | `slice_contact.rs` |
 //! | what drives them | [`Drive`] | `drive.rs` |
+//! | a flank as a surface: points, normals, curvatures | [`FlankSurface`] | `flank_surface.rs` |
+//! | which patches face each other at rest, of any family of flanks | [`FlanksAtRest`] | `flanks_at_rest.rs` |
 //! | forces and transmission error at one position | [`StaticContact`] | `static_contact.rs` |
 //! | why there are none | [`ContactError`] | `contact_error.rs` |
 //! | deflection of one flank under a line load | [`flank_deflection`] | `flank_deflection.rs` |
@@ -37,7 +39,10 @@ pub mod crack_rows;
 pub mod drive;
 pub mod flank_deflection;
 pub mod flank_deviations;
+pub mod flank_surface;
+pub mod flanks_at_rest;
 pub mod hertz;
+mod involute_at_rest;
 pub mod local_contact;
 pub mod mesh_stiffness;
 pub mod nlcp;
@@ -58,6 +63,9 @@ pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 pub use contact_zone::{ContactZone, SliceLayout};
 pub use drive::Drive;
 pub use flank_deviations::FlankDeviations;
+pub use flank_surface::{FlankSurface, InvoluteSurface, RelativeCurvature, SurfaceCurvature};
+pub use flanks_at_rest::FlanksAtRest;
+pub use involute_at_rest::InvoluteAtRest;
 pub use local_contact::LocalContact;
 pub use profile_shares::{ProfileHats, ProfilePlace};
 pub use runout::{GearSeat, Placement, Runout};

@@ -73,6 +73,21 @@ impl SliceCompliance {
         local: LocalContact,
         spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
+        let hats = ProfileHats::of_involute(&gear.grid.roll_angles_rad);
+        Self::on_grid(gear, flank, local, (hats, spread))
+    }
+
+    /// Condenses the grid of a flank of any family: `hats` and `spread` say where loads between its stations sit along the profile and along
+    /// the tooth.
+    ///
+    /// # Errors
+    /// As [`Self::on_slices`].
+    pub fn on_grid(
+        gear: &ReducedGear,
+        flank: Flank,
+        local: LocalContact,
+        (hats, spread): (ProfileHats, &AxialSpread),
+    ) -> Result<Self, ReducedGearError> {
         let flank_index = gear.flank_index(flank)?;
         let near_field = match local {
             LocalContact::Calibrated => Some(CalibratedField::new(gear, flank_index)?),
@@ -117,7 +132,6 @@ impl SliceCompliance {
             }
         }
         let slice_width_m = spread.width_m();
-        let hats = ProfileHats::of_involute(&grid.roll_angles_rad);
         let k = 2.0 * (1.0 - gear.poisson * gear.poisson) / (PI * gear.young_pa);
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);

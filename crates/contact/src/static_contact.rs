@@ -15,15 +15,14 @@ use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_patch::ContactPatch;
 use crate::drive::Drive;
 use crate::flank_deviations::FlankDeviations;
+use crate::flanks_at_rest::FlanksAtRest;
 use crate::hertz;
+use crate::involute_at_rest::{InvoluteAtRest, most_lines};
 use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
-use crate::runout::{Placement, Runout};
+use crate::runout::Runout;
 use crate::slice_contact::SliceContact;
 use gearmesh_model::ReducedGear;
-
-/// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
-const NO_FLANK_M: f64 = 1.0;
 
 /// What a contact computation includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,75 +52,73 @@ pub struct ContactState {
     pub info: Info,
 }
 
-/// Contact of two reduced gears, with all memory it needs.
+/// Contact of two reduced gears, with all memory it needs; F: the family of their flanks, involute ones where nothing is said.
 #[derive(Debug, Clone)]
-pub struct StaticContact {
-    lines: ContactLines,
+pub struct StaticContact<F = InvoluteAtRest> {
+    flanks: F,
     slices: SliceContact,
-    friction: Option<Friction>,
-    deviations: FlankDeviations,
-    runout: Option<Runout>,
-    active: Vec<ContactLine>,
     patches: Vec<ContactPatch>,
     forces: Vec<f64>,
 }
 
 impl StaticContact {
-    /// Prepares the contact of two gears on the flanks that the pair names.
+    /// Prepares the contact of two involute gears on the flanks that the pair names.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the pair or each other.
     pub fn new(
-        mut lines: ContactLines,
+        lines: ContactLines,
         gear_1: &ReducedGear,
         gear_2: &ReducedGear,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
-        if lines.pair.is_helical() && lines.extension.is_some() {
-            return Err(ContactError::HelicalExtension);
-        }
-        let flank = lines.pair.flank;
+        lines.refuse_helical_edges()?;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
-        let placed = (options.local, lines.zone.displacement_m);
-        // Gears beside their axes may stand closer together than the pair.
-        let most_lines = lines.most_pairs() + 1;
-        let slices = SliceContact::of_gears([gear_1, gear_2], (teeth, flank), placed, most_lines)?;
-        lines.zone = slices.layout().reference;
-        let capacity = slices.capacity();
-        Ok(Self {
-            lines,
-            slices,
-            friction: options.friction,
-            deviations: FlankDeviations::default(),
-            runout: None,
-            active: Vec::with_capacity(capacity),
-            patches: Vec::with_capacity(capacity),
-            forces: Vec::with_capacity(capacity),
-        })
+        let (flanks, placed) = (
+            (teeth, lines.pair.flank),
+            (options.local, lines.zone.displacement_m),
+        );
+        let most = most_lines(&lines);
+        let slices = SliceContact::of_gears([gear_1, gear_2], flanks, placed, most)?;
+        let flanks = InvoluteAtRest::new(lines, *slices.layout(), options.friction)?;
+        Ok(Self::of_flanks(flanks, slices))
     }
 
     /// Adds errors and faults of single flanks.
     #[must_use]
     pub fn with_deviations(mut self, deviations: FlankDeviations) -> Self {
-        self.deviations = deviations;
+        self.flanks.deviations = deviations;
         self
     }
 
     /// Lets the gears stand beside, or tilted to, the axes about which they turn.
     #[must_use]
     pub fn with_runout(mut self, runout: Runout) -> Self {
-        self.runout = Some(runout);
+        self.flanks.runout = Some(runout);
         self
+    }
+
+    /// Contact lines of the last position, in the order of the forces.
+    pub fn active_lines(&self) -> &[ContactLine] {
+        self.flanks.active_lines()
+    }
+}
+
+impl<F: FlanksAtRest> StaticContact<F> {
+    /// The contact of flanks of any family that have been condensed to slices.
+    pub fn of_flanks(flanks: F, slices: SliceContact) -> Self {
+        let capacity = slices.capacity();
+        Self {
+            flanks,
+            slices,
+            patches: Vec::with_capacity(capacity),
+            forces: Vec::with_capacity(capacity),
+        }
     }
 
     /// Slices per contact line.
     pub fn slices(&self) -> usize {
         self.slices.slices()
-    }
-
-    /// Contact lines of the last position, in the order of the forces.
-    pub fn active_lines(&self) -> &[ContactLine] {
-        &self.active
     }
 
     /// Patches that touch or may touch at the last position.
@@ -172,48 +169,16 @@ impl StaticContact {
             })
     }
 
-    /// Lets errors of single flanks and the places of the gears on their bodies act on the patches.
-    fn displace_patches(&mut self, placement: &Placement) -> Result<(), ContactError> {
-        let pair = &self.lines.pair;
-        let transverse = pair.base_helix_angle_rad().cos();
-        let [arm_1, arm_2] = placement.arms_m.map(|arm| transverse * arm);
-        let mut some_flank = false;
-        for patch in &mut self.patches {
-            let deviation = self.deviations.opening_m(patch, pair.flank);
-            some_flank |= deviation.is_finite();
-            let balance = &mut patch.balance;
-            balance.closing += arm_2 / pair.gear_2.base_radius_m;
-            balance.levers_m[0] += arm_1;
-            balance.levers_m[1] += arm_2;
-            // Gears beside their axes stand as rigid flanks leave them; the gap is linear in the approach about there.
-            patch.gap_m += deviation.min(NO_FLANK_M) + balance.closing * placement.opening_m;
-        }
-        if some_flank {
-            Ok(())
-        } else {
-            Err(ContactError::NoFlanks)
-        }
-    }
-
     fn solve_at(
         &mut self,
         driver_angle_rad: f64,
         drive: Drive,
     ) -> Result<ContactState, ContactError> {
-        let placement = (self.runout).map_or_else(Placement::default, |runout| {
-            runout.at(&self.lines.pair, driver_angle_rad)
-        });
-        self.lines.place(&placement);
-        let (lines, layout) = (&self.lines, self.slices.layout());
-        lines.at(driver_angle_rad + placement.ahead_rad, &mut self.active);
         self.patches.clear();
-        for line in self.active.iter().enumerate() {
-            lines.push_patches(line, layout, self.friction, &mut self.patches);
-        }
-        let base_2 = lines.pair.gear_2.base_radius_m;
-        self.displace_patches(&placement)?;
+        (self.flanks).patches_at(driver_angle_rad, &mut self.patches)?;
+        let radius_2_m = self.flanks.radius_2_m();
         let scale_force = match drive {
-            Drive::Torque(torque) => torque.abs() / (base_2 * self.patches.len() as f64),
+            Drive::Torque(torque) => torque.abs() / (radius_2_m * self.patches.len() as f64),
             Drive::TransmissionError(_) => 0.0,
         };
         let floor = FLOOR_FRACTION * scale_force.max(1.0);
@@ -222,7 +187,7 @@ impl StaticContact {
         let forces = self.slices.forces_n();
         let slices = self.slices.slices();
         self.forces.clear();
-        self.forces.resize(self.active.len() * slices, 0.0);
+        self.forces.resize(self.flanks.lines() * slices, 0.0);
         let (mut torque_1_nm, mut axial_force_1_n) = (0.0, 0.0);
         for (patch, force) in self.patches.iter().zip(forces) {
             torque_1_nm += force * patch.balance.levers_m[0];

@@ -2,8 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::needless_range_loop)] // test code in index notation
 
 mod nlcp_common;
+mod pair_common;
 
 use gearmesh_contact::nlcp::{Params, Workspace, solve_load};
+use gearmesh_contact::{ContactLines, Drive};
+use gearmesh_geometry::{GearPair, Misalignment, ToothGeometry};
 use nlcp_common::random::{Kind, Random, case, compliance, weber};
 
 #[test]
@@ -64,3 +67,50 @@ const WARM_STEPS: [usize; 20] = [5, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 3, 3, 3,
 
 /// Number of problems by corrections (the last entry: 11 or more), and those left to the descent.
 const RANDOM_PROBLEMS: ([usize; 12], usize) = ([30, 84, 124, 164, 61, 12, 1, 0, 0, 0, 0, 0], 0);
+
+/// Corrections over a mesh cycle of 24 positions of a helical pair of 12 slices, each from the forces of the last, and of the same
+/// positions from nothing.
+#[test]
+fn effort_of_helical_positions_is_unchanged() {
+    let gear = |teeth: usize, helix_deg: f64| {
+        let mut d = pair_common::tooth(teeth, 0.0, 0.0);
+        d.helix_angle_rad = f64::to_radians(helix_deg);
+        ToothGeometry::new(&d).unwrap()
+    };
+    let (gear_1, gear_2) = (gear(31, 20.0), gear(40, -20.0));
+    let centre = gear_1.reference_radius_m + gear_2.reference_radius_m;
+    let pair = GearPair::new(gear_1, gear_2, centre, Misalignment::default()).unwrap();
+    let lines = ContactLines {
+        extension: None,
+        ..pair_common::extended(pair, 1e-4)
+    };
+    let mut contact = pair_common::contact(&lines, pair_common::FRICTIONLESS, 12);
+    let step = lines.pair.pitch_1_rad() / 24.0;
+    let mut corrections = |cold: bool| {
+        let mut each = |k: u32| {
+            if cold {
+                contact.reset();
+            }
+            let angle = 0.0137 + step * f64::from(k);
+            contact
+                .solve(angle, Drive::Torque(200.0))
+                .unwrap()
+                .info
+                .iterations
+        };
+        (0..24).map(&mut each).collect::<Vec<_>>()
+    };
+    corrections(false);
+    let found = [corrections(false), corrections(true)];
+    assert_eq!(found, HELICAL_POSITIONS);
+}
+
+/// Corrections of each position, warm and cold.
+const HELICAL_POSITIONS: [[usize; 24]; 2] = [
+    [
+        3, 3, 3, 3, 3, 4, 3, 3, 3, 4, 3, 4, 4, 3, 3, 4, 3, 3, 5, 4, 3, 4, 4, 3,
+    ],
+    [
+        3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 3, 3,
+    ],
+];

@@ -99,7 +99,8 @@ impl<M: TeethModel> Damped<M> {
         if flanks.contacts.iter().all(|contact| contact.gap_m >= 0.0) {
             return self.teeth.evaluate(flanks, tangents, loads);
         }
-        self.felt.frame = flanks.frame;
+        self.felt.along_teeth = flanks.along_teeth;
+        self.felt.action_m_per_u = flanks.action_m_per_u;
         self.felt.lines.clone_from(&flanks.lines);
         self.felt.sections.clone_from(&flanks.sections);
         self.felt.contacts.clone_from(&flanks.contacts);

@@ -1,15 +1,12 @@
-//! Tooth flanks that face each other at a pose: pairs of teeth, the sections they are seen in, and their slices.
+//! Tooth flanks that face each other at a pose: pairs of teeth, the sections they are seen in, and their slices, whatever the family of the gears.
 
 use std::sync::Arc;
 
-use gearmesh_contact::ContactZone;
+use gearmesh_contact::{ContactPatch, FlankPlace, PatchBalance};
 
 use crate::flank_error::FlankError;
 use crate::flank_modes::dot;
-use crate::mesh_frame::MeshFrame;
 use crate::pose::Vector6;
-use crate::slice_plane::SlicePlane;
-use crate::tooth_zero::ToothZero;
 
 /// Deviations of one gear's flanks.
 pub type FlankErrors = Vec<Arc<dyn FlankError>>;
@@ -65,7 +62,7 @@ pub struct TeethLine {
 pub struct ToothContact {
     /// Number of its line.
     pub line: usize,
-    /// Number of the slice plane.
+    /// Number of the slice.
     pub slice: usize,
     /// Number of its section.
     pub section: usize,
@@ -128,15 +125,33 @@ impl ModalRows {
     }
 }
 
+/// How the slices stand along the teeth, against where they were laid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AlongTeeth {
+    /// How far gear 2 has moved along the teeth from where the slices were laid \[m\].
+    pub moved_m: f64,
+    /// Width of a whole slice over its width there.
+    pub share: f64,
+}
+
+impl Default for AlongTeeth {
+    /// Where they were laid.
+    fn default() -> Self {
+        Self {
+            moved_m: 0.0,
+            share: 1.0,
+        }
+    }
+}
+
 /// Tooth flanks facing each other on one side of the teeth, at one pose. Reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct FlankContacts {
-    /// What both gears share at the pose; none where nothing was looked for.
-    pub(crate) frame: Option<MeshFrame>,
-    /// Slice planes.
-    pub planes: Vec<SlicePlane>,
-    /// The flanks of tooth 0 in them.
-    pub(crate) zeros: Vec<ToothZero>,
+    /// Where the slices stand along the teeth.
+    pub along_teeth: AlongTeeth,
+    /// How far a contact moves along the line of action as it walks over gear 1's and gear 2's flank \[m\] per unit of u; on involute
+    /// flanks the base radii.
+    pub action_m_per_u: [f64; 2],
     /// Pairs of teeth.
     pub lines: Vec<TeethLine>,
     /// Sections: one a line of spur teeth, one a contact of helical ones.
@@ -150,13 +165,12 @@ pub struct FlankContacts {
 }
 
 impl FlankContacts {
-    /// Memory for so many slice planes and contacts.
+    /// Memory for so many contacts.
     #[must_use]
-    pub fn with_capacity(planes: usize, contacts: usize) -> Self {
+    pub fn with_capacity(contacts: usize) -> Self {
         Self {
-            frame: None,
-            planes: Vec::with_capacity(planes),
-            zeros: Vec::with_capacity(planes),
+            along_teeth: AlongTeeth::default(),
+            action_m_per_u: [1.0; 2],
             lines: Vec::with_capacity(contacts),
             sections: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
@@ -167,19 +181,11 @@ impl FlankContacts {
 
     /// Forgets what was found; the modes' shapes are left alone.
     pub fn clear(&mut self) {
-        self.frame = None;
-        self.planes.clear();
-        self.zeros.clear();
+        self.along_teeth = AlongTeeth::default();
         self.lines.clear();
         self.sections.clear();
         self.contacts.clear();
         self.open_gap_m = None;
-    }
-
-    /// Where the faces overlap at the pose; none where nothing was looked for.
-    #[must_use]
-    pub fn zone(&self) -> Option<&ContactZone> {
-        self.frame.as_ref().map(|frame| &frame.zone)
     }
 
     /// φ_t1·η̇₁ + φ_t2·η̇₂ \[m/s\] of a contact: how fast vibration moves both flanks towards their tips; zero without friction.
@@ -196,6 +202,30 @@ impl FlankContacts {
     pub fn deepest_overlap_m(&self) -> f64 {
         let gaps = self.contacts.iter().map(|contact| contact.gap_m);
         gaps.fold(0.0, |deepest: f64, gap_m| deepest.max(-gap_m))
+    }
+
+    /// The patch of a contact of a line with this number, pressed along its normal.
+    #[must_use]
+    pub fn patch(&self, (number, line): (usize, &TeethLine), contact: usize) -> ContactPatch {
+        let contact = &self.contacts[contact];
+        let section = self.section(contact);
+        ContactPatch {
+            teeth: line.teeth,
+            line: number,
+            slice: contact.slice,
+            places: [0, 1].map(|gear: usize| FlankPlace {
+                u: section.touching_roll_rad[gear],
+                v: contact.heights_m[gear],
+            }),
+            share: section.share,
+            length_m: section.length_m,
+            radius_m: section.radius_m,
+            radius_growth: section.radius_growth,
+            normal: [0, 1, 2].map(|axis: usize| contact.gradient[axis]),
+            gap_m: contact.gap_m,
+            balance: PatchBalance::ALONG_NORMALS,
+            edge: None,
+        }
     }
 
     /// The section of a contact.

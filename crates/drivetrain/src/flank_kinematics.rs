@@ -56,7 +56,7 @@ pub trait FlankKinematics: Send {
     }
 
     /// Finds all patches that face each other on one side; `pose`: the one that was located.
-    fn contacts(&self, pose: &Pose, side: Flank, found: &mut FlankContacts);
+    fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts);
 
     /// The same at any pose, whichever was located.
     ///
@@ -69,7 +69,7 @@ pub trait FlankKinematics: Send {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError>;
 
-    /// Second derivative of the gap of a contact by the increments of the pose.
+    /// Second derivative of the gap of a contact that [`Self::contacts`] found last on this side by the increments of the pose.
     fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
 
     /// Σ F ∂²gap over all contacts with their forces \[N\].
@@ -80,7 +80,7 @@ pub trait FlankKinematics: Send {
         })
     }
 
-    /// k: load on gear 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
+    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. k: load on gear 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
     fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6;
 
     /// ∂k by the increments of the pose.
@@ -95,7 +95,7 @@ pub trait FlankKinematics: Send {
     /// How deep flanks of one side stand in each other \[m\]; zero where none do.
     fn overlap_m(&self, pose: &Pose, side: Flank) -> f64 {
         let mut found = FlankContacts::default();
-        self.contacts(pose, side, &mut found);
-        found.deepest_overlap_m()
+        let looked = self.contacts_at(pose, side, &mut found);
+        looked.map_or(0.0, |()| found.deepest_overlap_m())
     }
 }

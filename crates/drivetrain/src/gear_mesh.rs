@@ -139,7 +139,7 @@ impl GearMesh {
         self.sides.push(Side {
             flank,
             model: Box::new(model),
-            found: FlankContacts::with_capacity(self.kinematics.layout().slices, capacity),
+            found: FlankContacts::with_capacity(capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),
             modes: [None, None],

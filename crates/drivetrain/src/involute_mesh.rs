@@ -10,12 +10,13 @@ use crate::friction::SlidingAt;
 use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::Matrix6;
+use crate::slice_plane::{Matrix6, SidePlanes};
 
-/// Involute kinematics and the slice planes of the last pose.
+/// Involute kinematics, the last pose and the slice planes of both sides there.
 pub(crate) struct InvoluteMesh {
     kinematics: MeshKinematics,
     at: PoseGeometry,
+    sides: [SidePlanes; 2],
 }
 
 impl InvoluteMesh {
@@ -23,20 +24,26 @@ impl InvoluteMesh {
         Self {
             kinematics,
             at: PoseGeometry::default(),
+            sides: Default::default(),
         }
+    }
+
+    /// Slice planes of a side.
+    fn planes(&self, side: Flank) -> &SidePlanes {
+        &self.sides[side as usize]
     }
 
     /// Where a contact stands; none where nothing was looked for.
     fn sliding_at<'a>(
-        &self,
-        found: &'a FlankContacts,
+        &'a self,
+        found: &FlankContacts,
         contact: usize,
         side: Flank,
     ) -> Option<SlidingAt<'a>> {
         let contact = &found.contacts[contact];
         Some(SlidingAt {
-            frame: found.frame.as_ref()?,
-            plane: &found.planes[contact.slice],
+            frame: self.at.frame.as_ref()?,
+            plane: &self.planes(side).planes[contact.slice],
             sigma: side.mirror(),
             base_radius_m: self.kinematics.gears[0].base_radius_m,
             roll_rad: found.section(contact).touching_roll_rad[0],
@@ -79,8 +86,9 @@ impl FlankKinematics for InvoluteMesh {
         self.kinematics.open_gap_m(&self.at, side)
     }
 
-    fn contacts(&self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
-        self.kinematics.contacts_at(pose, &self.at, side, found);
+    fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
+        let planes = &mut self.sides[side as usize];
+        (self.kinematics).contacts_at((pose, &self.at), side, planes, found);
     }
 
     fn contacts_at(
@@ -89,20 +97,22 @@ impl FlankKinematics for InvoluteMesh {
         side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
-        self.kinematics.contacts(pose, side, found)
+        self.kinematics.contacts(pose, side, found).map(|_| ())
     }
 
     fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
         let contact = &found.contacts[contact];
         // Roll angles in the middle of a slice: those of the section but for a slice that is partly on the path.
         let roll_rad = found.section(contact).roll_rad;
-        (self.kinematics).gap_curvature(found, contact.slice, side, roll_rad)
+        let placed = (&self.at, self.planes(side));
+        (self.kinematics).gap_curvature(placed, contact.slice, side, roll_rad)
     }
 
     /// Plane by plane: there it changes with the roll angles in proportion, so that their mean by the forces stands for all contacts.
     fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: Flank) -> Matrix6 {
         let mut sum = Matrix6::zeros();
-        for slice in 0..found.planes.len() {
+        let placed = (&self.at, self.planes(side));
+        for slice in 0..placed.1.planes.len() {
             let (mut of_plane, mut rolled) = (0.0, [0.0; 2]);
             let in_plane = found.contacts.iter().zip(forces_n);
             for (contact, force) in in_plane.filter(|(contact, _)| contact.slice == slice) {
@@ -112,7 +122,7 @@ impl FlankKinematics for InvoluteMesh {
             }
             if of_plane > 0.0 {
                 let mean_rad = rolled.map(|sum| sum / of_plane);
-                sum += of_plane * (self.kinematics).gap_curvature(found, slice, side, mean_rad);
+                sum += of_plane * (self.kinematics).gap_curvature(placed, slice, side, mean_rad);
             }
         }
         sum

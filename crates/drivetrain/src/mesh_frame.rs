@@ -149,6 +149,12 @@ pub struct PoseGeometry {
 }
 
 impl PoseGeometry {
+    /// The slice that lies in the middle of the zone, where there is one.
+    pub(crate) fn middle_slice(&self) -> Option<usize> {
+        let slices = self.slices.len();
+        (slices % 2 == 1).then_some(slices / 2)
+    }
+
     /// Takes the slices of a layout at a pose; none where the faces no longer overlap.
     ///
     /// # Errors
@@ -161,9 +167,8 @@ impl PoseGeometry {
     ) -> Result<(), DrivetrainError> {
         self.slices.clear();
         self.middle = None;
-        let frame = MeshFrame::new(gears, layout.face_widths_m, pose);
-        self.frame = Some(frame);
-        let middle = CentreLine::new(gears, &frame, frame.section(0.0))?;
+        let frame = &*(self.frame).insert(MeshFrame::new(gears, layout.face_widths_m, pose));
+        let middle = CentreLine::new(gears, frame, frame.section(0.0))?;
         self.middle = Some(middle);
         if frame.zone.width_m <= layout.reference.width_m * crate::path_ends::LEAST_SHARE {
             return Ok(());
@@ -173,7 +178,7 @@ impl PoseGeometry {
             let mut line = if place == 0.0 {
                 middle
             } else {
-                CentreLine::new(gears, &frame, frame.section(place))?
+                CentreLine::new(gears, frame, frame.section(place))?
             };
             // Where gear 1 has turned by half a turn, those of some slices would be π, of others −π, and teeth that are counted in the middle would
             // be a whole turn off.

@@ -27,12 +27,14 @@ use gearmesh_contact::SliceLayout;
 
 use crate::base_helix::{BaseHelix, IdealFlanks};
 use crate::error::DrivetrainError;
-use crate::flank_contacts::{FlankContacts, FlankErrors, Section, TeethLine, ToothContact};
+use crate::flank_contacts::{
+    AlongTeeth, FlankContacts, FlankErrors, Section, TeethLine, ToothContact,
+};
 use crate::flank_error::FlankPoint;
 use crate::mesh_frame::{MeshFrame, PoseGeometry};
 use crate::path_ends::{LEAST_SHARE, PathEnds, SlicePart, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{CentreLine, Matrix6, SlicePlane, line_of_action};
+use crate::slice_plane::{CentreLine, Matrix6, SidePlanes, SlicePlane, line_of_action};
 use crate::tooth_zero::ToothZero;
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
@@ -203,17 +205,20 @@ impl MeshKinematics {
         let gap_m = |plane: &SlicePlane, [roll_1, roll_2]: [f64; 2]| {
             plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
         };
-        let is_open = |line: &CentreLine| {
+        let middle_gap_m = gap_m(&plane, [roll_1, roll_2]);
+        let is_open = |(slice, line): (usize, &CentreLine)| {
+            if Some(slice) == at.middle_slice() {
+                return middle_gap_m > self.most_added_m;
+            }
             let plane = line.plane(frame, side);
             gap_m(&plane, rolls(&plane)) > self.most_added_m
         };
-        at.slices
-            .iter()
-            .all(is_open)
-            .then(|| gap_m(&plane, [roll_1, roll_2]))
+        let mut slices = at.slices.iter().enumerate();
+        slices.all(is_open).then_some(middle_gap_m)
     }
 
-    /// Finds all pairs of teeth that face each other with their flanks of one side.
+    /// Finds all pairs of teeth that face each other with their flanks of one side; returns what both sides share at the pose, and the slice
+    /// planes of this one.
     ///
     /// # Errors
     /// As [`Self::locate`].
@@ -222,38 +227,53 @@ impl MeshKinematics {
         pose: &Pose,
         side: Flank,
         found: &mut FlankContacts,
-    ) -> Result<(), DrivetrainError> {
-        let mut at = PoseGeometry::default();
+    ) -> Result<(PoseGeometry, SidePlanes), DrivetrainError> {
+        let (mut at, mut planes) = Default::default();
         self.locate(pose, &mut at)?;
-        self.contacts_at(pose, &at, side, found);
-        Ok(())
+        self.contacts_at((pose, &at), side, &mut planes, found);
+        Ok((at, planes))
     }
 
     /// The same at a pose that has been located already.
     pub fn contacts_at(
         &self,
-        pose: &Pose,
-        at: &PoseGeometry,
+        (pose, at): (&Pose, &PoseGeometry),
         side: Flank,
+        placed_in: &mut SidePlanes,
         found: &mut FlankContacts,
     ) {
         found.clear();
+        let SidePlanes { planes, zeros } = placed_in;
+        planes.clear();
+        zeros.clear();
         let (Some(middle), Some(frame)) = (&at.middle, &at.frame) else {
             return;
         };
-        found.frame = Some(*frame);
-        let planes = at.slices.iter().map(|line| line.plane(frame, side));
-        found.planes.extend(planes);
+        let reference = &self.layout.reference;
+        found.along_teeth = AlongTeeth {
+            moved_m: frame.zone.displacement_m - reference.displacement_m,
+            share: frame.zone.width_m / reference.width_m,
+        };
+        found.action_m_per_u = frame.base_radii_m;
+        planes.extend(at.slices.iter().map(|line| line.plane(frame, side)));
         let zero = |plane: &SlicePlane| ToothZero::new(&self.gears, frame, side, plane);
-        found.zeros.extend(found.planes.iter().map(zero));
+        zeros.extend(planes.iter().map(zero));
         let rates = pose.rates();
-        let middle = middle.plane(frame, side);
-        let middle = (middle, zero(&middle));
+        // The middle of an odd number of slices has been placed already.
+        let between;
+        let middle = match at.middle_slice() {
+            Some(slice) => (&planes[slice], &zeros[slice]),
+            None => {
+                let plane = middle.plane(frame, side);
+                between = (plane, zero(&plane));
+                (&between.0, &between.1)
+            }
+        };
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
         let [pitch_1, pitch_2] = [self.pitch_rad(0), self.pitch_rad(1)];
         let ends = self.ends_rad;
         let [zero_1, zero_2] = (self.helix.as_ref()).map_or(middle.1.roll_rad, |helix| {
-            helix.mid_face_rolls_rad(&middle.0, &middle.1, side.mirror())
+            helix.mid_face_rolls_rad(middle.0, middle.1, side.mirror())
         });
         let length_m = middle.0.length_m;
         let start_1 = (length_m - r2 * ends[1]) / r1;
@@ -281,7 +301,7 @@ impl MeshKinematics {
                 behind_rad: [behind_1, behind_2],
                 teeth,
             };
-            self.add_line(&placed, &middle, found);
+            self.add_line(&placed, middle, (planes, zeros), found);
         }
     }
 
@@ -289,14 +309,15 @@ impl MeshKinematics {
     fn add_line(
         &self,
         placed: &PlacedTeeth<'_>,
-        middle: &(SlicePlane, ToothZero),
+        middle: (&SlicePlane, &ToothZero),
+        (planes, zeros): (&[SlicePlane], &[ToothZero]),
         found: &mut FlankContacts,
     ) {
         let line = found.lines.len();
         let first = found.contacts.len();
         let first_section = found.sections.len();
         let mut at_middle = None;
-        for (slice, (plane, zero)) in found.planes.iter().zip(&found.zeros).enumerate() {
+        for (slice, (plane, zero)) in planes.iter().zip(zeros).enumerate() {
             let ideal = self.ideal_flanks(placed, plane, zero);
             if plane.section_m == middle.0.section_m {
                 at_middle = Some(ideal);
@@ -350,13 +371,12 @@ impl MeshKinematics {
         if self.helix.is_some() && contacts.1 == 0 {
             return;
         }
-        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, &middle.0, &middle.1));
+        let ideal = at_middle.unwrap_or_else(|| self.ideal_flanks(placed, middle.0, middle.1));
         if self.helix.is_none() {
-            let section = self.section(placed.frame, &ideal);
-            found.sections.push(Section {
-                contacts,
-                ..section
-            });
+            let mut section = self.section(placed.frame, &ideal);
+            section.contacts = contacts;
+            self.touch(&mut section);
+            found.sections.push(section);
         }
         found.lines.push(TeethLine {
             teeth: placed.teeth,
@@ -387,11 +407,11 @@ impl MeshKinematics {
         }
     }
 
-    /// The section of a whole slice, without its contacts.
+    /// The section of a whole slice, without its contacts and what [`Self::touch`] makes.
     fn section(&self, frame: &MeshFrame, ideal: &IdealFlanks) -> Section {
         let width_m = self.layout.reference.width_m;
         let rate = frame.zone.width_by_displacement / width_m;
-        let mut section = Section {
+        Section {
             roll_rad: ideal.roll_rad,
             touching_roll_rad: ideal.roll_rad,
             roll_gradient: ideal.roll_gradient,
@@ -401,9 +421,7 @@ impl MeshKinematics {
             radius_m: 0.0,
             radius_growth: [0.0; 2],
             contacts: (0, 0),
-        };
-        self.touch(&mut section);
-        section
+        }
     }
 
     /// Makes of a section what follows from its roll angles and its share: where it touches, how long, how curved.
@@ -455,13 +473,13 @@ impl MeshKinematics {
     #[must_use]
     pub fn gap_curvature(
         &self,
-        found: &FlankContacts,
+        (at, placed): (&PoseGeometry, &SidePlanes),
         slice: usize,
         side: Flank,
         roll_rad: [f64; 2],
     ) -> Matrix6 {
-        let (plane, zero) = (&found.planes[slice], &found.zeros[slice]);
-        let Some(frame) = &found.frame else {
+        let (plane, zero) = (&placed.planes[slice], &placed.zeros[slice]);
+        let Some(frame) = &at.frame else {
             return Matrix6::zeros();
         };
         let base_radii_m = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];

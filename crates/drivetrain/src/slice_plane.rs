@@ -12,6 +12,7 @@ use nalgebra::{SMatrix, Vector3};
 use crate::error::DrivetrainError;
 use crate::mesh_frame::{MeshFrame, ZoneSection, turn_of_spin_gradient};
 use crate::pose::Vector6;
+use crate::tooth_zero::ToothZero;
 
 /// 6×6 matrix on the increments of a pose.
 pub type Matrix6 = SMatrix<f64, 6, 6>;
@@ -40,6 +41,15 @@ pub struct SlicePlane {
     /// ∂s and ∂(s + F/2).
     pub(crate) section_gradient: Vector6,
     pub(crate) plane_gradient: Vector6,
+}
+
+/// The slice planes of one side of the teeth at a pose. Reused from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct SidePlanes {
+    /// The planes.
+    pub planes: Vec<SlicePlane>,
+    /// The flanks of tooth 0 in them.
+    pub(crate) zeros: Vec<ToothZero>,
 }
 
 /// What both sides of the teeth share in a slice plane.

@@ -6,10 +6,13 @@ mod mesh_common;
 use std::sync::Arc;
 
 use gearmesh_contact::tip_contact::{TipContact, TipGear};
-use gearmesh_contact::{ContactLine, ContactLines};
+use gearmesh_contact::{
+    ContactLine, ContactLines, FlankPlace, FlankSurface, InvoluteSurface, RelativeCurvature,
+    SurfaceCurvature,
+};
 use gearmesh_drivetrain::errors::deviation_table::DeviationTable;
 use gearmesh_drivetrain::errors::pitch::PitchErrors;
-use gearmesh_drivetrain::flank_contacts::FlankErrors;
+use gearmesh_drivetrain::flank_contacts::{FlankErrors, ToothContact};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::microgeometry::{ProfileCrowning, ReliefShape, TipRelief};
@@ -179,7 +182,7 @@ fn gaps_are_those_of_the_static_scene() {
                 let from_axis_2 = pitch_point - Vector3::new(pair.centre_distance_m, 0.0, 0.0);
                 let shift = from_axis_2 - about(tilt, 1.0) * from_axis_2;
                 let at = pose(&pair, phi, shift, tilt);
-                kinematics.contacts(&at, side, &mut found).unwrap();
+                let (_, placed) = kinematics.contacts(&at, side, &mut found).unwrap();
                 assert_eq!(found.lines.len(), seen.len(), "angle {theta}");
                 for line in &found.lines {
                     let twin = seen
@@ -193,7 +196,7 @@ fn gaps_are_those_of_the_static_scene() {
                     let (first, count) = line.contacts;
                     assert_eq!(count, SLICES);
                     for contact in &found.contacts[first..first + count] {
-                        let z = found.planes[contact.slice].section_m;
+                        let z = placed.planes[contact.slice].section_m;
                         let expected = lines.separation_m(twin, z) + te;
                         let off = contact.gap_m - expected;
                         assert!(off.abs() < tolerance + 1e-16, "{off:e} at {theta}, z {z}");
@@ -214,7 +217,7 @@ fn flank_points_are_the_gap_apart() {
         let phi = angles(&pair, side, 1.234, 40e-6);
         let shift = Vector3::new(0.3e-3, -0.2e-3, 0.0);
         let at = pose(&pair, phi, shift, Vector3::zeros());
-        kinematics.contacts(&at, side, &mut found).unwrap();
+        let (_, placed) = kinematics.contacts(&at, side, &mut found).unwrap();
         assert!(!found.lines.is_empty());
         for line in &found.lines {
             let point = |gear: usize, tooth: &gearmesh_geometry::ToothGeometry| {
@@ -228,7 +231,7 @@ fn flank_points_are_the_gap_apart() {
             let apart = centre + point(1, &pair.gear_2) - point(0, &pair.gear_1);
             assert!((apart.norm() - line.ideal_gap_m.abs()).abs() < 1e-14);
             // w in the world
-            let plane = found.planes[SLICES / 2];
+            let plane = placed.planes[SLICES / 2];
             let normal = about(Vector3::z(), phi[0]) * plane.normal;
             let along = apart.dot(&normal.xy());
             assert!((along - line.ideal_gap_m).abs() < 1e-14, "{along}");
@@ -295,15 +298,15 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
             let at = pose(&pair, phi, Vector3::new(1e-4, 2e-4, 1e-3), tilt);
             let found = |at: &Pose| {
                 let mut found = FlankContacts::default();
-                ideal.contacts(at, side, &mut found).unwrap();
-                found
+                let (at, planes) = ideal.contacts(at, side, &mut found).unwrap();
+                (found, at, planes)
             };
-            let base = found(&at);
+            let (base, at_base, planes) = found(&at);
             for direction in 0..6 {
                 let h = 1e-7;
                 let mut step = Vector6::zeros();
                 step[direction] = h;
-                let (after, before) = (found(&moved(&at, &step)), found(&moved(&at, &-step)));
+                let (after, before) = (found(&moved(&at, &step)).0, found(&moved(&at, &-step)).0);
                 for (i, contact) in base.contacts.iter().enumerate() {
                     let section = base.section(contact);
                     if (0..2).any(|gear| !section.walks(gear)) {
@@ -312,7 +315,8 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
                     let change =
                         (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
                     let roll_rad = section.roll_rad;
-                    let curvature = ideal.gap_curvature(&base, contact.slice, side, roll_rad);
+                    let placed = (&at_base, &planes);
+                    let curvature = ideal.gap_curvature(placed, contact.slice, side, roll_rad);
                     let off = (change - curvature.column(direction)).norm();
                     worst = worst.max(off / (1.0 + change.norm()));
                 }
@@ -396,4 +400,71 @@ fn impossible_poses_are_refused() {
     assert!(close.contains("base radii"), "{close}");
     let nan = refuse(Vector3::new(f64::NAN, 0.0, 0.0), Vector3::zeros());
     assert!(nan.contains("NaN"), "{nan}");
+}
+
+/// Flanks as surfaces: normals are across the points' differences, turn along the principal directions as the curvatures say, the area is that
+/// between neighbouring points; where two flanks touch, the relative curvature across the contact line is that of the mesh, along it none.
+#[test]
+fn involute_flanks_are_surfaces_with_the_curvature_of_the_mesh() {
+    for (pair, side) in [spur_pair(), helical_pair(19.0), helical_pair(-14.0)]
+        .into_iter()
+        .flat_map(|pair| SIDES.map(|side| (pair.clone(), side)))
+    {
+        let tooth = [&pair.gear_1, &pair.gear_2];
+        let surface = tooth.map(|tooth| InvoluteSurface { tooth, flank: side });
+        let (u, v, h) = (0.5, 3e-3, 1e-6);
+        let at = |u: f64, v: f64| FlankPlace { u, v };
+        for surface in surface {
+            let normal = surface.normal(at(u, v));
+            let slope = |f: &dyn Fn(f64) -> Vector3<f64>| (f(h) - f(-h)) / (2.0 * h);
+            let by_u = [
+                slope(&|d| surface.point_m(at(u + d, v))),
+                slope(&|d| surface.normal(at(u + d, v))),
+            ];
+            let by_v = [
+                slope(&|d| surface.point_m(at(u, v + d))),
+                slope(&|d| surface.normal(at(u, v + d))),
+            ];
+            assert!((normal.norm() - 1.0).abs() < 1e-14);
+            assert!(normal.dot(&by_u[0]).abs() < 1e-10 && normal.dot(&by_v[0]).abs() < 1e-8);
+            let area = by_u[0].cross(&by_v[0]).norm();
+            assert!((surface.area(at(u, v)) / area - 1.0).abs() < 1e-8);
+            // The normal into the material turns with a convex surface: dn = −κ dx in each principal direction.
+            let curvature = surface.curvature(at(u, v));
+            let second = normal.cross(&curvature.first);
+            for [point, turn] in [by_u, by_v] {
+                let [along, across] = curvature.principal_per_m;
+                let expected = along * point.dot(&curvature.first) * curvature.first
+                    + across * point.dot(&second) * second;
+                let off = (turn + expected).norm();
+                assert!(off <= 1e-7 * turn.norm(), "{off:e} of {turn}");
+            }
+        }
+        // Gear 2 turned so that the flanks of tooth 0 face each other: normals opposite, one generator.
+        let phi = angles(&pair, side, 0.1, 0.0);
+        let here = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+        let mut found = FlankContacts::default();
+        let kinematics = kinematics(&pair);
+        let (_, placed) = kinematics.contacts(&here, side, &mut found).unwrap();
+        let on_path = |c: &&ToothContact| (0..2).all(|gear| found.section(c).walks(gear));
+        let contact = found.contacts.iter().find(on_path).unwrap();
+        let section = found.section(contact);
+        let normal: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
+        // Towards the tip of gear 1 is across the line of action; of gear 2 the other way.
+        let across = placed.planes[contact.slice].across;
+        let curvatures = [0, 1].map(|gear: usize| {
+            let place = at(section.touching_roll_rad[gear], contact.heights_m[gear]);
+            let own = surface[gear].curvature(place);
+            SurfaceCurvature {
+                first: across,
+                ..own
+            }
+        });
+        let relative = RelativeCurvature::new(normal, curvatures);
+        let [least, largest] = relative.principal_per_m;
+        assert!((largest * section.radius_m - 1.0).abs() < 1e-12);
+        assert!(least.abs() < 1e-12 * largest);
+        assert!((relative.along_tangent(&across) / largest - 1.0).abs() < 1e-12);
+        assert!(relative.along.dot(&normal).abs() < 1e-12);
+    }
 }

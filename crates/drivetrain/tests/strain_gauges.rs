@@ -33,6 +33,8 @@ fn gauges_read_the_forces_on_the_flanks() {
             let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
             let turning = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
             mesh.evaluate(&moving(&at, &turning), false).unwrap();
+            let seen = kinematics(&pair).contacts(&at, side, &mut FlankContacts::default());
+            let planes = seen.unwrap().1.planes;
             for gear in [1, 2] {
                 let model = &models[gear - 1];
                 let mut gauges =
@@ -42,8 +44,7 @@ fn gauges_read_the_forces_on_the_flanks() {
                 let coefficients = mesh.friction_coefficients(side);
                 assert!(coefficients.iter().any(|c| c.abs() > 0.99 * mu));
                 let slices = flanks.contacts.iter().enumerate().map(|(i, contact)| {
-                    let (line, plane) =
-                        (&flanks.lines[contact.line], &flanks.planes[contact.slice]);
+                    let (line, plane) = (&flanks.lines[contact.line], &planes[contact.slice]);
                     let roll_rad = flanks.section(contact).touching_roll_rad;
                     let (w, across) = (plane.normal, plane.across);
                     let r1 = pair.gear_1.base_radius_m;

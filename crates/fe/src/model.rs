@@ -309,7 +309,7 @@ impl FeModel {
     }
 
     /// Strain operator (1/m) of one element at a natural point, modes included; see
-    /// [`Element::strain_operator`]. Columns follow [`FeModel::element_dofs`].
+    /// [`ElementFormulas::strain_operator`]. Columns follow [`FeModel::element_dofs`].
     ///
     /// # Errors
     /// [`FeError::ElementOutOfRange`]; [`FeError::Element`].

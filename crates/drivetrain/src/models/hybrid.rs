@@ -15,14 +15,13 @@
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
-    ContactLines, ContactPatch, ContactZone, Drive, FlankPlace, LocalContact, PatchBalance,
-    SliceLayout, nlcp::FLOOR_FRACTION,
+    ContactLines, ContactPatch, ContactZone, Drive, LocalContact, SliceLayout, nlcp::FLOOR_FRACTION,
 };
 use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
-use crate::flank_contacts::{FlankContacts, TeethLine};
+use crate::flank_contacts::FlankContacts;
 use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -146,9 +145,7 @@ impl ReducedTeeth {
 
     /// Refuses gears that have moved along their axes so far that the slices would stand for other parts of the teeth.
     fn check_displacement(&self, flanks: &FlankContacts) -> Result<(), DrivetrainError> {
-        let (reference, allowed_m) = (self.layout().reference, self.layout().width_m());
-        let at = flanks.zone().map_or(reference, |zone| *zone);
-        let moved_m = at.displacement_m - reference.displacement_m;
+        let (moved_m, allowed_m) = (flanks.along_teeth.moved_m, self.layout().width_m());
         if moved_m.abs() <= allowed_m {
             return Ok(());
         }
@@ -171,8 +168,7 @@ impl ReducedTeeth {
             for i in first..first + count {
                 if flanks.contacts[i].gap_m <= reach {
                     self.row[i] = self.patches.len();
-                    self.patches
-                        .push(patch(flanks, (self.teeth.len(), line), i));
+                    self.patches.push(flanks.patch((self.teeth.len(), line), i));
                 }
             }
             if self.patches.len() > begin {
@@ -282,29 +278,6 @@ impl ReducedTeeth {
                 loads.energy_by_share[number] = growing.sum();
             }
         }
-    }
-}
-
-/// The patch of a contact.
-fn patch(flanks: &FlankContacts, (number, line): (usize, &TeethLine), i: usize) -> ContactPatch {
-    let contact = &flanks.contacts[i];
-    let section = flanks.section(contact);
-    ContactPatch {
-        teeth: line.teeth,
-        line: number,
-        slice: contact.slice,
-        places: [0, 1].map(|gear: usize| FlankPlace {
-            u: section.touching_roll_rad[gear],
-            v: contact.heights_m[gear],
-        }),
-        share: section.share,
-        length_m: section.length_m,
-        radius_m: section.radius_m,
-        radius_growth: section.radius_growth,
-        normal: [0, 1, 2].map(|axis: usize| contact.gradient[axis]),
-        gap_m: contact.gap_m,
-        balance: PatchBalance::ALONG_NORMALS,
-        edge: None,
     }
 }
 

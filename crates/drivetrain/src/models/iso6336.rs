@@ -216,7 +216,7 @@ impl TeethModel for MeshSpring {
             let beyond = [0, 1].map(|i| section.roll_rad[i] - section.touching_roll_rad[i]);
             beyond.iter().map(|rad| rad.max(0.0)).sum()
         };
-        let [r1, r2] = (flanks.frame.as_ref()).map_or([1.0, 1.0], |frame| frame.base_radii_m);
+        let [r1, r2] = flanks.action_m_per_u;
         let from_middle = |section: &Section| {
             let [of_1, of_2] = section.roll_rad.map(|roll| roll - self.middle_roll_rad);
             (r1 * of_1 - r2 * of_2).abs()

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_3;
 
 use gearmesh_contact::slice_contact::SliceContact;
-use gearmesh_contact::{AxialSpread, LocalContact, SliceCompliance, SliceLayout};
+use gearmesh_contact::{AxialSpread, LocalContact, ProfileHats, SliceCompliance, SliceLayout};
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
@@ -18,17 +18,16 @@ use crate::{DAMPINGS, friction};
 /// Length over which slices are laid \[m\].
 const LENGTH: f64 = 4e-3;
 /// Distance of the gears' axes \[m\].
-const DISTANCE: f64 = 0.1;
+pub const DISTANCE: f64 = 0.1;
 
-/// Both cylinders reach to halfway between the gears; gear 1's lies along its axis.
-fn cylinders() -> CrownedCylinders {
-    let [r1, r2] = [20e-3, 30e-3];
+/// Cylinders of these radii, their axes bent to circles, just touching halfway between the gears; gear 1's lies along its axis.
+pub fn crossed([r1, r2]: [f64; 2], axis_radius_m: f64, layout: SliceLayout) -> CrownedCylinders {
     let halfway = Vector3::new(0.5 * DISTANCE, 0.0, 0.0);
     let cylinder = |end: Vector3<f64>, outwards: Vector3<f64>, along, radius_m| CrownedCylinder {
-        centre_m: end - outwards,
+        centre_m: end - axis_radius_m * outwards,
         outwards,
         along,
-        axis_radius_m: 1.0,
+        axis_radius_m,
         radius_m,
     };
     let (sin, cos) = FRAC_PI_3.sin_cos();
@@ -40,8 +39,15 @@ fn cylinders() -> CrownedCylinders {
         crossed,
         r2,
     );
-    let layout = SliceLayout::new([LENGTH; 2], 0.0, SLICES);
-    CrownedCylinders::new([first, second], FRAC_PI_3, layout)
+    CrownedCylinders::new([first, second], layout)
+}
+
+pub fn cylinders() -> CrownedCylinders {
+    crossed(
+        [20e-3, 30e-3],
+        1.0,
+        SliceLayout::new([LENGTH; 2], 0.0, SLICES),
+    )
 }
 
 /// Two bodies of the made-up compliance, which depends on the place along the profile.
@@ -55,13 +61,19 @@ fn bodies() -> [ReducedGear; 2] {
     })
 }
 
-fn reduced() -> ReducedTeeth {
+pub fn reduced_slices() -> SliceContact {
     let local = LocalContact::WeberBanaschek;
     let compliance = bodies().map(|body| {
-        SliceCompliance::on_slices(&body, Flank::Right, local, &AxialSpread::own(&body)).unwrap()
+        // As far along a cylinder, as much area.
+        let hats = ProfileHats::new(&body.grid.roll_angles_rad, |_| 1.0);
+        let grid = (hats, &AxialSpread::own(&body));
+        SliceCompliance::on_grid(&body, Flank::Right, local, grid).unwrap()
     });
-    let slices = SliceContact::new(cylinders().layout, compliance, local, 1);
-    ReducedTeeth::of_flanks(slices, 2000.0).unwrap()
+    SliceContact::new(cylinders().layout, compliance, local, 1)
+}
+
+fn reduced() -> ReducedTeeth {
+    ReducedTeeth::of_flanks(reduced_slices(), 2000.0).unwrap()
 }
 
 fn mesh_of(teeth: impl TeethModel + 'static) -> GearMesh {

@@ -1,6 +1,6 @@
 //! A family of flanks that is no involute: two crowned cylinders on crossed axes, one on each gear.
 
-use gearmesh_contact::SliceLayout;
+use gearmesh_contact::{RelativeCurvature, SliceLayout, SurfaceCurvature};
 use gearmesh_drivetrain::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
 use gearmesh_drivetrain::pose::{Pose, Vector6};
 use gearmesh_drivetrain::slice_plane::Matrix6;
@@ -29,13 +29,13 @@ impl CrownedCylinder {
         [self.centre_m + radial, tangent, -radial]
     }
 
-    /// Curvature across the axis less that along it, and their sum \[1/m\].
-    fn curvatures(&self) -> [f64; 2] {
-        let (across, along) = (
-            1.0 / self.radius_m,
-            1.0 / (self.axis_radius_m + self.radius_m),
-        );
-        [across - along, across + along]
+    /// Curvature at the crown, first along the axis.
+    fn curvature(&self) -> SurfaceCurvature {
+        let along = 1.0 / (self.axis_radius_m + self.radius_m);
+        SurfaceCurvature {
+            principal_per_m: [along, 1.0 / self.radius_m],
+            first: self.along,
+        }
     }
 }
 
@@ -61,16 +61,13 @@ pub struct CrownedCylinders {
 }
 
 impl CrownedCylinders {
-    /// Two cylinders whose axes cross at an angle where the crowns touch.
-    pub fn new(cylinders: [CrownedCylinder; 2], crossing_rad: f64, layout: SliceLayout) -> Self {
-        let [[d1, sum_1], [d2, sum_2]] = cylinders.map(|cylinder| cylinder.curvatures());
-        let mixed = 2.0 * d1 * d2 * (2.0 * crossing_rad).cos();
-        let difference = (d1 * d1 + d2 * d2 + mixed).sqrt();
-        let sum = sum_1 + sum_2;
+    /// Two cylinders that face each other with their crowns.
+    pub fn new(cylinders: [CrownedCylinder; 2], layout: SliceLayout) -> Self {
+        let surfaces = cylinders.map(|cylinder| cylinder.curvature());
         Self {
             cylinders,
             layout,
-            curvatures: [0.5 * (sum - difference), 0.5 * (sum + difference)],
+            curvatures: RelativeCurvature::new(cylinders[0].outwards, surfaces).principal_per_m,
             at: None,
         }
     }
@@ -145,7 +142,7 @@ impl FlankKinematics for CrownedCylinders {
         Ok(())
     }
 
-    fn contacts(&self, pose: &Pose, _side: Flank, found: &mut FlankContacts) {
+    fn contacts(&mut self, pose: &Pose, _side: Flank, found: &mut FlankContacts) {
         found.clear();
         let (_, nearest) = self.last();
         let slices = self.layout.slices;

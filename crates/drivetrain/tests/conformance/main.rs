@@ -7,6 +7,7 @@ mod crowned_cylinders;
 mod effects;
 mod energy;
 mod exchange;
+mod hertz;
 mod invariance;
 #[path = "../mesh_common/mod.rs"]
 mod mesh_common;

@@ -78,7 +78,7 @@ fn loads_follow_from_the_energy() {
                 assert!(scale > 100.0, "{name} {number}: {scale}");
                 let (found, forces) = mesh.side(Flank::Right).unwrap();
                 let loaded = found.contacts.iter().zip(forces).filter(|(_, f)| **f > 0.0);
-                let whole = found.zone().unwrap().width_m / WIDTH - 1e-9;
+                let whole = found.along_teeth.share - 1e-9;
                 partly += loaded
                     .filter(|(contact, _)| found.section(contact).share < whole)
                     .count();

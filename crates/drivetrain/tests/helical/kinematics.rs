@@ -95,7 +95,7 @@ fn the_gap_is_that_of_the_helicoids() {
         let shift = Vector3::new(0.3e-3, -0.2e-3, 0.7e-3);
         let at = pose(&pair, phi, shift, Vector3::zeros());
         let mut found = FlankContacts::default();
-        kinematics.contacts(&at, side, &mut found).unwrap();
+        let (_, placed) = kinematics.contacts(&at, side, &mut found).unwrap();
         let cos = pair.base_helix_angle_rad().cos();
         let mut points = 0;
         for contact in &found.contacts {
@@ -104,7 +104,7 @@ fn the_gap_is_that_of_the_helicoids() {
                 continue;
             }
             points += 1;
-            let plane = &found.planes[contact.slice];
+            let plane = &placed.planes[contact.slice];
             let teeth = found.lines[contact.line].teeth;
             let heights = plane.heights_m;
             let turned = |gear: usize, tooth: &ToothGeometry| {
@@ -192,7 +192,7 @@ fn gradients_agree_with_differences() {
                         assert!(off.abs() < 1e-6, "roll {i} by {direction}: {off:e}");
                     }
                     let share = |set: &FlankContacts, i: usize| set.section(&set.contacts[i]).share;
-                    let whole = here.zone().unwrap().width_m / WIDTH;
+                    let whole = here.along_teeth.share;
                     partly += usize::from(section.share < whole - 1e-9);
                     let off = differ(i, &share) - section.share_gradient[direction];
                     assert!(off.abs() < 1e-4, "share {i} by {direction}: {off:e}");
@@ -215,16 +215,19 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
         let at = pose(&pair, phi, Vector3::new(1e-4, 2e-4, 5e-4), tilt);
         let contacts = |at: &Pose| {
             let mut found = FlankContacts::default();
-            kinematics.contacts(at, side, &mut found).unwrap();
-            found
+            let (at, planes) = kinematics.contacts(at, side, &mut found).unwrap();
+            (found, at, planes)
         };
-        let here = contacts(&at);
+        let (here, at_here, planes) = contacts(&at);
         let mut worst: f64 = 0.0;
         for direction in 0..6 {
             let h = 1e-7;
             let mut step = Vector6::zeros();
             step[direction] = h;
-            let (after, before) = (contacts(&moved(&at, &step)), contacts(&moved(&at, &-step)));
+            let (after, before) = (
+                contacts(&moved(&at, &step)).0,
+                contacts(&moved(&at, &-step)).0,
+            );
             for (i, contact) in here.contacts.iter().enumerate() {
                 let section = here.section(contact);
                 if (0..2).any(|gear| !section.walks(gear)) {
@@ -232,7 +235,8 @@ fn the_curvature_is_right_to_first_order_of_the_tilt() {
                 }
                 let change = (after.contacts[i].gradient - before.contacts[i].gradient) / (2.0 * h);
                 let roll_rad = section.roll_rad;
-                let curvature = kinematics.gap_curvature(&here, contact.slice, side, roll_rad);
+                let placed = (&at_here, &planes);
+                let curvature = kinematics.gap_curvature(placed, contact.slice, side, roll_rad);
                 let off = change - curvature.column(direction);
                 worst = worst.max(off.norm() / (1e-3 + change.norm()));
             }
