@@ -30,11 +30,12 @@ const ONLINE: [&str; 9] = [
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 17] = [
-    ("geometry", &[]),
-    ("mesh", &["geometry"]),
-    ("fe", &[]),
-    ("model", &["geometry"]),
+const ALLOWED: [(&str, &[&str]); 18] = [
+    ("elements", &[]),
+    ("geometry", &["elements"]),
+    ("mesh", &["elements", "geometry"]),
+    ("fe", &["elements"]),
+    ("model", &["elements", "geometry"]),
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
