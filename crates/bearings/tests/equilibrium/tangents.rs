@@ -5,15 +5,15 @@ use gearmesh_bearings::{Control, Operation, QuasiStaticBearing, RingLoad, RingPo
 use nalgebra::{Matrix6, Vector5, Vector6};
 
 /// Numbers between −1 and 1, the same in every run.
-struct Numbers(u64);
+struct Numbers(fastrand::Rng);
 
 impl Numbers {
+    fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        2.0 * self.0.f64() - 1.0
     }
 }
 
@@ -83,7 +83,7 @@ fn check(
 ) -> usize {
     let bearing = bearing(text);
     let arm = bearing.rows[0].pitch_radius_m();
-    let mut numbers = Numbers(states as u64 + text.len() as u64);
+    let mut numbers = Numbers::new(states as u64 + text.len() as u64);
     let (mut mixed, mut done, mut unjudged) = (0, 0, 0);
     while done < states {
         let q = Vector5::new(
