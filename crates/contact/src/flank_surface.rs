@@ -1,11 +1,12 @@
-//! A flank as a surface over its grid's coordinates (u, v): points, normals, curvatures; and how two such surfaces face each other.
+//! A flank as a surface over its grid's coordinates (u, v): points, normals, curvatures; and how two such surfaces face
+//! each other.
 //!
-//! What a kinematics of flanks needs to make patches of any family: where two surfaces touch, κ = κ₁ + κ₂ is their relative curvature in each direction
-//! of the common tangent plane. A patch has 1/κ across its line as `radius_m`; along the line κ opens the gap by ½ κ v².
-//! Nothing here is asked in a solve: patches carry the numbers.
+//! What a kinematics of flanks needs to make patches of any family: where two surfaces touch, κ = κ₁ + κ₂ is their
+//! relative curvature in each direction of the common tangent plane. A patch has 1/κ across its line as `radius_m`;
+//! along the line κ opens the gap by ½ κ v². Nothing here is asked in a solve: patches carry the numbers.
 //!
-//! Involute helicoid (W. Dudley, Gear Handbook): straight along its generators, which lean by β_b; across them the radius of curvature is
-//! r_b ξ/cos β_b.
+//! Involute helicoid (F. L. Litvin, A. Fuentes, Gear Geometry and Applied Theory): straight along its generators, which
+//! lean by β_b; across them the radius of curvature is r_b ξ/cos β_b.
 
 use gearmesh_geometry::{Flank, ToothGeometry};
 use nalgebra::Vector3;

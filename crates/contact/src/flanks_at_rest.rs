@@ -10,8 +10,9 @@ use crate::contact_patch::ContactPatch;
 
 /// Flanks of two gears of which gear 1 is turned and gear 2 follows.
 pub trait FlanksAtRest {
-    /// Finds the patches that touch or may touch at a driver angle \[rad\], line by line, into `patches`, which is empty. Gaps are those where
-    /// the transmission error is zero, and close with the approach −TE as [`crate::PatchBalance::closing`] says.
+    /// Finds the patches that touch or may touch at a driver angle \[rad\], line by line, into `patches`, which is
+    /// empty. Gaps are those where the transmission error is zero, and close with the approach −TE as
+    /// [`crate::PatchBalance::closing`] says.
     ///
     /// # Errors
     /// What keeps the gears from meshing there.
@@ -24,6 +25,7 @@ pub trait FlanksAtRest {
     /// Lines at the last driver angle; some may have no patch.
     fn lines(&self) -> usize;
 
-    /// Radius \[m\] at gear 2 along whose circle the transmission error is counted; of involute gears that of the base circle.
+    /// Radius \[m\] at gear 2 along whose circle the transmission error is counted; of involute gears that of the base
+    /// circle.
     fn radius_2_m(&self) -> f64;
 }

@@ -1,5 +1,5 @@
-//! Involute pairs at rest with friction, errors of single flanks (flank_deviations.rs), and gears that stand beside the axes about which they
-//! turn (runout.rs): the patches of their contact lines (contact_lines.rs).
+//! Involute pairs at rest with friction, errors of single flanks (flank_deviations.rs), and gears that stand beside the
+//! axes about which they turn (runout.rs): the patches of their contact lines (contact_lines.rs).
 
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};

@@ -19,7 +19,8 @@
 use crate::nlcp::{LineContact, LocalLaw, LocalLawError};
 use std::f64::consts::PI;
 
-/// Local contact compliance added to the model's; its words in files and on the command line are those of [`LocalContact::name`].
+/// Local contact compliance added to the model's; its words in files and on the command line are those of
+/// [`LocalContact::name`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocalContact {

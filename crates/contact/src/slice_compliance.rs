@@ -77,8 +77,8 @@ impl SliceCompliance {
         Self::on_grid(gear, flank, local, (hats, spread))
     }
 
-    /// Condenses the grid of a flank of any family: `hats` and `spread` say where loads between its stations sit along the profile and along
-    /// the tooth.
+    /// Condenses the grid of a flank of any family: `hats` and `spread` say where loads between its stations sit along
+    /// the profile and along the tooth.
     ///
     /// # Errors
     /// As [`Self::on_slices`].

@@ -52,7 +52,8 @@ pub struct ContactState {
     pub info: Info,
 }
 
-/// Contact of two reduced gears, with all memory it needs; F: the family of their flanks, involute ones where nothing is said.
+/// Contact of two reduced gears, with all memory it needs; F: the family of their flanks, involute ones where nothing
+/// is said.
 #[derive(Debug, Clone)]
 pub struct StaticContact<F = InvoluteAtRest> {
     flanks: F,

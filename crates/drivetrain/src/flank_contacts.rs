@@ -1,4 +1,5 @@
-//! Tooth flanks that face each other at a pose: pairs of teeth, the sections they are seen in, and their slices, whatever the family of the gears.
+//! Tooth flanks that face each other at a pose: pairs of teeth, the sections they are seen in, and their slices,
+//! whatever the family of the gears.
 
 use std::sync::Arc;
 
@@ -149,8 +150,8 @@ impl Default for AlongTeeth {
 pub struct FlankContacts {
     /// Where the slices stand along the teeth.
     pub along_teeth: AlongTeeth,
-    /// How far a contact moves along the line of action as it walks over gear 1's and gear 2's flank \[m\] per unit of u; on involute
-    /// flanks the base radii.
+    /// How far a contact moves along the line of action as it walks over gear 1's and gear 2's flank \[m\] per unit of
+    /// u; on involute flanks the base radii.
     pub action_m_per_u: [f64; 2],
     /// Pairs of teeth.
     pub lines: Vec<TeethLine>,

@@ -3,7 +3,9 @@
 //! | family | file |
 //! | --- | --- |
 //! | involute teeth, spur and helical, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
+//! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/conformance/crowned_cylinders.rs` |
 //!
+//! At rest, [`crate::PosedFlanks`] makes of any family what a static contact asks for.
 //! A family finds the patches that face each other at a pose, with their gaps and derivatives ([`FlankContacts`]). Models, friction, modes and
 //! the assembly of the load ask for no more.
 
@@ -69,7 +71,8 @@ pub trait FlankKinematics: Send {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError>;
 
-    /// Second derivative of the gap of a contact that [`Self::contacts`] found last on this side by the increments of the pose.
+    /// Second derivative of the gap of a contact that [`Self::contacts`] found last on this side by the increments of
+    /// the pose.
     fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
 
     /// Σ F ∂²gap over all contacts with their forces \[N\].
@@ -80,7 +83,8 @@ pub trait FlankKinematics: Send {
         })
     }
 
-    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. k: load on gear 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
+    /// The contacts are those that [`Self::contacts`] found last on this side, as in all that follows. k: load on gear
+    /// 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
     fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6;
 
     /// ∂k by the increments of the pose.

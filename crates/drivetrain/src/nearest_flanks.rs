@@ -16,7 +16,7 @@ use gearmesh_geometry::{Flank, ToothGeometry};
 use crate::gear_mesh::GearMesh;
 use crate::mesh_frame::PoseGeometry;
 use crate::mesh_kinematics::MeshKinematics;
-use crate::slice_plane::CentreLine;
+use crate::slice_plane::{CentreLine, SlicePlane};
 use crate::tooth_zero::ToothZero;
 
 impl MeshKinematics {
@@ -25,6 +25,35 @@ impl MeshKinematics {
     pub fn base_pitch_m(&self) -> f64 {
         let gear = &self.gears[0];
         TAU * gear.base_radius_m / gear.teeth as f64
+    }
+
+    /// Gap \[m\] of ideal flanks of one side in the middle of the zone if no flanks of that side can touch at a pose
+    /// that has been located; none if some might. Spur teeth only: in each plane all their pairs have the same ideal
+    /// gap.
+    pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
+        let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
+        let frame = at.frame.as_ref()?;
+        let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let rolls =
+            |plane: &SlicePlane| ToothZero::rolls_rad(&self.gears, frame.spin_rad, side, plane);
+        let plane = middle.plane(frame, side);
+        let [roll_1, roll_2] = rolls(&plane);
+        let touching = (plane.length_m - r1 * roll_1) / r2;
+        let pitch_2 = self.pitch_rad(1);
+        let ahead_2 = ((roll_2 - touching) / pitch_2).round() * pitch_2;
+        let gap_m = |plane: &SlicePlane, [roll_1, roll_2]: [f64; 2]| {
+            plane.length_m - r1 * roll_1 - r2 * (roll_2 - ahead_2)
+        };
+        let middle_gap_m = gap_m(&plane, [roll_1, roll_2]);
+        let is_open = |(slice, line): (usize, &CentreLine)| {
+            if Some(slice) == at.middle_slice() {
+                return middle_gap_m > self.most_added_m;
+            }
+            let plane = line.plane(frame, side);
+            gap_m(&plane, rolls(&plane)) > self.most_added_m
+        };
+        let mut slices = at.slices.iter().enumerate();
+        slices.all(is_open).then_some(middle_gap_m)
     }
 
     /// Transverse gap \[m\] in the middle of the zone of the pair of ideal flanks that is nearest, continued beyond their ends: at most half a base

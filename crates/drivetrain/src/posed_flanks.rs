@@ -1,8 +1,9 @@
 //! Flanks of any family at rest: those of a gear mesh at the pose of the driver angle.
 //!
-//! The pose at which the transmission error is zero is given for each driver angle θ₁. From there gear 2 gives way about its own axis e₂; with u its
-//! place and g the gradient of a gap by the increments of the pose, R₂ the radius along which the transmission error is counted and σ = ±1 for
-//! right and left flanks, a normal force of one newton makes the torques
+//! The pose at which the transmission error is zero is given for each driver angle θ₁. From there gear 2 gives way
+//! about its own axis e₂; with u its place and g the gradient of a gap by the increments of the pose, R₂ the radius
+//! along which the transmission error is counted and σ = ±1 for right and left flanks, a normal force of one newton
+//! makes the torques
 //!
 //! ```text
 //! b₁ = −σ g·(e_z × u, e_z),     b₂ = σ g·(0, e₂)          and the approach closes the gap at the rate b₂/R₂
@@ -29,8 +30,8 @@ pub struct PosedFlanks<K, P> {
 }
 
 impl<K: FlankKinematics, P: Fn(f64) -> Pose> PosedFlanks<K, P> {
-    /// The flanks of one side; `pose_at`: where gear 2 stands at a driver angle \[rad\] with zero transmission error, which is counted at the radius
-    /// `radius_2_m`.
+    /// The flanks of one side; `pose_at`: where gear 2 stands at a driver angle \[rad\] with zero transmission error,
+    /// which is counted at the radius `radius_2_m`.
     pub fn new(kinematics: K, side: Flank, radius_2_m: f64, pose_at: P) -> Self {
         Self {
             found: FlankContacts::with_capacity(kinematics.capacity()),

@@ -402,8 +402,9 @@ fn impossible_poses_are_refused() {
     assert!(nan.contains("NaN"), "{nan}");
 }
 
-/// Flanks as surfaces: normals are across the points' differences, turn along the principal directions as the curvatures say, the area is that
-/// between neighbouring points; where two flanks touch, the relative curvature across the contact line is that of the mesh, along it none.
+/// Flanks as surfaces: normals are across the points' differences, turn along the principal directions as the
+/// curvatures say, the area is that between neighbouring points; where two flanks touch, the relative curvature across
+/// the contact line is that of the mesh, along it none.
 #[test]
 fn involute_flanks_are_surfaces_with_the_curvature_of_the_mesh() {
     for (pair, side) in [spur_pair(), helical_pair(19.0), helical_pair(-14.0)]

@@ -2,7 +2,8 @@
 
 use crate::cell_kind::CellKind;
 
-/// Kind and formulation of an element. A gear file may name those without wedges, which only fill gaps of imported meshes.
+/// Kind and formulation of an element. A gear file may name those without wedges, which only fill gaps of imported
+/// meshes.
 #[derive(
     Debug,
     Clone,

@@ -1,5 +1,5 @@
-//! Kinds of finite elements, for all who name, mesh, compute or store them: [`CellKind`] by the nodes, [`Element`] by the
-//! formulation. Numbering of nodes and edges stands here and nowhere else; formulas are in `gearmesh-fe`.
+//! Kinds of finite elements, for all who name, mesh, compute or store them: [`CellKind`] by the nodes, [`Element`] by
+//! the formulation. Numbering of nodes and edges stands here and nowhere else; formulas are in `gearmesh-fe`.
 
 mod cell_kind;
 mod element;

@@ -130,8 +130,8 @@ pub use mass::{assemble_mass, mass_moments, mass_product};
 pub use material::{LameParameters, Material, von_mises};
 pub use model::{ElementBlock, FeModel};
 pub use modes::{
-    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, search_modes,
-    shifted_stiffness,
+    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, numbers_without_pattern,
+    search_modes, shifted_stiffness,
 };
 pub use ordering::DofOrdering;
 pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};

@@ -1,8 +1,8 @@
 //! Consistent mass matrix: M_ij = ∫ ρ N_i N_j dV in each of the three directions.
 //!
-//! Integrated by [`ElementFormulas::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
-//! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are
-//! inner unknowns of its stiffness only.
+//! Integrated by [`ElementFormulas::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six,
+//! and for straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they
+//! are inner unknowns of its stiffness only.
 
 use faer::{Mat, MatRef};
 use rayon::prelude::*;

@@ -7,8 +7,8 @@ use crate::tooth::ToothGeometry;
 use std::fmt;
 use std::path::PathBuf;
 
-/// Hand of a flank, and so of a side of the teeth; its words in files and on the command line are those of [`Flank::name`]. Teeth
-/// are numbered counter-clockwise seen from +z.
+/// Hand of a flank, and so of a side of the teeth; its words in files and on the command line are those of
+/// [`Flank::name`]. Teeth are numbered counter-clockwise seen from +z.
 #[derive(
     Debug,
     Clone,

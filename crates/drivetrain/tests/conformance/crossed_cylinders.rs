@@ -20,7 +20,8 @@ const LENGTH: f64 = 4e-3;
 /// Distance of the gears' axes \[m\].
 pub const DISTANCE: f64 = 0.1;
 
-/// Cylinders of these radii, their axes bent to circles, just touching halfway between the gears; gear 1's lies along its axis.
+/// Cylinders of these radii, their axes bent to circles, just touching halfway between the gears; gear 1's lies along
+/// its axis.
 pub fn crossed([r1, r2]: [f64; 2], axis_radius_m: f64, layout: SliceLayout) -> CrownedCylinders {
     let halfway = Vector3::new(0.5 * DISTANCE, 0.0, 0.0);
     let cylinder = |end: Vector3<f64>, outwards: Vector3<f64>, along, radius_m| CrownedCylinder {

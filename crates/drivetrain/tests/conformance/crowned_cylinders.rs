@@ -10,7 +10,8 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 
 use crate::mesh_common::moved;
 
-/// A cylinder of this radius whose axis is bent to a circle: all points at one distance from C(s) = o + ρ (x cos s + y sin s).
+/// A cylinder of this radius whose axis is bent to a circle: all points at one distance from C(s) = o + ρ (x cos s + y
+/// sin s).
 #[derive(Clone, Copy)]
 pub struct CrownedCylinder {
     pub centre_m: Vector3<f64>,

@@ -1,4 +1,5 @@
-//! Slices of crossed cylinders against Hertz's point contact, from kinematics to approach; and the same flanks at rest and in motion.
+//! Slices of crossed cylinders against Hertz's point contact, from kinematics to approach; and the same flanks at rest
+//! and in motion.
 
 use std::f64::consts::PI;
 
@@ -34,8 +35,8 @@ fn elliptic(e: f64) -> [f64; 2] {
     [k, k * (1.0 - sum)]
 }
 
-/// Contact ellipse and approach of a force on surfaces of least and largest relative curvature (K. L. Johnson, Contact Mechanics,
-/// section 4.2).
+/// Contact ellipse and approach of a force on surfaces of least and largest relative curvature (K. L. Johnson, Contact
+/// Mechanics, section 4.2).
 struct Hertz {
     /// Half axes of the ellipse \[m\].
     short_m: f64,
@@ -70,14 +71,15 @@ impl Hertz {
     }
 }
 
-/// A half space under strips of width w side by side, each with Hertz's pressure of half width a across and an even load along: at a strip's
-/// middle a line load q of its own and of others gives
+/// A half space under strips of width w side by side, each with Hertz's pressure of half width a across and an even
+/// load along: at a strip's middle a line load q of its own and of others gives
 ///
 /// ```text
 /// δ = 2κ q [ln(2w/a) + ½] + Σ κ q_j ln[(2d_j + 1)/(2d_j − 1)],     κ = (1 − ν²)/(πE),   d: strips apart
 /// ```
 ///
-/// The matrix holds κ `OWN` of the first term, so that it is positive definite, and the logarithm of the local law the rest.
+/// The matrix holds κ `OWN` of the first term, so that it is positive definite, and the logarithm of the local law the
+/// rest.
 fn half_space(slices: usize, width_m: f64) -> ReducedGear {
     const OWN: f64 = 1.5;
     let mut body = pair_common::made_up_gear(&spur_pair().gear_1, slices as f64 * width_m, slices);
@@ -113,7 +115,8 @@ fn half_space(slices: usize, width_m: f64) -> ReducedGear {
     body
 }
 
-/// Where gear 2 stands when gear 1 has turned and it has turned back as much: the cylinders face each other at zero, just touching.
+/// Where gear 2 stands when gear 1 has turned and it has turned back as much: the cylinders face each other at zero,
+/// just touching.
 fn at_zero(_driver_angle_rad: f64) -> Pose {
     Pose::at_rest(Vector3::new(DISTANCE, 0.0, 0.0), Matrix3::identity())
 }
@@ -134,7 +137,8 @@ fn sliced_against_hertz(radii_m: [f64; 2], force_n: f64) -> ([f64; 2], f64) {
     let [least, largest] = crossed(radii_m, CROWN, SliceLayout::new([1e-3; 2], 0.0, 1)).curvatures;
     let hertz = Hertz::new([least, largest], compliance, force_n);
     let aspect = hertz.long_m / hertz.short_m;
-    // Strips as wide as the contact or wider, for which the logarithm is that of a line load; an odd number, a little beyond its ends.
+    // Strips as wide as the contact or wider, for which the logarithm is that of a line load; an odd number, a little
+    // beyond its ends.
     let slices = 2 * (0.5 * (1.1 * aspect - 1.0)) as usize + 1;
     let layout = SliceLayout::new([2.2 * hertz.long_m; 2], 0.0, slices);
     let body = half_space(slices, layout.width_m());
@@ -154,8 +158,9 @@ fn sliced_against_hertz(radii_m: [f64; 2], force_n: f64) -> ([f64; 2], f64) {
     (off, aspect)
 }
 
-/// Slices say nothing of how the load falls within a strip's length, nor of pressure across other strips: of the order of the square of the contact's
-/// width over its length. The approach is 2.9 % too small where the ellipse is 2.8 times as long as wide, 0.9 % at 5.5, below 0.1 % from 11 on.
+/// Slices say nothing of how the load falls within a strip's length, nor of pressure across other strips: of the order
+/// of the square of the contact's width over its length. The approach is 2.9 % too small where the ellipse is 2.8 times
+/// as long as wide, 0.9 % at 5.5, below 0.1 % from 11 on.
 #[test]
 fn slices_of_crossed_cylinders_converge_to_hertz_with_the_slenderness() {
     for (ratio, force_n) in [(3.0, 100.0), (10.0, 1000.0), (40.0, 50.0), (200.0, 100.0)] {
@@ -171,8 +176,8 @@ fn slices_of_crossed_cylinders_converge_to_hertz_with_the_slenderness() {
     }
 }
 
-/// The load that turns gear 2 in motion, at the pose where it comes to rest under a torque, is that torque; the difference is of the order of
-/// the deflection over the length on which compliance and levers change.
+/// The load that turns gear 2 in motion, at the pose where it comes to rest under a torque, is that torque; the
+/// difference is of the order of the deflection over the length on which compliance and levers change.
 #[test]
 fn crossed_cylinders_rest_where_they_balance_in_motion() {
     let mut contact = at_rest(cylinders(), reduced_slices());

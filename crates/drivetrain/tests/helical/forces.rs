@@ -48,11 +48,12 @@ fn right(pair: &GearPair, ends: PathEnds, model: Box<dyn TeethModel>) -> GearMes
 
 /// A pose somewhere in the mesh cycle, displaced in all directions and tilted by so much.
 fn random_pose(pair: &GearPair, number: usize, tilt_rad: f64) -> Pose {
-    let value = |i: usize| ((12.9898 * number as f64 + 78.233 * i as f64).sin() * 43758.5).fract();
-    let theta = 0.2 * value(0);
-    let phi = angles(pair, Flank::Right, theta, -12e-6 - 4e-6 * value(1));
-    let shift = Vector3::new(3e-6 * value(2), 3e-6 * value(3), 5e-5 * value(4));
-    let tilt = tilt_rad * Vector3::new(value(5), value(6), 0.0);
+    let mut random = fastrand::Rng::with_seed(number as u64);
+    let mut value = || 2.0 * random.f64() - 1.0;
+    let theta = 0.2 * value();
+    let phi = angles(pair, Flank::Right, theta, -12e-6 - 4e-6 * value());
+    let shift = Vector3::new(3e-6 * value(), 3e-6 * value(), 5e-5 * value());
+    let tilt = tilt_rad * Vector3::new(value(), value(), 0.0);
     // The axial displacement alone would open or close the flanks by 15 µm.
     pose(
         pair,

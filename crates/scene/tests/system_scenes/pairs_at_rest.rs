@@ -246,7 +246,7 @@ fn misalignment_is_taken_from_a_gearbox() {
          [[body]]\nname = \"pinion\"\ngear = \"gear_30.h5\"\ncardan_deg = [0.0, 0.0, 0.0]\n\
          [[body]]\nname = \"wheel\"\ngear = \"gear_41.h5\"\nposition_mm = [106.8, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, {wheel_deg:?}]\n\
          [[joint]]\nname = \"axle 1\"\nkind = \"fixed\"\nbody_2 = \"pinion\"\n\
-         [[bearing]]\nname = \"bearing\"\nkind = \"linear\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n\
+         [[bearing]]\nname = \"bearing\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n[bearing.model]\nkind = \"linear\"\n\
          radial_stiffness_N_per_mm = 1e7\naxial_stiffness_N_per_mm = 1e7\ntilt_stiffness_Nm_per_rad = 4e4\n\
          [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
          [[gear_mesh]]\nname = \"stage\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\
