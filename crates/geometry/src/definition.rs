@@ -1,6 +1,6 @@
 //! What a gear is: the validated definition, in SI units.
 
-use crate::microgeometry::Microgeometry;
+use crate::microgeometry::GearMicrogeometry;
 use crate::tooth::ToothGeometry;
 use std::path::PathBuf;
 
@@ -410,8 +410,8 @@ pub struct GearDefinition {
     pub blank: Blank,
     /// Material.
     pub material: Material,
-    /// Microgeometry of both flanks.
-    pub microgeometry: Microgeometry,
+    /// Microgeometry of right and left flanks, as the gear file states it; a scene may state another.
+    pub microgeometry: GearMicrogeometry,
     /// Mesh.
     pub mesh: MeshSettings,
     /// Reduction.

@@ -2,6 +2,7 @@
 
 mod csv_rows;
 mod number_ranges;
+mod number_table;
 mod readable_file;
 mod table_keys;
 mod unit_slips;
@@ -9,6 +10,7 @@ mod wording;
 
 pub use csv_rows::{CsvRows, shown_field};
 pub use number_ranges::NumberRange;
+pub use number_table::NumberTable;
 pub use readable_file::{
     MOST_MESH_BYTES, MOST_TEXT_BYTES, UnreadableFile, demand_readable, read_bytes,
 };
@@ -135,12 +137,24 @@ impl InputDocument {
         }
     }
 
+    /// Whether a dotted key is in the file.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.walk(key)
+            .is_some_and(|(_, parts)| parts == key.split('.').count())
+    }
+
     /// Line of a dotted key, or of the deepest parent of it that is in the file.
     fn locate(&self, key: &str) -> Option<usize> {
+        self.walk(key).map(|(line, _)| line)
+    }
+
+    /// Line of the deepest part of a dotted key that is in the file, and how many parts that are.
+    fn walk(&self, key: &str) -> Option<(usize, usize)> {
         let table = toml::de::DeTable::parse(&self.text).ok()?;
         let mut found = None;
         let mut value: Option<&toml::Spanned<toml::de::DeValue<'_>>> = None;
-        for part in key.split('.') {
+        for (above, part) in key.split('.').enumerate() {
             let next = match value.map(|v| v.get_ref()) {
                 None => table
                     .get_ref()
@@ -157,7 +171,7 @@ impl InputDocument {
                 Some(_) => None,
             };
             let Some((span, next)) = next else { break };
-            found = Some(self.line_of(span.start));
+            found = Some((self.line_of(span.start), above + 1));
             value = Some(next);
         }
         found
