@@ -50,7 +50,7 @@ fn solves_do_not_allocate() {
 /// Slices that enter and leave the path one by one, from position to position and cold.
 #[test]
 fn helical_positions_do_not_allocate() {
-    let lines = pair_common::helical(20.0, gearmesh_geometry::FlankSide::Right);
+    let lines = pair_common::helical(20.0, gearmesh_geometry::Flank::Right);
     let mut contact = pair_common::contact(&lines, pair_common::FRICTIONLESS, 12);
     let before = allocations();
     for k in 0..300 {

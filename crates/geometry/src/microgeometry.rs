@@ -18,7 +18,7 @@ pub use lead::{EndRelief, FaceEnds};
 pub use profile::{ProfileCrowning, ReliefShape, RootRelief, TipRelief};
 pub use topography::{Topography, TopographyError};
 
-use crate::definition::FlankSide;
+use crate::definition::Flank;
 use crate::flank_error::{FlankError, FlankPoint, Removed};
 
 /// All modifications of the flanks of one hand of a gear, the same on all teeth.
@@ -185,10 +185,10 @@ pub struct GearMicrogeometry {
 impl GearMicrogeometry {
     /// The microgeometry of the flanks of one side.
     #[must_use]
-    pub fn of(&self, side: FlankSide) -> &Microgeometry {
+    pub fn of(&self, side: Flank) -> &Microgeometry {
         match side {
-            FlankSide::Right => &self.right,
-            FlankSide::Left => &self.left,
+            Flank::Right => &self.right,
+            Flank::Left => &self.left,
         }
     }
 

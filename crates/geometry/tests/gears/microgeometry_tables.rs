@@ -4,7 +4,7 @@ use crate::model;
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::involute::roll_angle_rad;
-use gearmesh_geometry::{FlankSide, GearDefinition, GearMicrogeometry};
+use gearmesh_geometry::{Flank, GearDefinition, GearMicrogeometry};
 use std::path::Path;
 
 /// Pair A's first gear (57 teeth, module 2.6 mm, face width 23 mm) with other microgeometry.
@@ -29,8 +29,8 @@ fn every_law_stands_where_its_keys_say() {
          flank_angle_um = 3.0\nend_relief_um = 10.0\nend_relief_length_mm = 2.0\nend_relief_end = \"+z\"\ntwist_um = 5.0\n",
     )
     .unwrap();
-    let flank = gear.microgeometry.of(FlankSide::Left);
-    assert_eq!(flank, gear.microgeometry.of(FlankSide::Right));
+    let flank = gear.microgeometry.of(Flank::Left);
+    assert_eq!(flank, gear.microgeometry.of(Flank::Right));
     let (form, tip) = (gear.profile.form_roll_rad, gear.profile.tip_roll_rad);
     let (half, um) = (0.5 * gear.tooth.face_width_m, 1e-6);
     let start = |diameter_mm: f64| roll_angle_rad(0.5e-3 * diameter_mm, gear.profile.base_radius_m);
@@ -95,7 +95,7 @@ fn one_side_takes_its_own_keys_and_the_rest_of_both() {
 fn a_topography_is_read_from_the_file_itself_or_from_another() {
     let gear = gear("topography = { diameter_mm = [142.0, 150.0], z_mm = [-10.0, 0.0, 10.0], removed_um = [[1.0, 0.0, 2.0], [4.0, 3.0, 5.0]] }\n")
         .unwrap();
-    let flank = gear.microgeometry.of(FlankSide::Right);
+    let flank = gear.microgeometry.of(Flank::Right);
     let roll = |diameter_mm: f64| roll_angle_rad(0.5e-3 * diameter_mm, gear.profile.base_radius_m);
     assert!((flank.removed_m(roll(142.0), 0.01) - 2e-6).abs() < 1e-18);
     assert!((flank.removed_m(0.5 * (roll(142.0) + roll(150.0)), -5e-3) - 2e-6).abs() < 1e-18);
