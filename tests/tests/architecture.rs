@@ -38,7 +38,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
-    ("bearings", &["geometry"]),
+    ("bearings", &["geometry", "dynamics"]),
     ("recovery", &["model", "contact"]),
     (
         "drivetrain",
