@@ -25,7 +25,11 @@ pub(crate) fn start_of_row(
     let mut found = Vec::with_capacity(row.balls);
     let mut ring = RingLoad::default();
     let each = |load: ElementLoad| found.push(load);
-    if row.add(pose, operation, &mut ring, each).is_err() {
+    let mut places = vec![None; row.balls];
+    if row
+        .add(pose, operation, &mut places, &mut ring, each)
+        .is_err()
+    {
         found.clear();
         found.extend((0..row.balls).map(|ball| ElementLoad {
             angle_rad: row.angle_rad(ball, operation),

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use gearmesh_bearings::dynamic::{BearingEffort, DynamicEffects, Rebound, Traction};
-use gearmesh_bearings::quasi_static::{AppliedBearingLoad, QuasiStaticBearing, Row, TiltCondition};
+use gearmesh_bearings::quasi_static::{QuasiStaticBearing, Row};
+use gearmesh_bearings::ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Operation, RingPose};
 use gearmesh_dynamics::{Params, Simulation, System};
 use nalgebra::Vector5;
@@ -85,8 +86,8 @@ fn balls_settle_where_the_equilibrium_has_them() {
         ..Operation::default()
     };
     let load = AppliedBearingLoad {
-        force_n: [0.0, 800.0, 60.0],
-        tilt: TiltCondition::Moments([0.0; 2]),
+        force_n: [0.0, 800.0, 0.0],
+        tilt: TiltCondition::Held([0.0; 2]),
     };
     let pose = bearing.equilibrium(&load, &operation).unwrap();
     let system = system(&bearing, damped(3.0), &pose, speed, &Held::Fast);

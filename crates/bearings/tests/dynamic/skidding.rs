@@ -27,9 +27,9 @@ fn slip_percent(thrust_n: f64) -> f64 {
         inner_rad_per_s: speed,
         ..gearmesh_bearings::Operation::default()
     };
-    let load = gearmesh_bearings::quasi_static::AppliedBearingLoad {
+    let load = gearmesh_bearings::ring_equilibrium::AppliedBearingLoad {
         force_n: [0.0, 0.0, thrust_n],
-        tilt: gearmesh_bearings::quasi_static::TiltCondition::Held([0.0; 2]),
+        tilt: gearmesh_bearings::ring_equilibrium::TiltCondition::Held([0.0; 2]),
     };
     let pose: RingPose = bearing.equilibrium(&load, &operation).unwrap();
     let (_, loads) = bearing.loads(&pose, &operation).unwrap();
