@@ -13,6 +13,7 @@
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_patch::ContactPatch;
+use crate::contact_zone::SliceLayout;
 use crate::drive::Drive;
 use crate::flank_deviations::FlankDeviations;
 use crate::flanks_at_rest::FlanksAtRest;
@@ -73,14 +74,24 @@ impl StaticContact {
         gear_2: &ReducedGear,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
+        let layout = SliceLayout::of_models([gear_1, gear_2], lines.zone.displacement_m);
+        Self::on_slices(lines, [gear_1, gear_2], options, layout)
+    }
+
+    /// The same on the slices of a layout, see [`SliceLayout::resolved`].
+    ///
+    /// # Errors
+    /// As [`StaticContact::new`].
+    pub fn on_slices(
+        lines: ContactLines,
+        models: [&ReducedGear; 2],
+        options: ContactOptions,
+        layout: SliceLayout,
+    ) -> Result<Self, ContactError> {
         lines.refuse_helical_edges()?;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
-        let (flanks, placed) = (
-            (teeth, lines.pair.flank),
-            (options.local, lines.zone.displacement_m),
-        );
-        let most = most_lines(&lines);
-        let slices = SliceContact::of_gears([gear_1, gear_2], flanks, placed, most)?;
+        let (flanks, placed) = ((teeth, lines.pair.flank), (options.local, layout));
+        let slices = SliceContact::of_gears(models, flanks, placed, most_lines(&lines))?;
         let flanks = InvoluteAtRest::new(lines, *slices.layout(), options.friction)?;
         Ok(Self::of_flanks(flanks, slices))
     }
