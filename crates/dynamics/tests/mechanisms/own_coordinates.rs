@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use gearmesh_dynamics::elements::{AppliedLoad, Axes, ForceElement, LoadKind, Loads, Power, View};
+use gearmesh_dynamics::elements::{AppliedLoad, Axes, ForceElement, LoadKind, Loads, View};
 use gearmesh_dynamics::{
     Body, BodyId, DynamicsError, ElementFailure, GROUND, LinearSolver, Params, Simulation,
     StaticParams, System, TimeFunction, Unknown, equilibrium, natural_modes,
