@@ -5,9 +5,7 @@ mod offline;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
-pub use offline::{
-    ComplianceArguments, Local, MeshArguments, ModesArguments, ReduceArguments, Side,
-};
+pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
 pub use signal::{AbscissaArguments, SeriesArguments, SignalAnalysis, SignalArguments, WindowKind};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

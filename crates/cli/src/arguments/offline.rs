@@ -1,7 +1,10 @@
 //! Arguments of the commands that mesh and reduce a gear, and of the deflections of a reduced one.
 
+use crate::file_words::{flank_words, local_words};
 use crate::length_unit::LengthUnit;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use gearmesh_contact::LocalContact;
+use gearmesh_geometry::Flank;
 use std::path::PathBuf;
 
 /// `gearmesh mesh`.
@@ -66,26 +69,6 @@ pub struct ModesArguments {
     pub json: bool,
 }
 
-/// Side of a tooth.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Side {
-    /// Faces clockwise.
-    Right,
-    /// Faces counter-clockwise.
-    Left,
-}
-
-/// Local contact term.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Local {
-    /// The mesh's own near field.
-    None,
-    /// Weber and Banaschek's logarithm on the patterns.
-    WeberBanaschek,
-    /// The mesh's near field corrected by the model's plane-strain calibration.
-    Calibrated,
-}
-
 /// `gearmesh compliance`.
 #[derive(Debug, Args)]
 #[allow(non_snake_case)]
@@ -96,8 +79,8 @@ pub struct ComplianceArguments {
     #[arg(long)]
     pub tooth: usize,
     /// Loaded side
-    #[arg(long, value_enum, default_value = "right")]
-    pub flank: Side,
+    #[arg(long, value_parser = flank_words(), default_value = Flank::Right.name())]
+    pub flank: Flank,
     /// Radius of the load; several, separated by commas, give a table
     #[arg(long, value_delimiter = ',', required = true)]
     pub radius_mm: Vec<f64>,
@@ -111,8 +94,8 @@ pub struct ComplianceArguments {
     #[arg(long)]
     pub at_tooth: Option<usize>,
     /// Local contact term
-    #[arg(long, value_enum, default_value = "calibrated")]
-    pub local: Local,
+    #[arg(long, value_parser = local_words(), default_value = LocalContact::default().name())]
+    pub local: LocalContact,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

@@ -4,7 +4,7 @@ use crate::mesh_common::*;
 use crate::{DAMPINGS, damped, friction, loaded_poses, rates};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 /// The undamped load is minus the gradient of the energy.
@@ -55,9 +55,9 @@ fn what_a_damped_spring_stores_does_not_depend_on_its_speed() {
     };
     let spring = MeshSpring::new(3e8, SLICES, pair.working_pressure_angle_rad.tan()).unwrap();
     let side = Damped::new(spring, damping, SLICES).unwrap();
-    let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, side).unwrap();
+    let mut mesh = GearMesh::new(kinematics(&pair), Flank::Right, side).unwrap();
     let depth = 10e-6;
-    let phi = angles(&pair, FlankSide::Right, 0.05, -depth);
+    let phi = angles(&pair, Flank::Right, 0.05, -depth);
     let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
     for turn_rad_per_s in [-0.5, 0.0, 0.5] {
         let turning = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, turn_rad_per_s);

@@ -11,14 +11,14 @@ use crate::energy::check_energy;
 use crate::loaded_poses;
 use crate::mesh_common::*;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use spring_teeth::SpringTeeth;
 use waviness::Waviness;
 
 fn meshed(kinematics: MeshKinematics, teeth: impl Fn() -> Box<dyn TeethModel>) -> GearMesh {
-    GearMesh::new(kinematics, FlankSide::Right, teeth())
+    GearMesh::new(kinematics, Flank::Right, teeth())
         .unwrap()
-        .with_side(FlankSide::Left, teeth())
+        .with_side(Flank::Left, teeth())
         .unwrap()
 }
 

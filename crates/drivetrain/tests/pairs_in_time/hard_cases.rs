@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
-use gearmesh_geometry::{FlankSide, GearPair, involute};
+use gearmesh_geometry::{Flank, GearPair, involute};
 use nalgebra::Vector3;
 
 use crate::mesh_common::*;
@@ -25,9 +25,9 @@ pub fn damped_on(
         full_depth_m,
     };
     let of = |side| Damped::new(model(name, pair, side), damping, SLICES).unwrap();
-    GearMesh::new(kinematics, FlankSide::Right, of(FlankSide::Right))
+    GearMesh::new(kinematics, Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap()
 }
 
@@ -39,9 +39,9 @@ fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
     let a = pair.centre_distance_m;
     let kinematics =
         MeshKinematics::new(gears, none, a, layout(1), PathEnds::LineOfAction).unwrap();
-    GearMesh::new(kinematics, FlankSide::Right, law)
+    GearMesh::new(kinematics, Flank::Right, law)
         .unwrap()
-        .with_side(FlankSide::Left, law)
+        .with_side(Flank::Left, law)
         .unwrap()
 }
 
@@ -281,9 +281,9 @@ fn blows_of_a_constant_spring_are_those_of_one_mass() {
     };
     let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
     let rate = |step_s: f64| {
-        let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, side())
+        let mesh = GearMesh::new(kinematics(&pair), Flank::Right, side())
             .unwrap()
-            .with_side(FlankSide::Left, side())
+            .with_side(Flank::Left, side())
             .unwrap();
         let (samples, _) = record(scene.system(mesh), Params::fixed(step_s), 18e-3);
         let carries = |s: &Sample| s.right_n + s.left_n > 0.0;
@@ -363,7 +363,7 @@ fn misalignment_leaves_one_slice() {
             let end = *samples.last().unwrap();
             let mut alone = mesh_of(name, &pair);
             alone.evaluate(&pose_of(run.state()), false).unwrap();
-            let (found, forces) = alone.side(FlankSide::Right).unwrap();
+            let (found, forces) = alone.side(Flank::Right).unwrap();
             let carrying: Vec<usize> = (0..forces.len())
                 .filter(|&i| forces[i] > 0.0)
                 .map(|i| found.contacts[i].slice)

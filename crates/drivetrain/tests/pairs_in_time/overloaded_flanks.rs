@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation};
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::hard_cases::{backlash_m, damped_mesh};
 use crate::mesh_common::*;
@@ -18,12 +18,12 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
     let depth = 0.02 * std::f64::consts::TAU * pair.gear_1.base_radius_m / 30.0;
     for (side, torque, words) in [
         (
-            FlankSide::Right,
+            Flank::Right,
             -30.0,
             ["left flanks", "clockwise (torques negative"],
         ),
         (
-            FlankSide::Left,
+            Flank::Left,
             30.0,
             ["right flanks", "counter-clockwise (torques positive"],
         ),
@@ -42,7 +42,7 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
             assert!(message.contains(word), "`{word}` is not in {message}");
         }
         // No more than the load's own work over what is allowed, and over the backlash where it starts on the other side of it.
-        let free = [0.0, backlash_m(&pair)][usize::from(side == FlankSide::Right)];
+        let free = [0.0, backlash_m(&pair)][usize::from(side == Flank::Right)];
         let way = free + 1.05 * depth;
         let work = torque.abs() * way / pair.gear_2.base_radius_m;
         assert!(energy > 0.5 * work && energy < work, "{energy} of {work}");
@@ -64,7 +64,7 @@ fn teeth_are_not_pressed_through_each_other() {
         1e-6,
         SLICES,
     );
-    let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, law.unwrap()).unwrap();
+    let mesh = GearMesh::new(kinematics(&pair), Flank::Right, law.unwrap()).unwrap();
     let system = Scene::new(&pair)
         .driven_at(0.0)
         .loaded_by(1000.0)

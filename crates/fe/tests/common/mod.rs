@@ -1,7 +1,7 @@
 //! What the integration tests share: a steel, the element list, a distorted block.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use gearmesh_fe::{Element, FeModel, Material, StructuredMesh, chord_middle};
+use gearmesh_fe::{Element, ElementFormulas, FeModel, Material, StructuredMesh, chord_middle};
 
 pub const ELEMENTS: [Element; 6] = Element::ALL;
 

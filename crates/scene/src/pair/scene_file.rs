@@ -7,7 +7,7 @@ use crate::system::tables::friction::FrictionTable;
 use crate::system::tables::gear_mesh::EccentricityTable;
 use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use gearmesh_geometry::{Flank, InputError, Misalignment};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ struct PairTable {
     centre_distance_mm: f64,
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
-    flank: FlankSide,
+    flank: Flank,
     /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
     #[serde(default)]
     axial_offset_mm: f64,
@@ -54,22 +54,14 @@ struct PairTable {
     misalignment_from: Option<MisalignmentFrom>,
 }
 
-fn default_flank() -> FlankSide {
-    FlankSide::Right
+fn default_flank() -> Flank {
+    Flank::Right
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MeshModel {
     Hybrid,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum LocalTable {
-    None,
-    WeberBanaschek,
-    Calibrated,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -86,7 +78,7 @@ struct MeshTable {
     #[allow(dead_code)]
     model: MeshModel,
     /// Local contact; "calibrated" where not given.
-    local: Option<LocalTable>,
+    local: Option<LocalContact>,
     /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
     /// not modelled at rest.
     path: Option<PathTable>,
@@ -149,7 +141,7 @@ pub struct Scene {
     /// Mid-face of gear 2 from that of gear 1 along the axes \[m\].
     pub axial_offset_m: f64,
     /// Hand of the flanks in contact, on both gears.
-    pub flank: FlankSide,
+    pub flank: Flank,
     /// Axis errors that the scene states.
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
@@ -315,12 +307,7 @@ impl Scene {
             errors: [table.mesh.errors_1, table.mesh.errors_2],
             eccentricity: [table.mesh.eccentricity_1, table.mesh.eccentricity_2],
             contact: ContactOptions {
-                local: match table.mesh.local {
-                    Some(LocalTable::None) => LocalContact::None,
-                    Some(LocalTable::WeberBanaschek) => LocalContact::WeberBanaschek,
-                    Some(LocalTable::Calibrated) => LocalContact::Calibrated,
-                    None => LocalContact::default(),
-                },
+                local: table.mesh.local.unwrap_or_default(),
                 friction,
             },
             edge_radius_m,

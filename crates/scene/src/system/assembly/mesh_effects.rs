@@ -3,7 +3,7 @@
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::{DampingTable, FlanksWord, MeshModel};
+use crate::system::tables::gear_mesh::{DampingTable, MeshModel, TouchingFlanks};
 
 impl SceneMesh<'_> {
     /// Lists the effects of this mesh.
@@ -14,11 +14,11 @@ impl SceneMesh<'_> {
             return;
         }
         let flanks = match table.flanks.unwrap_or_default() {
-            FlanksWord::Both => Some(format!(
+            TouchingFlanks::Both => Some(format!(
                 "both sides, {:.1} um of backlash",
                 self.pair.backlash_m() / UM
             )),
-            FlanksWord::Right | FlanksWord::Left => None,
+            TouchingFlanks::Right | TouchingFlanks::Left => None,
         };
         parts.effect(name("backlash"), flanks);
         let damping = match (&table.damping, table.damping_N_s_per_mm) {

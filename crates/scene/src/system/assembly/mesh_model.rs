@@ -11,11 +11,11 @@ use gearmesh_drivetrain::{
     PairCurve, PathEnds, ReducedTeeth, TeethModel,
 };
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, GearPair, InputError};
+use gearmesh_geometry::{Flank, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
-use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, MeshModel, PathWord};
+use crate::system::tables::gear_mesh::{GearMeshTable, MeshModel, PathWord, TouchingFlanks};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
 /// does not state.
@@ -215,8 +215,8 @@ impl SceneMesh<'_> {
         Ok(self.layout(count))
     }
 
-    pub(super) fn mesh(&self, sides: &[FlankSide]) -> Result<GearMesh, InputError> {
-        let mut teeth: Vec<(FlankSide, Box<dyn TeethModel>)> = Vec::new();
+    pub(super) fn mesh(&self, sides: &[Flank]) -> Result<GearMesh, InputError> {
+        let mut teeth: Vec<(Flank, Box<dyn TeethModel>)> = Vec::new();
         let mut layout = self.stated_layout()?;
         let slices = layout.slices;
         match self.table.model {
@@ -313,19 +313,16 @@ impl SceneMesh<'_> {
         BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
     }
 
-    fn reduced(&self, side: FlankSide) -> Result<ReducedTeeth, InputError> {
+    fn reduced(&self, side: Flank) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = self.table.nominal_force_N.unwrap_or(reference);
         self.keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (
-            self.table.local.unwrap_or_default().local_contact(),
-            self.displacement_m,
-        );
+        let contact = (self.table.local.unwrap_or_default(), self.displacement_m);
         ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.table.flanks.unwrap_or_default() {
-                FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
+                TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
                 _ => "",
             };
             self.keys.error("", format!("{} flanks: {error}{hint}", side.name()))

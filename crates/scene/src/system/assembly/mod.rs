@@ -13,6 +13,7 @@
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
+mod bearings;
 mod bodies;
 mod carriers;
 mod elements;

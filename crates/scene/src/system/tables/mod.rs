@@ -1,5 +1,6 @@
 //! The tables of a scene file: keys as they stand in the file, and their checks. One file per table.
 
+pub mod bearing;
 pub mod body;
 pub mod connection;
 pub mod flank_errors;
