@@ -6,6 +6,7 @@ use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::FrictionTable;
 use crate::system::tables::gear_mesh::EccentricityTable;
 use gearmesh_contact::{ContactOptions, LocalContact};
+use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, InputError, Misalignment};
 use schemars::JsonSchema;
@@ -19,6 +20,12 @@ pub(crate) struct SceneTable {
     title: String,
     /// The gears and how they stand.
     pair: PairTable,
+    /// What gear 1 has beside its body.
+    #[serde(default)]
+    gear_1: GearTable,
+    /// What gear 2 has beside its body.
+    #[serde(default)]
+    gear_2: GearTable,
     /// Model of the teeth.
     mesh: MeshTable,
     /// Torques and angles.
@@ -54,6 +61,14 @@ struct PairTable {
     misalignment_from: Option<MisalignmentFrom>,
 }
 
+/// `[gear_1]` and `[gear_2]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+struct GearTable {
+    /// Microgeometry, instead of all that the gear file inside the model states.
+    microgeometry: Option<MicrogeometryTable>,
+}
+
 fn default_flank() -> Flank {
     Flank::Right
 }
@@ -84,6 +99,8 @@ struct MeshTable {
     path: Option<PathTable>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,
+    /// Slices over the overlap of the faces; those of the models where not given.
+    slices: Option<usize>,
     /// Tooth friction; none where not given.
     friction: Option<FrictionTable>,
     /// Errors and faults of gear 1.
@@ -146,6 +163,10 @@ pub struct Scene {
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
     pub misalignment_from: Option<MisalignmentFrom>,
+    /// Microgeometry of gear 1 and gear 2; that of the gear files inside the models where none is given.
+    pub microgeometry: [Option<MicrogeometryTable>; 2],
+    /// Slices over the overlap of the faces; those of the models where none are given.
+    pub slices: Option<usize>,
     /// Errors and faults of gear 1 and gear 2.
     pub errors: [Vec<FlankErrorTable>; 2],
     /// Places of gear 1 and gear 2 on their bodies.
@@ -304,6 +325,8 @@ impl Scene {
                 deviation_rad: pair.deviation_mrad.unwrap_or(0.0) * 1e-3,
             },
             misalignment_from: pair.misalignment_from.clone(),
+            microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
+            slices: table.mesh.slices,
             errors: [table.mesh.errors_1, table.mesh.errors_2],
             eccentricity: [table.mesh.eccentricity_1, table.mesh.eccentricity_2],
             contact: ContactOptions {
@@ -339,6 +362,7 @@ impl Scene {
     pub fn with_known_forces(self) -> Self {
         Self {
             misalignment_from: None,
+            microgeometry: [None, None],
             errors: [Vec::new(), Vec::new()],
             ..self
         }

@@ -32,8 +32,7 @@ pub struct GearMeshTable {
     /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
     /// "extended" where not given. Not with `kinematic`.
     pub path: Option<PathWord>,
-    /// Slices across the face width, 1 where not given. Not with `kinematic`, nor with `hybrid`, whose models state
-    /// them.
+    /// Slices over the overlap of the faces; 1 where not given, with `hybrid` those of the models. Not with `kinematic`.
     pub slices: Option<usize>,
     /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
     pub stiffness_N_per_mm_e: Option<f64>,
@@ -63,7 +62,7 @@ pub struct GearMeshTable {
     pub damping: Option<DampingTable>,
     /// Friction; none where not given. Not with `kinematic`.
     pub friction: Option<FrictionTable>,
-    /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336`
+    /// Whether the microgeometry of the bodies or gear files acts, as it does where nothing is said. `kinematic` and `iso6336`
     /// know no flanks: with them it must be set to false for gears that have microgeometry, but for `iso6336` with
     /// `stiffness`, whose curve holds it.
     pub microgeometry: Option<bool>,

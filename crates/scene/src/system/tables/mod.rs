@@ -9,7 +9,6 @@ pub mod function;
 pub mod gear_mesh;
 pub mod joint;
 pub mod load;
-pub mod number_table;
 pub mod output;
 pub mod run;
 pub mod shaft;
