@@ -80,7 +80,8 @@ fn advice(estimate: &MemoryEstimate) -> (&'static str, String) {
         return (
             "modes",
             format!(
-                "the natural modes take {:.1} GB of it: ask for fewer",
+                "the natural modes, about {} of them, take {:.1} GB of it: ask for fewer, or for those up to a lower frequency",
+                modes(estimate.modes),
                 estimate.modes_bytes / GIGA
             ),
         );
@@ -100,6 +101,15 @@ fn advice(estimate: &MemoryEstimate) -> (&'static str, String) {
             .to_owned()
     };
     (key, problem)
+}
+
+/// A few modes as they are, many in words.
+fn modes(count: f64) -> String {
+    if count < 1e4 {
+        format!("{count:.0}")
+    } else {
+        rounded(count)
+    }
 }
 
 /// Two digits, in words of a person.

@@ -70,3 +70,47 @@ fn a_wrong_study_is_refused_and_a_failed_case_is_told() {
         answer.stdout
     );
 }
+
+/// Two studies that begin together in one folder share its cases: both end with all of them, and nothing is left over.
+#[test]
+fn two_studies_in_one_folder_end_clean() {
+    let desk = Desk::new();
+    desk.file(
+        "scene.toml",
+        &changed(SCENE, "step_s = 1e-2", "step_s = 1e-4"),
+    );
+    let values: Vec<String> = (1..=12).map(|k| format!("{k}.0")).collect();
+    let text = changed(STUDY, "[4.0]", &format!("[{}]", values.join(", ")));
+    let study = desk.file("study.toml", &text);
+    let out = desk.path("out");
+    let begin = || {
+        std::process::Command::new(env!("CARGO_BIN_EXE_gearmesh"))
+            .args(["study", argument(&study), "-o", argument(&out), "--json"])
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    let both = [begin(), begin()].map(|child| child.wait_with_output().unwrap());
+    let figures = both.map(|output| {
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{told}");
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    });
+    for all in &figures {
+        let cases = all["cases"].as_array().unwrap();
+        assert_eq!(cases.len(), 13);
+        for (k, case) in cases.iter().enumerate().skip(1) {
+            let speed = number(&case["columns"][0]["largest"]);
+            assert!((speed - 2.0 * k as f64).abs() < 1e-9, "{k}: {speed}");
+        }
+    }
+    let names = common::names_in(&out);
+    let results = names.iter().filter(|name| name.ends_with(".h5")).count();
+    assert_eq!((names.len(), results), (14, 13), "{names:?}");
+    // What they left is whole: a third study has nothing to run.
+    let csv = std::fs::read(out.join("study.csv")).unwrap();
+    succeeds(&["study", argument(&study), "-o", argument(&out)]);
+    assert_eq!(std::fs::read(out.join("study.csv")).unwrap(), csv);
+    assert_eq!(common::names_in(&out), names);
+}

@@ -6,7 +6,7 @@ mod pair_common;
 use gearmesh_contact::Drive;
 use gearmesh_contact::{
     ContactError, ContactLines, ContactOptions, Friction, LocalContact, PathExtension,
-    StaticContact,
+    StaticContact, mesh_stiffness::MeshStiffness,
 };
 use gearmesh_geometry::{Flank, Microgeometry};
 use pair_common::{FRICTIONLESS, helical as lines, made_up_gear};
@@ -160,6 +160,34 @@ fn torque_and_axial_force_balance() {
             let normal: f64 = contact.forces_n().iter().sum();
             let expected = 240.0 / (r2 * base_helix.cos());
             assert!((normal / expected - 1.0).abs() < 1e-10);
+        }
+    }
+}
+
+/// Along the line of action: F = T/r_b2 over the deflection since first touch, and dF by differences of the solution.
+#[test]
+fn stiffnesses_are_those_of_the_load_curve() {
+    for helix_deg in [0.0, 12.0] {
+        let lines = lines(helix_deg, Flank::Right);
+        let mut contact = contact(&lines, FRICTIONLESS, 4);
+        let base_m = lines.pair.gear_2.base_radius_m;
+        for angle in angles(&lines, 7) {
+            let mut at = |torque: f64| contact.solve(angle, Drive::Torque(torque)).unwrap();
+            let state = at(240.0);
+            let found = MeshStiffness::of(&state, base_m);
+            // Hardly any load hardly deflects anything.
+            let touch_m = at(1e-6).transmission_error_m;
+            let secant = 240.0 / base_m / (touch_m - state.transmission_error_m);
+            assert!(
+                (found.secant_n_per_m / secant - 1.0).abs() < 1e-6,
+                "{found:?} {secant:e}"
+            );
+            let [less, more] = [239.99, 240.01].map(|torque| at(torque).transmission_error_m);
+            let tangent = 0.02 / base_m / (less - more);
+            assert!(
+                (found.tangent_n_per_m / tangent - 1.0).abs() < 1e-5,
+                "{found:?} {tangent:e}"
+            );
         }
     }
 }

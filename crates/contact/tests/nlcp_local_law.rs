@@ -266,3 +266,38 @@ fn an_edge_shrinks_the_half_width() {
     let found = share(tilt, edge_radius, 1e-4) * contact.half_width_m(1e-4);
     assert!((found / rounded.half_width_m(1e-4) - 1.0).abs() < 1e-3);
 }
+
+/// Rates of α against differences: a body that grows deeper, a contact that grows flatter.
+#[test]
+fn alpha_moves_with_depths_and_radius_as_its_rate_says() {
+    let alpha = |depth_shares: [f64; 2], radius_share: f64| {
+        let mut contact = contact();
+        contact.relative_radius_m *= 1.0 + radius_share;
+        for (body, share) in contact.bodies.iter_mut().zip(depth_shares) {
+            body.depth_m *= 1.0 + share;
+        }
+        LocalLaw::weber_banaschek(&contact, 1e-3).unwrap().alpha()
+    };
+    let h = 1e-5;
+    let rates = [
+        (contact().alpha_rate(0, 1.0, 0.0), [h, 0.0], 0.0),
+        (contact().alpha_rate(1, 1.0, 0.0), [0.0, h], 0.0),
+        (contact().alpha_rate(0, 0.0, 1.0), [0.0, 0.0], h),
+        (contact().alpha_rate(1, 0.3, -0.7), [0.0, 0.3 * h], -0.7 * h),
+    ];
+    for (rate, depths, radius) in rates {
+        let slope =
+            (alpha(depths, radius) - alpha(depths.map(|share| -share), -radius)) / (2.0 * h);
+        assert!((rate / slope - 1.0).abs() < 1e-8, "{rate:e} {slope:e}");
+    }
+}
+
+/// K. L. Johnson, Contact Mechanics, section 4.2(c): a² = 4 q ρ/(π E*), p₀² = q E*/(π ρ), and the load is the pressure's integral π a p₀/2.
+#[test]
+fn hertz_pressure_carries_the_load() {
+    let (q, radius, modulus) = (150e3_f64, 8e-3, 115e9);
+    let a = gearmesh_contact::hertz::half_width_m(q, radius, 1.0 / modulus);
+    let p = gearmesh_contact::hertz::peak_pressure_pa(q, a);
+    assert!((p / (q * modulus / (PI * radius)).sqrt() - 1.0).abs() < 1e-14);
+    assert!((0.5 * PI * a * p / q - 1.0).abs() < 1e-14);
+}

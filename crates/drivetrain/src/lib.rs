@@ -28,6 +28,7 @@ pub mod flank_error;
 pub mod flank_kinematics;
 pub mod flank_modes;
 pub mod friction;
+mod gap_curvature;
 pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;

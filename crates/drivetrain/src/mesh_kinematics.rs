@@ -34,7 +34,7 @@ use crate::flank_error::FlankPoint;
 use crate::mesh_frame::{MeshFrame, PoseGeometry};
 use crate::path_ends::{LEAST_SHARE, PathEnds, SlicePart, TipEdges, part_on_path};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::{Matrix6, SidePlanes, SlicePlane, line_of_action};
+use crate::slice_plane::{SidePlanes, SlicePlane, line_of_action};
 use crate::tooth_zero::ToothZero;
 
 /// Largest angle between the axes \[rad\] for which slices in parallel planes are taken as the truth: neglected terms are of the order
@@ -435,32 +435,6 @@ impl MeshKinematics {
         };
         self.touch(&mut section);
         (touches && section.share > LEAST_SHARE).then_some(section)
-    }
-
-    /// Second derivative of the gap in a slice plane by the increments, microgeometry left out: that is of the order of the load times its
-    /// curvature, 1e-6 of the stiffness. `roll_rad`: of the contact, or the means of several ones weighted by their forces; unused on spur teeth.
-    ///
-    /// # Panics
-    /// If nothing was found or there is no such slice.
-    #[must_use]
-    pub fn gap_curvature(
-        &self,
-        (at, placed): (&PoseGeometry, &SidePlanes),
-        slice: usize,
-        side: Flank,
-        roll_rad: [f64; 2],
-    ) -> Matrix6 {
-        let (plane, zero) = (&placed.planes[slice], &placed.zeros[slice]);
-        let Some(frame) = &at.frame else {
-            return Matrix6::zeros();
-        };
-        let base_radii_m = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
-        let transverse = plane.transverse_curvature(frame, side, base_radii_m);
-        let Some(helix) = &self.helix else {
-            return transverse;
-        };
-        let at = (roll_rad, side.mirror());
-        helix.curvature((frame, plane), zero, at, transverse)
     }
 
     /// Depth \[m\] and slopes along the profile \[m/rad\] and the axis of everything removed at a flank, the tip edge's gap beyond the flank's end

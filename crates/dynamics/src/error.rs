@@ -230,6 +230,22 @@ pub enum DynamicsError {
         /// Where forces balance least, and what pushes there.
         unbalanced: String,
     },
+    /// The search for equilibrium left what an element can follow.
+    #[error(
+        "static equilibrium not found at load factor {load_factor}: the search moved {moved} farthest, until force element `{element}` could not follow: \
+         {source}. What should hold that motion carries too little or nothing there: a support that is missing or too soft, a contact that is open or \
+         lost to a fault, a load too large for it. Shorter steps did not help"
+    )]
+    LeftOnTheWay {
+        /// Share of the loads applied.
+        load_factor: f64,
+        /// Body and direction of the largest correction before.
+        moved: String,
+        /// The element.
+        element: String,
+        /// Its own error.
+        source: ElementFailure,
+    },
     /// The eigenvalue solver failed.
     #[error(
         "the eigenvalues of the linearised system ({size} unknowns) were not found: the matrix has entries that are not finite, or the iteration stalled"

@@ -91,7 +91,8 @@ pub struct Equilibrium {
 /// Finds the static equilibrium near a state. Loads are brought up in fewer or more steps, as they are needed.
 ///
 /// # Errors
-/// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::Singular`] or the error of an element.
+/// [`DynamicsError::NoEquilibrium`], [`DynamicsError::Unbalanced`], [`DynamicsError::LeftOnTheWay`], [`DynamicsError::Singular`] or the error of
+/// an element.
 pub fn equilibrium(
     system: &mut System,
     start: &State,
@@ -182,10 +183,35 @@ impl Path {
     /// loads, but contact may be lost on the way to another position.
     fn may_help(self, error: &DynamicsError) -> bool {
         match error {
-            DynamicsError::NoEquilibrium { .. } | DynamicsError::Element { .. } => true,
+            DynamicsError::NoEquilibrium { .. }
+            | DynamicsError::LeftOnTheWay { .. }
+            | DynamicsError::Element { .. } => true,
             DynamicsError::Unbalanced { .. } => matches!(self, Self::Time(_)),
             _ => false,
         }
+    }
+}
+
+/// The failure of an element after a correction that was largest at the degree of freedom `moved`; at the start the error itself.
+fn on_the_way(
+    error: DynamicsError,
+    system: &System,
+    load_factor: f64,
+    moved: Option<usize>,
+) -> DynamicsError {
+    match (error, moved) {
+        (
+            DynamicsError::Element {
+                element, source, ..
+            },
+            Some(largest),
+        ) => DynamicsError::LeftOnTheWay {
+            load_factor,
+            moved: system.describe(largest),
+            element,
+            source,
+        },
+        (error, _) => error,
     }
 }
 
@@ -208,6 +234,7 @@ fn settle(
     } = found;
     let mut push = FIRST_PUSH;
     let mut pushed = false;
+    let mut moved = None;
     for iteration in 1..=params.most_iterations.max(1) {
         *iterations += 1;
         let at = At {
@@ -216,7 +243,8 @@ fn settle(
             lambda,
             load_factor,
         };
-        system.evaluate(at, Detail::Tangents, equations)?;
+        let evaluated = system.evaluate(at, Detail::Tangents, equations);
+        evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
         if pushed {
             // Along a free motion bodies may go where no element can follow them.
             system.admits(state)?;
@@ -248,6 +276,7 @@ fn settle(
             push = (PUSH_GROWTH * push).min(0.5 * LONGEST);
         }
         let (ratio, largest) = measure(system, &correction.values[..n], size);
+        moved = Some(largest);
         let settled = unbalanced.is_none() && (at_rest || ratio <= params.tolerance);
         if last && !settled || !ratio.is_finite() {
             return Err(DynamicsError::NoEquilibrium {

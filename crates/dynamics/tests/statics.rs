@@ -264,3 +264,64 @@ fn what_does_not_balance_is_named() {
         assert!(text.contains(part), "`{part}` is not in\n{text}");
     }
 }
+
+/// A spring against a turn that knows small turns only, as contacts do that are computed for parallel axes.
+struct SmallTurns {
+    body: [BodyId; 1],
+    stiffness_nm_per_rad: f64,
+    largest_rad: f64,
+}
+
+impl ForceElement for SmallTurns {
+    fn name(&self) -> &str {
+        "small turns"
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.body
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let turn = view.body(self.body[0]).orientation.scaled_axis().z;
+        if turn.abs() > self.largest_rad {
+            return Err(format!("turned by {:.1} mrad", 1e3 * turn).into());
+        }
+        loads.add_force(5, &[-self.stiffness_nm_per_rad * turn]);
+        loads.add_by_position(5, 5, -self.stiffness_nm_per_rad);
+        Ok(())
+    }
+}
+
+/// Where no equilibrium lies within what an element can follow, the message names the motion that nothing holds, not the element's limit alone.
+#[test]
+fn a_search_that_leaves_what_an_element_follows_says_which_motion_went_too_far() {
+    let settle = |torque_nm: f64| {
+        let mut builder = System::builder();
+        let pair = wheel_with_torque(&mut builder, torque_nm);
+        builder.element(SmallTurns {
+            body: [pair.b.body],
+            stiffness_nm_per_rad: 1e3,
+            largest_rad: 10e-3,
+        });
+        let mut system = builder.build().unwrap();
+        let start = system.start().clone();
+        equilibrium(&mut system, &start, &StaticParams::default())
+    };
+    let found = settle(9.0).unwrap();
+    close(found.state.orientations[0].scaled_axis().z, 9e-3, 1e-9);
+    let error = settle(30.0).unwrap_err();
+    let message = error.to_string();
+    assert!(
+        matches!(error, DynamicsError::LeftOnTheWay { .. }),
+        "{message}"
+    );
+    for part in [
+        "`wheel`, rotation about its own z",
+        "`small turns`",
+        "mrad",
+        "too soft",
+        "fault",
+    ] {
+        assert!(message.contains(part), "`{part}` is not in {message}");
+    }
+}

@@ -125,6 +125,16 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
     levels
 }
 
+/// How long the body's elements are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyLengths {
+    /// As wanted, whatever the sector's width.
+    Wanted,
+    /// Nowhere longer than the sector is wide: towards the bore the wedge of one tooth becomes narrower than an element, and quads of
+    /// twice its width and several times its length have corners of some ten degrees.
+    WithinSector,
+}
+
 /// Places the nodes on the edges of the body's regions. `ring_per_tooth` pieces of the ring belong to each tooth.
 ///
 /// # Errors
@@ -132,6 +142,7 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
 pub fn body_problem(
     gear: &GearDefinition,
     ring_per_tooth: usize,
+    lengths: BodyLengths,
 ) -> Result<BodyProblem, MeshError> {
     let sectors = gear.sectors();
     let teeth = gear.tooth.teeth / sectors;
@@ -142,7 +153,11 @@ pub fn body_problem(
     let closed = sectors == 1;
     let ring = ring_radius_m(gear);
     let ring_size = ring * pitch / ring_per_tooth as f64;
-    let size = element_length(gear, ring_size);
+    let wanted = element_length(gear, ring_size);
+    let size = |r: f64| match lengths {
+        BodyLengths::Wanted => wanted(r),
+        BodyLengths::WithinSector => wanted(r).min(r * angle),
+    };
     let levels = region_circles(gear);
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut add = |r: f64, phi: f64| {

@@ -57,6 +57,22 @@ pub struct PlaneMesh {
 }
 
 impl PlaneMesh {
+    /// Smallest scaled Jacobian of the quads with straight sides: the sine of the angle at a corner, smallest of all. That of the bricks
+    /// which stand upright on them.
+    pub fn smallest_scaled_jacobian(&self) -> f64 {
+        let at_corner = |quad: &[usize; 4], k: usize| {
+            let [before, here, after] = [3, 0, 1].map(|step| self.nodes[quad[(k + step) % 4]]);
+            let to = |p: [f64; 2]| [p[0] - here[0], p[1] - here[1]];
+            let (a, b) = (to(after), to(before));
+            (a[0] * b[1] - a[1] * b[0]) / (a[0].hypot(a[1]) * b[0].hypot(b[1]))
+        };
+        let corners = self
+            .quads
+            .iter()
+            .flat_map(|quad| (0..4).map(move |k| at_corner(quad, k)));
+        corners.fold(1.0, f64::min)
+    }
+
     /// Adds a node in the middle of every quad, where the curved sides put it: half the sum of the middles of the sides
     /// less a quarter of that of the corners (Coons' patch). The sides must have their middles.
     pub fn add_centres(&mut self) -> Vec<usize> {

@@ -1,7 +1,7 @@
 //! The whole cross-section: tooth cells and body sectors copied round the axis and joined.
 
 use crate::MeshError;
-use crate::body::{body_problem, first_tooth};
+use crate::body::{BodyLengths, body_problem, first_tooth};
 use crate::crack_line::CrackLine;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
@@ -78,7 +78,8 @@ impl Section {
             let cell = cell_problem.finish(meshes.pop().ok_or_else(mismatch)?, shape);
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
         }
-        let mut body = body_problem(gear, cell_problem.ring_pieces())?;
+        let ring_pieces = cell_problem.ring_pieces();
+        let mut body = body_problem(gear, ring_pieces, BodyLengths::Wanted)?;
         let mut meshes = mesh_plane(
             python,
             &[cell_problem.problem.clone(), body.problem.clone()],
@@ -87,6 +88,11 @@ impl Section {
         let (Some(cell_mesh), Some(mut body_mesh)) = (meshes.next(), meshes.next()) else {
             return Err(mismatch().into());
         };
+        if sectors > 1 && body_mesh.smallest_scaled_jacobian() < gear.mesh.min_scaled_jacobian {
+            let narrow = body_problem(gear, ring_pieces, BodyLengths::WithinSector)?;
+            let mut meshes = mesh_plane(python, std::slice::from_ref(&narrow.problem))?;
+            (body, body_mesh) = (narrow, meshes.pop().ok_or_else(mismatch)?);
+        }
         let mut cell = cell_problem.finish(cell_mesh, shape);
         let crack = gear.crack.as_ref();
         let crack = crack

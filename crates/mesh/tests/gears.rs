@@ -189,6 +189,24 @@ fn slots_that_do_not_divide_the_teeth_and_drilled_holes() {
     });
 }
 
+/// The sector of one tooth narrows to less than an element at the bore. With elements as long as elsewhere these wheels had a corner with a
+/// scaled Jacobian of 0.196 and 0.180, and were refused.
+#[test]
+fn sectors_that_become_narrow_towards_the_bore_are_meshed() {
+    for teeth in [71, 75] {
+        let text = source("train_71.toml").replace("teeth = 71", &format!("teeth = {teeth}"));
+        let text = format!("{text}[mesh]\naxial_mm = 12.5\n");
+        let gear = GearDefinition::from_document(&InputDocument::new("gear.toml", text)).unwrap();
+        assert_eq!(
+            (gear.mesh.min_scaled_jacobian, gear.sectors()),
+            (0.2, teeth)
+        );
+        let mesh = GearMesh::new(&gear, &PythonEnvironment::find().unwrap()).unwrap();
+        println!("{teeth} teeth: {:?}", mesh.quality);
+        assert!(mesh.quality.smallest > 0.2);
+    }
+}
+
 /// The estimate made before meshing: how far off it is. Blocks of teeth are counted, the free mesh of the body is
 /// guessed.
 #[test]

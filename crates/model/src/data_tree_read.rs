@@ -393,6 +393,30 @@ mod tests {
         assert!(matches!(error, FileError::BrokenTexts { .. }), "{error}");
     }
 
+    /// Three gigabytes were taken for a text of a few letters before its place was found to be none.
+    #[test]
+    fn a_text_that_states_a_huge_length_is_not_allocated() {
+        let place = std::cell::Cell::new(0);
+        let error = read_back_changed(
+            |file| {
+                let text: VarLenUnicode = "a title".parse().unwrap();
+                let dataset = file.new_dataset::<VarLenUnicode>().create("title").unwrap();
+                dataset.write_scalar(&text).unwrap();
+                file.flush().unwrap();
+                place.set(dataset.offset().unwrap() as usize);
+            },
+            |bytes| {
+                let length = &mut bytes[place.get()..][..4];
+                assert_eq!(length, 7_u32.to_le_bytes());
+                length.copy_from_slice(&3_171_876_893_u32.to_le_bytes());
+            },
+        );
+        assert!(
+            matches!(&error, FileError::TooLarge { item, shape, .. } if item == "\"title\"" && *shape == [3_171_876_893]),
+            "{error}"
+        );
+    }
+
     #[test]
     fn groups_in_a_circle_end() {
         let error = read_back(|file| {

@@ -41,7 +41,7 @@ pub struct Damage {
     pub per_passage: f64,
     /// Cycles counted, halves as ½.
     pub cycles: f64,
-    /// The cycle (one of several alike) that does most of it; none without damage.
+    /// The cycle that has the shortest life, a half like a whole one (the first of several alike); none without damage.
     pub most_damaging: Option<Cycle>,
 }
 

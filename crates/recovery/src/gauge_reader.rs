@@ -210,6 +210,22 @@ mod tests {
             rubbed.method_1, strain.method_1,
             "method 1 knows no friction"
         );
-        assert_ne!(rubbed.method_2, strain.method_2);
+        // The whole model under the same forces, normal and tangential.
+        let row = |load: usize| {
+            let at = 3 * (gauge.tooth * model.flanks.len() * model.grid.len() + load);
+            [gauge.adjoint[at], gauge.adjoint[at + 1]]
+        };
+        let spread = AxialSpread::own(&model);
+        let loads = crate::grid_forces(&model.grid, &spread, loaded(gauge.tooth, [1.0, 0.3]));
+        let (mut whole, mut tangential) = (0.0, 0.0);
+        for load in &loads {
+            let [normal, along] = row(load.load);
+            whole += load.normal_n * normal + load.tangential_n * along;
+            tangential += load.tangential_n * along;
+            assert!((load.tangential_n - 0.3 * load.normal_n).abs() < 1e-12);
+        }
+        assert!((rubbed.method_2 - whole).abs() < 1e-13 * scale);
+        assert!((rubbed.method_2 - strain.method_2 - tangential).abs() < 1e-13 * scale);
+        assert!(tangential.abs() > 1e-6 * scale);
     }
 }

@@ -20,7 +20,7 @@
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
-//! | memory that all this will take, before it is taken | `memory_estimate.rs` |
+//! | memory that all this will take, before it is taken | `memory_estimate.rs`, `mode_count.rs` |
 //! | a crack in one tooth, as rows added to the compliance | `root_crack.rs` |
 //! | the whole displacement and stress field | `field.rs` |
 //!
@@ -46,6 +46,7 @@ pub mod imported_error;
 pub mod imported_mesh;
 mod imported_outline;
 pub mod memory_estimate;
+pub mod mode_count;
 pub mod mode_figures;
 pub mod near_field;
 mod part;

@@ -17,6 +17,8 @@
 use gearmesh_geometry::{Element, GearDefinition, MeshSettings, ModeRange, Symmetry};
 use gearmesh_mesh::MeshSize;
 
+use crate::mode_count::modes_up_to;
+
 /// Bytes a node before and after the checks: mesh, model and graph; stiffness of the parts, mass, full fields.
 const BYTES_A_NODE: [f64; 2] = [600.0, 3800.0];
 /// Bytes a node of a mesh alone, with what writes it.
@@ -38,7 +40,7 @@ pub enum OfflineJob {
     Mesh,
     /// Its reduction, with the natural modes that the definition asks for.
     Reduction,
-    /// Natural modes in a range. How many there are up to a frequency nobody knows beforehand: they are left out.
+    /// Natural modes in a range. How many there are up to a frequency is estimated ([`modes_up_to`]).
     Modes(ModeRange),
 }
 
@@ -51,6 +53,8 @@ pub struct MemoryEstimate {
     pub bytes: f64,
     /// The part of it that the natural modes take \[byte\].
     pub modes_bytes: f64,
+    /// Natural modes that are wanted; up to a frequency, an estimate of how many there are.
+    pub modes: f64,
     /// The key of `[mesh]` whose length is the smallest share of its default, and that share.
     pub shortest: (&'static str, f64),
 }
@@ -64,10 +68,12 @@ impl MemoryEstimate {
             OfflineJob::Reduction => gear.modes,
             OfflineJob::Modes(range) => Some(range),
         };
-        let modes_bytes = match modes {
-            Some(ModeRange::Count(count)) => modes_bytes(gear, &size, count as f64),
-            Some(ModeRange::UpToHz(_)) | None => 0.0,
+        let modes = match modes {
+            Some(ModeRange::Count(count)) => count as f64,
+            Some(ModeRange::UpToHz(frequency_hz)) => modes_up_to(gear, frequency_hz).unwrap_or(0.0),
+            None => 0.0,
         };
+        let modes_bytes = modes_bytes(gear, &size, modes);
         let bytes = match job {
             OfflineJob::Mesh => BYTES_A_MESH_NODE * size.nodes,
             OfflineJob::Reduction | OfflineJob::Modes(_) => reduction_bytes(gear, &size),
@@ -76,6 +82,7 @@ impl MemoryEstimate {
             size,
             bytes: bytes + modes_bytes,
             modes_bytes,
+            modes,
             shortest: shortest(gear),
         })
     }

@@ -204,6 +204,12 @@ mod tests {
     }
 
     #[test]
+    fn of_equal_deviations_the_first_is_told() {
+        let found = largest_deviation(&[1.0, 2.0, 3.0], &[2.0, 2.0, 2.0]).unwrap();
+        assert_eq!((found.index, found.value), (0, -1.0));
+    }
+
+    #[test]
     fn what_has_no_figure_is_refused() {
         assert_eq!(mean(&[]), Err(StatisticsError::Empty));
         assert_eq!(largest_deviation(&[], &[]), Err(StatisticsError::Empty));

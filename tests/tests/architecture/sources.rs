@@ -130,6 +130,25 @@ fn the_tutorial_shows_the_files_that_are_shipped() {
     }
 }
 
+/// What docs/extending.md prints of a file is the file.
+#[test]
+fn the_page_on_extending_shows_its_examples() {
+    let page = read(&root().join("docs/extending.md"));
+    for name in [
+        "crates/cli/src/commands/schema.rs",
+        "crates/drivetrain/tests/conformance/examples/spring_teeth.rs",
+        "crates/drivetrain/tests/conformance/examples/waviness.rs",
+        "crates/dynamics/tests/problems/distance_sensor.rs",
+        "crates/dynamics/tests/problems/maxwell.rs",
+    ] {
+        let file = read(&root().join(name));
+        assert!(
+            page.contains(&format!("`{name}`")) && page.contains(&format!("```rust\n{file}```")),
+            "{name} is not what docs/extending.md shows"
+        );
+    }
+}
+
 /// A place like `/tmp/x` in prose or code, not the middle of `docs/tmp/x`.
 fn names_absolute_path(line: &str, path: &str) -> bool {
     line.match_indices(path).any(|(at, _)| {

@@ -382,6 +382,13 @@ fn more_modes_than_memory_holds_are_refused() {
     refused(
         &answer,
         2,
-        &["modes", "the natural modes take", "ask for fewer"],
+        &[
+            "modes",
+            "the natural modes, about 100.0 million of them, take",
+            "ask for fewer",
+        ],
     );
+    // How many there are up to a frequency is estimated.
+    let answer = gearmesh(&["modes", argument(&file), "--up-to-Hz", "1e8"]);
+    refused(&answer, 2, &["modes", "of them, take", "a lower frequency"]);
 }

@@ -4,6 +4,8 @@ use crate::mesh_common::*;
 use crate::{DAMPINGS, damped, friction, loaded_poses, rates};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
+use gearmesh_geometry::Flank;
+use nalgebra::Vector3;
 
 /// The undamped load is minus the gradient of the energy.
 #[test]
@@ -40,6 +42,31 @@ pub(crate) fn check_energy(name: &str, mesh: &mut GearMesh, poses: &[Pose]) {
             // 1e-10 N·m of energy to 1e-16, over steps of 1e-9 m; the solver's tolerance in the hybrid's energy.
             assert!(off < 2e-6, "{name} {number} by {direction}: {off:e}");
         }
+    }
+}
+
+/// A spring stores ½ k δ² however fast it is pressed: damping moves the gap that it feels, not what it has stored.
+#[test]
+fn what_a_damped_spring_stores_does_not_depend_on_its_speed() {
+    let pair = spur_pair();
+    let damping = Damping::StiffnessProportional {
+        time_s: 1e-5,
+        full_depth_m: 1e-6,
+    };
+    let spring = MeshSpring::new(3e8, SLICES, pair.working_pressure_angle_rad.tan()).unwrap();
+    let side = Damped::new(spring, damping, SLICES).unwrap();
+    let mut mesh = GearMesh::new(kinematics(&pair), Flank::Right, side).unwrap();
+    let depth = 10e-6;
+    let phi = angles(&pair, Flank::Right, 0.05, -depth);
+    let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
+    for turn_rad_per_s in [-0.5, 0.0, 0.5] {
+        let turning = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, turn_rad_per_s);
+        let power = mesh.evaluate(&moving(&at, &turning), false).unwrap().power;
+        assert!(
+            (power.stored_j / (0.5 * 3e8 * depth * depth) - 1.0).abs() < 1e-9,
+            "{power:?}"
+        );
+        assert_eq!(power.dissipated_w > 0.0, turn_rad_per_s != 0.0);
     }
 }
 

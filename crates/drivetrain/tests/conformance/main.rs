@@ -6,6 +6,7 @@ mod crossed_cylinders;
 mod crowned_cylinders;
 mod effects;
 mod energy;
+mod examples;
 mod exchange;
 mod hertz;
 mod invariance;

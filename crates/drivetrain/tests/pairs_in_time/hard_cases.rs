@@ -1,7 +1,6 @@
 //! Motions that are hard to compute: each runs to its end, against a closed form where there is one, and converges with the step.
 
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
@@ -12,11 +11,11 @@ use crate::mesh_common::*;
 use crate::scene::*;
 
 /// A mesh of both sides with damping proportional to stiffness, full at a depth of 1 µm.
-fn damped_mesh(name: &str, pair: &GearPair, time_s: f64) -> GearMesh {
+pub fn damped_mesh(name: &str, pair: &GearPair, time_s: f64) -> GearMesh {
     damped_on(kinematics(pair), (name, pair), [time_s, 1e-6])
 }
 
-fn damped_on(
+pub fn damped_on(
     kinematics: MeshKinematics,
     (name, pair): (&str, &GearPair),
     [time_s, full_depth_m]: [f64; 2],
@@ -47,7 +46,7 @@ fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
 }
 
 /// Normal backlash: both flanks' gaps together.
-fn backlash_m(pair: &GearPair) -> f64 {
+pub fn backlash_m(pair: &GearPair) -> f64 {
     let gears = [&pair.gear_1, &pair.gear_2];
     let base: f64 = gears.iter().map(|g| g.base_radius_m).sum();
     let thick: f64 = gears
@@ -134,7 +133,7 @@ fn a_fall_through_backlash_and_a_hard_impact() {
 
 /// A figure on steps that halve: its last change over its size, and the mean order of its changes.
 #[track_caller]
-fn converges(what: &str, values: &[f64], last_change: f64, least_order: f64) {
+pub fn converges(what: &str, values: &[f64], last_change: f64, least_order: f64) {
     let n = values.len();
     let change = (values[n - 1] / values[n - 2] - 1.0).abs();
     let order = mean_order(values);
@@ -185,6 +184,34 @@ fn torque_turns_round_through_backlash() {
     }
 }
 
+/// Speed of a push \[m/s\].
+const START_M_PER_S: f64 = 40e-3;
+
+/// Speed at which a mass comes back from the spring of 3e8 N/m with a damping of 1e-5 s, full at 1 µm: m δ̈ = −max(0, K (δ + τ s(δ) δ̇)),
+/// by the classical Runge-Kutta method in steps of 10 ns.
+fn speed_after_blow(speed_m_per_s: f64, mass_kg: f64) -> f64 {
+    let acceleration = |depth: f64, rate: f64| {
+        let x = (depth / 1e-6).clamp(0.0, 1.0);
+        let share = x * x * (3.0 - 2.0 * x);
+        -(3e8 / mass_kg * (depth + 1e-5 * share * rate)).max(0.0)
+    };
+    let h = 1e-8;
+    let (mut depth, mut rate) = (0.0, speed_m_per_s);
+    while depth >= 0.0 {
+        let k1 = [rate, acceleration(depth, rate)];
+        let at = |k: [f64; 2], h: f64| {
+            let (depth, rate) = (depth + h * k[0], rate + h * k[1]);
+            [rate, acceleration(depth, rate)]
+        };
+        let k2 = at(k1, 0.5 * h);
+        let k3 = at(k2, 0.5 * h);
+        let k4 = at(k3, h);
+        depth += h / 6.0 * (k1[0] + 2.0 * (k2[0] + k3[0]) + k4[0]);
+        rate += h / 6.0 * (k1[1] + 2.0 * (k2[1] + k3[1]) + k4[1]);
+    }
+    -rate
+}
+
 /// No torque at all: gear 2 floats in the backlash, and nothing touches it. Given a push it hits the flanks in turn and, its damping at
 /// work, ever more slowly.
 #[test]
@@ -206,7 +233,7 @@ fn zero_torque() {
             end.te_m - 0.5 * backlash
         );
         let pushed = Scene {
-            te_rate_m_per_s: -40e-3,
+            te_rate_m_per_s: -START_M_PER_S,
             ..floating
         };
         let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
@@ -222,15 +249,62 @@ fn zero_torque() {
             let end = samples.last().unwrap();
             assert!(end.right_n == 0.0 && end.left_n == 0.0, "{name}");
             let hits = [touches(|s| s.right_n), touches(|s| s.left_n)];
-            (hits, r2 * end.speeds[1] - r1 * end.speeds[0])
+            let rate = r2 * end.speeds[1] - r1 * end.speeds[0];
+            (hits, rate)
         };
         let found = [8e-6, 4e-6, 2e-6, 1e-6].map(run);
         println!("{name} {found:?}");
         assert!(found.iter().all(|f| f.0 == found[0].0), "{name} {found:?}");
         let rates = found.map(|f| f.1.abs());
-        assert!(rates[3] < 35e-3, "{rates:?}");
+        assert!(rates[3] < START_M_PER_S, "{rates:?}");
         converges(&format!("{name} rate"), &rates, 1e-2, 0.5);
     }
+}
+
+/// The same push against one spring of the same stiffness at every place: each blow is one equation.
+#[test]
+fn blows_of_a_constant_spring_are_those_of_one_mass() {
+    let pair = spur_pair();
+    let damping = Damping::StiffnessProportional {
+        time_s: 1e-5,
+        full_depth_m: 1e-6,
+    };
+    let side = || {
+        let middle = pair.working_pressure_angle_rad.tan();
+        let spring = MeshSpring::new(3e8, SLICES, middle).unwrap();
+        Damped::new(spring, damping, SLICES).unwrap()
+    };
+    let scene = Scene {
+        te_m: 0.5 * backlash_m(&pair),
+        te_rate_m_per_s: -START_M_PER_S,
+        ..Scene::new(&pair).driven_at(60.0)
+    };
+    let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
+    let rate = |step_s: f64| {
+        let mesh = GearMesh::new(kinematics(&pair), Flank::Right, side())
+            .unwrap()
+            .with_side(Flank::Left, side())
+            .unwrap();
+        let (samples, _) = record(scene.system(mesh), Params::fixed(step_s), 18e-3);
+        let carries = |s: &Sample| s.right_n + s.left_n > 0.0;
+        let begins = |two: &&[Sample]| !carries(&two[0]) && carries(&two[1]);
+        let blows = samples.windows(2).filter(begins).count();
+        let end = samples.last().unwrap();
+        (blows, (r2 * end.speeds[1] - r1 * end.speeds[0]).abs())
+    };
+    let found = [4e-6, 2e-6, 1e-6].map(rate);
+    let expected = (0..found[2].0).fold(START_M_PER_S, |speed, _| {
+        speed_after_blow(speed, scene.mass_2_kg())
+    });
+    println!("{found:?}, one mass {expected}");
+    assert!(found[2].0 > 1);
+    // Second order: what is left of the error is a third of the last change.
+    let last_change = (found[2].1 - found[1].1).abs();
+    assert!(
+        (found[2].1 - expected).abs() < last_change,
+        "{found:?} {expected}"
+    );
+    assert!(last_change < 1e-3 * expected, "{found:?}");
 }
 
 /// 1e-3 N·m, a load of 17 mN: momentum I₂ω + ∫ F r_b2 dt = ∫ T dt holds, and the mesh neither rattles away nor sticks.
@@ -264,110 +338,8 @@ fn a_thousandth_of_a_newton_metre() {
         assert!(found.iter().all(|f| f.0.abs() < 1e-5), "{name} {found:?}");
         let [.., before, last] = found.map(|f| f.1);
         assert!((last / before - 1.0).abs() < 1e-2, "{name} {found:?}");
-        assert!((0.5..2.0).contains(&(last / te)), "{name} {te:e} {found:?}");
-    }
-}
-
-/// Friction of 0.3 reverses where the pair passes the pitch point and where the drive turns round, with every start and end of sticking
-/// in the regularised law. Loss over a cycle in closed form but for one integral: gear 2 carries F (r_b2 ± μ ρ₂) = T + I₂ θ̈₂, ρ₂ its
-/// radius of curvature, and the loss is ∮ μ F |v| dt with v = (1 + r_b1/r_b2) s φ̇₁, s the way from the pitch point.
-#[test]
-fn friction_turns_round() {
-    let pair = spur_pair();
-    let (torque, swing_rad, frequency_hz) = (30.0, 0.015, 2.0);
-    let omega = TAU * frequency_hz;
-    let friction = Friction::new([0.3, 0.3], [5e-5, 1e-4]).unwrap();
-    let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
-    let rocking = || TimeFunction::Sine {
-        offset: 0.0,
-        amplitude: swing_rad * omega,
-        frequency_hz,
-        phase_rad: 0.25 * TAU,
-    };
-    let scene = |te_m: f64| Scene {
-        te_m,
-        speed_rad_per_s: swing_rad * omega,
-        drive: Some(rocking()),
-        ..Scene::new(&pair).loaded_by(torque)
-    };
-    let inertia = scene(0.0).mass_2_kg() * r2 * r2;
-    let power = |t: f64| {
-        let (sin, cos) = (omega * t).sin_cos();
-        let s = r1 * swing_rad * sin;
-        let v = (1.0 + r1 / r2) * s * swing_rad * omega * cos;
-        let mu = friction.coefficient(v).0;
-        let arm = r2 * pair.working_pressure_angle_rad.tan() - s;
-        let load = torque - inertia * r1 / r2 * swing_rad * omega * omega * sin;
-        mu * v * load / (r2 + mu * arm)
-    };
-    let points = 200_000;
-    let period = 1.0 / frequency_hz;
-    let expected: f64 = (0..points)
-        .map(|k| power((k as f64 + 0.5) * period / points as f64))
-        .sum::<f64>()
-        * period
-        / points as f64;
-    for name in ["impact", "hybrid"] {
-        let run = |step_s: f64| {
-            // The rigid path leaves one pair alone over the whole swing.
-            let none = [Vec::new(), Vec::new()];
-            let path = kinematics_with(&pair, none, PathEnds::LineOfAction);
-            let te = equilibrium(&mut mesh(name, &pair, path.clone()), &pair, 0.0, torque);
-            let mesh = damped_on(path, (name, &pair), [1e-5, 1e-6]).with_friction(friction);
-            let system = scene(te).system(mesh);
-            let mut run = Simulation::new(system, Params::fixed(step_s)).unwrap();
-            run.run(period, |_| ControlFlow::Continue(())).unwrap();
-            let first = run.info().energy.dissipated_j;
-            let second = record_on(&mut run, 2.0 * period);
-            assert!(second.iter().all(|s| s.pairs == 1.0 && s.left_n == 0.0));
-            let energy = run.info().energy;
-            (
-                (energy.dissipated_j - first) / expected - 1.0,
-                energy.largest_error_j / expected,
-            )
-        };
-        let found = [4e-4, 2e-4, 1e-4].map(run);
-        println!("{name} {found:?}");
-        // The closed form is for rigid teeth. Elastic ones move gear 2 while friction turns round, in proportion to the deflection:
-        // 4.1e-3 of the loss with 4.1 µm (`impact`), 0.7e-3 with 0.7 µm.
-        let most = if name == "hybrid" { 1e-3 } else { 5e-3 };
-        assert!(found.iter().all(|f| f.0.abs() < most), "{name} {found:?}");
-        assert!((found[2].0 - found[0].0).abs() < 3e-6, "{name} {found:?}");
-        let order = (found[0].1 / found[2].1).log2() / 2.0;
-        assert!(
-            (1.7..2.3).contains(&order) && found[2].1 < 2e-5,
-            "{name} {found:?}"
-        );
-    }
-}
-
-/// The drive turns round under load: speed from 60 to −60 rad/s, friction 0.3, one and two pairs in mesh.
-#[test]
-fn the_drive_turns_round_with_friction() {
-    let pair = spur_pair();
-    let friction = Friction::new([0.3, 0.25], [2e-3, 2e-2]).unwrap();
-    for name in MODELS {
-        let run = |step_s: f64| {
-            let scene = Scene {
-                te_m: -5e-6,
-                speed_rad_per_s: 60.0,
-                drive: Some(TimeFunction::step(2e-3, 60.0, 22e-3, -60.0).unwrap()),
-                ..Scene::new(&pair).loaded_by(60.0)
-            };
-            let mesh = damped_mesh(name, &pair, 2e-5).with_friction(friction);
-            let (samples, info) = record(scene.system(mesh), Params::fixed(step_s), 24e-3);
-            assert!(
-                samples
-                    .iter()
-                    .all(|s| s.right_n > 0.0 && s.right_n < 1e4 && s.left_n == 0.0)
-            );
-            // The tooth damping's energy is exact to the first order of the damping only.
-            assert!(info.energy.largest_error_j < 3e-4 * info.energy.dissipated_j);
-            (info.energy.dissipated_j, samples.last().unwrap().te_m)
-        };
-        let found = [8e-6, 4e-6, 2e-6, 1e-6].map(run);
-        converges(&format!("{name} loss"), &found.map(|f| f.0), 1e-5, 1.0);
-        converges(&format!("{name} end"), &found.map(|f| f.1), 2e-4, 1.5);
+        // A load put on at once swings the teeth between nothing and twice their deflection; half of that, at least, is damped away.
+        assert!((0.5..1.5).contains(&(last / te)), "{name} {te:e} {found:?}");
     }
 }
 
@@ -491,73 +463,5 @@ fn steps_over_a_factor_of_thirty() {
         assert!((found[0].2 / spread - 1.0).abs() < 5e-3, "{name} {found:?}");
         let nearer = |k: usize| (found[k].1 - te).abs() < 0.3 * (found[0].1 - te).abs();
         assert!(nearer(2) && nearer(3), "{name} {found:?}");
-    }
-}
-
-/// A load of the other sign on teeth that have flanks on one side only: they would pass through those of the mate, half a base pitch deep, and
-/// the mesh would push out of nothing. The run ends before, with the side and the sign that it can carry. With both sides the left flanks carry.
-#[test]
-fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
-    let pair = spur_pair();
-    let depth = 0.02 * std::f64::consts::TAU * pair.gear_1.base_radius_m / 30.0;
-    for (side, torque, words) in [
-        (
-            Flank::Right,
-            -30.0,
-            ["left flanks", "clockwise (torques negative"],
-        ),
-        (
-            Flank::Left,
-            30.0,
-            ["right flanks", "counter-clockwise (torques positive"],
-        ),
-    ] {
-        let one_sided = GearMesh::new(kinematics(&pair), side, model("hybrid", &pair, side));
-        let scene = Scene::new(&pair).driven_at(0.0).loaded_by(torque);
-        let mut run =
-            Simulation::new(scene.system(one_sided.unwrap()), Params::fixed(5e-6)).unwrap();
-        let mut energy = 0.0f64;
-        let ended = run.run(0.1, |step| {
-            energy = energy.max(step.info.energy.last.kinetic_j);
-            ControlFlow::Continue(())
-        });
-        let message = ended.unwrap_err().to_string();
-        for word in words.iter().chain(&["`mesh`", "which the mesh leaves out"]) {
-            assert!(message.contains(word), "`{word}` is not in {message}");
-        }
-        // No more than the load's own work over what is allowed, and over the backlash where it starts on the other side of it.
-        let free = [0.0, backlash_m(&pair)][usize::from(side == Flank::Right)];
-        let way = free + 1.05 * depth;
-        let work = torque.abs() * way / pair.gear_2.base_radius_m;
-        assert!(energy > 0.5 * work && energy < work, "{energy} of {work}");
-        // Flanks on both sides stop at the backlash and bounce.
-        let both = damped_mesh("hybrid", &pair, 2e-6);
-        let (samples, _) = record(scene.system(both), Params::fixed(5e-6), 0.02);
-        let most = samples.iter().map(|s| s.te_m.abs()).fold(0.0, f64::max);
-        assert!(most < backlash_m(&pair) + 50e-6, "{most}");
-    }
-}
-
-/// Flanks that are pressed into each other deeper than any tooth gives way end the run, too.
-#[test]
-fn teeth_are_not_pressed_through_each_other() {
-    let pair = spur_pair();
-    let law = Impact::new(
-        PowerStiffness::n_per_mm_e(10.0, 1.0).unwrap(),
-        0.0,
-        1e-6,
-        SLICES,
-    );
-    let mesh = GearMesh::new(kinematics(&pair), Flank::Right, law.unwrap()).unwrap();
-    let system = Scene::new(&pair)
-        .driven_at(0.0)
-        .loaded_by(1000.0)
-        .system(mesh);
-    let ended = Simulation::new(system, Params::fixed(1e-5))
-        .unwrap()
-        .run(0.1, |_| ControlFlow::Continue(()));
-    let message = ended.unwrap_err().to_string();
-    for word in ["right flanks", "a tenth of the base pitch", "`mesh`"] {
-        assert!(message.contains(word), "`{word}` is not in {message}");
     }
 }

@@ -8,10 +8,12 @@
 mod mesh_common;
 
 mod conservation;
+mod friction_reversal;
 mod hard_cases;
 mod helical;
 mod instability;
 mod newton;
+mod overloaded_flanks;
 mod resonance;
 mod root_crack;
 mod scene;

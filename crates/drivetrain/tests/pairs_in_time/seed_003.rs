@@ -133,9 +133,11 @@ fn rises(what: &str, values: &[[f64; 2]]) {
 fn load_raises_both() {
     let found = [225.0, 450.0, 900.0].map(|torque_nm| response(Case { torque_nm, ..BASE }));
     rises("load", &found);
-    // "Approximately linear": within a quarter.
+    // "Approximately linear". At F ∝ δ^1.5 all but the mesh frequency over the pair's own scales with the load; the own frequency goes
+    // with its sixth root, by 1.26 here, and below resonance the response with it.
     let linear = found[2][0] / found[0][0] / 4.0;
-    assert!((linear - 1.0).abs() < 0.25, "{linear}");
+    let detuned = 4f64.powf(1.0 / 6.0);
+    assert!(linear < detuned && linear > 1.0 / detuned, "{linear}");
 }
 
 /// With peaks at resonances. Seen: 5163 390 at 750 deg/s, 18111 5263 at 12000, then 12067 1998 at 18000.

@@ -5,6 +5,7 @@
 mod andrews;
 mod beads;
 mod five_bars;
+mod output_columns;
 mod own_coordinates;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;
@@ -15,5 +16,6 @@ mod sparse;
 mod problems {
     pub mod andrews;
     pub mod chain;
+    pub mod distance_sensor;
     pub mod maxwell;
 }

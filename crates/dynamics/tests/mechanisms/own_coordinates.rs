@@ -341,11 +341,3 @@ fn what_an_element_gets_wrong_is_named() {
     let error = begin(1.0, false).unwrap_err();
     assert!(matches!(error, DynamicsError::Singular { .. }), "{error}");
 }
-
-/// docs/extending.md shows the element of these tests as it is.
-#[test]
-fn the_page_on_extending_shows_this_element() {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/extending.md");
-    let page = std::fs::read_to_string(root).unwrap();
-    assert!(page.contains(include_str!("../problems/maxwell.rs")));
-}

@@ -2,7 +2,7 @@
 
 use gearmesh_geometry::Material;
 use gearmesh_rating::{
-    AboveTable, BelowTable, DamageError, MeanStress, Passage, SnCurve, SnError, SnPoint,
+    AboveTable, BelowTable, Cycle, DamageError, MeanStress, Passage, SnCurve, SnError, SnPoint,
     SnTableError, SurfaceState, history_damage, miner_damage, rainflow, root_stress_pa,
 };
 use proptest::prelude::*;
@@ -166,6 +166,22 @@ fn constant_amplitude_fails_at_its_own_life() {
     let none = history_damage(&low, Passage::Repeated, &curve, MeanStress::None).unwrap();
     assert_eq!((none.per_passage, none.most_damaging), (0.0, None));
     assert_eq!(none.life_h(1.0), f64::INFINITY);
+}
+
+/// The largest amplitude is the most damaging one, though only half a cycle of it is counted and a smaller one does more in all.
+#[test]
+fn the_most_damaging_cycle_is_that_of_the_shortest_life() {
+    let curve = SnCurve::basquin(point(2e6, 300.0), 6.0, BelowTable::LastSlope).unwrap();
+    let cycle = |amplitude: f64, count: f64| Cycle {
+        minimum: -amplitude,
+        maximum: amplitude,
+        count,
+    };
+    let cycles = [cycle(290e6, 1.0), cycle(300e6, 0.5), cycle(300e6, 0.5)];
+    let damage = miner_damage(&cycles, &curve, MeanStress::None).unwrap();
+    assert_eq!(damage.most_damaging, Some(cycles[1]));
+    let expected = ((290.0_f64 / 300.0).powi(6) + 1.0) / 2e6;
+    assert!((damage.per_passage / expected - 1.0).abs() < 1e-12);
 }
 
 /// A tooth's root is loaded once a turn from zero: σ_m = σ_a. Goodman: σ_ar = σ_a/(1 − σ_a/R_m).

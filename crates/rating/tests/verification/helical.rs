@@ -167,6 +167,26 @@ fn the_pressure_is_that_of_iso_6336_2() {
     }
 }
 
+/// The narrower gear bears the force: a wider mate changes nothing, whichever of the two it is.
+#[test]
+fn a_wider_mate_changes_nothing() {
+    let load = LoadPoint::HighestSingleContact;
+    for helix_deg in [0.0, 18.0] {
+        let (gears, pair) = pair([17, 40], helix_deg, 12e-3);
+        let wider = gears.clone().map(|gear| ToothDefinition {
+            face_width_m: 20e-3,
+            ..gear
+        });
+        let of = |teeth: [&ToothDefinition; 2]| {
+            let rating = NominalRating::new(&pair, teeth, [STEEL; 2], load).unwrap();
+            rating.under(2000.0).unwrap()
+        };
+        let alike = of([&gears[0], &gears[1]]);
+        assert_eq!(of([&wider[0], &gears[1]]), alike);
+        assert_eq!(of([&gears[0], &wider[1]]), alike);
+    }
+}
+
 /// As the helix vanishes everything tends to the spur pair: Y with β² (through z_n), the pressure with the overlap,
 /// hence with β.
 #[test]

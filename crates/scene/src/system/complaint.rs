@@ -13,7 +13,8 @@ impl SystemScene {
             DynamicsError::Contradiction { joints, .. } => {
                 joints.first().and_then(|name| self.table_named(name))
             }
-            DynamicsError::Element { element, .. } => self.table_named(element),
+            DynamicsError::Element { element, .. }
+            | DynamicsError::LeftOnTheWay { element, .. } => self.table_named(element),
             DynamicsError::StepTooLarge { .. } => Some("solver".to_string()),
             _ => None,
         };

@@ -104,6 +104,7 @@ impl SystemRunError {
                 DynamicsError::StepTooLarge { .. }
                     | DynamicsError::Singular { .. }
                     | DynamicsError::NoEquilibrium { .. }
+                    | DynamicsError::LeftOnTheWay { .. }
                     | DynamicsError::Element { .. }
                     | DynamicsError::Eigen { .. }
             ),

@@ -2,7 +2,7 @@
 
 use crate::test_signals::{gaussian_noise, sampled};
 use gearmesh_signal::{
-    SeriesError, WelchSettings, Window, amplitude_spectrum, power_spectral_density,
+    SeriesError, Spectrum, WelchSettings, Window, amplitude_spectrum, power_spectral_density,
 };
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -197,4 +197,14 @@ proptest! {
             prop_assert!((found - expected).abs() <= 1e-11 * expected.max(1e-300), "{window:?}");
         }
     }
+}
+
+#[test]
+fn of_equal_lines_the_first_is_the_peak() {
+    let spectrum = Spectrum {
+        values: vec![0.0, 3.0, 1.0, 3.0, 2.0],
+        line_spacing: 0.5,
+    };
+    assert_eq!(spectrum.peak(0.0, 2.0).unwrap(), (1, 3.0));
+    assert_eq!(spectrum.peak(1.0, 2.0).unwrap(), (3, 3.0));
 }

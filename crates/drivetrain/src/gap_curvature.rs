@@ -1,0 +1,35 @@
+//! Second derivative of gaps of involute flanks by the increments of the pose (docs/theory/gear_meshes.md).
+
+use gearmesh_geometry::Flank;
+
+use crate::mesh_frame::PoseGeometry;
+use crate::mesh_kinematics::MeshKinematics;
+use crate::slice_plane::{Matrix6, SidePlanes};
+
+impl MeshKinematics {
+    /// Second derivative of the gap in a slice plane by the increments, microgeometry left out: that is of the order of the load times its
+    /// curvature, 1e-6 of the stiffness. `roll_rad`: of the contact, or the means of several ones weighted by their forces; unused on spur teeth.
+    ///
+    /// # Panics
+    /// If nothing was found or there is no such slice.
+    #[must_use]
+    pub fn gap_curvature(
+        &self,
+        (at, placed): (&PoseGeometry, &SidePlanes),
+        slice: usize,
+        side: Flank,
+        roll_rad: [f64; 2],
+    ) -> Matrix6 {
+        let (plane, zero) = (&placed.planes[slice], &placed.zeros[slice]);
+        let Some(frame) = &at.frame else {
+            return Matrix6::zeros();
+        };
+        let base_radii_m = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
+        let transverse = plane.transverse_curvature(frame, side, base_radii_m);
+        let Some(helix) = &self.helix else {
+            return transverse;
+        };
+        let at = (roll_rad, side.mirror());
+        helix.curvature((frame, plane), zero, at, transverse)
+    }
+}
