@@ -383,60 +383,34 @@ fn what_would_be_ignored_is_refused() {
     }
 }
 
-/// The transmission error of a crowned, tilted pair on models with so many slices of their own, on other numbers of slices.
-fn crowned_curves<const N: usize>(own: usize, slices: [usize; N]) -> [Vec<f64>; N] {
+/// A crowned, tilted pair on models with twelve slices of their own: twice as many slices come three times nearer to those of the
+/// finest layout that the models resolve. Beyond the models' own, the edge of the contact, which lies in one slice or the next,
+/// leaves less than 1 %.
+#[test]
+fn transmission_error_converges_with_the_slices() {
     let folder = tempfile::tempdir().unwrap();
     let pair = pair();
     for (teeth, shift, profile) in [(30, 0.2, &pair.gear_1), (41, -0.1, &pair.gear_2)] {
         let model = gearmesh_model::ReducedGear {
             input_toml: gear_file(teeth, shift),
             near_field: None,
-            ..made_up_gear(profile, FACE_MM * 1e-3, own)
+            ..made_up_gear(profile, FACE_MM * 1e-3, 12)
         };
         write_reduced_gear(&folder.path().join(format!("gear_{teeth}.h5")), &model).unwrap();
     }
     let flanks = "[gear_1.microgeometry]\nlead_crowning_um = 15.0\nflank_angle_um = 10.0\n";
-    slices.map(|slices| {
-        let text = scene_text(200.0, &format!("slices = {slices}"), flanks);
+    let curve = |slices: &str| {
+        let text = scene_text(200.0, slices, flanks);
         let points = format!("points_per_pitch = {POINTS}");
-        result_of(
-            &changed(&text, &points, "points_per_pitch = 8"),
-            folder.path(),
-        )
-        .unwrap()
-        .te_m
-    })
-}
-
-/// Largest difference of two curves over the limit.
-fn apart(found: &[f64], limit: &[f64]) -> f64 {
-    (found.iter().zip(limit)).fold(0.0, |most, (a, b)| most.max((a / b - 1.0).abs()))
-}
-
-#[test]
-fn transmission_error_converges_with_the_slices() {
-    let [limit, finer, twelve] = crowned_curves(24, [24, 48, 12]);
-    println!(
-        "24: {:?}, 12 {:?}",
-        apart(&finer, &limit),
-        apart(&twelve, &limit)
-    );
-    let slices = [1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24];
-    for (n, curve) in slices.iter().zip(crowned_curves(12, slices)) {
-        println!(
-            "12 on {n}: {:e} {:e}",
-            apart(&curve, &limit),
-            apart(&curve, &finer)
-        );
-    }
-    for (n, curve) in [2, 4, 6, 8, 10, 12]
-        .iter()
-        .zip(crowned_curves(6, [2, 4, 6, 8, 10, 12]))
-    {
-        println!(
-            "6 on {n}: {:e} {:e}",
-            apart(&curve, &limit),
-            apart(&curve, &finer)
-        );
-    }
+        let text = changed(&text, &points, "points_per_pitch = 8");
+        result_of(&text, folder.path()).unwrap().te_m
+    };
+    let limit = curve("slices = 24");
+    let off = [2, 4, 8, 12, 16].map(|slices| {
+        let found = curve(&format!("slices = {slices}"));
+        (found.iter().zip(&limit)).fold(0.0_f64, |most, (a, b)| most.max((a / b - 1.0).abs()))
+    });
+    assert!(off[1] < off[0] / 3.0 && off[2] < off[1] / 3.0, "{off:?}");
+    assert!(off[3] < 1e-2 && off[4] < 1e-2, "{off:?}");
+    assert_eq!(curve("slices = 12"), curve(""));
 }
