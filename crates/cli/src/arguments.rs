@@ -47,7 +47,11 @@ pub enum Command {
     Bearing(BearingArguments),
     /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
     BearingFrequencies(BearingFrequenciesArguments),
-    /// Print the JSON Schema of scene, study, gear or bearing files
+    /// Print blank, machine settings and checks of a bevel pair
+    Bevel(BevelArguments),
+    /// Analyse the tooth contact of a bevel pair: path, transmission error, ellipses, ease-off, edges
+    Tca(TcaArguments),
+    /// Print the JSON Schema of scene, study, gear, bearing or bevel files
     Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
@@ -506,6 +510,8 @@ pub enum SchemaKind {
     Gear,
     /// Rolling bearings
     Bearing,
+    /// Bevel pairs
+    Bevel,
 }
 
 /// How balls roll.
@@ -587,6 +593,26 @@ pub struct BearingFrequenciesArguments {
     /// Contact angle under load, instead of the nominal one
     #[arg(long)]
     pub contact_angle_deg: Option<f64>,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh bevel`.
+#[derive(Debug, Args)]
+pub struct BevelArguments {
+    /// Bevel pair file
+    pub pair: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh tca`.
+#[derive(Debug, Args)]
+pub struct TcaArguments {
+    /// Bevel pair file
+    pub pair: PathBuf,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
