@@ -1,4 +1,5 @@
-//! Basic settings of a member from its blank: both sides of a slot by one face mill (spread blade). Formulas: docs/theory/bevel_gears.md, "Basic settings".
+//! Basic settings of a member from its blank: both sides of a slot by one face mill (spread blade). Formulas:
+//! docs/theory/bevel_gears.md, "Basic settings".
 
 use std::f64::consts::PI;
 
@@ -16,7 +17,8 @@ pub enum Process {
     Formate,
 }
 
-/// Blade angle with which the flank has the pressure angle at the mean point: A sin α_b + B cos α_b = sin α with A = cos δ_f, B = ± sin β sin δ_f.
+/// Blade angle with which the flank has the pressure angle at the mean point: A sin α_b + B cos α_b = sin α with A =
+/// cos δ_f, B = ± sin β sin δ_f.
 fn blade_angle(blank: &MemberBlank, data: &PairData, side: FlankSide) -> Result<f64, BevelError> {
     let (sin_f, cos_f) = blank.dedendum_angle_rad().sin_cos();
     let (a, b) = (cos_f, side.sign() * data.spiral_angle_rad.sin() * sin_f);
@@ -87,8 +89,10 @@ pub fn basic_settings(
     ])
 }
 
-/// Settings of one flank by the pair's crown gear, whose pitch plane rolls on both pitch cones: members so cut are conjugate (line contact). The roots are
-/// parallel to the pitch cones, as deep as the blank in the middle of the face. Straight teeth are octoids with roots as the blank says.
+/// Settings of one flank by the pair's crown gear, whose pitch plane rolls on both pitch cones: members so cut are
+/// conjugate (line contact). The roots are
+/// parallel to the pitch cones, as deep as the blank in the middle of the face. Straight teeth are octoids with roots
+/// as the blank says.
 pub fn crown_settings(
     blank: &MemberBlank,
     data: &PairData,

@@ -1,4 +1,5 @@
-//! The blank of a pair by Gleason's proportions: cones, depths, thicknesses. Formulas: docs/theory/bevel_gears.md, "Blank".
+//! The blank of a pair by Gleason's proportions: cones, depths, thicknesses. Formulas: docs/theory/bevel_gears.md,
+//! "Blank".
 
 use std::f64::consts::PI;
 
@@ -26,7 +27,8 @@ pub enum ToothForm {
 pub enum Taper {
     /// Depth in proportion to the cone distance.
     Standard,
-    /// Sum of the dedendum angles such that a slot is equally wide from toe to heel; roots are tilted about the mean point.
+    /// Sum of the dedendum angles such that a slot is equally wide from toe to heel; roots are tilted about the mean
+    /// point.
     Duplex,
     /// The depth of the middle everywhere.
     Uniform,
@@ -66,7 +68,8 @@ pub struct PairData {
     pub taper: Taper,
     /// Nominal radius of the cutter [m]; 0 for straight teeth.
     pub cutter_radius_m: f64,
-    /// By how much of an outer module the pinion's outer transverse tooth is thicker than by the balance of addenda, the gear's thinner.
+    /// By how much of an outer module the pinion's outer transverse tooth is thicker than by the balance of addenda,
+    /// the gear's thinner.
     pub thickness_shift: f64,
     /// Normal backlash at the mean point, half of it from each member [m].
     pub backlash_m: f64,
@@ -175,7 +178,8 @@ fn refuse(key: &'static str, problem: String) -> BevelError {
     BevelError::Blank { key, problem }
 }
 
-/// Proportions by the form of the teeth: working depth and clearance in modules, addendum a₀ + a₁/m₉₀² of the gear in modules, constant clearance [m].
+/// Proportions by the form of the teeth: working depth and clearance in modules, addendum a₀ + a₁/m₉₀² of the gear in
+/// modules, constant clearance [m].
 fn proportions(form: ToothForm) -> ([f64; 4], f64) {
     match form {
         ToothForm::Spiral => ([1.7, 0.188, 0.46, 0.39], 0.0),
@@ -258,7 +262,8 @@ impl PairBlank {
                         ),
                     ));
                 }
-                // Tilted about the mean point: the gear's addendum angle in proportion to its share of the working depth.
+                // Tilted about the mean point: the gear's addendum angle in proportion to its share of the working
+                // depth.
                 let share = addenda[1] / working;
                 (
                     [sum * (1.0 - share), sum * share],

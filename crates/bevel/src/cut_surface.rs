@@ -19,7 +19,8 @@ pub struct SurfacePoint {
     pub n: Vector3<f64>,
     /// ∂n/∂a, ∂n/∂b.
     pub dn: [Vector3<f64>; 2],
-    /// Flank: how far up the straight side of the blade the point was cut, from where the blade's edge radius begins [m].
+    /// Flank: how far up the straight side of the blade the point was cut, from where the blade's edge radius begins
+    /// [m].
     /// Fillet: angle left on the edge from there to the blade's tip [rad]. 0 is where the next surface begins.
     pub above_end: f64,
     /// ∂/∂a, ∂/∂b of it.
@@ -38,7 +39,8 @@ impl SurfacePoint {
         [first, self.n.cross(&first)]
     }
 
-    /// Curvature tensor of the surface in the member's frame [1/m]: dn = −curvature · dr for steps dr in the tangent plane. As n points into the
+    /// Curvature tensor of the surface in the member's frame [1/m]: dn = −curvature · dr for steps dr in the tangent
+    /// plane. As n points into the
     /// material, convex bodies have positive curvatures.
     pub fn curvature(&self) -> Matrix3<f64> {
         // Dual basis of the tangent plane: e^a·r_a = 1, e^a·r_b = 0.
@@ -119,14 +121,17 @@ impl CutSurface {
         local.turned((-s, c))
     }
 
-    /// The part of the velocity of a point of the tool against the work that depends on its place, per unit of cradle turn.
+    /// The part of the velocity of a point of the tool against the work that depends on its place, per unit of cradle
+    /// turn.
     fn velocity(motion: &Motion, p: JetVector, direction: bool) -> JetVector {
         let d = if direction { p } else { p - motion.origin };
         JetVector::constant(Z).cross(p) - motion.axis.cross(d).times(motion.rate)
     }
 
-    /// Point of the flank. Generated members: a is the azimuth of the blade about the cutter's axis (plane tool: distance from the machine centre
-    /// \[m\]), b the turn of the cradle. Formate members: b is the distance up the blade [m]. None where the tool has no meshing point.
+    /// Point of the flank. Generated members: a is the azimuth of the blade about the cutter's axis (plane tool:
+    /// distance from the machine centre
+    /// \[m\]), b the turn of the cradle. Formate members: b is the distance up the blade [m]. None where the tool has
+    /// no meshing point.
     pub fn flank(&self, a: f64, b: f64) -> Option<SurfacePoint> {
         let (ja, jb) = (Jet::parameter(a, 0), Jet::parameter(b, 1));
         let sign = self.side.sign();
@@ -211,7 +216,8 @@ impl CutSurface {
         Some(to_machine(&point.n).dot(&v) / v.norm())
     }
 
-    /// Point of the fillet that the blade's edge radius cuts. Parameters as of [`Self::flank`]; formate members: b is the angle of the normal
+    /// Point of the fillet that the blade's edge radius cuts. Parameters as of [`Self::flank`]; formate members: b is
+    /// the angle of the normal
     /// against the machine plane [rad]. None without a face mill. Places where
     /// `above_end` is not between 0 and 90° less the blade angle are not on the edge.
     pub fn fillet(&self, a: f64, b: f64) -> Option<SurfacePoint> {
@@ -250,7 +256,8 @@ impl CutSurface {
             let scale = size.reciprocal() * if y.v < 0.0 { -1.0 } else { 1.0 };
             (y * scale, x * scale)
         };
-        // λ with its derivatives: those of sin λ = y/size where cos λ is small would lose digits, so dλ = cos λ d(sin λ) − sin λ d(cos λ).
+        // λ with its derivatives: those of sin λ = y/size where cos λ is small would lose digits, so dλ = cos λ d(sin
+        // λ) − sin λ d(cos λ).
         let lambda = sl.v.atan2(cl.v);
         let slope = |i: usize| cl.v * sl.d[i] - sl.v * cl.d[i];
         let left = Jet {

@@ -75,4 +75,26 @@ pub enum BevelError {
         /// What is asked.
         pressure_deg: f64,
     },
+    /// A point of the pinion never meets the gear's surface.
+    #[error(
+        "the pinion's flank at cone distance {cone_mm:.3} mm, {height_mm:+.3} mm from the pitch cone, never meets the gear's: the flanks do not fit"
+    )]
+    NoMate {
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Height above the pitch cone.
+        height_mm: f64,
+    },
+    /// No contact of the flanks was found.
+    #[error("the flanks do not touch in this assembly: {hint}")]
+    NoContact {
+        /// What to do.
+        hint: &'static str,
+    },
+    /// Local synthesis asks for what cannot be.
+    #[error("local synthesis: {problem}")]
+    Synthesis {
+        /// Why, and what to change.
+        problem: String,
+    },
 }

@@ -8,7 +8,8 @@ use crate::error::BevelError;
 use crate::hand::FlankSide;
 use crate::settings::{MachineSettings, Tool};
 
-/// A flank, turned about the member's axis such that its mean point (mean cone distance, on the pitch cone) lies in the x-z plane, x > 0.
+/// A flank, turned about the member's axis such that its mean point (mean cone distance, on the pitch cone) lies in
+/// the x-z plane, x > 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flank {
     /// The member's blank.
@@ -104,6 +105,17 @@ impl Flank {
         self.turn[0].atan2(self.turn[1])
     }
 
+    /// Unit tangents of the flank at one of its points, in the member's frame: along the tooth towards the heel (on
+    /// the cone with the pitch angle), and
+    /// up the profile towards the tip.
+    pub fn directions(&self, p: &SurfacePoint) -> [Vector3<f64>; 2] {
+        let [generator, up] = cone_directions(&self.blank, &p.r);
+        let along = p.n.cross(&up).normalize();
+        let along = along * along.dot(&generator).signum();
+        let profile = p.n.cross(&along);
+        [along, profile * profile.dot(&up).signum()]
+    }
+
     fn turned(&self, mut p: SurfacePoint) -> SurfacePoint {
         let [s, c] = self.turn;
         let turn =
@@ -153,7 +165,8 @@ impl Flank {
             .ok_or_else(|| self.no_point([cone_m, height]))
     }
 
-    /// Lower end of the fillet at a cone distance, where the root's bottom begins; that of the flank where the tool has no edge.
+    /// Lower end of the fillet at a cone distance, where the root's bottom begins; that of the flank where the tool
+    /// has no edge.
     ///
     /// # Errors
     /// As [`Self::bottom`].
@@ -306,6 +319,16 @@ impl Flank {
         }
         None
     }
+}
+
+/// Unit vectors at a point along the pitch cone's generator, towards the heel, and away from the cone.
+pub(crate) fn cone_directions(blank: &MemberBlank, r: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let radial = Vector3::new(r.x, r.y, 0.0).normalize();
+    let (sin, cos) = blank.pitch_angle_rad.sin_cos();
+    [
+        radial * sin + Vector3::z() * cos,
+        radial * cos - Vector3::z() * sin,
+    ]
 }
 
 /// Stands until the mean point is known.

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Hand of spiral: a right-hand tooth turns counter-clockwise about the member's axis (apex to heel) on its way from toe to heel.
+/// Hand of spiral: a right-hand tooth turns counter-clockwise about the member's axis (apex to heel) on its way from
+/// toe to heel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Hand {
@@ -77,7 +78,8 @@ impl FlankSide {
         }
     }
 
-    /// +1 where this flank of a member of that hand faces counter-clockwise about the member's axis, −1 where it faces clockwise.
+    /// +1 where this flank of a member of that hand faces counter-clockwise about the member's axis, −1 where it faces
+    /// clockwise.
     pub fn facing(self, hand: Hand) -> f64 {
         self.sign() * hand.sign()
     }

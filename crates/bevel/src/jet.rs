@@ -1,4 +1,5 @@
-//! Numbers that carry their first and second derivatives by two parameters: exact differentiation of the surface equations.
+//! Numbers that carry their first and second derivatives by two parameters: exact differentiation of the surface
+//! equations.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

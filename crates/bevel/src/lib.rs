@@ -7,27 +7,50 @@
 //! | settings of the machine | [`MachineSettings`], [`basic_settings()`] | `settings.rs`, `basic_settings.rs` |
 //! | the surface that the tool leaves, exact to second derivatives | [`CutSurface`] | `cut_surface.rs`, `jet.rs` |
 //! | a flank on its blank, a tooth and its checks | [`Flank`], [`Tooth`] | `flank.rs`, `tooth.rs` |
+//! | both members in space, with errors | [`Assembly`] | `assembly.rs` |
+//! | contact of flanks and edges | [`Mesh`] | `contact_point.rs`, `ease_off.rs` |
+//! | path of contact, transmission error, ellipses | [`tooth_contact`] | `tca.rs`, `contact_path.rs`, `contact_ellipse.rs` |
+//! | the mate by local synthesis or an ease-off | [`Synthesis`] | `local_synthesis.rs`, `settings_search.rs` |
+//! | all of it for a file | [`PairDesign`] | `pair_design.rs` |
 //!
-//! SI units. Frames, signs and formulas stand in docs/theory/bevel_gears.md and nowhere else. In short: z is a member's axis, from the pitch apex to the
+//! SI units. Frames, signs and formulas stand in docs/theory/bevel_gears.md and nowhere else. In short: z is a
+//! member's axis, from the pitch apex to the
 //! heel; the mean point of a flank under study lies on +x; member 1 is the pinion, member 2 the gear.
 
+pub mod assembly;
 pub mod basic_settings;
 pub mod blank;
+pub mod contact_ellipse;
+pub mod contact_path;
+pub mod contact_point;
 pub mod cut_surface;
+pub mod ease_off;
 mod error;
 pub mod flank;
 pub mod hand;
 pub mod jet;
+pub mod local_synthesis;
+pub mod pair_design;
 pub mod pair_file;
 pub mod settings;
+pub mod settings_search;
+pub mod tca;
 pub mod tooth;
 
+pub use assembly::{Assembly, AssemblyError, Placement};
 pub use basic_settings::{Process, basic_settings, crown_settings};
 pub use blank::{MemberBlank, PairBlank, PairData, Taper, ToothForm};
+pub use contact_ellipse::ContactEllipse;
+pub use contact_path::ContactKind;
+pub use contact_point::{EdgeKind, EdgeLine, Mesh, Touch};
 pub use cut_surface::{CutSurface, SurfacePoint};
+pub use ease_off::EaseOff;
 pub use error::BevelError;
 pub use flank::{Flank, Located};
 pub use hand::{FlankSide, Hand};
+pub use local_synthesis::{Synthesis, SynthesisTarget};
+pub use pair_design::{Cutting, PairDesign};
 pub use pair_file::PairFile;
 pub use settings::{FaceMill, MachineSettings, Roll, Tool};
+pub use tca::{Sensitivity, TcaRequest, ToothContact, sensitivity, tooth_contact};
 pub use tooth::{Tooth, ToothCheck};

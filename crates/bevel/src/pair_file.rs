@@ -1,6 +1,12 @@
 //! The pair file: TOML with units in the keys, checked key by key, in SI units from here on.
 
+mod assembly_table;
 mod blank_table;
+mod member_table;
+mod settings_table;
+
+pub use member_table::MemberRequest;
+pub use settings_table::settings_toml;
 
 use std::path::Path;
 
@@ -10,7 +16,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::blank::PairBlank;
+use crate::error::BevelError;
+use crate::hand::FlankSide;
+use crate::pair_design::PairDesign;
+use crate::tca::TcaRequest;
+use assembly_table::AssemblyTable;
 use blank_table::BlankTable;
+use member_table::MemberTable;
 
 /// JSON Schema (draft 2020-12) of bevel pair files.
 pub fn schema() -> schemars::Schema {
@@ -26,6 +38,12 @@ struct BevelFile {
     title: String,
     /// Teeth and blank.
     bevel: BlankTable,
+    /// How the pinion is cut.
+    pinion: MemberTable,
+    /// How the gear is cut.
+    gear: MemberTable,
+    /// Contact analysis and assembly.
+    tca: Option<AssemblyTable>,
 }
 
 /// What a pair file holds.
@@ -35,6 +53,12 @@ pub struct PairFile {
     pub title: String,
     /// Blank of both members.
     pub blank: PairBlank,
+    /// How pinion and gear are cut.
+    pub members: [MemberRequest; 2],
+    /// Flank of the pinion whose contact is analysed.
+    pub pinion_flank: FlankSide,
+    /// Assembly and fineness of the contact analysis.
+    pub tca: TcaRequest,
 }
 
 impl PairFile {
@@ -65,9 +89,31 @@ impl PairFile {
     /// As [`Self::read`].
     pub fn from_document(document: &InputDocument) -> Result<Self, InputError> {
         let file: BevelFile = document.parse()?;
+        let blank = file.bevel.blank(document)?;
+        let members = [
+            file.pinion.request(document, "pinion", &blank)?,
+            file.gear.request(document, "gear", &blank)?,
+        ];
+        let (pinion_flank, tca) = file.tca.unwrap_or_default().request(document)?;
         Ok(Self {
             title: file.title,
-            blank: file.bevel.blank(document)?,
+            blank,
+            members,
+            pinion_flank,
+            tca,
         })
+    }
+
+    /// Settings and flanks of the pair.
+    ///
+    /// # Errors
+    /// [`BevelError`] where they cannot be made.
+    pub fn design(&self) -> Result<PairDesign, BevelError> {
+        let [pinion, gear] = &self.members;
+        PairDesign::new(
+            &self.blank,
+            &[pinion.cutting.clone(), gear.cutting.clone()],
+            [pinion.edge_radius_m, gear.edge_radius_m],
+        )
     }
 }

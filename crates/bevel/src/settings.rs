@@ -2,7 +2,8 @@
 
 use crate::hand::Hand;
 
-/// Settings for one flank of one member: a face mill without tilt on a cradle, the work turning with it or held (formate).
+/// Settings for one flank of one member: a face mill without tilt on a cradle, the work turning with it or held
+/// (formate).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MachineSettings {
     /// Tool.

@@ -2,7 +2,7 @@
 
 use crate::blank::MemberBlank;
 use crate::error::BevelError;
-use crate::flank::{Flank, Located};
+use crate::flank::{Flank, Located, cone_directions};
 use crate::hand::FlankSide;
 use crate::settings::MachineSettings;
 
@@ -114,7 +114,8 @@ impl Tooth {
         Ok(found)
     }
 
-    /// Width of the blade's point that leaves the slot's bottom as it is [m]: its width normal to the tooth between the points of blades without edge
+    /// Width of the blade's point that leaves the slot's bottom as it is [m]: its width normal to the tooth between
+    /// the points of blades without edge
     /// radius, seen in the plane of the crown gear that cuts it.
     ///
     /// # Errors
@@ -152,29 +153,19 @@ fn along(blank: &MemberBlank, i: usize) -> f64 {
     blank.inner_cone_m() + blank.face_width_m * i as f64 / (ALONG - 1) as f64
 }
 
-/// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive for a right hand [rad].
+/// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive
+/// for a right hand [rad].
 pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
-    let [generator, up] = directions(flank, located);
-    let n = located.point.n;
-    let trace = n.cross(&up);
+    let [generator, up] = cone_directions(&flank.blank, &located.point.r);
+    let [trace, _] = flank.directions(&located.point);
     let around = generator.cross(&up);
-    let trace = trace * trace.dot(&generator).signum();
     trace.dot(&around).atan2(trace.dot(&generator))
 }
 
 /// Normal pressure angle at a point: of the normal against the cone through it [rad].
 pub fn pressure_angle_rad(flank: &Flank, located: &Located) -> f64 {
-    let [_, up] = directions(flank, located);
+    let [_, up] = cone_directions(&flank.blank, &located.point.r);
     (-located.point.n.dot(&up)).clamp(-1.0, 1.0).asin()
-}
-
-/// Unit vectors at a point along the pitch cone's generator, towards the heel, and away from the cone.
-fn directions(flank: &Flank, located: &Located) -> [nalgebra::Vector3<f64>; 2] {
-    let r = located.point.r;
-    let radial = nalgebra::Vector3::new(r.x, r.y, 0.0).normalize();
-    let (sin, cos) = flank.blank.pitch_angle_rad.sin_cos();
-    let z = nalgebra::Vector3::z();
-    [radial * sin + z * cos, radial * cos - z * sin]
 }
 
 fn check_envelope(flank: &Flank) -> Result<(), BevelError> {

@@ -1,10 +1,12 @@
 //! The command line. Each argument is described once, here or in the files of this folder; help follows from it.
 
 mod bearing;
+mod bevel;
 mod offline;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
+pub use bevel::{BevelArguments, TcaArguments};
 pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
 pub use signal::{AbscissaArguments, SeriesArguments, SignalAnalysis, SignalArguments, WindowKind};
 
@@ -54,7 +56,11 @@ pub enum Command {
     Bearing(BearingArguments),
     /// Print the frequencies of a rolling bearing: cage, ball or roller, passing of the races
     BearingFrequencies(BearingFrequenciesArguments),
-    /// Print the JSON Schema of scene, study, gear or bearing files
+    /// Print blank, machine settings and checks of a bevel pair
+    Bevel(BevelArguments),
+    /// Analyse the tooth contact of a bevel pair: path, transmission error, ellipses, ease-off, edges
+    Tca(TcaArguments),
+    /// Print the JSON Schema of scene, study, gear, bearing or bevel files
     Schema(SchemaArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
@@ -230,6 +236,8 @@ pub enum SchemaKind {
     Gear,
     /// Rolling bearings
     Bearing,
+    /// Bevel pairs
+    Bevel,
 }
 
 /// `gearmesh demo`.

@@ -2,6 +2,7 @@
 
 pub mod bearing;
 pub mod bearing_frequencies;
+pub mod bevel;
 pub mod check;
 pub mod compare;
 pub mod compliance;
@@ -24,3 +25,4 @@ pub mod signal;
 pub mod stress_picture;
 pub mod study;
 pub mod system_table;
+pub mod tca;

@@ -37,6 +37,8 @@ fn main() -> ExitCode {
         Command::Schema(a) => commands::schema::run(a),
         Command::Bearing(a) => commands::bearing::run(a),
         Command::BearingFrequencies(a) => commands::bearing_frequencies::run(a),
+        Command::Bevel(a) => commands::bevel::run(a),
+        Command::Tca(a) => commands::tca::run(a),
         Command::Demo(a) => commands::demo::run(a),
     });
     match outcome {

@@ -75,6 +75,8 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
         Command::Bearing(_)
         | Command::BearingFrequencies(_)
+        | Command::Bevel(_)
+        | Command::Tca(_)
         | Command::Compliance(_)
         | Command::Plan(_)
         | Command::Compare(_)

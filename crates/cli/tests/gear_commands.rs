@@ -42,7 +42,10 @@ fn help_names_all_commands() {
                            or roller, pressures, stiffness, life
       bearing-frequencies  Print the frequencies of a rolling bearing: cage, ball or roller, passing of
                            the races
-      schema               Print the JSON Schema of scene, study, gear or bearing files
+      bevel                Print blank, machine settings and checks of a bevel pair
+      tca                  Analyse the tooth contact of a bevel pair: path, transmission error,
+                           ellipses, ease-off, edges
+      schema               Print the JSON Schema of scene, study, gear, bearing or bevel files
       demo                 Make gear pairs A and B from definition to report
       help                 Print this message or the help of the given subcommand(s)
     

@@ -33,7 +33,8 @@ pub(super) struct BlankTable {
     taper: Option<Taper>,
     /// "spiral", "zerol": nominal radius of the face mill.
     cutter_radius_mm: Option<f64>,
-    /// By how much of a module the pinion's outer tooth is thicker, and the gear's thinner, than by the balance of addenda; 0 where not given.
+    /// By how much of a module the pinion's outer tooth is thicker, and the gear's thinner, than by the balance of
+    /// addenda; 0 where not given.
     thickness_shift: Option<f64>,
     /// Normal backlash at the mean point; 0 where not given.
     backlash_mm: Option<f64>,

@@ -130,7 +130,7 @@ fn duplex_slots_keep_their_width() {
 }
 
 const FILE: &str = "title = 'p'\n[bevel]\nteeth = [13, 35]\nouter_module_mm = 5.5\nface_width_mm = [30.0, 28.0]\nspiral_angle_deg = 35.0\n\
-                    pinion_hand = 'left'\ncutter_radius_mm = 76.2\n";
+                    pinion_hand = 'left'\ncutter_radius_mm = 76.2\n[pinion]\nsettings = 'basic'\n[gear]\nsettings = 'formate'\n";
 
 #[test]
 fn a_pair_file_is_read() {

@@ -91,7 +91,8 @@ fn the_envelope_meets_the_equation_of_meshing() {
     assert!(most < 1e-10, "{most:e}");
 }
 
-/// Tangents, normals and second derivatives against central differences of places; normals stand on both tangents, which holds on an envelope only.
+/// Tangents, normals and second derivatives against central differences of places; normals stand on both tangents,
+/// which holds on an envelope only.
 #[test]
 fn derivatives_and_normals_agree_with_finite_differences() {
     for flank in flanks() {
@@ -136,7 +137,8 @@ fn derivatives_and_normals_agree_with_finite_differences() {
     }
 }
 
-/// At the mean point: pressure angle exactly, spiral angle of the middle of the slot between those of both sides; normals point into the tooth.
+/// At the mean point: pressure angle exactly, spiral angle of the middle of the slot between those of both sides;
+/// normals point into the tooth.
 #[test]
 fn basic_settings_give_the_angles_of_the_blank() {
     for data in [data_20_20(), data_13_35()] {
@@ -202,7 +204,8 @@ fn basic_settings_give_the_angles_of_the_blank() {
     }
 }
 
-/// Mirror of hand: settings and blank of the other hand give the mirror image. Mirror of unit: a pair ten times as large is ten times as large.
+/// Mirror of hand: settings and blank of the other hand give the mirror image. Mirror of unit: a pair ten times as
+/// large is ten times as large.
 #[test]
 fn hands_are_mirror_images_and_units_scale() {
     for data in [data_20_20(), data_13_35()] {
@@ -264,7 +267,8 @@ fn hands_are_mirror_images_and_units_scale() {
     }
 }
 
-/// The gear of a published 38/51 pair (docs/theory/bevel_gears.md): its printed settings give a left-hand gear whose root cone and depth are those printed.
+/// The gear of a published 38/51 pair (docs/theory/bevel_gears.md): its printed settings give a left-hand gear whose
+/// root cone and depth are those printed.
 #[test]
 fn printed_settings_of_a_gear_of_51_teeth() {
     let mm = 1e-3;

@@ -3,4 +3,5 @@
 
 mod blanks;
 mod common;
+mod contacts;
 mod flanks;

@@ -1,11 +1,12 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{reduce, system_table};
+use crate::commands::{bevel, reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
+use gearmesh_bevel::PairFile;
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
@@ -40,9 +41,21 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         InputKind::Study => study(path, &Study::from_document(document, folder)?),
         InputKind::SnTable => sn_table(path, &document),
         InputKind::Record => record(folder),
+        InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(path, &document),
         InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(path, &document),
         InputKind::Gear => gear(path, &document),
     }
+}
+
+fn bevel_pair(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+    let file = PairFile::from_document(document)?;
+    bevel::design(&file)?;
+    console::data(format!(
+        "{}: bevel pair `{}`, sound",
+        path.display(),
+        file.title
+    ));
+    Ok(())
 }
 
 fn bearing(path: &Path, document: &InputDocument) -> Result<(), Failure> {

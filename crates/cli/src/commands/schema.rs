@@ -11,6 +11,7 @@ pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
         SchemaKind::Scene => (gearmesh_scene::schema::scene(), "scene"),
         SchemaKind::Study => (gearmesh_scene::schema::study(), "study"),
         SchemaKind::Bearing => (gearmesh_bearings::bearing_file::schema(), "bearing"),
+        SchemaKind::Bevel => (gearmesh_bevel::pair_file::schema(), "bevel"),
         SchemaKind::Gear => (gearmesh_geometry::gear_file::schema(), "gear"),
     };
     if arguments.markdown {

@@ -7,6 +7,7 @@
 )]
 
 mod bearing;
+mod bevel;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]

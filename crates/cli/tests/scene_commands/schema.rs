@@ -9,6 +9,7 @@ fn schemas_are_json() {
         ("scene", ["gear_mesh", "centre_distance_mm"]),
         ("gear", ["module_mm", "bore_diameter_mm"]),
         ("bearing", ["ball_diameter_mm", "roller_length_mm"]),
+        ("bevel", ["outer_module_mm", "ratio_of_roll"]),
     ] {
         let answer = succeeds(&["schema", kind]);
         assert!(
@@ -27,7 +28,7 @@ fn schemas_are_json() {
 /// The pages in docs/reference are what the program makes.
 #[test]
 fn reference_pages_are_up_to_date() {
-    for kind in ["gear", "scene", "study", "bearing"] {
+    for kind in ["gear", "scene", "study", "bearing", "bevel"] {
         let made = succeeds(&["schema", kind, "--markdown"]).stdout;
         let place = format!("docs/reference/{kind}.md");
         let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,0 +1,228 @@
+//! Where two flanks, or an edge and a flank, touch at a turn of the pinion: Newton's method on place and normal.
+
+use nalgebra::{Matrix5, Vector3, Vector5};
+
+use crate::assembly::Assembly;
+use crate::cut_surface::SurfacePoint;
+use crate::flank::Flank;
+
+/// A pair of flanks in an assembly: pinion, gear.
+#[derive(Debug, Clone, Copy)]
+pub struct Mesh<'a> {
+    /// Flanks of the pinion and of the gear.
+    pub flanks: [&'a Flank; 2],
+    /// Where the members stand.
+    pub assembly: &'a Assembly,
+}
+
+/// A contact: parameters on both flanks and the gear's turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Parameters on the pinion's and the gear's flank.
+    pub at: [[f64; 2]; 2],
+    /// Turn of the pinion [rad].
+    pub pinion_turn_rad: f64,
+    /// Turn of the gear [rad].
+    pub gear_turn_rad: f64,
+    /// Both flanks' points in the fixed frame.
+    pub points: [SurfacePoint; 2],
+}
+
+/// The line on which an edge of a flank lies, by L and h: cone·L + height·h = offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeLine {
+    /// Member with the edge: 0 pinion, 1 gear.
+    pub member: usize,
+    /// Which edge.
+    pub kind: EdgeKind,
+    cone: f64,
+    height: f64,
+    offset_m: f64,
+}
+
+/// Edges of a flank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// Tip.
+    Tip,
+    /// Small end.
+    Toe,
+    /// Large end.
+    Heel,
+}
+
+impl EdgeKind {
+    /// In words.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Tip => "tip",
+            Self::Toe => "toe",
+            Self::Heel => "heel",
+        }
+    }
+}
+
+impl EdgeLine {
+    /// An edge of a flank of member 0 or 1.
+    pub fn of(flank: &Flank, member: usize, kind: EdgeKind) -> Self {
+        let blank = &flank.blank;
+        let (cone, height, offset_m) = match kind {
+            EdgeKind::Toe => (1.0, 0.0, blank.inner_cone_m()),
+            EdgeKind::Heel => (1.0, 0.0, blank.outer_cone_m),
+            // h = a_e − (R_e − L) tan θ_a.
+            EdgeKind::Tip => {
+                let slope = blank.addendum_angle_rad().tan();
+                (
+                    -slope,
+                    1.0,
+                    blank.outer_addendum_m - blank.outer_cone_m * slope,
+                )
+            }
+        };
+        Self {
+            member,
+            kind,
+            cone,
+            height,
+            offset_m,
+        }
+    }
+
+    /// Value of the line's equation, its gradient and second derivatives by the flank's parameters.
+    fn equation(&self, flank: &Flank, p: &SurfacePoint) -> (f64, [f64; 2], [f64; 3]) {
+        // L and h are linear in z and the radius.
+        let by_z = flank.blank.cone_place(1.0, 0.0);
+        let by_radius = flank.blank.cone_place(0.0, 1.0);
+        let z = self.cone * by_z[0] + self.height * by_z[1];
+        let rho = self.cone * by_radius[0] + self.height * by_radius[1];
+        let flat = |v: &Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
+        let r = flat(&p.r);
+        let radius = r.norm();
+        let first = p.dr.map(|d| r.dot(&d) / radius);
+        let second = |i: usize, j: usize| {
+            (flat(&p.dr[i]).dot(&flat(&p.dr[j])) + r.dot(&p.ddr[i + j]) - first[i] * first[j])
+                / radius
+        };
+        (
+            z * p.r.z + rho * radius - self.offset_m,
+            [0, 1].map(|i| z * p.dr[i].z + rho * first[i]),
+            [(0, 0), (0, 1), (1, 1)].map(|(i, j)| z * p.ddr[i + j].z + rho * second(i, j)),
+        )
+    }
+}
+
+/// Newton steps at most.
+const MOST_STEPS: usize = 30;
+
+impl Mesh<'_> {
+    fn points(&self, at: &[[f64; 2]; 2]) -> Option<[SurfacePoint; 2]> {
+        Some([self.flanks[0].point(at[0])?, self.flanks[1].point(at[1])?])
+    }
+
+    /// Contact of both surfaces, also beyond the blanks' limits, from a contact nearby. None where Newton finds none.
+    pub fn touch(&self, pinion_turn: f64, start: &Touch) -> Option<Touch> {
+        self.solve(pinion_turn, start, None)
+    }
+
+    /// Contact of an edge with the other member's surface.
+    pub fn edge_touch(&self, pinion_turn: f64, edge: &EdgeLine, start: &Touch) -> Option<Touch> {
+        self.solve(pinion_turn, start, Some(edge))
+    }
+
+    fn solve(&self, pinion_turn: f64, start: &Touch, edge: Option<&EdgeLine>) -> Option<Touch> {
+        let size = self.flanks[0].blank.mean_cone_m;
+        let [pinion, gear] = &self.assembly.members;
+        let axis = gear.axis();
+        let mut at = start.at;
+        let mut turn = start.gear_turn_rad;
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let own = self.points(&at)?;
+            let p = [
+                pinion.placed(&own[0], pinion_turn),
+                gear.placed(&own[1], turn),
+            ];
+            let gap = (p[0].r - p[1].r) / size;
+            let arm = axis.cross(&(p[1].r - gear.apex_m));
+            let mut residual = Vector5::zeros();
+            let mut slopes = Matrix5::zeros();
+            for i in 0..3 {
+                residual[i] = gap[i];
+                for k in 0..2 {
+                    slopes[(i, k)] = p[0].dr[k][i] / size;
+                    slopes[(i, 2 + k)] = -p[1].dr[k][i] / size;
+                }
+                slopes[(i, 4)] = -arm[i] / size;
+            }
+            match edge {
+                None => {
+                    // Tangents are held for the step.
+                    let tangents = p[0].tangents(&p[0].dr[0]);
+                    let turned = axis.cross(&p[1].n);
+                    for (row, t) in tangents.iter().enumerate() {
+                        residual[3 + row] = t.dot(&(p[0].n + p[1].n));
+                        for k in 0..2 {
+                            slopes[(3 + row, k)] = t.dot(&p[0].dn[k]);
+                            slopes[(3 + row, 2 + k)] = t.dot(&p[1].dn[k]);
+                        }
+                        slopes[(3 + row, 4)] = t.dot(&turned);
+                    }
+                }
+                Some(line) => {
+                    let m = line.member;
+                    let (value, c, cc) = line.equation(self.flanks[m], &own[m]);
+                    residual[3] = value / size;
+                    for k in 0..2 {
+                        slopes[(3, 2 * m + k)] = c[k] / size;
+                    }
+                    // Tangent of the edge r_a c_b − r_b c_a on the other's normal.
+                    let (e, n) = (&p[m], &p[1 - m]);
+                    let tangent = e.dr[0] * c[1] - e.dr[1] * c[0];
+                    let scale = 1.0 / tangent.norm();
+                    residual[4] = tangent.dot(&n.n) * scale;
+                    for k in 0..2 {
+                        let change = e.ddr[k] * c[1] + e.dr[0] * cc[1 + k]
+                            - e.ddr[1 + k] * c[0]
+                            - e.dr[1] * cc[k];
+                        slopes[(4, 2 * m + k)] = change.dot(&n.n) * scale;
+                        slopes[(4, 2 * (1 - m) + k)] = tangent.dot(&n.dn[k]) * scale;
+                    }
+                    let turned = if m == 0 {
+                        tangent.dot(&axis.cross(&n.n))
+                    } else {
+                        axis.cross(&tangent).dot(&n.n)
+                    };
+                    slopes[(4, 4)] = turned * scale;
+                }
+            }
+            let error = residual.norm();
+            if error < 1e-13 || (error < 1e-10 && error >= 0.5 * last) {
+                if p[0].n.dot(&p[1].n) > 0.0 && edge.is_none() {
+                    return None;
+                }
+                return Some(Touch {
+                    at,
+                    pinion_turn_rad: pinion_turn,
+                    gear_turn_rad: turn,
+                    points: p,
+                });
+            }
+            last = error;
+            let mut step = slopes.lu().solve(&residual)?;
+            // Parameters and turns are of the order of one; a step far beyond the flank is cut.
+            let most = step.amax();
+            if !most.is_finite() {
+                return None;
+            }
+            if most > 0.2 {
+                step *= 0.2 / most;
+            }
+            for k in 0..2 {
+                at[0][k] -= step[k];
+                at[1][k] -= step[2 + k];
+            }
+            turn -= step[4];
+        }
+        None
+    }
+}

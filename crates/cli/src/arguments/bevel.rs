@@ -1,0 +1,25 @@
+//! Arguments of `bevel` and `tca`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// `gearmesh bevel`.
+#[derive(Debug, Args)]
+pub struct BevelArguments {
+    /// Bevel pair file
+    pub pair: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh tca`.
+#[derive(Debug, Args)]
+pub struct TcaArguments {
+    /// Bevel pair file
+    pub pair: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}

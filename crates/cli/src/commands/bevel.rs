@@ -1,0 +1,158 @@
+//! `gearmesh bevel`: blank, machine settings and checks of a bevel pair.
+
+use crate::arguments::BevelArguments;
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_bevel::pair_file::settings_toml;
+use gearmesh_bevel::{FlankSide, MemberBlank, PairDesign, PairFile, ToothCheck};
+use serde_json::{Value, json};
+
+/// Settings, flanks and checks of a pair file.
+pub fn design(file: &PairFile) -> Result<(PairDesign, [ToothCheck; 2]), Failure> {
+    let design = file.design().map_err(Failure::input)?;
+    let check = |i: usize| {
+        let member = &file.members[i];
+        let found = design.teeth[i].check(member.least_top_land_m, member.point_width_m);
+        found.map_err(Failure::input)
+    };
+    let checks = [check(0)?, check(1)?];
+    Ok((design, checks))
+}
+
+/// Runs the command.
+pub fn run(a: &BevelArguments) -> Result<(), Failure> {
+    let file = PairFile::read(&a.pair)?;
+    let (design, checks) = design(&file)?;
+    if a.json {
+        console::json(&figures(&file, &design, &checks));
+    } else {
+        table(&file, &design, &checks);
+    }
+    Ok(())
+}
+
+/// Lines of the blank: words, unit, figure of each member.
+fn blank_lines(member: &MemberBlank) -> [(&'static str, f64); 12] {
+    [
+        ("pitch_angle_deg", member.pitch_angle_rad.to_degrees()),
+        ("face_angle_deg", member.face_angle_rad.to_degrees()),
+        ("root_angle_deg", member.root_angle_rad.to_degrees()),
+        ("outer_addendum_mm", 1e3 * member.outer_addendum_m),
+        ("outer_dedendum_mm", 1e3 * member.outer_dedendum_m),
+        ("outer_pitch_diameter_mm", 1e3 * member.outer_diameter_m()),
+        ("outer_tip_diameter_mm", 1e3 * member.tip_diameter_m()),
+        ("crown_distance_mm", 1e3 * member.crown_distance_m()),
+        ("face_width_mm", 1e3 * member.face_width_m),
+        ("mean_thickness_mm", 1e3 * member.mean_thickness_m),
+        (
+            "addendum_angle_deg",
+            member.addendum_angle_rad().to_degrees(),
+        ),
+        (
+            "dedendum_angle_deg",
+            member.dedendum_angle_rad().to_degrees(),
+        ),
+    ]
+}
+
+fn pair_lines(file: &PairFile) -> [(&'static str, f64); 6] {
+    let blank = &file.blank;
+    [
+        ("outer_cone_distance_mm", 1e3 * blank.outer_cone_m),
+        ("mean_cone_distance_mm", 1e3 * blank.mean_cone_m),
+        ("working_depth_mm", 1e3 * blank.working_depth_m),
+        ("whole_depth_mm", 1e3 * blank.whole_depth_m),
+        ("mean_normal_module_mm", 1e3 * blank.mean_normal_module_m),
+        ("face_contact_ratio", blank.face_contact_ratio),
+    ]
+}
+
+fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
+    let [pinion, gear] = &file.blank.members;
+    console::data(format!(
+        "# {}: {}/{} teeth, {} taper, pinion {} hand",
+        file.title,
+        pinion.teeth,
+        gear.teeth,
+        file.blank.data.taper.word(),
+        pinion.hand.word()
+    ));
+    for (key, value) in pair_lines(file) {
+        console::data(format!("# {key:<26} {value:>12.4}"));
+    }
+    console::data(format!("# {:<26} {:>12} {:>12}", "", "pinion", "gear"));
+    for ((key, a), (_, b)) in blank_lines(pinion).into_iter().zip(blank_lines(gear)) {
+        console::data(format!("# {key:<26} {a:>12.4} {b:>12.4}"));
+    }
+    for (key, value) in [
+        (
+            "least_top_land_mm",
+            checks.each_ref().map(|c| 1e3 * c.least_top_m),
+        ),
+        (
+            "least_slot_width_mm",
+            checks.each_ref().map(|c| 1e3 * c.least_slot_m),
+        ),
+    ] {
+        console::data(format!("# {key:<26} {:>12.4} {:>12.4}", value[0], value[1]));
+    }
+    if let Some(rms) = design.fit_rms_m {
+        console::data(format!(
+            "# left of the asked ease-off, root mean square: concave {:.3} um, convex {:.3} um",
+            1e6 * rms[0],
+            1e6 * rms[1]
+        ));
+    }
+    for (name, settings) in ["pinion", "gear"].into_iter().zip(&design.settings) {
+        let tables: Vec<String> = FlankSide::BOTH
+            .into_iter()
+            .zip(settings)
+            .filter_map(|(side, s)| settings_toml(s, &format!("{name}.{}", side.word())))
+            .collect();
+        if tables.is_empty() {
+            console::data(format!("# {name}: cut by the plane tool of the crown gear"));
+            continue;
+        }
+        console::data(format!("[{name}]\nsettings = \"given\""));
+        tables.iter().for_each(|t| console::data(t.trim_end()));
+    }
+}
+
+fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Value {
+    let object = |lines: &[(&str, f64)]| -> Value {
+        lines
+            .iter()
+            .map(|(k, v)| ((*k).to_owned(), json!(v)))
+            .collect::<serde_json::Map<_, _>>()
+            .into()
+    };
+    let member = |i: usize| {
+        let mut value = object(&blank_lines(&file.blank.members[i]));
+        value["least_top_land_mm"] = json!(1e3 * checks[i].least_top_m);
+        value["least_slot_width_mm"] = json!(1e3 * checks[i].least_slot_m);
+        for (side, s) in FlankSide::BOTH.into_iter().zip(&design.settings[i]) {
+            let Some(mill) = s.face_mill() else { continue };
+            value[side.word()] = json!({
+                "point_radius_mm": 1e3 * mill.point_radius_m,
+                "blade_angle_deg": mill.blade_angle_rad.to_degrees(),
+                "edge_radius_mm": 1e3 * mill.edge_radius_m,
+                "radial_distance_mm": 1e3 * mill.radial_m,
+                "cradle_angle_deg": mill.cradle_angle_rad.to_degrees(),
+                "machine_root_angle_deg": s.root_angle_rad.to_degrees(),
+                "sliding_base_mm": 1e3 * s.sliding_base_m,
+                "offset_mm": 1e3 * s.offset_m,
+                "work_offset_mm": 1e3 * s.work_offset_m,
+                "ratio_of_roll": s.roll.map(|r| r.ratio),
+                "modified_roll": s.roll.map(|r| r.modified),
+            });
+        }
+        value
+    };
+    let mut value = object(&pair_lines(file));
+    value["title"] = json!(file.title);
+    value["taper"] = json!(file.blank.data.taper.word());
+    value["pinion"] = member(0);
+    value["gear"] = member(1);
+    value["ease_off_rms_um"] = json!(design.fit_rms_m.map(|rms| rms.map(|x| 1e6 * x)));
+    value
+}

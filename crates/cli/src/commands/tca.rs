@@ -1,0 +1,128 @@
+//! `gearmesh tca`: tooth contact analysis of a bevel pair.
+
+use crate::arguments::TcaArguments;
+use crate::commands::bevel;
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_bevel::{
+    ContactKind, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact,
+};
+use serde_json::{Value, json};
+
+/// Runs the command.
+pub fn run(a: &TcaArguments) -> Result<(), Failure> {
+    let file = PairFile::read(&a.pair)?;
+    let (design, _) = bevel::design(&file)?;
+    let flanks = design.flanks(file.pinion_flank);
+    let found = tooth_contact(flanks, &file.blank, &file.tca).map_err(Failure::work)?;
+    let moved = sensitivity(flanks, &file.blank, &file.tca.error).map_err(Failure::work)?;
+    if a.json {
+        console::json(&figures(&file, &found, &moved));
+    } else {
+        table(&file, &found, &moved);
+    }
+    Ok(())
+}
+
+fn kind(kind: ContactKind) -> String {
+    match kind {
+        ContactKind::Flanks => "flanks".to_owned(),
+        ContactKind::Edge { member, edge } => {
+            format!("{} {}", ["pinion", "gear"][member], edge.word())
+        }
+    }
+}
+
+/// Names, and how the mean contact moves along the tooth and up the flank: mm per mm, mm per mrad.
+fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
+    [
+        ("offset, mm per mm", s.offset),
+        ("pinion axial, mm per mm", s.pinion_axial),
+        ("gear axial, mm per mm", s.gear_axial),
+        ("shaft angle, mm per mrad", s.shaft_angle),
+    ]
+}
+
+fn table(file: &PairFile, found: &ToothContact, moved: &Sensitivity) {
+    console::data(format!(
+        "{}: pinion {} on gear {}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
+        file.title,
+        file.pinion_flank.word(),
+        file.pinion_flank.mate().word(),
+        1e6 * found.peak_to_peak_rad,
+        found.contact_ratio,
+        100.0 * found.edge_share
+    ));
+    console::data(
+        "pinion deg   TE urad   gear: L mm     h mm   ellipse mm: long  short   first   touches",
+    );
+    for p in &found.path {
+        let ellipse = p.ellipse.map_or_else(
+            || format!("{:>17} {:>6}", "", ""),
+            |e| {
+                let [a, b] = e.half_lengths_m(file.tca.marking_m).map(|x| 1e3 * x);
+                format!("{a:>17.3} {b:>6.3}")
+            },
+        );
+        console::data(format!(
+            "{:>10.4} {:>9.3} {:>12.4} {:>8.4} {ellipse}   {:<5}   {}",
+            p.pinion_turn_rad.to_degrees(),
+            1e6 * p.error_rad,
+            1e3 * p.places_m[1][0],
+            1e3 * p.places_m[1][1],
+            if p.leading { "yes" } else { "no" },
+            kind(p.kind)
+        ));
+    }
+    console::data("mean contact moves on the gear by     along the tooth   up the flank");
+    for (name, [along, up]) in moves(moved) {
+        console::data(format!("{name:<37} {along:>15.4} {up:>14.4}"));
+    }
+    console::data("ease-off of the pinion: L mm, h mm, um");
+    for ([cone, height], e) in &found.ease_off {
+        console::data(format!(
+            "{:>12.4} {:>9.4} {:>9.3}",
+            1e3 * cone,
+            1e3 * height,
+            1e6 * e.gap_m
+        ));
+    }
+}
+
+fn figures(file: &PairFile, found: &ToothContact, moved: &Sensitivity) -> Value {
+    let path: Vec<Value> = found
+        .path
+        .iter()
+        .map(|p| {
+            let ellipse = p.ellipse.map(|e| {
+                e.half_lengths_m(file.tca.marking_m)
+                    .map(|x| x.is_finite().then_some(1e3 * x))
+            });
+            json!({
+                "pinion_deg": p.pinion_turn_rad.to_degrees(),
+                "error_urad": 1e6 * p.error_rad,
+                "touches": kind(p.kind),
+                "first": p.leading,
+                "pinion_place_mm": p.places_m[0].map(|x| 1e3 * x),
+                "gear_place_mm": p.places_m[1].map(|x| 1e3 * x),
+                "ellipse_half_lengths_mm": ellipse,
+            })
+        })
+        .collect();
+    let map: Vec<Value> = found
+        .ease_off
+        .iter()
+        .map(|([l, h], e)| json!([1e3 * l, 1e3 * h, 1e6 * e.gap_m]))
+        .collect();
+    json!({
+        "title": file.title,
+        "pinion_flank": file.pinion_flank.word(),
+        "peak_to_peak_urad": 1e6 * found.peak_to_peak_rad,
+        "contact_ratio": found.contact_ratio,
+        "edge_share": found.edge_share,
+        "error_urad": found.error_rad.iter().map(|x| 1e6 * x).collect::<Vec<_>>(),
+        "path": path,
+        "ease_off_mm_mm_um": map,
+        "sensitivity": moves(moved).into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>(),
+    })
+}

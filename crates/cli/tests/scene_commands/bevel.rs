@@ -1,0 +1,86 @@
+//! `gearmesh bevel` and `gearmesh tca`.
+
+use crate::common::{Desk, argument, gearmesh, refused, succeeds};
+
+fn shipped(name: &str) -> String {
+    format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Settings printed for the pairs of seeds 000 and 001 are settings: read back they make the same pair.
+#[test]
+fn printed_settings_are_read_back() {
+    let desk = Desk::new();
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml", "bevel_31_36.toml"] {
+        let file = shipped(name);
+        succeeds(&["check", &file]);
+        let printed = succeeds(&["bevel", &file]).stdout;
+        let text = std::fs::read_to_string(&file).unwrap();
+        let head = text.split("[gear]").next().unwrap();
+        let again = desk.file(name, &format!("{head}\n{printed}"));
+        let [first, second] = [file.as_str(), argument(&again)].map(|f| {
+            let json = succeeds(&["tca", f, "--json"]).json();
+            ["peak_to_peak_urad", "contact_ratio"].map(|key| json[key].as_f64().unwrap())
+        });
+        for (a, b) in first.into_iter().zip(second) {
+            assert!((a - b).abs() < 1e-6 * a, "{name}: {a} {b}");
+        }
+        assert!(first[1] > 0.9 && first[0] < 100.0, "{name}: {first:?}");
+    }
+}
+
+#[test]
+fn blank_and_contact_of_seed_001() {
+    let file = shipped("bevel_20_20.toml");
+    let text = succeeds(&["bevel", &file]).stdout;
+    for part in [
+        "outer_cone_distance_mm          49.4975",
+        "root_angle_deg                  40.8021      40.8021",
+        "[pinion.concave]",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in {text}");
+    }
+    let text = succeeds(&["tca", &file]).stdout;
+    for part in [
+        "pinion concave on gear convex",
+        "flanks",
+        "gear tip",
+        "pinion axial, mm per mm",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in {text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_cut_is_refused() {
+    let desk = Desk::new();
+    let text = std::fs::read_to_string(shipped("bevel_13_35.toml")).unwrap();
+    for (from, to, expected) in [
+        (
+            "settings = \"basic\"",
+            "settings = \"ease-off\"",
+            "gear.settings: found \"ease-off\", which is for the pinion",
+        ),
+        (
+            "path_angle_deg = [100.0, 80.0]\n",
+            "",
+            "pinion.path_angle_deg: missing; settings = \"local-synthesis\" needs it",
+        ),
+        ("[8.0, 8.0]", "[0.1, 8.0]", "ask for a longer ellipse"),
+        (
+            "edge_radius_mm = 0.5\n\n",
+            "edge_radius_mm = 0.5\nbias_um = [1.0, 1.0]\n\n",
+            "gear.bias_um: is not used by settings = \"basic\"",
+        ),
+        (
+            "edge_radius_mm = 0.5\n\n",
+            "edge_radius_mm = 0.5\npoint_width_mm = 9.0\n\n",
+            "the gear's blade does not fit",
+        ),
+        ("teeth = [13, 35]", "teeth = [6, 35]", "undercut"),
+    ] {
+        let changed = text.replacen(from, to, 1);
+        assert_ne!(changed, text, "{from}");
+        let bad = desk.file("bad.toml", &changed);
+        refused(&gearmesh(&["tca", argument(&bad)]), 2, &[expected]);
+    }
+}
