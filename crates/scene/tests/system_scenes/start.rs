@@ -56,8 +56,8 @@ fn the_pendulum_swings_with_its_period() {
 fn gears_start_touching_at_the_right_speeds() {
     let scene = changed(
         &text("scene_two_wheels.toml"),
-        "model = \"impact\"",
-        "model = \"impact\"\nmicrogeometry = false",
+        "gear_2 = \"wheel\"",
+        "gear_2 = \"wheel\"\nmicrogeometry = false",
     );
     let built = build(&scene).unwrap();
     assert_labelled(&built);
