@@ -14,6 +14,7 @@
 //! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
 //! Formulas are derived in docs/theory/rolling_bearings.md.
 
+mod ball_equilibrium;
 mod ball_kinematics;
 pub mod ball_row;
 pub mod bearing_file;
@@ -21,6 +22,7 @@ mod build_rows;
 pub mod catalogue;
 pub mod definition;
 pub mod element_load;
+pub mod element_place;
 pub mod elliptic;
 mod error;
 pub mod estimate;
@@ -31,8 +33,10 @@ pub mod operation;
 pub mod point_contact;
 pub mod quasi_static;
 pub mod ratings;
+pub mod ring_equilibrium;
 pub mod ring_load;
 pub mod ring_pose;
+mod roller_equilibrium;
 pub mod roller_row;
 
 pub use ball_kinematics::RaceControl;
@@ -40,6 +44,7 @@ pub use ball_row::BallRow;
 pub use catalogue::CatalogueLine;
 pub use definition::BearingDefinition;
 pub use element_load::ElementLoad;
+pub use element_place::ElementPlaces;
 pub use error::BearingError;
 pub use frequencies::BearingFrequencies;
 pub use life::Life;
@@ -48,6 +53,7 @@ pub use operation::{Control, Operation};
 pub use point_contact::PointContact;
 pub use quasi_static::QuasiStaticBearing;
 pub use ratings::Ratings;
+pub use ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 pub use ring_load::RingLoad;
 pub use ring_pose::RingPose;
 pub use roller_row::RollerRow;

@@ -126,8 +126,10 @@ impl SliceLayout {
     #[must_use]
     pub fn of_models(models: [&ReducedGear; 2], displacement_m: f64) -> Self {
         let widths = models.map(|model| model.face_width_m);
-        let slice = |model: &ReducedGear| model.face_width_m / model.grid.slices as f64;
-        let coarser = slice(models[0]).max(slice(models[1]));
+        let coarser = models
+            .map(ReducedGear::slice_width_m)
+            .into_iter()
+            .fold(0.0, f64::max);
         let zone = ContactZone::new(widths, displacement_m);
         let slices = (zone.width_m / coarser).round().max(1.0) as usize;
         Self::new(widths, displacement_m, slices)

@@ -20,8 +20,7 @@ use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
 use crate::runout::{Placement, Runout};
 use crate::slice_contact::SliceContact;
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_model::ReducedGear;
 
 /// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
 const NO_FLANK_M: f64 = 1.0;
@@ -81,10 +80,7 @@ impl StaticContact {
         if lines.pair.is_helical() && lines.extension.is_some() {
             return Err(ContactError::HelicalExtension);
         }
-        let flank = match lines.pair.flank {
-            FlankSide::Right => Flank::Right,
-            FlankSide::Left => Flank::Left,
-        };
+        let flank = lines.pair.flank;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
         let placed = (options.local, lines.zone.displacement_m);
         // Gears beside their axes may stand closer together than the pair.

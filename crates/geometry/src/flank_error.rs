@@ -1,7 +1,7 @@
 //! Deviations of the flanks from the ideal involute: material removed, tooth by tooth. The kinds other than the
 //! microgeometry are in the drivetrain crate, `errors/`.
 
-use crate::definition::FlankSide;
+use crate::definition::Flank;
 use crate::microgeometry::Microgeometry;
 
 /// A point of a flank.
@@ -10,7 +10,7 @@ pub struct FlankPoint {
     /// Tooth.
     pub tooth: usize,
     /// Side of the tooth.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Roll angle \[rad\].
     pub roll_rad: f64,
     /// Axial position from mid-face \[m\].

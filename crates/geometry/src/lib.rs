@@ -30,10 +30,11 @@ mod tip_in_fillet;
 pub mod tooth;
 
 pub use definition::{
-    Blank, Contour, ContourPoint, CrackDefinition, ElementKind, FlankSide, GaugeDefinition,
-    GearDefinition, Holes, HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange,
-    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
+    Blank, Contour, ContourPoint, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Holes,
+    HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
+    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
 };
+pub use gearmesh_elements::Element;
 pub use input::InputError;
 pub use microgeometry::Microgeometry;
 pub use pair::{GearPair, Misalignment, PairError};

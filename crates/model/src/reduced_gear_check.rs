@@ -354,9 +354,9 @@ fn smallest(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::modal_basis::ModalBasis;
-    use crate::reduced_gear::Flank;
     use crate::root_crack::RootCrack;
     use crate::synthetic::{small_crack, small_reduced_gear};
+    use gearmesh_geometry::Flank;
 
     fn near_field(gear: &mut ReducedGear) -> &mut NearField {
         gear.near_field.as_mut().unwrap()

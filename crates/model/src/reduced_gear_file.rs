@@ -9,7 +9,8 @@ use crate::dynamics_file::{
 };
 use crate::file_error::FileError;
 use crate::near_field::NearField;
-use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use gearmesh_geometry::Flank;
 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::cell_kind::CellKind;
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
-use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use gearmesh_elements::CellKind;
+use gearmesh_geometry::Flank;
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
 pub fn small_reduced_gear() -> ReducedGear {

@@ -3,9 +3,8 @@
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
-use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_mesh::ElementShape;
+use gearmesh_geometry::{Element, GearDefinition};
 use gearmesh_reduction::GearBody;
 use gearmesh_report::scene_page::GearPicture;
 use gearmesh_scene::{LoadedScene, SceneResult};
@@ -21,9 +20,7 @@ pub fn pictures(
         let source = result.gear_toml[gear - 1].clone();
         let document = InputDocument::new("gear in result", source);
         let definition = GearDefinition::from_document(&document)?;
-        if definition.blank.meshed.is_some()
-            || ElementShape::of(definition.mesh.element) == ElementShape::Tet10
-        {
+        if definition.blank.meshed.is_some() || definition.mesh.element == Element::Tet10 {
             left_out.push(format!(
                 "{}: its mesh has no cross-section of quadrilaterals; `gearmesh recover --field-gear {gear}` writes the whole field",
                 definition.name

@@ -18,12 +18,11 @@ use gearmesh_contact::{
     ContactLines, ContactPatch, ContactZone, Drive, FlankPlace, LocalContact, PatchBalance,
     SliceLayout, nlcp::FLOOR_FRACTION,
 };
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
 use crate::flank_contacts::{FlankContacts, TeethLine};
-use crate::flank_modes::flank_of;
 use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -83,7 +82,7 @@ impl ReducedTeeth {
     /// As [`Self::displaced`].
     pub fn new(
         pair: &GearPair,
-        side: FlankSide,
+        side: Flank,
         models: [&ReducedGear; 2],
         local: LocalContact,
         nominal_force_n: f64,
@@ -98,7 +97,7 @@ impl ReducedTeeth {
     /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side, [`DrivetrainError::Value`].
     pub fn displaced(
         pair: &GearPair,
-        side: FlankSide,
+        side: Flank,
         models: [&ReducedGear; 2],
         (local, displacement_m): (LocalContact, f64),
         nominal_force_n: f64,
@@ -113,7 +112,7 @@ impl ReducedTeeth {
         // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
         let most_lines = lines.most_pairs() + 2;
         let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
-        let flanks = (teeth, flank_of(side));
+        let flanks = (teeth, side);
         let slices = SliceContact::of_gears(models, flanks, (local, displacement_m), most_lines)?;
         Self::of_flanks(slices, nominal_force_n)
     }

@@ -14,8 +14,8 @@ use gearmesh_contact::{
     Runout, SliceLayout, StaticContact,
 };
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
+use gearmesh_geometry::{GearDefinition, GearPair, InputError};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -71,14 +71,6 @@ pub struct LoadedScene {
     pub ratings: Vec<PairRating>,
 }
 
-/// The model's word for a side.
-fn flank_of(side: FlankSide) -> Flank {
-    match side {
-        FlankSide::Right => Flank::Right,
-        FlankSide::Left => Flank::Left,
-    }
-}
-
 /// Reads the models of a scene and checks that everything it names exists.
 ///
 /// # Errors
@@ -121,7 +113,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
     }
     if pair.is_helical() && scene.edge_radius_m.is_some() {
         let problem = "found \"extended\" with helical gears, whose tip edges are not modelled; allowed is \"line-of-action\"";
-        return Err(scene.document.error("mesh.path", problem).into());
+        return Err(scene.document.error("mesh.teeth.path", problem).into());
     }
     let extension = scene
         .edge_radius_m
@@ -129,7 +121,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
     let models = [model_1, model_2];
     for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
         model
-            .flank_index(flank_of(scene.flank))
+            .flank_index(scene.flank)
             .map_err(|e| scene.document.error(key, e))?;
     }
     let mut gauges = Vec::new();
@@ -454,7 +446,7 @@ pub fn strain(
     if gauges.is_empty() {
         return Ok(Vec::new());
     }
-    let flank = flank_of(loaded.scene.flank);
+    let flank = loaded.scene.flank;
     let patches_at: Vec<Vec<ContactPatch>> = result
         .angle_rad
         .iter()

@@ -6,10 +6,9 @@ use crate::rating::RatingTable;
 use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::PairFrictionTable;
 use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
-use crate::system::tables::mesh_model::LocalWord;
-use gearmesh_contact::ContactOptions;
+use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, InputError, Misalignment, kinds};
+use gearmesh_geometry::{Flank, InputError, Misalignment, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -44,7 +43,7 @@ struct PairTable {
     centre_distance_mm: f64,
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
-    flank: FlankSide,
+    flank: Flank,
     /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
     #[serde(default)]
     axial_offset_mm: f64,
@@ -56,8 +55,8 @@ struct PairTable {
     misalignment_from: Option<MisalignmentFrom>,
 }
 
-fn default_flank() -> FlankSide {
-    FlankSide::Right
+fn default_flank() -> Flank {
+    Flank::Right
 }
 
 /// `[mesh]`.
@@ -81,7 +80,7 @@ enum PairModel {
     Hybrid {
         /// Local contact; "calibrated" where not given.
         #[serde(default)]
-        local: LocalWord,
+        local: LocalContact,
     },
 }
 
@@ -151,7 +150,7 @@ pub struct Scene {
     /// Mid-face of gear 2 from that of gear 1 along the axes \[m\].
     pub axial_offset_m: f64,
     /// Hand of the flanks in contact, on both gears.
-    pub flank: FlankSide,
+    pub flank: Flank,
     /// Axis errors that the scene states.
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
@@ -317,7 +316,7 @@ impl Scene {
             errors: [teeth.errors_1, teeth.errors_2],
             eccentricity: [teeth.eccentricity_1, teeth.eccentricity_2],
             contact: ContactOptions {
-                local: local.local_contact(),
+                local: local,
                 friction,
             },
             edge_radius_m,

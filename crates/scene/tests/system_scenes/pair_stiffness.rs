@@ -220,12 +220,12 @@ fn what_does_not_fit_is_named() {
         ),
         (changed(FROM_FILE, "pair.h5", "gear_30.h5"), "gear_30.h5"),
         (
-            format!("{FROM_FILE}stiffness_amplitude = 0.1\n"),
+            format!("{FROM_FILE}model.stiffness_amplitude = 0.1\n"),
             "remove one of the two",
         ),
         (
             changed(FROM_FILE, "iso6336", "analytic"),
-            "only by \"impact\", \"iso6336\"",
+            "`stiffness` belongs to kind \"impact\" and \"iso6336\", not to \"analytic\"",
         ),
         (
             changed(FROM_FILE, "100.0", "-1.0"),

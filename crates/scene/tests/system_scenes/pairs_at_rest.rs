@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use gearmesh_contact::LocalContact;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{Scene, SceneResult, load as load_pair, run};
@@ -20,7 +20,7 @@ const PITCHES: usize = 5;
 
 /// Gear 1 turns clockwise on right flanks, counter-clockwise on left ones.
 struct Twin {
-    flank: FlankSide,
+    flank: Flank,
     torque_nm: f64,
     /// Keys that both kinds of scene have.
     effects: &'static str,
@@ -139,7 +139,7 @@ fn pitch(side: &str, teeth: usize, seed: usize) -> String {
 /// Tooth by tooth, on both gears and on either flank.
 #[test]
 fn pitch_errors_are_those_of_the_bodies() {
-    for flank in [FlankSide::Right, FlankSide::Left] {
+    for flank in [Flank::Right, Flank::Left] {
         let side = flank.name();
         let errors = format!(
             "teeth.errors_1 = [{}]\nteeth.errors_2 = [{}]",
@@ -183,7 +183,7 @@ fn faults_are_those_of_the_bodies() {
             (100.0, 1e-8, least_effects_m[1]),
         ] {
             Twin {
-                flank: FlankSide::Right,
+                flank: Flank::Right,
                 torque_nm,
                 effects,
             }
@@ -195,7 +195,7 @@ fn faults_are_those_of_the_bodies() {
 /// Exact for offsets; what is left of tilts is of second order.
 #[test]
 fn eccentricity_is_that_of_the_bodies() {
-    for flank in [FlankSide::Right, FlankSide::Left] {
+    for flank in [Flank::Right, Flank::Left] {
         let twin = |effects| Twin {
             flank,
             torque_nm: 2.0,

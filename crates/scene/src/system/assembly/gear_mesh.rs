@@ -7,14 +7,14 @@ use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
 use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, kinematic_mesh};
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, GearPair, InputError, Misalignment};
+use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 
 use super::bodies::Bodies;
 use super::gears::Gear;
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::built::BuiltGauge;
-use crate::system::tables::gear_mesh::{EccentricityTable, FlanksWord, GearMeshTable, TeethTable};
+use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
 use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::{MM, UM};
 
@@ -32,7 +32,7 @@ pub(super) struct PreparedMesh {
     /// None for `kinematic`.
     pub mesh: Option<GearMesh>,
     /// The sides that can touch.
-    pub sides: Vec<FlankSide>,
+    pub sides: Vec<Flank>,
     /// Width of a slice \[m\]; zero for `kinematic`.
     slice_width_m: f64,
 }
@@ -93,11 +93,7 @@ impl PreparedMesh {
             base_radii_m: [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m],
             seats,
             mesh: None,
-            sides: match teeth.flanks {
-                FlanksWord::Both => vec![FlankSide::Right, FlankSide::Left],
-                FlanksWord::Right => vec![FlankSide::Right],
-                FlanksWord::Left => vec![FlankSide::Left],
-            },
+            sides: teeth.flanks.flanks().to_vec(),
             slice_width_m: 0.0,
             key: key.clone(),
         };

@@ -3,7 +3,7 @@
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::FlanksWord;
+use crate::system::tables::gear_mesh::TouchingFlanks;
 use crate::system::tables::mesh_model::{DampingTable, MeshKind, MeshModel};
 
 impl SceneMesh<'_> {
@@ -16,11 +16,11 @@ impl SceneMesh<'_> {
             return;
         }
         let flanks = match teeth.flanks {
-            FlanksWord::Both => Some(format!(
+            TouchingFlanks::Both => Some(format!(
                 "both sides, {:.1} um of backlash",
                 self.pair.backlash_m() / UM
             )),
-            FlanksWord::Right | FlanksWord::Left => None,
+            TouchingFlanks::Right | TouchingFlanks::Left => None,
         };
         parts.effect(name("backlash"), flanks);
         let damping = match (&table.model, table.model.damping()) {

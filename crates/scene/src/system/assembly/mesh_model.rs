@@ -11,11 +11,11 @@ use gearmesh_drivetrain::{
     PairCurve, PathEnds, ReducedTeeth, TeethModel,
 };
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, GearPair, InputError};
+use gearmesh_geometry::{Flank, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
-use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, PathWord, TeethTable};
+use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
 use crate::system::tables::mesh_model::{
     AnalyticTable, DampingTable, HybridTable, MeshKind, MeshModel,
 };
@@ -154,8 +154,8 @@ impl SceneMesh<'_> {
         Ok(self.layout(count))
     }
 
-    pub(super) fn mesh(&self, sides: &[FlankSide]) -> Result<GearMesh, InputError> {
-        let mut teeth: Vec<(FlankSide, Box<dyn TeethModel>)> = Vec::new();
+    pub(super) fn mesh(&self, sides: &[Flank]) -> Result<GearMesh, InputError> {
+        let mut teeth: Vec<(Flank, Box<dyn TeethModel>)> = Vec::new();
         let mut layout = self.stated_layout()?;
         let slices = layout.slices;
         match &self.table.model {
@@ -254,16 +254,16 @@ impl SceneMesh<'_> {
         BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
     }
 
-    fn reduced(&self, model: &HybridTable, side: FlankSide) -> Result<ReducedTeeth, InputError> {
+    fn reduced(&self, model: &HybridTable, side: Flank) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = model.nominal_force_N.unwrap_or(reference);
         self.model_keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (model.local.local_contact(), self.displacement_m);
+        let contact = (model.local, self.displacement_m);
         ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.teeth.flanks {
-                FlanksWord::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
+                TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
                 _ => "",
             };
             self.keys.error("", format!("{} flanks: {error}{hint}", side.name()))

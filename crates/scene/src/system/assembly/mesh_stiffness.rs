@@ -6,7 +6,7 @@ use std::path::Path;
 use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
-use gearmesh_geometry::{FlankSide, InputError};
+use gearmesh_geometry::{Flank, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
 use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
@@ -94,7 +94,7 @@ impl SceneMesh<'_> {
     pub(super) fn spring(
         &self,
         table: &Iso6336Table,
-        side: FlankSide,
+        side: Flank,
         layout: &SliceLayout,
     ) -> Result<MeshSpring, InputError> {
         let slices = layout.slices;

@@ -10,7 +10,7 @@ use gearmesh_contact::{
 };
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, InputError};
+use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
 use super::mesh_model::SceneMesh;
 use crate::pair::{Scene, SceneResult};
@@ -41,7 +41,7 @@ struct Curves {
 
 impl SceneMesh<'_> {
     /// The curve that `stiffness` names; none where the table has no such key.
-    pub(super) fn static_curve(&self, side: FlankSide) -> Result<Option<PairCurve>, InputError> {
+    pub(super) fn static_curve(&self, side: Flank) -> Result<Option<PairCurve>, InputError> {
         let Some(table) = self.table.model.pair_stiffness() else {
             return Ok(None);
         };
@@ -132,7 +132,7 @@ impl SceneMesh<'_> {
     }
 
     /// Computes the curves over one pitch, as a `[pair]` scene of the bodies' reduced gears would.
-    fn computed(&self, table: &PairStiffnessTable, side: FlankSide) -> Result<Curves, InputError> {
+    fn computed(&self, table: &PairStiffnessTable, side: Flank) -> Result<Curves, InputError> {
         let keys = &self.model_keys;
         let model = |i: usize| {
             self.gears[i].model.as_deref().ok_or_else(|| {
@@ -162,7 +162,7 @@ impl SceneMesh<'_> {
             pair,
         };
         let options = ContactOptions {
-            local: table.local.unwrap_or_default().local_contact(),
+            local: table.local.unwrap_or_default(),
             friction: None,
         };
         let fault = |e: gearmesh_contact::ContactError| keys.error("stiffness", e);

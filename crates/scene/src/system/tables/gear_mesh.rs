@@ -1,5 +1,6 @@
 //! `[[gear_mesh]]`: two gears, the model of their teeth, and what the teeth have whatever the model.
 
+use gearmesh_geometry::Flank;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,7 +34,7 @@ pub struct GearMeshTable {
 pub struct TeethTable {
     /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right
     /// flanks touch where gear 1 drives clockwise. "both" where not given.
-    pub flanks: FlanksWord,
+    pub flanks: TouchingFlanks,
     /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
     /// "extended" where not given.
     pub path: PathWord,
@@ -52,7 +53,7 @@ pub struct TeethTable {
 /// Flanks that can touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum FlanksWord {
+pub enum TouchingFlanks {
     /// Both sides of the teeth.
     #[default]
     Both,
@@ -60,6 +61,17 @@ pub enum FlanksWord {
     Right,
     /// Left flanks.
     Left,
+}
+
+impl TouchingFlanks {
+    /// The flanks that it names.
+    pub(crate) fn flanks(self) -> &'static [Flank] {
+        match self {
+            Self::Both => &Flank::ALL,
+            Self::Right => &[Flank::Right],
+            Self::Left => &[Flank::Left],
+        }
+    }
 }
 
 /// Ends of the path of contact.

@@ -165,7 +165,7 @@ pub struct AnalyticTable {
 #[allow(non_snake_case)]
 pub struct HybridTable {
     /// Local contact; "calibrated" where not given.
-    pub local: LocalWord,
+    pub local: LocalContact,
     /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
     /// N/mm times the face width where not given.
     pub nominal_force_N: Option<f64>,
@@ -187,31 +187,7 @@ pub struct PairStiffnessTable {
     /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
     pub harmonics: Option<usize>,
     /// Without `from`: local contact of the curve; "calibrated" where not given.
-    pub local: Option<LocalWord>,
-}
-
-/// Local contact of reduced gears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LocalWord {
-    /// None.
-    None,
-    /// As in seed 004.
-    WeberBanaschek,
-    /// By the model's plane-strain calibration.
-    #[default]
-    Calibrated,
-}
-
-impl LocalWord {
-    /// The local contact that it names.
-    pub(crate) fn local_contact(self) -> LocalContact {
-        match self {
-            Self::None => LocalContact::None,
-            Self::WeberBanaschek => LocalContact::WeberBanaschek,
-            Self::Calibrated => LocalContact::Calibrated,
-        }
-    }
+    pub local: Option<LocalContact>,
 }
 
 /// `damping`.
