@@ -45,7 +45,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ("reduction", &["geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
-    ("bearings", &["geometry"]),
+    ("bearings", &["geometry", "dynamics"]),
     ("bevel", &["geometry"]),
     ("recovery", &["model", "contact"]),
     (

@@ -63,8 +63,8 @@ fn at_ten_rpm(driven: &str, periods: usize) {
         pair: pair.clone(),
         extension: None,
         zone: gearmesh_contact::ContactZone::of_equal_faces(gear_1.tooth.face_width_m),
-        microgeometry_1: gear_1.microgeometry.clone(),
-        microgeometry_2: gear_2.microgeometry.clone(),
+        microgeometry_1: gear_1.microgeometry.right.clone(),
+        microgeometry_2: gear_2.microgeometry.right.clone(),
     };
     let local = LocalContact::Calibrated;
     let options = ContactOptions {

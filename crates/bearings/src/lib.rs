@@ -7,6 +7,7 @@
 //! | one row of balls or rollers | [`BallRow`], [`RollerRow`] | `ball_row.rs`, `roller_row.rs` |
 //! | how balls orbit and spin | | `ball_kinematics.rs` |
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
+//! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
@@ -21,6 +22,8 @@ pub mod bearing_file;
 mod build_rows;
 pub mod catalogue;
 pub mod definition;
+mod dual;
+pub mod dynamic;
 pub mod element_load;
 pub mod element_place;
 pub mod elliptic;
@@ -43,6 +46,7 @@ pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
 pub use catalogue::CatalogueLine;
 pub use definition::BearingDefinition;
+pub use dynamic::{DynamicBearing, DynamicEffects};
 pub use element_load::ElementLoad;
 pub use element_place::ElementPlaces;
 pub use error::BearingError;

@@ -126,7 +126,11 @@ fn both_hands_run_through_the_whole_chain() {
     let extended = desk.file("extended.toml", scene("teeth.path = \"extended\""));
     let unwanted = desk.path("unwanted.h5");
     let answer = gearmesh(&["run", argument(&extended), "-o", argument(&unwanted)]);
-    refused(&answer, 2, &["mesh.teeth.path", "helical", "line-of-action"]);
+    refused(
+        &answer,
+        2,
+        &["mesh.teeth.path", "helical", "line-of-action"],
+    );
 
     // Two gears of one hand do not run together.
     let twins = changed(&scene(""), "gear2.h5", "gear1.h5");

@@ -8,31 +8,10 @@ use gearmesh_contact::{
     ContactError, ContactLines, ContactOptions, Friction, LocalContact, PathExtension,
     StaticContact,
 };
-use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment, ToothGeometry};
-use pair_common::{FRICTIONLESS, made_up_gear, tooth};
+use gearmesh_geometry::{Flank, Microgeometry};
+use pair_common::{FRICTIONLESS, helical as lines, made_up_gear};
 
 const FACE_WIDTH_M: f64 = 20e-3;
-
-/// Gear 1 with the given helix (degrees, positive right), at the centre distance of equal clearance for every angle.
-fn lines(helix_deg: f64, flank: Flank) -> ContactLines {
-    let gear = |teeth: usize, helix_deg: f64| {
-        let mut d = tooth(teeth, 0.0, 0.0);
-        d.helix_angle_rad = helix_deg.to_radians();
-        ToothGeometry::new(&d).unwrap()
-    };
-    let (g1, g2) = (gear(31, helix_deg), gear(40, -helix_deg));
-    let centre = g1.reference_radius_m + g2.reference_radius_m;
-    let pair = GearPair::new(g1, g2, centre, Misalignment::default())
-        .unwrap()
-        .on_flanks(flank);
-    ContactLines {
-        pair,
-        microgeometry_1: Microgeometry::default(),
-        microgeometry_2: Microgeometry::default(),
-        extension: None,
-        zone: gearmesh_contact::ContactZone::of_equal_faces(FACE_WIDTH_M),
-    }
-}
 
 fn contact(lines: &ContactLines, options: ContactOptions, slices: usize) -> StaticContact {
     let models = [&lines.pair.gear_1, &lines.pair.gear_2].map(|gear| {

@@ -53,8 +53,14 @@ fn evaluations_do_not_allocate() {
 #[test]
 fn steps_and_output_do_not_allocate() {
     use mesh_common::running_pair::*;
-    let pair = pair_a();
-    let system = running_pair(&pair, running_mesh("hybrid", &pair), 8);
+    for pair in [pair_a(), helical_pair_a()] {
+        steps_do_not_allocate(&pair);
+    }
+}
+
+fn steps_do_not_allocate(pair: &gearmesh_geometry::GearPair) {
+    use mesh_common::running_pair::*;
+    let system = running_pair(pair, running_mesh("hybrid", pair), 8);
     let mut run = gearmesh_dynamics::Simulation::new(system.build().unwrap(), params()).unwrap();
     let names = run.system().channels();
     let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();

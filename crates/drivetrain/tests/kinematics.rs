@@ -35,6 +35,8 @@ fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
         }),
         lead_crowning_m: 5e-6,
         flank_angle_m: 3e-6,
+        form_roll_rad: gear.form_roll_rad,
+        ..Default::default()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use gearmesh_elements::Element;
 
-use crate::microgeometry::Microgeometry;
+use crate::microgeometry::GearMicrogeometry;
 use crate::tooth::ToothGeometry;
 use std::fmt;
 use std::path::PathBuf;
@@ -407,8 +407,8 @@ pub struct GearDefinition {
     pub blank: Blank,
     /// Material.
     pub material: Material,
-    /// Microgeometry of both flanks.
-    pub microgeometry: Microgeometry,
+    /// Microgeometry of right and left flanks, as the gear file states it; a scene may state another.
+    pub microgeometry: GearMicrogeometry,
     /// Mesh.
     pub mesh: MeshSettings,
     /// Reduction.

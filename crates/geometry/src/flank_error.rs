@@ -2,7 +2,6 @@
 //! microgeometry are in the drivetrain crate, `errors/`.
 
 use crate::definition::Flank;
-use crate::microgeometry::Microgeometry;
 
 /// A point of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,18 +53,4 @@ pub fn most_added_m(removed_m: &[f64]) -> f64 {
     removed_m
         .iter()
         .fold(0.0, |most, removed| most.max(-removed))
-}
-
-impl FlankError for Microgeometry {
-    fn removed(&self, at: FlankPoint) -> Removed {
-        Removed {
-            depth_m: self.removed_m(at.roll_rad, at.z_m),
-            slope_m_per_rad: self.removed_slope_m_per_rad(at.roll_rad),
-            slope_along_axis: self.removed_slope_along_axis(at.z_m),
-        }
-    }
-
-    fn most_added_m(&self) -> f64 {
-        Self::most_added_m(self)
-    }
 }

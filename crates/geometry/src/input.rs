@@ -4,6 +4,7 @@ mod csv_rows;
 mod former_keys;
 mod kinds;
 mod number_ranges;
+mod number_table;
 mod readable_file;
 mod table_keys;
 mod unit_slips;
@@ -14,6 +15,7 @@ use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
 pub use kinds::{Kinds, read_kind};
 pub use number_ranges::NumberRange;
+pub use number_table::NumberTable;
 pub use readable_file::{
     MOST_MESH_BYTES, MOST_TEXT_BYTES, UnreadableFile, demand_readable, read_bytes,
 };
@@ -199,12 +201,24 @@ impl InputDocument {
         }
     }
 
+    /// Whether a dotted key is in the file.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.walk(key)
+            .is_some_and(|(_, parts)| parts == key.split('.').count())
+    }
+
     /// Line of a dotted key, or of the deepest parent of it that is in the file.
     fn locate(&self, key: &str) -> Option<usize> {
+        self.walk(key).map(|(line, _)| line)
+    }
+
+    /// Line of the deepest part of a dotted key that is in the file, and how many parts that are.
+    fn walk(&self, key: &str) -> Option<(usize, usize)> {
         let table = self.tree().ok()?;
         let mut found = None;
         let mut value: Option<&Spanned<DeValue<'_>>> = None;
-        for part in key.split('.') {
+        for (above, part) in key.split('.').enumerate() {
             let next = match value.map(|v| v.get_ref()) {
                 None => table
                     .get_ref()
@@ -219,7 +233,7 @@ impl InputDocument {
                 Some(_) => None,
             };
             let Some((span, next)) = next else { break };
-            found = Some(self.line_of(span.start));
+            found = Some((self.line_of(span.start), above + 1));
             value = Some(next);
         }
         found

@@ -8,7 +8,7 @@
 //! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
-//! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
+//! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
 //! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
 //!
@@ -36,7 +36,7 @@ pub use definition::{
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;
-pub use microgeometry::Microgeometry;
+pub use microgeometry::{GearMicrogeometry, Microgeometry};
 pub use pair::{GearPair, Misalignment, PairError};
 pub use profile_curve::ProfileCurve;
 pub use tooth::{GeometryError, ToothGeometry};

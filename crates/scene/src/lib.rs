@@ -10,6 +10,7 @@
 //! multibody systems, [`study`] runs one of them again and again with keys that vary.
 
 mod former_forms;
+mod microgeometry_words;
 mod named_files;
 pub mod pair;
 pub mod periods;

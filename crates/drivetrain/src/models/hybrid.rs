@@ -15,8 +15,8 @@
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
-    ContactLines, ContactPatch, ContactZone, Drive, FlankPlace, LocalContact, PatchBalance,
-    SliceLayout, nlcp::FLOOR_FRACTION,
+    ContactLines, ContactPatch, Drive, FlankPlace, LocalContact, PatchBalance, SliceLayout,
+    nlcp::FLOOR_FRACTION,
 };
 use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
@@ -102,18 +102,33 @@ impl ReducedTeeth {
         (local, displacement_m): (LocalContact, f64),
         nominal_force_n: f64,
     ) -> Result<Self, DrivetrainError> {
+        let layout = SliceLayout::of_models(models, displacement_m);
+        Self::on_slices(pair, side, models, (local, layout), nominal_force_n)
+    }
+
+    /// The same on the slices of a layout, see [`SliceLayout::resolved`].
+    ///
+    /// # Errors
+    /// As [`Self::displaced`].
+    pub fn on_slices(
+        pair: &GearPair,
+        side: Flank,
+        models: [&ReducedGear; 2],
+        (local, layout): (LocalContact, SliceLayout),
+        nominal_force_n: f64,
+    ) -> Result<Self, DrivetrainError> {
         let lines = ContactLines {
             pair: pair.clone(),
             microgeometry_1: Microgeometry::default(),
             microgeometry_2: Microgeometry::default(),
             extension: None,
-            zone: ContactZone::new(models.map(|model| model.face_width_m), displacement_m),
+            zone: layout.reference,
         };
         // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
         let most_lines = lines.most_pairs() + 2;
         let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
         let flanks = (teeth, side);
-        let slices = SliceContact::of_gears(models, flanks, (local, displacement_m), most_lines)?;
+        let slices = SliceContact::of_gears(models, flanks, (local, layout), most_lines)?;
         Self::of_flanks(slices, nominal_force_n)
     }
 

@@ -87,7 +87,10 @@ fn without_tag<T: Kinds, E: Error>(table: &toml::Table, known: &[KeysOfKind]) ->
     match table.keys().find(|key| !knows(key)) {
         None => E::missing_field(T::TAG),
         Some(key) => {
-            let problem = format!("unknown field `{key}`, expected `{}`, which is missing", T::TAG);
+            let problem = format!(
+                "unknown field `{key}`, expected `{}`, which is missing",
+                T::TAG
+            );
             below(std::slice::from_ref(key), &problem)
         }
     }

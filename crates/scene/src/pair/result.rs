@@ -48,6 +48,8 @@ pub struct SceneResult {
     pub gear_toml: [String; 2],
     /// Model files, as absolute paths, so that the result can be used from any folder.
     pub model_files: [String; 2],
+    /// Microgeometry of gear 1 and gear 2 in words; empty in files of older programs.
+    pub microgeometry: [String; 2],
     /// Program version.
     pub version: String,
     /// When, UTC.
@@ -359,6 +361,8 @@ impl SceneResult {
             ("scene_toml", self.scene_toml.clone()),
             ("gear_1_toml", self.gear_toml[0].clone()),
             ("gear_2_toml", self.gear_toml[1].clone()),
+            ("microgeometry_1", self.microgeometry[0].clone()),
+            ("microgeometry_2", self.microgeometry[1].clone()),
             ("model_1", self.model_files[0].clone()),
             ("model_2", self.model_files[1].clone()),
             ("proposal", self.proposal.clone()),
@@ -407,6 +411,9 @@ impl SceneResult {
         let ratings = take_ratings(&mut tree, path)?;
         let seconds = tree.take_f64(path, "seconds", &[2])?;
         let proposal = tree.texts.remove("proposal").unwrap_or_default();
+        // Files before these texts have none.
+        let microgeometry = ["microgeometry_1", "microgeometry_2"]
+            .map(|name| tree.texts.remove(name).unwrap_or_default());
         let mut text = |name: &str| tree.take_text(path, name);
         let title = text("title")?;
         let scene_toml = text("scene_toml")?;
@@ -418,6 +425,7 @@ impl SceneResult {
             scene_toml,
             gear_toml,
             model_files,
+            microgeometry,
             version,
             created_utc,
             pitches,

@@ -1,6 +1,7 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
 use super::contact_places::ContactPlaces;
+use super::contacts;
 use super::flank_effects;
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
@@ -59,6 +60,8 @@ pub struct LoadedScene {
     pub layout: SliceLayout,
     /// Where their forces sit on gear 1 and gear 2.
     pub spreads: [AxialSpread; 2],
+    /// Microgeometry of gear 1 and gear 2 in words, and where it is stated.
+    pub microgeometry: [String; 2],
     /// Errors and faults of single flanks.
     pub deviations: FlankDeviations,
     /// Gears beside their axes.
@@ -91,8 +94,12 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
             GearDefinition::from_document(&InputDocument::new(source, model.input_toml.clone()))?;
         Ok((model, gear))
     };
-    let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
-    let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let (model_1, mut gear_1) = read("pair.gear_1", &scene.gear_1)?;
+    let (model_2, mut gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let microgeometry = [
+        scene.modify_flanks(1, &mut gear_1)?,
+        scene.modify_flanks(2, &mut gear_2)?,
+    ];
     if let Some(from) = &scene.misalignment_from {
         let keys = TableKeys::new(&scene.document, "pair");
         let pair = ([gear_1.profile.teeth, gear_2.profile.teeth], scene.flank);
@@ -153,8 +160,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         gauges: &gauges,
     };
     let ratings = rated.ratings()?;
-    let layout = SliceLayout::of_models([&models[0], &models[1]], scene.axial_offset_m);
-    (layout.check()).map_err(|e| scene.document.error("pair.axial_offset_mm", e))?;
+    let layout = contacts::slice_layout(&scene, &models)?;
     let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
     let deviations = flank_effects::deviations(&scene, [&gear_1, &gear_2])?;
     let runout = flank_effects::runout(&scene, &pair)?;
@@ -169,8 +175,8 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         pair,
         extension,
         zone: layout.reference,
-        microgeometry_1: gear_1.microgeometry,
-        microgeometry_2: gear_2.microgeometry,
+        microgeometry_1: gear_1.microgeometry.of(scene.flank).clone(),
+        microgeometry_2: gear_2.microgeometry.of(scene.flank).clone(),
     };
     refuse_too_many_forces(&scene, lines.most_pairs() * layout.slices)?;
     Ok(LoadedScene {
@@ -179,6 +185,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         lines,
         layout,
         spreads,
+        microgeometry,
         deviations,
         runout,
         gauges,
@@ -315,6 +322,7 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
         pitches: scene.pitches,
+        microgeometry: loaded.microgeometry.clone(),
         contact_coverage: loaded.contact_coverage(),
         proposal: loaded.proposal(&loaded.gauges),
         torque_nm: scene.torques_nm.clone(),

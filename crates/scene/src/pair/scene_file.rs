@@ -7,6 +7,7 @@ use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::PairFrictionTable;
 use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
 use gearmesh_contact::{ContactOptions, LocalContact};
+use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, InputError, Misalignment, kinds};
 use schemars::JsonSchema;
@@ -20,6 +21,12 @@ pub(crate) struct SceneTable {
     title: String,
     /// The gears and how they stand.
     pair: PairTable,
+    /// What gear 1 has beside its body.
+    #[serde(default)]
+    gear_1: GearTable,
+    /// What gear 2 has beside its body.
+    #[serde(default)]
+    gear_2: GearTable,
     /// Model of the teeth.
     mesh: MeshTable,
     /// Torques and angles.
@@ -55,6 +62,14 @@ struct PairTable {
     misalignment_from: Option<MisalignmentFrom>,
 }
 
+/// `[gear_1]` and `[gear_2]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+struct GearTable {
+    /// Microgeometry, instead of all that the gear file inside the model states.
+    microgeometry: Option<MicrogeometryTable>,
+}
+
 fn default_flank() -> Flank {
     Flank::Right
 }
@@ -81,6 +96,8 @@ enum PairModel {
         /// Local contact; "calibrated" where not given.
         #[serde(default)]
         local: LocalContact,
+        /// Slices over the overlap of the faces; those of the models where not given.
+        slices: Option<usize>,
     },
 }
 
@@ -155,6 +172,10 @@ pub struct Scene {
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
     pub misalignment_from: Option<MisalignmentFrom>,
+    /// Microgeometry of gear 1 and gear 2; that of the gear files inside the models where none is given.
+    pub microgeometry: [Option<MicrogeometryTable>; 2],
+    /// Slices over the overlap of the faces; those of the models where none are given.
+    pub slices: Option<usize>,
     /// Errors and faults of gear 1 and gear 2.
     pub errors: [Vec<FlankErrorTable>; 2],
     /// Places of gear 1 and gear 2 on their bodies.
@@ -298,7 +319,7 @@ impl Scene {
             }
             (Some(PathWord::LineOfAction), None) => None,
         };
-        let PairModel::Hybrid { local } = table.mesh.model;
+        let PairModel::Hybrid { local, slices } = table.mesh.model;
         let notes = document.former_notes()?;
         let notes = notes.iter().map(ToString::to_string).collect();
         Ok(Self {
@@ -313,12 +334,11 @@ impl Scene {
                 deviation_rad: pair.deviation_mrad.unwrap_or(0.0) * 1e-3,
             },
             misalignment_from: pair.misalignment_from.clone(),
+            microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
+            slices,
             errors: [teeth.errors_1, teeth.errors_2],
             eccentricity: [teeth.eccentricity_1, teeth.eccentricity_2],
-            contact: ContactOptions {
-                local: local,
-                friction,
-            },
+            contact: ContactOptions { local, friction },
             edge_radius_m,
             path_by_default: teeth.path.is_none() && teeth.edge_radius_um.is_none(),
             torques_nm: table.run.torques_Nm,
@@ -348,6 +368,7 @@ impl Scene {
     pub fn with_known_forces(self) -> Self {
         Self {
             misalignment_from: None,
+            microgeometry: [None, None],
             errors: [Vec::new(), Vec::new()],
             ..self
         }

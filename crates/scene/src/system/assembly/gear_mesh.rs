@@ -122,6 +122,7 @@ impl PreparedMesh {
         }
         scene.effects(parts);
         parts.notes.extend(scene.stiffness_note()?);
+        parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)
     }
 

@@ -41,15 +41,7 @@ impl SceneMesh<'_> {
                 .as_ref()
                 .map(|_| "`coulomb`, regularised".to_string()),
         );
-        let on = table.microgeometry.unwrap_or(true)
-            && self.gears.iter().any(|gear| gear.has_microgeometry());
-        let from_curve = kind == MeshKind::Iso6336 && self.curve.is_some();
-        let microgeometry = match (on, from_curve) {
-            (true, true) => Some("in the pair's static curve".to_string()),
-            (true, false) => Some("of the gear files".to_string()),
-            (false, _) => None,
-        };
-        parts.effect(name("microgeometry"), microgeometry);
+        parts.effect(name("microgeometry"), self.acting_microgeometry());
         let errors = teeth.errors_1.iter().chain(&teeth.errors_2);
         let kinds: Vec<&str> = errors.map(|error| error.kind()).collect();
         let cracks = match &table.model {
@@ -73,5 +65,25 @@ impl SceneMesh<'_> {
             name("eccentricity"),
             eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
         );
+    }
+
+    /// The microgeometry of both gears in words; none where none acts.
+    fn acting_microgeometry(&self) -> Option<String> {
+        let on = self.table.microgeometry.unwrap_or(true)
+            && self.gears.iter().any(|gear| gear.has_microgeometry());
+        let from_curve = self.table.model.kind() == MeshKind::Iso6336 && self.curve.is_some();
+        let of_curve = if from_curve {
+            ", in the pair's static curve"
+        } else {
+            ""
+        };
+        let [first, second] = self.gears.map(|gear| gear.microgeometry_in_words());
+        on.then(|| format!("gear 1 {first}; gear 2 {second}{of_curve}"))
+    }
+
+    /// The same for plan and result.
+    pub(super) fn microgeometry_note(&self) -> Option<String> {
+        let words = self.acting_microgeometry()?;
+        Some(format!("mesh `{}`: flanks of {words}", self.table.name))
     }
 }

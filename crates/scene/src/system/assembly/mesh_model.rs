@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::SliceLayout;
+use gearmesh_contact::{ContactError, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
@@ -72,7 +72,7 @@ impl SceneMesh<'_> {
         Ok([model(0)?, model(1)?])
     }
 
-    /// The microgeometry of the gear files that acts.
+    /// The microgeometry that acts.
     pub(super) fn microgeometry(&self) -> Result<[FlankErrors; 2], InputError> {
         let on = self.table.microgeometry.unwrap_or(true);
         let kind = self.table.model.kind();
@@ -142,9 +142,17 @@ impl SceneMesh<'_> {
         Ok(errors)
     }
 
-    /// The slices of models that do not state them.
+    /// The slices: one where models state none.
     fn stated_layout(&self) -> Result<SliceLayout, InputError> {
-        let count = self.table.model.slices().unwrap_or(1);
+        let stated = self.table.model.slices();
+        if self.table.model.kind() == MeshKind::Hybrid {
+            let resolved = SliceLayout::resolved(self.models()?, self.displacement_m, stated);
+            return resolved.map_err(|error| match error {
+                ContactError::Slices { .. } => self.model_keys.error("slices", error),
+                _ => self.keys.error("", error),
+            });
+        }
+        let count = stated.unwrap_or(1);
         self.model_keys.require(
             "slices",
             count as f64,
@@ -156,7 +164,7 @@ impl SceneMesh<'_> {
 
     pub(super) fn mesh(&self, sides: &[Flank]) -> Result<GearMesh, InputError> {
         let mut teeth: Vec<(Flank, Box<dyn TeethModel>)> = Vec::new();
-        let mut layout = self.stated_layout()?;
+        let layout = self.stated_layout()?;
         let slices = layout.slices;
         match &self.table.model {
             // An ideal ratio has no forces of its own and is not made here.
@@ -183,9 +191,8 @@ impl SceneMesh<'_> {
             }
             MeshModel::Hybrid(model) => {
                 for side in sides {
-                    let reduced = self.reduced(model, *side)?;
-                    layout = *reduced.layout();
-                    teeth.push((*side, self.damped(&model.damping, reduced, layout.slices)?));
+                    let reduced = self.reduced(model, *side, layout)?;
+                    teeth.push((*side, self.damped(&model.damping, reduced, slices)?));
                 }
             }
         }
@@ -254,14 +261,19 @@ impl SceneMesh<'_> {
         BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
     }
 
-    fn reduced(&self, model: &HybridTable, side: Flank) -> Result<ReducedTeeth, InputError> {
+    fn reduced(
+        &self,
+        model: &HybridTable,
+        side: Flank,
+        layout: SliceLayout,
+    ) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = model.nominal_force_N.unwrap_or(reference);
         self.model_keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (model.local, self.displacement_m);
-        ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
+        let contact = (model.local, layout);
+        ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.teeth.flanks {
                 TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
                 _ => "",

@@ -94,7 +94,8 @@ impl SceneMesh<'_> {
         for (i, gear) in self.gears.iter().enumerate() {
             let source = format!("gear {} inside {shown}", i + 1);
             let document = InputDocument::new(source, result.gear_toml[i].clone());
-            let of_result = GearDefinition::from_document(&document)?;
+            let mut of_result = GearDefinition::from_document(&document)?;
+            scene.modify_flanks(i + 1, &mut of_result)?;
             if let Some(what) = difference(&of_result, &gear.definition) {
                 let problem = format!(
                     "gear {} of the pair in {shown} is another one than the gear of {}: {what}",
@@ -150,7 +151,7 @@ impl SceneMesh<'_> {
             (extended && !pair.is_helical()).then(|| PathExtension::new(&pair, EDGE_RADIUS_M));
         let on = self.table.microgeometry.unwrap_or(true);
         let microgeometry = |i: usize| {
-            let own = &self.gears[i].definition.microgeometry;
+            let own = self.gears[i].definition.microgeometry.of(side);
             if on { own.clone() } else { Default::default() }
         };
         let base_2 = pair.gear_2.base_radius_m;

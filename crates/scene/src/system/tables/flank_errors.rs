@@ -9,12 +9,11 @@ use gearmesh_drivetrain::errors::pitch::PitchErrors;
 use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
 use gearmesh_drivetrain::{FlankError, RootCrack};
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{NumberTable, TableKeys};
 use gearmesh_geometry::{Flank, InputError, ToothGeometry, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::number_table::NumberTable;
 use super::{MM, UM};
 
 /// End of the face width.

@@ -78,10 +78,11 @@ impl MeshModel {
     #[must_use]
     pub fn slices(&self) -> Option<usize> {
         match self {
-            Self::Kinematic {} | Self::Hybrid(_) => None,
+            Self::Kinematic {} => None,
             Self::Impact(table) => table.slices,
             Self::Iso6336(table) => table.slices,
             Self::Analytic(table) => table.slices,
+            Self::Hybrid(table) => table.slices,
         }
     }
 
@@ -159,13 +160,15 @@ pub struct AnalyticTable {
     pub cracks_2: Vec<CrackTable>,
 }
 
-/// Keys of `kind = "hybrid"`. The models of the gears state the slices.
+/// Keys of `kind = "hybrid"`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct HybridTable {
     /// Local contact; "calibrated" where not given.
     pub local: LocalContact,
+    /// Slices over the overlap of the faces; those of the models where not given.
+    pub slices: Option<usize>,
     /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
     /// N/mm times the face width where not given.
     pub nominal_force_N: Option<f64>,

@@ -10,7 +10,6 @@ pub mod gear_mesh;
 pub mod joint;
 pub mod load;
 pub mod mesh_model;
-pub mod number_table;
 pub mod output;
 pub mod run;
 pub mod shaft;
