@@ -2,6 +2,7 @@
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::Scene;
+use gearmesh_scene::study::{Study, varied};
 
 use crate::common::*;
 
@@ -222,4 +223,33 @@ fn pairs_are_read() {
     let begins =
         "scene.toml:12: mesh.teeth.friction.dynamic_coefficient: found 2, allowed is 0 to 1";
     assert_eq!(complaint, begins);
+}
+
+/// Keys of a study may have the form of its scene or of earlier versions.
+#[test]
+fn keys_of_studies_are_read() {
+    let exponent = |scene: &str, key: &str, value: &str| {
+        let study = format!(
+            "title = \"s\"\nscene = \"s.toml\"\ncolumns = [\"c\"]\n[[parameter]]\nname = \"p\"\nkeys = [\"{key}\"]\nvalues = [{value}]\n"
+        );
+        let study = Study::from_document(InputDocument::new("study.toml", study), &fe_models());
+        let (study, scene) = (study.unwrap(), InputDocument::new("scene.toml", scene));
+        let case = study.cases().pop().unwrap();
+        let made = varied(&study, &scene, &case, &fe_models()).map_err(|e| e.to_string());
+        made.map(|made| format!("{:?}", made.tables.gear_mesh[0].model))
+    };
+    let (former, present) = (wheels(""), text("scene_two_wheels.toml"));
+    for scene in [&former, &present] {
+        for key in ["gear_mesh.0.exponent", "gear_mesh.0.model.exponent"] {
+            let made = exponent(scene, key, "1.25").unwrap();
+            assert!(made.contains("exponent: Some(1.25)"), "{made}");
+        }
+    }
+    for key in ["gear_mesh.0.model", "gear_mesh.0.model.kind"] {
+        let refused = exponent(&present, key, "\"analytic\"").unwrap_err();
+        assert!(
+            refused.contains("belongs to kind \"impact\", not to \"analytic\""),
+            "{refused}"
+        );
+    }
 }
