@@ -23,8 +23,8 @@ torques_Nm = [40.0]
 pitches = 6
 points_per_pitch = {POINTS}
 [mesh]
-model = \"hybrid\"
-path = \"line-of-action\"
+model.kind = \"hybrid\"
+teeth.path = \"line-of-action\"
 "
     )
 }

@@ -33,7 +33,7 @@ points_per_pitch = 12
 [gauges]
 gear_2 = [\"tension\"]
 [mesh]
-model = \"hybrid\"
+model.kind = \"hybrid\"
 {further}
 [[rating]]
 kind = \"nominal\"
@@ -123,10 +123,14 @@ fn both_hands_run_through_the_whole_chain() {
     let plain = desk.file("plain.toml", scene(""));
     let plan = succeeds(&["plan", argument(&plain)]).stdout;
     assert!(plan.contains("path `line-of-action`"), "{plan}");
-    let extended = desk.file("extended.toml", scene("path = \"extended\""));
+    let extended = desk.file("extended.toml", scene("teeth.path = \"extended\""));
     let unwanted = desk.path("unwanted.h5");
     let answer = gearmesh(&["run", argument(&extended), "-o", argument(&unwanted)]);
-    refused(&answer, 2, &["mesh.path", "helical", "line-of-action"]);
+    refused(
+        &answer,
+        2,
+        &["mesh.teeth.path", "helical", "line-of-action"],
+    );
 
     // Two gears of one hand do not run together.
     let twins = changed(&scene(""), "gear2.h5", "gear1.h5");
@@ -152,7 +156,7 @@ fn at_rest_between_axles(desk: &Desk, pair: &SceneResult, axial_n: f64) {
     let text = format!(
         "title = \"helical, at rest\"\n[run]\nkind = \"static\"\nmotion = \"motion of axle 1\"\nangles_deg = [{}]\n{}{}\
          [[motion]]\njoint = \"axle 1\"\nspeed_rpm = -60.0\n[[load]]\nbody = \"g2\"\ntorque_Nm = -{TORQUE_NM}\n\
-         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"g1\"\ngear_2 = \"g2\"\nmodel = \"hybrid\"\nflanks = \"right\"\npath = \"line-of-action\"\n",
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"g1\"\ngear_2 = \"g2\"\nmodel.kind = \"hybrid\"\nteeth.flanks = \"right\"\nteeth.path = \"line-of-action\"\n",
         angles.join(", "),
         gear(1, 0.0),
         gear(2, 58.9)

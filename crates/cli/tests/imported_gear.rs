@@ -73,7 +73,7 @@ fn what_a_mesh_from_elsewhere_does_not_use_is_refused() {
         (
             elsewhere("web_thickness_mm = 3.0"),
             "web_thickness_mm",
-            &["a blank that was meshed elsewhere does not use it"][..],
+            &["`web_thickness_mm` belongs to kind \"thin-rim\", not to \"mesh\""][..],
         ),
         (
             elsewhere("") + "[mesh]\nflank_mm = 1.0\n",
@@ -98,7 +98,7 @@ fn what_a_mesh_from_elsewhere_does_not_use_is_refused() {
         (
             changed(&elsewhere(""), "file = \"body.vtu\"\n", ""),
             "[blank]",
-            &["blank.file", "needs the name of its mesh file"],
+            &["blank.file: missing"],
         ),
         (
             changed(
@@ -107,7 +107,7 @@ fn what_a_mesh_from_elsewhere_does_not_use_is_refused() {
                 "kind = \"solid\"\nfile = \"body.vtu\"",
             ),
             "file = ",
-            &["only a blank of kind = \"mesh\" uses it"],
+            &["blank: `file` belongs to kind \"mesh\", not to \"solid\""],
         ),
         (
             changed(

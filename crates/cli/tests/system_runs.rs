@@ -282,10 +282,10 @@ torque_Nm = -{}
 name = "mesh"
 gear_1 = "one"
 gear_2 = "two"
-model = "impact"
-flanks = "right"
-stiffness_N_per_mm_e = {}
-exponent = 1.0
+model.kind = "impact"
+teeth.flanks = "right"
+model.stiffness_N_per_mm_e = {}
+model.exponent = 1.0
 "#,
             TORQUE * r2 / r1,
             STIFFNESS * 1e-3

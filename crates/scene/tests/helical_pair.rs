@@ -7,7 +7,8 @@ use common::{Outputs, build, changed, fe_models, text};
 use gearmesh_dynamics::{Params, Simulation, StaticParams, equilibrium};
 use gearmesh_geometry::GearDefinition;
 
-const ANALYTIC: &str = "model = \"analytic\"\nslices = 9\n";
+const ANALYTIC: &str = "kind = \"analytic\"\nslices = 9\n";
+const MESH: &str = "gear_2 = \"gear 2\"\n";
 const DAMPING: &str =
     "damping = { kind = \"stiffness-proportional\", time_s = 2e-6, full_depth_um = 1.0 }";
 
@@ -21,23 +22,20 @@ fn bearings_carry_the_axial_force_of_every_model() {
     let gear = &gears[1];
     let helix = gear.profile.base_helix_angle_rad().abs();
     let tangential_n = 200.0 / gear.profile.base_radius_m;
-    for (model, damping) in [
-        (ANALYTIC, true),
+    let blind = "microgeometry = false\n";
+    for (model, mesh, damping) in [
+        (ANALYTIC, "", true),
+        (ANALYTIC, "teeth.path = \"line-of-action\"\n", true),
+        ("kind = \"iso6336\"\nslices = 5\n", blind, true),
+        ("kind = \"iso6336\"\n", blind, true),
         (
-            "model = \"analytic\"\npath = \"line-of-action\"\nslices = 9\n",
-            true,
-        ),
-        (
-            "model = \"iso6336\"\nmicrogeometry = false\nslices = 5\n",
-            true,
-        ),
-        ("model = \"iso6336\"\nmicrogeometry = false\n", true),
-        (
-            "model = \"impact\"\nstiffness_N_per_mm_e = 3e6\nexponent = 1.5\nslices = 9\n",
+            "kind = \"impact\"\nstiffness_N_per_mm_e = 3e6\nexponent = 1.5\nslices = 9\n",
+            "",
             false,
         ),
     ] {
         let mut scene = changed(&shipped, ANALYTIC, model);
+        scene = changed(&scene, MESH, &format!("{MESH}{mesh}"));
         if !damping {
             scene = changed(&scene, DAMPING, "");
         }
@@ -110,11 +108,8 @@ fn bearings_carry_the_axial_force_of_every_model() {
             .unwrap();
         assert_eq!(run.info().unconverged, 0, "{model}");
     }
-    let kinematic = changed(
-        &shipped,
-        ANALYTIC,
-        "model = \"kinematic\"\nmicrogeometry = false\n",
-    );
+    let kinematic = changed(&shipped, ANALYTIC, "kind = \"kinematic\"\n");
+    let kinematic = changed(&kinematic, MESH, &format!("{MESH}{blind}"));
     build(&changed(&kinematic, DAMPING, "")).unwrap();
 }
 

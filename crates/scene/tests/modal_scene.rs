@@ -128,7 +128,7 @@ fn mates_of_unequal_width_touch_where_their_faces_overlap() {
     let static_pair = |offset_mm: f64| {
         let text = format!(
             "title = \"unequal\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
-             axial_offset_mm = {offset_mm:?}\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n\
+             axial_offset_mm = {offset_mm:?}\n[mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n\
              [run]\ntorques_Nm = [2.0]\npitches = 1\npoints_per_pitch = 8\n"
         );
         let document = gearmesh_geometry::input::InputDocument::new("pair.toml", text);
@@ -158,7 +158,7 @@ fn mates_of_unequal_width_touch_where_their_faces_overlap() {
         "[run]\nkind = \"static\"",
         -5.0,
         "",
-        "flanks = \"right\"\npath = \"line-of-action\"",
+        "teeth.flanks = \"right\"\nteeth.path = \"line-of-action\"",
     );
     let text = text
         .replace("106.8, 0.0, 0.0", "106.8, 0.0, 1.0")

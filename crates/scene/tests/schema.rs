@@ -164,7 +164,13 @@ fn wrong_files_do_not() {
     for (from, to, part) in [
         ("exponent = 1.5", "exponnt = 1.5", "exponnt is not known"),
         ("exponent = 1.5", "exponent = \"a\"", "string is not"),
-        ("model = \"impact\"", "model = \"impct\"", "impct"),
+        ("kind = \"impact\"", "kind = \"impct\"", "impct"),
+        // A key of another kind.
+        (
+            "exponent = 1.5",
+            "exponent = 1.5\nlocal = \"none\"",
+            "local is not known",
+        ),
         ("from = 0.0, ", "", "from"),
         ("name = \"mesh\"", "", "name"),
         (
@@ -173,8 +179,8 @@ fn wrong_files_do_not() {
             "fewer than 3 items",
         ),
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nerrors_1 = [{ kind = \"spall\", tooth = 1 }]",
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.errors_1 = [{ kind = \"spall\", tooth = 1 }]",
             "errors_1",
         ),
     ] {

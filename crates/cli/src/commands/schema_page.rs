@@ -71,7 +71,11 @@ impl<'a> Page<'a> {
             let Some(keys) = variant["properties"].as_object() else {
                 continue;
             };
-            for (key, value) in keys {
+            // The word that tells the kinds apart stands above the keys of its kind.
+            let is_word = |value: &Value| !value["const"].is_null();
+            let (words, others): (Vec<_>, Vec<_>) =
+                keys.iter().partition(|(_, value)| is_word(value));
+            for (key, value) in words.into_iter().chain(others) {
                 let shown = if needed.contains(&key.as_str()) {
                     format!("**`{key}`**")
                 } else {

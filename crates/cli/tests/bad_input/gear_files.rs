@@ -242,12 +242,12 @@ web = [{ diameter_mm = 20.0, z_mm = [-2.0, 2.0] }, { diameter_mm = 38.0, z_mm = 
         (
             ("hub_z_mm = [-8.0, 6.0]\n", ""),
             "[blank]",
-            &["blank.hub_z_mm: missing", "[back, front]"],
+            &["blank.hub_z_mm: missing"],
         ),
         (
             ("kind = \"contour\"", "kind = \"solid\""),
             "hub_z_mm",
-            &["only a blank of kind = \"contour\" uses it"],
+            &["blank: `hub_z_mm` belongs to kind \"contour\", not to \"solid\""],
         ),
     ] {
         gear_refused(&sound, change, at, parts);

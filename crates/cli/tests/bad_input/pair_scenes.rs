@@ -140,16 +140,16 @@ fn a_torque_that_breaks_the_assumptions_is_warned_about() {
 fn an_edge_radius_that_is_not_used_or_not_possible_is_refused() {
     scene_refused(
         (
-            "model = \"hybrid\"",
-            "model = \"hybrid\"\nedge_radius_um = 50",
+            "model.kind = \"hybrid\"",
+            "model.kind = \"hybrid\"\nteeth.edge_radius_um = 50",
         ),
         "edge_radius_um",
-        &["mesh.edge_radius_um", "mesh.path = \"extended\""],
+        &["mesh.teeth.edge_radius_um", "path = \"extended\""],
     );
     scene_refused(
         (
-            "path = \"line-of-action\"",
-            "path = \"extended\"\nedge_radius_um = 0",
+            "teeth.path = \"line-of-action\"",
+            "teeth.path = \"extended\"\nteeth.edge_radius_um = 0",
         ),
         "edge_radius_um",
         &["found 0", "1 to 1000"],
@@ -164,7 +164,11 @@ fn a_value_of_the_wrong_type_is_named_by_its_key() {
         "teeth",
         &["tooth.teeth: "],
     );
-    scene_refused(("\"hybrid\"", "\"hybird\""), "hybird", &["mesh.model: "]);
+    scene_refused(
+        ("\"hybrid\"", "\"hybird\""),
+        "hybird",
+        &["mesh.model.kind: "],
+    );
 }
 
 #[test]
@@ -182,13 +186,12 @@ fn numbers_that_are_none_are_refused() {
     );
 }
 
-/// One vocabulary for both kinds of scene: the former name is read with a note and means the same; keys of gear meshes
-/// are refused by name.
+/// The former form is read with a note and means the same; keys of gear meshes are refused.
 #[test]
 fn friction_has_the_names_of_gear_meshes() {
     let desk = Desk::new();
     let scene = |key: &str| {
-        let friction = format!("friction = {{ model = \"coulomb\", {key} = 0.1 }}\n");
+        let friction = format!("{key} = 0.1 }}\n");
         desk.file("scene.toml", workshop().scene(&friction))
     };
     let result = desk.path("result.h5");
@@ -200,20 +203,20 @@ fn friction_has_the_names_of_gear_meshes() {
             answer.stderr,
         )
     };
-    let (now, told) = mean("dynamic_coefficient");
+    let (now, told) = mean("teeth.friction = { model = \"coulomb\", dynamic_coefficient");
     assert!(!told.contains("dynamic_coefficient"), "{told}");
-    let (formerly, told) = mean("coefficient");
+    let (formerly, told) = mean("friction = { model = \"coulomb\", coefficient");
     assert_eq!(now, formerly);
     assert!(
-        told.contains("mesh.friction.coefficient: is now called dynamic_coefficient"),
+        told.contains("teeth = { path = \"line-of-action\", friction = { model = \"coulomb\", dynamic_coefficient = 0.1 } }"),
         "{told}"
     );
     let none = run_scene(&desk, "").1;
     assert!((now / number(&none["rows"][0]["te_mean_m"]) - 1.0).abs() > 1e-4);
-    let friction = "[mesh]\nfriction = { model = \"coulomb\", dynamic_coefficient = 0.1, static_speed_mm_per_s = 5.0 }";
+    let friction = "[mesh]\nteeth.friction = { model = \"coulomb\", dynamic_coefficient = 0.1, static_speed_mm_per_s = 5.0 }";
     scene_refused(
         ("[mesh]", friction),
         "static_speed",
-        &["mesh.friction.static_speed_mm_per_s: is for gear meshes, which have speeds"],
+        &["mesh.teeth.friction: unknown field `static_speed_mm_per_s`"],
     );
 }

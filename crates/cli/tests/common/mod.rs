@@ -156,7 +156,7 @@ impl Workshop {
         let path = if further.contains("path =") {
             ""
         } else {
-            "path = \"line-of-action\"\n"
+            "teeth.path = \"line-of-action\"\n"
         };
         format!(
             r#"title = "small pair"
@@ -171,8 +171,8 @@ points_per_pitch = 8
 [gauges]
 gear_2 = ["tension"]
 [mesh]
-model = "hybrid"
-local = "weber-banaschek"
+model.kind = "hybrid"
+model.local = "weber-banaschek"
 {path}{further}"#,
             self.solid.display(),
             self.thin.display()

@@ -39,7 +39,7 @@ fn hybrid_scene() -> String {
     format!(
         "title = \"hybrid\"\n[run]\nkind = \"transient\"\nend_s = 1e-3\n[solver]\nstep_s = 1e-6\n[output]\ninterval_s = 1e-5\n{}{}\
          [[motion]]\njoint = \"axle of solid\"\nspeed_rpm = -60.0\n[[load]]\nbody = \"thin\"\ntorque_Nm = -10.0\n\
-         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"solid\"\ngear_2 = \"thin\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\nflanks = \"right\"\n\
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"solid\"\ngear_2 = \"thin\"\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.flanks = \"right\"\n\
          [[gauge]]\nbody = \"thin\"\nnames = [\"tension\"]\n",
         gear("solid", &workshop().solid, 0.0),
         gear("thin", &workshop().thin, 54.7)

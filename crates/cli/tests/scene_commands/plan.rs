@@ -55,7 +55,7 @@ fn plan_of_a_hybrid_mesh_in_a_multibody_scene() {
     assert_eq!(figures["degrees_of_freedom"], 12);
     for ((from, to), parts) in [
         (
-            ("flanks = \"right\"\n", ""),
+            ("teeth.flanks = \"right\"\n", ""),
             &["left", "flanks = \"right\" or \"left\""][..],
         ),
         (

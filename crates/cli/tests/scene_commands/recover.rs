@@ -75,7 +75,7 @@ fn friction_reaches_method_2() {
     let without = recovered(&desk, &result);
     let (result, figures) = run_scene(
         &desk,
-        "friction = { model = \"coulomb\", dynamic_coefficient = 0.1 }\n",
+        "teeth.friction = { model = \"coulomb\", dynamic_coefficient = 0.1 }\n",
     );
     let with = recovered(&desk, &result);
     for row in figures["rows"].as_array().unwrap() {
@@ -107,9 +107,9 @@ fn friction_reaches_method_2() {
 fn strain_of_a_pair_with_errors_is_read_again() {
     let desk = Desk::new();
     desk.file("lead.csv", "z_mm,removed_um\n-6,0\n6,4\n");
-    let effects = "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]\n\
-                   errors_2 = [{ kind = \"spall\", tooth = 17, side = \"right\", radii_mm = [27.0, 28.0], z_mm = [-6, 6], depth_um = 6.0 }]\n\
-                   eccentricity_2 = { offset_um = 30.0, direction_deg = 40.0 }\n";
+    let effects = "teeth.errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]\n\
+                   teeth.errors_2 = [{ kind = \"spall\", tooth = 17, side = \"right\", radii_mm = [27.0, 28.0], z_mm = [-6, 6], depth_um = 6.0 }]\n\
+                   teeth.eccentricity_2 = { offset_um = 30.0, direction_deg = 40.0 }\n";
     let (result, _) = run_scene(&desk, effects);
     let plan = succeeds(&["plan", argument(&desk.path("scene.toml"))]).stdout;
     for part in ["gear 1: deviation", "gear 2: spall, eccentricity"] {

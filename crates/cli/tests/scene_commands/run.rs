@@ -55,7 +55,7 @@ fn the_calibrated_local_term_is_the_default() {
         let figures = succeeds(&["run", argument(&file), "-o", argument(&output), "--json"]).json();
         (plan, figures["rows"].as_array().unwrap().clone())
     };
-    let weber = "local = \"weber-banaschek\"";
+    let weber = "model.local = \"weber-banaschek\"";
     let (_, old) = run("old", named.clone());
     let (plan, new) = run("new", changed(&named, weber, ""));
     assert!(plan.contains("local `calibrated`"), "{plan}");
@@ -81,7 +81,11 @@ fn slices_narrower_than_elements_change_little() {
             let words = ["reduce", argument(&file), "-o", argument(&model)];
             succeeds(&[words.as_slice(), &["--no-error-estimate"]].concat());
         }
-        let scene = changed(&workshop().scene(""), "local = \"weber-banaschek\"", "");
+        let scene = changed(
+            &workshop().scene(""),
+            "model.local = \"weber-banaschek\"",
+            "",
+        );
         let scene = changed(&scene, argument(&workshop().solid), "gear1.h5");
         let scene = changed(&scene, argument(&workshop().thin), "gear2.h5");
         let (scene, result) = (desk.file("scene.toml", scene), desk.path("result.h5"));
@@ -100,7 +104,10 @@ fn an_extended_path_runs_through_recovery_and_report() {
     let (on_path, _) = run_scene(&desk, "");
     let on_path = SceneResult::read(&on_path).unwrap();
     let desk = Desk::new();
-    let (file, figures) = run_scene(&desk, "path = \"extended\"\nedge_radius_um = 50");
+    let (file, figures) = run_scene(
+        &desk,
+        "teeth.path = \"extended\"\nteeth.edge_radius_um = 50",
+    );
     for row in figures["rows"].as_array().unwrap() {
         assert!(number(&row["torque_balance"]) < 1e-10, "{row}");
     }

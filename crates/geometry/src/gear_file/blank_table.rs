@@ -5,57 +5,97 @@ use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
 use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
 use crate::input::{InputDocument, InputError};
+use crate::kinds;
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
-/// The keys of `[blank]`.
+/// `[blank]`: one table a kind.
 #[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BlankTable {
-    /// "solid" disc, "thin-rim" with hub and web, "contour" with sloped or stepped faces, "mesh" of another program.
-    kind: BlankKind,
-    /// Bore.
-    bore_diameter_mm: f64,
-    /// "thin-rim": outer diameter of the hub.
-    hub_diameter_mm: Option<f64>,
-    /// "thin-rim": inner diameter of the rim.
-    rim_inner_diameter_mm: Option<f64>,
-    /// "thin-rim": thickness of the web.
-    web_thickness_mm: Option<f64>,
-    /// "thin-rim": place of the web's middle along the axis from mid-face; 0 where not given.
-    web_offset_mm: Option<f64>,
-    /// "contour": back and front of the hub.
-    hub_z_mm: Option<[f64; 2]>,
-    /// "contour": points of the web from the hub outwards.
-    web: Option<Vec<WebPointTable>>,
-    /// Annular slots through the web or the disc; none where not given.
-    slots: Option<SlotsTable>,
-    /// Round holes through the web or the disc; none where not given.
-    holes: Option<HolesTable>,
-    /// "mesh": file of the whole gear, teeth included, beside this one.
-    file: Option<String>,
-    /// "mesh": unit of its coordinates; "m" where not given.
-    length_unit: Option<LengthUnit>,
-    /// "mesh": set of nodes or elements on the bore; "bore" where not given.
-    bore_set: Option<String>,
-    /// "mesh": sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where
-    /// not given.
-    flank_sets: Option<String>,
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "BlankTable")]
+pub(super) enum BlankTable {
+    /// A disc of full width.
+    Solid(SolidTable),
+    /// Hub, web and rim.
+    ThinRim(ThinRimTable),
+    /// Hub and web with sloped or stepped faces.
+    Contour(ContourTable),
+    /// The whole gear, meshed by another program.
+    Mesh(MeshedTable),
 }
 
+kinds!(BlankTable, "kind");
+
+/// The keys of `kind = "solid"`.
 #[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum BlankKind {
-    Solid,
-    ThinRim,
-    Contour,
-    Mesh,
+#[serde(deny_unknown_fields)]
+pub(super) struct SolidTable {
+    /// Bore.
+    bore_diameter_mm: f64,
+    /// Annular slots through the disc; none where not given.
+    slots: Option<SlotsTable>,
+    /// Round holes through the disc; none where not given.
+    holes: Option<HolesTable>,
+}
+
+/// The keys of `kind = "thin-rim"`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThinRimTable {
+    /// Bore.
+    bore_diameter_mm: f64,
+    /// Outer diameter of the hub.
+    hub_diameter_mm: f64,
+    /// Inner diameter of the rim.
+    rim_inner_diameter_mm: f64,
+    /// Thickness of the web.
+    web_thickness_mm: f64,
+    /// Place of the web's middle along the axis from mid-face; 0 where not given.
+    #[serde(default)]
+    web_offset_mm: f64,
+    /// Annular slots through the web; none where not given.
+    slots: Option<SlotsTable>,
+    /// Round holes through the web; none where not given.
+    holes: Option<HolesTable>,
+}
+
+/// The keys of `kind = "contour"`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ContourTable {
+    /// Bore.
+    bore_diameter_mm: f64,
+    /// Back and front of the hub.
+    hub_z_mm: [f64; 2],
+    /// Points of the web from the hub outwards.
+    web: Vec<WebPointTable>,
+    /// Annular slots through the web; none where not given.
+    slots: Option<SlotsTable>,
+    /// Round holes through the web; none where not given.
+    holes: Option<HolesTable>,
+}
+
+/// The keys of `kind = "mesh"`. The mesh has its openings.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MeshedTable {
+    /// Bore.
+    bore_diameter_mm: f64,
+    /// File of the whole gear, teeth included, beside this one.
+    file: String,
+    /// Unit of its coordinates; "m" where not given.
+    length_unit: Option<LengthUnit>,
+    /// Set of nodes or elements on the bore; "bore" where not given.
+    bore_set: Option<String>,
+    /// Sets on the flanks, {tooth} and {side} standing for number and side; "tooth{tooth}_{side}_flank" where not given.
+    flank_sets: Option<String>,
 }
 
 /// What the teeth leave for the body.
 struct Room {
+    bore_mm: f64,
     root_diameter_mm: f64,
     /// Below the root a ring of half a module must stay: the teeth's root stress lives in it.
     ring_diameter_mm: f64,
@@ -72,29 +112,31 @@ impl BlankTable {
     ) -> Result<Blank, InputError> {
         let keys = TableKeys::new(document, "blank");
         let root_diameter_mm = 2.0 * profile.root_radius_m / MM;
+        let bore_mm = match &self {
+            Self::Solid(table) => table.bore_diameter_mm,
+            Self::ThinRim(table) => table.bore_diameter_mm,
+            Self::Contour(table) => table.bore_diameter_mm,
+            Self::Mesh(table) => table.bore_diameter_mm,
+        };
         let room = Room {
+            bore_mm,
             root_diameter_mm,
             ring_diameter_mm: root_diameter_mm - tooth.module_m / MM,
             width_mm: tooth.face_width_m / MM,
         };
-        self.check_bore(&keys, &room)?;
-        let mut contour = None;
-        let web = match self.kind {
-            BlankKind::Solid => {
-                self.refuse_web_keys(&keys, "a solid blank")?;
-                None
+        room.check_bore(&keys)?;
+        let (web, contour, slots, holes) = match self {
+            Self::Solid(table) => (None, None, table.slots, table.holes),
+            Self::ThinRim(table) => {
+                let web = table.check_web(&keys, &room)?;
+                (Some(web), None, table.slots, table.holes)
             }
-            BlankKind::ThinRim => Some(self.check_web(&keys, &room)?),
-            BlankKind::Contour => {
-                self.refuse_web_keys(&keys, "a blank given by its contour")?;
-                let (given, web) = self.check_contour(&keys, &room)?;
-                contour = Some(given);
-                Some(web)
+            Self::Contour(table) => {
+                let (contour, web) = table.check_contour(&keys, &room)?;
+                (Some(web), Some(contour), table.slots, table.holes)
             }
-            BlankKind::Mesh => {
-                self.refuse_web_keys(&keys, "a blank that was meshed elsewhere")?;
-                self.refuse_contour_keys(&keys)?;
-                let meshed = self.check_meshed(document, &keys)?;
+            Self::Mesh(table) => {
+                let meshed = table.check_meshed(document, &keys)?;
                 if tooth.helix_angle_rad != 0.0 {
                     return Err(keys.error(
                         "kind",
@@ -102,7 +144,7 @@ impl BlankTable {
                     ));
                 }
                 return Ok(Blank {
-                    bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
+                    bore_radius_m: 0.5 * bore_mm * MM,
                     web: None,
                     contour: None,
                     openings: None,
@@ -110,32 +152,21 @@ impl BlankTable {
                 });
             }
         };
-        self.refuse_mesh_keys(&keys)?;
-        if contour.is_none() {
-            self.refuse_contour_keys(&keys)?;
-        }
         // Openings keep clear of the fillets at hub and rim.
-        let fillets = contour.as_ref().map_or([0.0; 2], |c| {
+        let fillets = contour.as_ref().map_or([0.0; 2], |c: &Contour| {
             [c.web.first(), c.web.last()].map(|p| p.map_or(0.0, |p| p.fillet_radius_m / MM))
         });
-        let (inner_mm, outer_mm) = web.map_or(
-            (0.5 * self.bore_diameter_mm, 0.5 * room.ring_diameter_mm),
-            |w| {
+        let (inner_mm, outer_mm) =
+            web.map_or((0.5 * bore_mm, 0.5 * room.ring_diameter_mm), |w: Web| {
                 (
                     w.hub_radius_m / MM + fillets[0],
                     w.rim_inner_radius_m / MM - fillets[1],
                 )
-            },
-        );
-        let openings = check_openings(
-            self.slots,
-            self.holes,
-            document,
-            (inner_mm, outer_mm),
-            tooth.module_m,
-        )?;
+            });
+        let openings =
+            check_openings(slots, holes, document, (inner_mm, outer_mm), tooth.module_m)?;
         let blank = Blank {
-            bore_radius_m: 0.5 * self.bore_diameter_mm * MM,
+            bore_radius_m: 0.5 * bore_mm * MM,
             web,
             contour,
             openings,
@@ -144,20 +175,24 @@ impl BlankTable {
         check_fillets(&keys, &blank, tooth.face_width_m, profile.root_radius_m)?;
         Ok(blank)
     }
+}
 
-    fn check_bore(&self, keys: &TableKeys, room: &Room) -> Result<(), InputError> {
-        let (bore, ring) = (self.bore_diameter_mm, room.ring_diameter_mm);
+impl Room {
+    fn check_bore(&self, keys: &TableKeys) -> Result<(), InputError> {
+        let (bore, ring) = (self.bore_mm, self.ring_diameter_mm);
         keys.require(
             "bore_diameter_mm",
             bore,
             bore > 0.0 && bore < ring,
             &format!(
                 "more than 0 and less than {ring:.3}: the root diameter {:.3} less one module, so that half a module of body stays below the teeth",
-                room.root_diameter_mm
+                self.root_diameter_mm
             ),
         )
     }
+}
 
+impl MeshedTable {
     /// Where the mesh is and how its sets are called; the names are those that `gearmesh mesh` gives unless told
     /// otherwise.
     fn check_meshed(
@@ -165,23 +200,6 @@ impl BlankTable {
         document: &InputDocument,
         keys: &TableKeys,
     ) -> Result<MeshedBody, InputError> {
-        for (key, given) in [
-            ("slots", self.slots.is_some()),
-            ("holes", self.holes.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(
-                    key,
-                    "a blank that was meshed elsewhere has its openings in the mesh; remove it",
-                ));
-            }
-        }
-        let file = self.file.as_deref().ok_or_else(|| {
-            keys.error(
-                "file",
-                "missing; a blank of kind \"mesh\" needs the name of its mesh file",
-            )
-        })?;
         let flank_sets = self
             .flank_sets
             .as_deref()
@@ -197,82 +215,30 @@ impl BlankTable {
         // Beside the gear file, unless it is an absolute path.
         let folder = Path::new(&document.file).parent().unwrap_or(Path::new(""));
         Ok(MeshedBody {
-            file: folder.join(file),
+            file: folder.join(&self.file),
             length_unit: self.length_unit.unwrap_or(LengthUnit::Metre),
             bore_set: self.bore_set.clone().unwrap_or_else(|| "bore".into()),
             flank_sets: flank_sets.into(),
         })
     }
+}
 
+impl ContourTable {
     fn check_contour(&self, keys: &TableKeys, room: &Room) -> Result<(Contour, Web), InputError> {
-        let hub_z_mm = self.hub_z_mm.ok_or_else(|| {
-            keys.error(
-                "hub_z_mm",
-                "missing; a contour needs [back, front] of its hub",
-            )
-        })?;
         let room = ContourRoom {
-            bore_mm: self.bore_diameter_mm,
+            bore_mm: room.bore_mm,
             ring_mm: room.ring_diameter_mm,
             width_mm: room.width_mm,
         };
-        check_contour(keys, hub_z_mm, self.web.as_deref().unwrap_or(&[]), &room)
+        check_contour(keys, self.hub_z_mm, &self.web, &room)
     }
+}
 
-    fn refuse_contour_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
-        for (key, given) in [
-            ("hub_z_mm", self.hub_z_mm.is_some()),
-            ("web", self.web.is_some()),
-        ] {
-            if given {
-                return Err(
-                    keys.error(key, "only a blank of kind = \"contour\" uses it; remove it")
-                );
-            }
-        }
-        Ok(())
-    }
-
-    fn refuse_mesh_keys(&self, keys: &TableKeys) -> Result<(), InputError> {
-        for (key, given) in [
-            ("file", self.file.is_some()),
-            ("length_unit", self.length_unit.is_some()),
-            ("bore_set", self.bore_set.is_some()),
-            ("flank_sets", self.flank_sets.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(key, "only a blank of kind = \"mesh\" uses it; remove it"));
-            }
-        }
-        Ok(())
-    }
-
-    fn refuse_web_keys(&self, keys: &TableKeys, blank: &str) -> Result<(), InputError> {
-        for (key, value) in [
-            ("hub_diameter_mm", self.hub_diameter_mm),
-            ("rim_inner_diameter_mm", self.rim_inner_diameter_mm),
-            ("web_thickness_mm", self.web_thickness_mm),
-            ("web_offset_mm", self.web_offset_mm),
-        ] {
-            if value.is_some() {
-                return Err(keys.error(
-                    key,
-                    format!("{blank} does not use it; remove it or set kind = \"thin-rim\""),
-                ));
-            }
-        }
-        Ok(())
-    }
-
+impl ThinRimTable {
     fn check_web(&self, keys: &TableKeys, room: &Room) -> Result<Web, InputError> {
-        let given = |key: &str, value: Option<f64>| {
-            value.ok_or_else(|| keys.error(key, "missing; a thin-rim blank needs it"))
-        };
-        let hub = given("hub_diameter_mm", self.hub_diameter_mm)?;
-        let rim = given("rim_inner_diameter_mm", self.rim_inner_diameter_mm)?;
-        let thickness = given("web_thickness_mm", self.web_thickness_mm)?;
-        let offset = self.web_offset_mm.unwrap_or(0.0);
-        let (bore, ring, width) = (self.bore_diameter_mm, room.ring_diameter_mm, room.width_mm);
+        let (hub, rim) = (self.hub_diameter_mm, self.rim_inner_diameter_mm);
+        let (thickness, offset) = (self.web_thickness_mm, self.web_offset_mm);
+        let (bore, ring, width) = (room.bore_mm, room.ring_diameter_mm, room.width_mm);
         keys.require(
             "hub_diameter_mm",
             hub,

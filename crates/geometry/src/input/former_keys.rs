@@ -89,25 +89,27 @@ impl FormerTable {
         };
         let (step, below) = self.moves.iter().find_map(|step| {
             let below = rest.strip_prefix(step.from)?;
-            (below.is_empty() || below.starts_with('.')).then_some((step, below))
+            // Below `model` stand keys of today.
+            let inside = below.starts_with('.') && !step.beneath_itself();
+            (below.is_empty() || inside).then_some((step, below))
         })?;
-        // `model` moved to `model.kind` must not move again.
-        if rest == step.to || rest.starts_with(&format!("{}.", step.to)) {
-            return None;
-        }
         let number = number.map_or(String::new(), |number| format!("{number}."));
         Some(format!("{}.{number}{}{below}", self.table, step.to))
     }
 }
 
 impl Move {
+    /// Whether the key names the table now into which it moved: `model` and `model.kind`.
+    fn beneath_itself(&self) -> bool {
+        first_part(self.to).0 == self.from
+    }
+
     /// Moves the key; tells its place in the text where it was there.
     fn apply(&self, table: &mut DeTable<'_>) -> Option<Range<usize>> {
         let (key, value) = take(table, self.from)?;
         let place = key.span().start..value.span().end.max(key.span().end);
         // `model` names a table now: where it does, nothing has to move.
-        let beneath_itself = first_part(self.to).0 == self.from;
-        if beneath_itself && matches!(value.get_ref(), DeValue::Table(_)) {
+        if self.beneath_itself() && matches!(value.get_ref(), DeValue::Table(_)) {
             table.insert(key, value);
             return None;
         }

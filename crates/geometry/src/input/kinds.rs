@@ -58,7 +58,7 @@ pub fn read_kind<'de, T: Kinds, D: Deserializer<'de>>(deserializer: D) -> Result
     let mut table = toml::Table::deserialize(deserializer)?;
     let known = keys_by_kind::<T>();
     let kind = match table.remove(T::TAG) {
-        None => return Err(D::Error::missing_field(T::TAG)),
+        None => return Err(without_tag::<T, _>(&table, &known)),
         Some(toml::Value::String(kind)) => kind,
         Some(_) => return Err(below(&[T::TAG.to_owned()], "allowed is a name in quotes")),
     };
@@ -79,6 +79,21 @@ pub fn read_kind<'de, T: Kinds, D: Deserializer<'de>>(deserializer: D) -> Result
         serde_path_to_error::Deserializer::new(toml::Value::Table(named), &mut track);
     T::from_named(deserializer)
         .map_err(|error: toml::de::Error| below(&keys_of(&track.path()), error.message().trim()))
+}
+
+/// A table without its tag: perhaps the tag is misspelt, and stands there as a key that no kind knows.
+fn without_tag<T: Kinds, E: Error>(table: &toml::Table, known: &[KeysOfKind]) -> E {
+    let knows = |key: &str| known.iter().any(|(_, keys)| keys.contains(&key));
+    match table.keys().find(|key| !knows(key)) {
+        None => E::missing_field(T::TAG),
+        Some(key) => {
+            let problem = format!(
+                "unknown field `{key}`, expected `{}`, which is missing",
+                T::TAG
+            );
+            below(std::slice::from_ref(key), &problem)
+        }
+    }
 }
 
 /// What to say of a key that the kind does not know; begins as serde's own complaint does.
@@ -349,6 +364,10 @@ mod tests {
             (
                 "gap_um = [1, 2]",
                 "s.toml:3: bearing.0.model.kind: missing; it has no default",
+            ),
+            (
+                "knd = 'film'",
+                "s.toml:4: bearing.0.model: unknown field `knd`, expected `kind`, which is missing",
             ),
             (
                 "\nkind = 'flim'",

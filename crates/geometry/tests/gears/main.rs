@@ -192,7 +192,7 @@ fn impossible_gears_are_refused_with_line_key_found_and_allowed() {
         (
             "kind = \"thin-rim\"",
             "kind = \"solid\"",
-            "a solid blank does not use it",
+            "blank: `hub_diameter_mm` belongs to kind \"thin-rim\", not to \"solid\"",
         ),
         (
             "poisson = 0.3",

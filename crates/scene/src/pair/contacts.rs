@@ -22,7 +22,7 @@ pub(super) fn slice_layout(
     let models = [&models[0], &models[1]];
     SliceLayout::resolved(models, scene.axial_offset_m, scene.slices).map_err(|e| {
         let key = match e {
-            ContactError::Slices { .. } => "mesh.slices",
+            ContactError::Slices { .. } => "mesh.model.slices",
             _ => "pair.axial_offset_mm",
         };
         scene.document.error(key, e)

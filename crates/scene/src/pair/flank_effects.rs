@@ -1,4 +1,5 @@
-//! `gear_1.microgeometry` and `gear_2.microgeometry`; `mesh.errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` of a pair: the tables are those of gear meshes.
+//! `gear_1.microgeometry` and `gear_2.microgeometry`; `errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` in `mesh.teeth` of a pair: the tables are those of gear
+//! meshes.
 
 use std::sync::Arc;
 
@@ -43,7 +44,7 @@ pub(super) fn deviations(
     scene: &Scene,
     gears: [&GearDefinition; 2],
 ) -> Result<FlankDeviations, InputError> {
-    let keys = TableKeys::new(&scene.document, "mesh");
+    let keys = TableKeys::new(&scene.document, "mesh.teeth");
     let mut made: [Vec<Arc<dyn FlankError>>; 2] = [Vec::new(), Vec::new()];
     for (number, (tables, gear)) in scene.errors.iter().zip(gears).enumerate() {
         for (i, table) in tables.iter().enumerate() {
@@ -64,7 +65,7 @@ pub(super) fn runout(scene: &Scene, pair: &GearPair) -> Result<Option<Runout>, I
     if scene.eccentricity.iter().all(Option::is_none) {
         return Ok(None);
     }
-    let keys = TableKeys::new(&scene.document, "mesh");
+    let keys = TableKeys::new(&scene.document, "mesh.teeth");
     // Half of what the line of action leaves, for each gear.
     let sum = pair.gear_1.base_radius_m + pair.gear_2.base_radius_m;
     let most_um = 0.25 * (pair.centre_distance_m - sum) / UM;

@@ -8,7 +8,7 @@ use gearmesh_rating::{NominalRating, TurningPoints};
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
 use crate::rating::{
-    FatigueJob, FatigueRule, PassageLength, Rating, RatingFigure, RatingResult, RatingTable,
+    FatigueJob, FatigueTable, PassageLength, RatingFigure, RatingResult, RatingTable,
     nominal_error, nominal_figures, nominal_method,
 };
 
@@ -56,18 +56,18 @@ impl RatedPair<'_> {
         for (i, table) in self.scene.ratings.iter().enumerate() {
             let key = format!("rating.{i}");
             let keys = TableKeys::new(&self.scene.document, &key);
-            let rating = table.check(&keys)?;
             table.refuse_keys_of_systems(&keys)?;
-            ratings.push(match &rating {
-                Rating::Fatigue(rule) => self.fatigue(table, rule, &keys)?,
-                Rating::Nominal(load) => {
+            ratings.push(match table {
+                RatingTable::Fatigue(table) => self.fatigue(table, &keys)?,
+                RatingTable::Nominal(table) => {
+                    let load = table.load_point();
                     let teeth = self.gears.map(|gear| &gear.tooth);
                     let materials = self.gears.map(|gear| gear.material);
-                    let rating = NominalRating::new(self.pair, teeth, materials, *load)
+                    let rating = NominalRating::new(self.pair, teeth, materials, load)
                         .map_err(|error| nominal_error(&error, "kind", &keys))?;
                     PairRating {
                         name: "the pair".into(),
-                        method: nominal_method(*load),
+                        method: nominal_method(load),
                         rule: PairRule::Nominal(Box::new(rating)),
                     }
                 }
@@ -78,10 +78,10 @@ impl RatedPair<'_> {
 
     fn fatigue(
         &self,
-        table: &RatingTable,
-        rule: &FatigueRule,
+        table: &FatigueTable,
         keys: &TableKeys<'_>,
     ) -> Result<PairRating, InputError> {
+        let rule = &table.rule(keys)?;
         if let Some(gear) = table.gear {
             keys.require("gear", gear as f64, (1..=2).contains(&gear), "1 or 2")?;
         }

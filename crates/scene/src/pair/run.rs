@@ -120,7 +120,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
     }
     if pair.is_helical() && scene.edge_radius_m.is_some() {
         let problem = "found \"extended\" with helical gears, whose tip edges are not modelled; allowed is \"line-of-action\"";
-        return Err(scene.document.error("mesh.path", problem).into());
+        return Err(scene.document.error("mesh.teeth.path", problem).into());
     }
     let extension = scene
         .edge_radius_m

@@ -1,14 +1,15 @@
 //! The scene file: a gear pair, its models, torques, angle range and gauges.
 
 use super::taken_misalignment::MisalignmentFrom;
+use crate::former_forms::PAIR;
 use crate::rating::RatingTable;
 use crate::system::tables::flank_errors::FlankErrorTable;
-use crate::system::tables::friction::FrictionTable;
-use crate::system::tables::gear_mesh::EccentricityTable;
+use crate::system::tables::friction::PairFrictionTable;
+use crate::system::tables::gear_mesh::{EccentricityTable, PathWord};
 use gearmesh_contact::{ContactOptions, LocalContact};
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{Flank, InputError, Misalignment};
+use gearmesh_geometry::{Flank, InputError, Misalignment, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -73,41 +74,49 @@ fn default_flank() -> Flank {
     Flank::Right
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum MeshModel {
-    Hybrid,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum PathTable {
-    LineOfAction,
-    Extended,
-}
-
+/// `[mesh]`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "PairMeshTable")]
 struct MeshTable {
-    /// Model of the teeth: finite element compliance and the contact problem of the slices.
-    #[allow(dead_code)]
-    model: MeshModel,
-    /// Local contact; "calibrated" where not given.
-    local: Option<LocalContact>,
+    /// Model of the teeth.
+    model: PairModel,
+    /// What touches and how.
+    #[serde(default)]
+    teeth: PairTeethTable,
+}
+
+/// `mesh.model`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "PairModel")]
+enum PairModel {
+    /// Finite element compliance and the contact problem of the slices.
+    Hybrid {
+        /// Local contact; "calibrated" where not given.
+        #[serde(default)]
+        local: LocalContact,
+        /// Slices over the overlap of the faces; those of the models where not given.
+        slices: Option<usize>,
+    },
+}
+
+kinds!(PairModel, "kind");
+
+/// `mesh.teeth`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields, default)]
+struct PairTeethTable {
     /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
     /// not modelled at rest.
-    path: Option<PathTable>,
+    path: Option<PathWord>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,
-    /// Slices over the overlap of the faces; those of the models where not given.
-    slices: Option<usize>,
     /// Tooth friction; none where not given.
-    friction: Option<FrictionTable>,
+    friction: Option<PairFrictionTable>,
     /// Errors and faults of gear 1.
-    #[serde(default)]
     errors_1: Vec<FlankErrorTable>,
     /// Errors and faults of gear 2.
-    #[serde(default)]
     errors_2: Vec<FlankErrorTable>,
     /// Place of gear 1 on its body: runout and wobble.
     eccentricity_1: Option<EccentricityTable>,
@@ -193,7 +202,7 @@ pub struct Scene {
     pub ratings: Vec<RatingTable>,
     /// Where the scene is.
     pub folder: PathBuf,
-    /// What to tell about the file beside its sense: keys with former names.
+    /// What to tell about the file beside its sense: tables in a former form.
     pub notes: Vec<String>,
     /// The file, for later complaints and provenance.
     pub document: InputDocument,
@@ -214,6 +223,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        let document = document.with_former(PAIR);
         let table: SceneTable = document.parse()?;
         let require = |key: &str, value: f64, ok: bool, allowed: &str| {
             if ok && value.is_finite() {
@@ -286,33 +296,32 @@ impl Scene {
             (4..=100_000).contains(&points),
             "4 to 100000",
         )?;
-        let keys = TableKeys::new(&document, "mesh");
-        let (friction, note) = match &table.mesh.friction {
-            None => (None, None),
-            Some(table) => {
-                let (friction, note) = table.of_pair(&keys)?;
-                (Some(friction), note)
-            }
-        };
-        let edge_radius_m = match (&table.mesh.path, table.mesh.edge_radius_um) {
-            (Some(PathTable::Extended) | None, radius) => {
+        let teeth = table.mesh.teeth;
+        let keys = TableKeys::new(&document, "mesh.teeth");
+        let friction = teeth.friction.as_ref();
+        let friction = friction.map(|table| table.check(&keys)).transpose()?;
+        let edge_radius_m = match (teeth.path, teeth.edge_radius_um) {
+            (Some(PathWord::Extended) | None, radius) => {
                 let radius = radius.unwrap_or(DEFAULT_EDGE_RADIUS_UM);
                 require(
-                    "mesh.edge_radius_um",
+                    "mesh.teeth.edge_radius_um",
                     radius,
                     (1.0..=1000.0).contains(&radius),
                     "1 to 1000",
                 )?;
                 Some(radius * 1e-6)
             }
-            (Some(PathTable::LineOfAction), Some(_)) => {
+            (Some(PathWord::LineOfAction), Some(_)) => {
                 return Err(document.error(
-                    "mesh.edge_radius_um",
-                    "is not used on the line of action; set mesh.path = \"extended\" or leave it out",
+                    "mesh.teeth.edge_radius_um",
+                    "is not used on the line of action; set path = \"extended\" or leave it out",
                 ));
             }
-            (Some(PathTable::LineOfAction), None) => None,
+            (Some(PathWord::LineOfAction), None) => None,
         };
+        let PairModel::Hybrid { local, slices } = table.mesh.model;
+        let notes = document.former_notes()?;
+        let notes = notes.iter().map(ToString::to_string).collect();
         Ok(Self {
             title: table.title,
             gear_1: folder.join(&pair.gear_1),
@@ -326,15 +335,12 @@ impl Scene {
             },
             misalignment_from: pair.misalignment_from.clone(),
             microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
-            slices: table.mesh.slices,
-            errors: [table.mesh.errors_1, table.mesh.errors_2],
-            eccentricity: [table.mesh.eccentricity_1, table.mesh.eccentricity_2],
-            contact: ContactOptions {
-                local: table.mesh.local.unwrap_or_default(),
-                friction,
-            },
+            slices,
+            errors: [teeth.errors_1, teeth.errors_2],
+            eccentricity: [teeth.eccentricity_1, teeth.eccentricity_2],
+            contact: ContactOptions { local, friction },
             edge_radius_m,
-            path_by_default: table.mesh.path.is_none() && table.mesh.edge_radius_um.is_none(),
+            path_by_default: teeth.path.is_none() && teeth.edge_radius_um.is_none(),
             torques_nm: table.run.torques_Nm,
             start_rad: table.run.start_deg.to_radians(),
             pitches: table.run.pitches,
@@ -343,7 +349,7 @@ impl Scene {
             gauges_2: table.gauges.gear_2,
             ratings: table.rating,
             folder: folder.into(),
-            notes: note.into_iter().collect(),
+            notes,
             document,
         })
     }

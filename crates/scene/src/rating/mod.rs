@@ -22,4 +22,4 @@ pub use fatigue_job::{FatigueJob, PassageLength};
 pub use nominal_figures::{nominal_error, nominal_figures, nominal_method};
 pub use result::{RatingFigure, RatingResult, put_ratings, take_ratings};
 pub use sn_table_file::sn_curve;
-pub use table::{FatigueRule, Rating, RatingTable};
+pub use table::{FatigueRule, FatigueTable, NominalTable, RatingTable};

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::kinds;
 use gearmesh_rating::{LoadPoint, MeanStress, Passage, SurfaceState};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,59 +20,60 @@ const MPA: f64 = 1e6;
 
 /// `[[rating]]` as it stands in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "RatingTable")]
+pub enum RatingTable {
+    /// Rainflow count and Miner's sum of recovered root stress.
+    Fatigue(FatigueTable),
+    /// Lewis and Hertz under the largest force.
+    Nominal(NominalTable),
+}
+
+kinds!(RatingTable, "kind");
+
+/// Keys of `kind = "fatigue"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-pub struct RatingTable {
-    /// What is computed.
-    pub kind: RatingKind,
+pub struct FatigueTable {
+    /// Name of a gauge that a `[[gauge]]` reads, or `[gauges]` in scenes of a pair.
+    pub gauge: String,
+    /// S-N table (.toml) of local stress amplitudes at zero mean, relative to the scene.
+    pub sn_table: PathBuf,
     /// Multibody scenes: the part of the run before this time is left out; 0 where not given.
     pub from_s: Option<f64>,
-    /// `fatigue`: name of a gauge that a `[[gauge]]` reads, or `[gauges]` in scenes of a pair.
-    pub gauge: Option<String>,
-    /// `fatigue`, multibody scenes: body of the gauge; needed where gauges of several bodies have that name.
+    /// Multibody scenes: body of the gauge; needed where gauges of several bodies have that name.
     pub body: Option<String>,
-    /// `fatigue`, scenes of a pair: gear of the gauge, 1 or 2; needed where gauges of both have that name.
+    /// Scenes of a pair: gear of the gauge, 1 or 2; needed where gauges of both have that name.
     pub gear: Option<usize>,
-    /// `fatigue`: S-N table (.toml) of local stress amplitudes at zero mean, relative to the scene.
-    pub sn_table: Option<PathBuf>,
-    /// `fatigue`: method of strain recovery, 1 or 2; 2 where not given.
+    /// Method of strain recovery, 1 or 2; 2 where not given.
     pub method: Option<usize>,
-    /// `fatigue`: "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces);
+    /// "plane-strain" (stress E ε/(1 − ν²), middle of a wide tooth) or "uniaxial" (E ε, near the end faces);
     /// "plane-strain" where not given.
-    pub surface: Option<SurfaceWord>,
-    /// `fatigue`: "none" or "goodman"; "none" where not given.
-    pub mean_stress: Option<MeanStressWord>,
-    /// `fatigue` with "goodman": tensile strength of the material.
+    #[serde(default)]
+    pub surface: SurfaceWord,
+    /// "none" or "goodman"; "none" where not given.
+    #[serde(default)]
+    pub mean_stress: MeanStressWord,
+    /// With "goodman": tensile strength of the material.
     pub tensile_strength_MPa: Option<f64>,
-    /// `fatigue`: "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not
-    /// given.
-    pub passage: Option<PassageWord>,
-    /// `nominal`, multibody scenes: name of a `[[gear_mesh]]`.
+    /// "repeated" (the history goes on and on, its end joined to its start) or "once"; "repeated" where not given.
+    #[serde(default)]
+    pub passage: PassageWord,
+}
+
+/// Keys of `kind = "nominal"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NominalTable {
+    /// Multibody scenes: the part of the run before this time is left out; 0 where not given.
+    pub from_s: Option<f64>,
+    /// Multibody scenes: name of a `[[gear_mesh]]`.
     pub mesh: Option<String>,
-    /// `nominal`: where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer
-    /// and for any contact ratio; the former where not given.
-    pub load_point: Option<LoadPointWord>,
-}
-
-/// `rating.kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RatingKind {
-    /// Rainflow count and Miner's sum of recovered root stress.
-    Fatigue,
-    /// Lewis and Hertz under the largest force.
-    Nominal,
-}
-
-impl RatingKind {
-    /// Name in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fatigue => "fatigue",
-            Self::Nominal => "nominal",
-        }
-    }
+    /// Where the whole force acts on the tooth for Lewis's stress: "highest-single-contact", or "tip", safer and for any
+    /// contact ratio; the former where not given.
+    #[serde(default)]
+    pub load_point: LoadPointWord,
 }
 
 /// `surface`.
@@ -118,15 +120,6 @@ pub enum LoadPointWord {
     Tip,
 }
 
-/// A rating, checked as far as no part of the scene is needed.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Rating {
-    /// Rainflow count and Miner's sum.
-    Fatigue(FatigueRule),
-    /// Lewis and Hertz, where the force acts for Lewis's stress.
-    Nominal(LoadPoint),
-}
-
 /// How a stress history is judged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FatigueRule {
@@ -144,99 +137,33 @@ pub struct FatigueRule {
     pub sn_table: PathBuf,
 }
 
-impl RatingTable {
-    /// Checks the keys of the chosen kind and refuses those of others.
+impl FatigueTable {
+    /// The rule, checked as far as no part of the scene is needed.
     ///
     /// # Errors
     /// [`InputError`] naming the key.
-    pub fn check(&self, keys: &TableKeys<'_>) -> Result<Rating, InputError> {
-        let word = self.kind.name();
-        let fatigue: &[&str] = &["fatigue"];
-        keys.refuse_unused(
-            ("kind", word),
-            &[
-                ("gauge", self.gauge.is_some(), fatigue),
-                ("body", self.body.is_some(), fatigue),
-                ("gear", self.gear.is_some(), fatigue),
-                ("sn_table", self.sn_table.is_some(), fatigue),
-                ("method", self.method.is_some(), fatigue),
-                ("surface", self.surface.is_some(), fatigue),
-                ("mean_stress", self.mean_stress.is_some(), fatigue),
-                (
-                    "tensile_strength_MPa",
-                    self.tensile_strength_MPa.is_some(),
-                    fatigue,
-                ),
-                ("passage", self.passage.is_some(), fatigue),
-                ("mesh", self.mesh.is_some(), &["nominal"]),
-                ("load_point", self.load_point.is_some(), &["nominal"]),
-            ],
-        )?;
-        let kind = format!("kind = \"{word}\"");
-        if self.kind == RatingKind::Nominal {
-            return Ok(Rating::Nominal(match self.load_point.unwrap_or_default() {
-                LoadPointWord::HighestSingleContact => LoadPoint::HighestSingleContact,
-                LoadPointWord::Tip => LoadPoint::Tip,
-            }));
-        }
+    pub fn rule(&self, keys: &TableKeys<'_>) -> Result<FatigueRule, InputError> {
         let method = self.method.unwrap_or(2);
         keys.require("method", method as f64, (1..=2).contains(&method), "1 or 2")?;
-        Ok(Rating::Fatigue(FatigueRule {
-            gauge: keys.needed("gauge", self.gauge.clone(), &kind)?,
+        Ok(FatigueRule {
+            gauge: self.gauge.clone(),
             method,
-            surface: match self.surface.unwrap_or_default() {
+            surface: match self.surface {
                 SurfaceWord::PlaneStrain => SurfaceState::PlaneStrain,
                 SurfaceWord::Uniaxial => SurfaceState::Uniaxial,
             },
             mean_stress: self.mean_stress(keys)?,
-            passage: match self.passage.unwrap_or_default() {
+            passage: match self.passage {
                 PassageWord::Repeated => Passage::Repeated,
                 PassageWord::Once => Passage::Once,
             },
-            sn_table: keys.needed("sn_table", self.sn_table.clone(), &kind)?,
-        }))
-    }
-
-    /// Refuses the keys of multibody scenes, for a scene of a pair.
-    ///
-    /// # Errors
-    /// [`InputError`] for the first of them that is given.
-    pub fn refuse_keys_of_systems(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
-        for (key, given, instead) in [
-            (
-                "body",
-                self.body.is_some(),
-                "; gear = 1 or 2 says whose gauge it is",
-            ),
-            ("mesh", self.mesh.is_some(), ", which has one mesh"),
-            ("from_s", self.from_s.is_some(), ", which has no time"),
-        ] {
-            if given {
-                let problem = format!("is not used by a scene of a [pair]{instead}; remove it");
-                return Err(keys.error(key, problem));
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses the key of scenes of a pair, for a multibody scene.
-    ///
-    /// # Errors
-    /// [`InputError`] where it is given.
-    pub fn refuse_keys_of_pairs(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
-        match self.gear {
-            None => Ok(()),
-            Some(_) => Err(keys.error(
-                "gear",
-                "is not used by a multibody scene; body says whose gauge it is; remove it",
-            )),
-        }
+            sn_table: self.sn_table.clone(),
+        })
     }
 
     fn mean_stress(&self, keys: &TableKeys<'_>) -> Result<MeanStress, InputError> {
         let key = "tensile_strength_MPa";
-        let rule = self.mean_stress.unwrap_or_default();
-        match (rule, self.tensile_strength_MPa) {
+        match (self.mean_stress, self.tensile_strength_MPa) {
             (MeanStressWord::None, None) => Ok(MeanStress::None),
             (MeanStressWord::None, Some(_)) => Err(keys.error(
                 key,
@@ -249,6 +176,59 @@ impl RatingTable {
                     tensile_strength_pa: MPA * strength,
                 })
             }
+        }
+    }
+}
+
+impl NominalTable {
+    /// Where the force acts for Lewis's stress.
+    #[must_use]
+    pub fn load_point(&self) -> LoadPoint {
+        match self.load_point {
+            LoadPointWord::HighestSingleContact => LoadPoint::HighestSingleContact,
+            LoadPointWord::Tip => LoadPoint::Tip,
+        }
+    }
+}
+
+impl RatingTable {
+    /// Time from which rows count, where it is stated.
+    #[must_use]
+    pub fn from_s(&self) -> Option<f64> {
+        match self {
+            Self::Fatigue(table) => table.from_s,
+            Self::Nominal(table) => table.from_s,
+        }
+    }
+
+    /// Refuses the keys of multibody scenes, for a scene of a pair.
+    ///
+    /// # Errors
+    /// [`InputError`] for the first of them that is given.
+    pub fn refuse_keys_of_systems(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
+        let (key, instead) = match self {
+            Self::Fatigue(table) if table.body.is_some() => {
+                ("body", "; gear = 1 or 2 says whose gauge it is")
+            }
+            Self::Nominal(table) if table.mesh.is_some() => ("mesh", ", which has one mesh"),
+            _ if self.from_s().is_some() => ("from_s", ", which has no time"),
+            _ => return Ok(()),
+        };
+        let problem = format!("is not used by a scene of a [pair]{instead}; remove it");
+        Err(keys.error(key, problem))
+    }
+
+    /// Refuses the key of scenes of a pair, for a multibody scene.
+    ///
+    /// # Errors
+    /// [`InputError`] where it is given.
+    pub fn refuse_keys_of_pairs(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
+        match self {
+            Self::Fatigue(FatigueTable { gear: Some(_), .. }) => Err(keys.error(
+                "gear",
+                "is not used by a multibody scene; body says whose gauge it is; remove it",
+            )),
+            _ => Ok(()),
         }
     }
 }

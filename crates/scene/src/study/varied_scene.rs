@@ -6,10 +6,11 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
 
 use super::study_file::{Case, Study};
+use crate::former_forms::SYSTEM;
 use crate::system::SystemScene;
 
 /// The scene of a case. A key must stand in the scene already, and its new value must be of the same kind: a study
-/// varies what a scene says.
+/// varies what a scene says. Keys may have the form of earlier versions.
 ///
 /// # Errors
 /// [`InputError`] of the study for a key that the scene does not have, of the scene for a value that it refuses.
@@ -19,11 +20,12 @@ pub fn varied(
     case: &Case,
     folder: &Path,
 ) -> Result<SystemScene, InputError> {
+    let scene = scene.clone().with_former(SYSTEM);
     let given: toml::Value = scene.glance()?;
     let mut root = given.clone();
     for setting in &case.settings {
         for key in &setting.keys {
-            let place = find(&mut root, key)
+            let place = find(&mut root, &scene.present_path(key))
                 .map_err(|problem| complaint(study, &setting.parameter, key, problem))?;
             let numbers = |value: &toml::Value| value.is_float() || value.is_integer();
             let alike =
@@ -40,7 +42,7 @@ pub fn varied(
         }
     }
     if root == given {
-        return SystemScene::from_document(scene.clone(), folder);
+        return SystemScene::from_document(scene, folder);
     }
     let text = toml::to_string(&root).map_err(|error| scene.error("", error))?;
     let name = format!("{} with {}", scene.file, case.name());

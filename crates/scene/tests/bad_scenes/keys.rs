@@ -42,22 +42,21 @@ fn keys_of_another_kind_are_refused() {
     refused(
         ("exponent = 1.5", "exponent = 1.5\nlocal = \"calibrated\""),
         "local",
-        &["gear_mesh.0.local: is not used by model = \"impact\", only by \"hybrid\"; remove it"],
+        &[
+            "gear_mesh.0.model: `local` belongs to kind \"hybrid\", not to \"impact\", which knows `kind`, `stiffness_N_per_mm_e`",
+        ],
     );
     refused(
-        (
-            "model = \"impact\"",
-            "model = \"iso6336\"\nmicrogeometry = false",
-        ),
-        "stiffness_N_per_mm_e",
-        &[
-            "gear_mesh.0.stiffness_N_per_mm_e: is not used by model = \"iso6336\", only by \"impact\"",
-        ],
+        ("kind = \"impact\"", "kind = \"iso6336\""),
+        "damping_N_s_per_mm",
+        &["gear_mesh.0.model: `damping_N_s_per_mm` belongs to kind \"impact\", not to \"iso6336\""],
     );
     refused(
         ("end_s = 0.05", "end_s = 0.05\nspeeds = 7"),
         "speeds",
-        &["run.speeds: is not used by kind = \"transient\", only by \"speed-sweep\""],
+        &[
+            "run: `speeds` belongs to kind \"speed-sweep\", not to \"transient\", which knows `kind`, `end_s`",
+        ],
     );
     refused(
         ("kind = \"transient\"\nend_s = 0.05", "kind = \"static\""),
@@ -92,17 +91,19 @@ fn values_out_of_range_are_refused() {
     refused(
         ("exponent = 1.5", "exponent = 0.5"),
         "exponent",
-        &["gear_mesh.0.exponent: found 0.5, allowed is 1 to 5"],
+        &["gear_mesh.0.model.exponent: found 0.5, allowed is 1 to 5"],
     );
     refused(
         ("exponent = 1.5\n", ""),
-        "[[gear_mesh]]",
-        &["gear_mesh.0.exponent: missing; the unit of stiffness_N_per_mm_e, N/mm^e, needs it"],
+        "[gear_mesh.model]",
+        &[
+            "gear_mesh.0.model.exponent: missing; the unit of stiffness_N_per_mm_e, N/mm^e, needs it",
+        ],
     );
     refused(
         ("full_damping_depth_um = 10.0", ""),
-        "[[gear_mesh]]",
-        &["gear_mesh.0.full_damping_depth_um: missing; damping_N_s_per_mm needs it"],
+        "[gear_mesh.model]",
+        &["gear_mesh.0.model.full_damping_depth_um: missing; damping_N_s_per_mm needs it"],
     );
     refused(
         ("step_s = 2e-6", "step_s = -2e-6"),

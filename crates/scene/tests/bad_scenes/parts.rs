@@ -205,20 +205,20 @@ fn gears_that_do_not_fit_are_refused() {
 
 #[test]
 fn meshes_that_cannot_be_are_refused() {
-    let twice = "full_damping_depth_um = 10.0\n[[gear_mesh]]\nname = \"again\"\ngear_1 = \"wheel\"\ngear_2 = \"pinion\"\nmodel = \"kinematic\"\nmicrogeometry = false\n";
+    let twice = "full_damping_depth_um = 10.0\n[[gear_mesh]]\nname = \"again\"\ngear_1 = \"wheel\"\ngear_2 = \"pinion\"\nmodel = { kind = \"kinematic\" }\nmicrogeometry = false\n";
     refused(
         ("full_damping_depth_um = 10.0", twice),
         "gear_2 = \"pinion\"",
         &["gear_mesh.1.gear_2: `wheel` and `pinion` are in mesh already in `mesh`"],
     );
-    let plain = "model = \"impact\"\nstiffness_N_per_mm_e = 1e6\nexponent = 1.5\ndamping_N_s_per_mm = 1e2\nfull_damping_depth_um = 10.0";
+    let plain = "kind = \"impact\"\nstiffness_N_per_mm_e = 1e6\nexponent = 1.5\ndamping_N_s_per_mm = 1e2\nfull_damping_depth_um = 10.0";
     refused(
-        (plain, "model = \"hybrid\""),
+        (plain, "kind = \"hybrid\""),
         "gear_1 = ",
-        &["gear_mesh.0.gear_1: model = \"hybrid\" needs reduced gears (.h5), found"],
+        &["gear_mesh.0.gear_1: kind = \"hybrid\" needs reduced gears (.h5), found"],
     );
     refused(
-        (plain, "model = \"iso6336\""),
+        (plain, "kind = \"iso6336\""),
         "[[gear_mesh]]",
         &[
             "gear_mesh.0.microgeometry: the gear of",
@@ -228,92 +228,105 @@ fn meshes_that_cannot_be_are_refused() {
     refused(
         (
             plain,
-            "model = \"kinematic\"\nmicrogeometry = false\nflanks = \"right\"",
+            "kind = \"kinematic\"\n[gear_mesh.teeth]\nflanks = \"right\"",
         ),
-        "flanks",
-        &["is not used by model = \"kinematic\", only by"],
+        "[gear_mesh.teeth]",
+        &["gear_mesh.0.teeth: is not used by kind = \"kinematic\", which knows no flanks"],
     );
     refused(
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nerrors_2 = [{ kind = \"broken-tooth\", tooth = 57, above_radius_mm = 75.0 }]",
+            plain,
+            "kind = \"iso6336\"\n[gear_mesh.teeth]\nerrors_2 = [{ kind = \"broken-tooth\", tooth = 5, above_radius_mm = 75.0 }]",
         ),
         "errors_2",
         &[
-            "gear_mesh.0.errors_2.0.tooth: broken-tooth: there is no tooth 57; the gear has teeth 0 to 56",
+            "gear_mesh.0.teeth.errors_2: is not used by kind = \"iso6336\", which knows no single teeth",
         ],
     );
     refused(
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nerrors_1 = [{ kind = \"pitch\", side = \"right\", removed_um = [1.0, 2.0] }]",
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.errors_2 = [{ kind = \"broken-tooth\", tooth = 57, above_radius_mm = 75.0 }]",
         ),
-        "errors_1",
-        &["gear_mesh.0.errors_1.0.removed_um: found 2 numbers, allowed are 57: one a tooth"],
+        "errors_2",
+        &[
+            "gear_mesh.0.teeth.errors_2.0.tooth: broken-tooth: there is no tooth 57; the gear has teeth 0 to 56",
+        ],
     );
     refused(
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nerrors_1 = [{ kind = \"spall\", tooth = 3 }]",
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.errors_1 = [{ kind = \"pitch\", side = \"right\", removed_um = [1.0, 2.0] }]",
         ),
         "errors_1",
-        &["gear_mesh.0.errors_1.0.side: missing"],
+        &["gear_mesh.0.teeth.errors_1.0.removed_um: found 2 numbers, allowed are 57: one a tooth"],
     );
     refused(
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nerrors_1 = [{ kind = \"spal\", tooth = 3 }]",
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.errors_1 = [{ kind = \"spall\", tooth = 3 }]",
         ),
         "errors_1",
-        &["unknown variant `spal`", "`spall`"],
+        &["gear_mesh.0.teeth.errors_1.0.side: missing"],
     );
     refused(
         (
-            "exponent = 1.5",
-            "exponent = 1.5\nfriction = { model = \"coulomb\", static_coefficient = 0.1, dynamic_coefficient = 0.2 }",
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.errors_1 = [{ kind = \"spal\", tooth = 3 }]",
+        ),
+        "errors_1",
+        &["unknown kind `spal`", "`spall`"],
+    );
+    refused(
+        (
+            "gear_2 = \"wheel\"",
+            "gear_2 = \"wheel\"\nteeth.friction = { model = \"coulomb\", static_coefficient = 0.1, dynamic_coefficient = 0.2 }",
         ),
         "friction",
         &[
-            "gear_mesh.0.friction.static_coefficient: found 0.1, allowed is at least dynamic_coefficient, 0.2",
+            "gear_mesh.0.teeth.friction.static_coefficient: found 0.1, allowed is at least dynamic_coefficient, 0.2",
         ],
     );
     for (further, complaint) in [
         (
             "errors_1 = [{ kind = \"spall\", tooth = 3, side = \"right\", radii_mm = [74.0, 73.0], z_mm = [-1.0, 1.0], depth_um = 5.0 }]",
-            "gear_mesh.0.errors_1.0.radii_mm: found [74, 73], allowed is [lower, upper]",
+            "gear_mesh.0.teeth.errors_1.0.radii_mm: found [74, 73], allowed is [lower, upper]",
         ),
         (
             "errors_1 = [{ kind = \"spall\", tooth = 3, side = \"right\", radii_mm = [73.0, 74.0], z_mm = [-1.0, 1.0], depth_um = -5.0 }]",
-            "gear_mesh.0.errors_1.0.depth_um: found -5, allowed is more than 0",
+            "gear_mesh.0.teeth.errors_1.0.depth_um: found -5, allowed is more than 0",
         ),
         (
             "errors_1 = [{ kind = \"tip-chip\", tooth = 3, end = \"+z\", height_mm = 1.0, length_mm = 0.0 }]",
-            "gear_mesh.0.errors_1.0.length_mm: found 0, allowed is more than 0",
+            "gear_mesh.0.teeth.errors_1.0.length_mm: found 0, allowed is more than 0",
         ),
         (
             "errors_1 = [{ kind = \"broken-tooth\", tooth = 3, above_radius_mm = 99.0 }]",
-            "gear_mesh.0.errors_1.0.above_radius_mm: found 99, allowed is more than 0 and less than the tip radius",
+            "gear_mesh.0.teeth.errors_1.0.above_radius_mm: found 99, allowed is more than 0 and less than the tip radius",
         ),
         (
             "friction = { model = \"coulomb\", dynamic_coefficient = 0.2, static_speed_mm_per_s = 10, dynamic_speed_mm_per_s = 5 }",
-            "gear_mesh.0.friction.dynamic_speed_mm_per_s: found 5, allowed is more than static_speed_mm_per_s, 10",
+            "gear_mesh.0.teeth.friction.dynamic_speed_mm_per_s: found 5, allowed is more than static_speed_mm_per_s, 10",
         ),
         (
             "friction = { model = \"coulomb\", coefficient = 0.2 }",
-            "gear_mesh.0.friction.coefficient: is called dynamic_coefficient",
+            "gear_mesh.0.teeth.friction: unknown field `coefficient`",
         ),
         (
             "friction = { model = \"coulomb\", dynamic_coefficient = 0.2, reversal_um = 20 }",
-            "gear_mesh.0.friction.reversal_um: is for scenes of a [pair]",
+            "gear_mesh.0.teeth.friction: unknown field `reversal_um`",
         ),
         (
             "friction = { model = \"coulomb\" }",
-            "gear_mesh.0.friction.dynamic_coefficient: missing",
+            "gear_mesh.0.teeth.friction.dynamic_coefficient: missing",
         ),
     ] {
         let at = further.split(' ').next().unwrap();
         refused(
-            ("exponent = 1.5", &format!("exponent = 1.5\n{further}")),
+            (
+                "gear_2 = \"wheel\"",
+                &format!("gear_2 = \"wheel\"\nteeth.{further}"),
+            ),
             at,
             &[complaint],
         );

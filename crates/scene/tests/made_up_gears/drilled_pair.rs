@@ -107,9 +107,9 @@ gear_1 = "pinion.h5"
 gear_2 = "{wheel}.h5"
 centre_distance_mm = 105.0
 [mesh]
-model = "hybrid"
-local = "weber-banaschek"
-path = "line-of-action"
+model.kind = "hybrid"
+model.local = "weber-banaschek"
+teeth.path = "line-of-action"
 [run]
 torques_Nm = [200.0]
 {run}
@@ -128,8 +128,8 @@ pub fn scene_in_time(end_s: f64) -> String {
     format!(
         "title = \"23 and 47 in time\"\n[run]\nkind = \"transient\"\nend_s = {end_s:?}\n[solver]\nstep_s = 4e-5\nstart = \"equilibrium\"\n\
          [output]\ninterval_s = 2e-4\n{}{}[[motion]]\njoint = \"axle of pinion\"\nspeed_rpm = -300.0\n[[load]]\nbody = \"wheel\"\ntorque_Nm = -200.0\n\
-         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\nflanks = \"right\"\n\
-         path = \"line-of-action\"\ndamping = {{ kind = \"stiffness-proportional\", time_s = 5e-5, full_depth_um = 1.0 }}\n",
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.flanks = \"right\"\n\
+         teeth.path = \"line-of-action\"\nmodel.damping = {{ kind = \"stiffness-proportional\", time_s = 5e-5, full_depth_um = 1.0 }}\n",
         gear("pinion", "pinion", 0.0),
         gear("wheel", "drilled", 105.0)
     )

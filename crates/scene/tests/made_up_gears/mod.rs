@@ -78,9 +78,9 @@ torque_Nm = -100.0
 name = "mesh"
 gear_1 = "pinion"
 gear_2 = "wheel"
-model = "hybrid"
-local = "weber-banaschek"
-damping = {{ kind = "stiffness-proportional", time_s = 1e-6, full_depth_um = 1.0 }}
+model.kind = "hybrid"
+model.local = "weber-banaschek"
+model.damping = {{ kind = "stiffness-proportional", time_s = 1e-6, full_depth_um = 1.0 }}
 {further}"#
     )
 }

@@ -17,9 +17,9 @@ gear_1 = "gear_30.h5"
 gear_2 = "gear_41.h5"
 centre_distance_mm = 106.8
 [mesh]
-model = "hybrid"
-local = "weber-banaschek"
-path = "line-of-action"
+model.kind = "hybrid"
+model.local = "weber-banaschek"
+teeth.path = "line-of-action"
 [run]
 torques_Nm = [100.0, 200.0]
 pitches = 41
@@ -199,7 +199,7 @@ fn ratings_that_cannot_be_are_refused() {
         (
             "kind = \"nominal\"",
             "kind = \"nominal\"\ngear = 1",
-            "rating.2.gear: is not used by kind = \"nominal\", only by \"fatigue\"",
+            "rating.2: `gear` belongs to kind \"fatigue\", not to \"nominal\"",
         ),
         ("sn.toml", "no.toml", "rating.0.sn_table: the S-N table"),
     ] {

@@ -321,7 +321,7 @@ fn ratings_that_cannot_be_are_refused() {
         ),
         (
             with("gauge = \"g0\"\n", ""),
-            "rating.0.gauge: missing; kind = \"fatigue\" needs it",
+            "rating.0.gauge: missing; it has no default",
         ),
         (
             with("gauge = \"g0\"", "gauge = \"g0\"\ngear = 2"),
@@ -333,7 +333,7 @@ fn ratings_that_cannot_be_are_refused() {
         ),
         (
             with("method = 1", "mesh = \"mesh\""),
-            "rating.0.mesh: is not used by kind = \"fatigue\", only by \"nominal\"",
+            "rating.0: `mesh` belongs to kind \"nominal\", not to \"fatigue\"",
         ),
         (
             with("sn_table = \"sn.toml\"", "sn_table = \"no.toml\""),
@@ -367,7 +367,7 @@ fn ratings_that_cannot_be_are_refused() {
                 "kind = \"nominal\"",
                 "kind = \"nominal\"\npassage = \"once\"",
             ),
-            "rating.2.passage: is not used by kind = \"nominal\", only by \"fatigue\"",
+            "rating.2: `passage` belongs to kind \"fatigue\", not to \"nominal\"",
         ),
         (
             of(RATED).replace("interval_s = 1e-4", "interval_s = 1e-4\nelements = []"),

@@ -59,8 +59,8 @@ gear_2 = "planet"
     )
 }
 
-const KINEMATIC: &str = "model = \"kinematic\"";
-const IMPACT: &str = "model = \"impact\"\nstiffness_N_per_mm_e = 1e6\nexponent = 1.5\ndamping_N_s_per_mm = 100.0\nfull_damping_depth_um = 5.0";
+const KINEMATIC: &str = "model.kind = \"kinematic\"";
+const IMPACT: &str = "model.kind = \"impact\"\nmodel.stiffness_N_per_mm_e = 1e6\nmodel.exponent = 1.5\nmodel.damping_N_s_per_mm = 100.0\nmodel.full_damping_depth_um = 5.0";
 
 fn motion(joint: &str, speed_rpm: f64) -> String {
     format!("[[motion]]\njoint = \"{joint}\"\nspeed_rpm = {speed_rpm:?}\n")

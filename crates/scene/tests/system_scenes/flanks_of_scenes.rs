@@ -23,7 +23,7 @@ fn scene_text(torque_nm: f64, mesh: &str, flanks: &str) -> String {
     format!(
         "title = \"flanks\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
          [run]\ntorques_Nm = [{torque_nm:?}]\npitches = {PITCHES}\npoints_per_pitch = {POINTS}\n\
-         [mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n{mesh}\n{flanks}\n"
+         [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{mesh}\n{flanks}\n"
     )
 }
 
@@ -254,8 +254,12 @@ fn keys_of_the_scene_act_as_those_of_the_gear_file() {
     assert_eq!(SceneResult::read(&path).unwrap(), by_scene);
     // In time, too: the body's table, and left flanks that do not touch.
     let body = |gear: &str, table: &str| {
-        let text =
-            crate::made_up_gears::scene("[run]\nkind = \"static\"", -0.0, "", "flanks = \"right\"");
+        let text = crate::made_up_gears::scene(
+            "[run]\nkind = \"static\"",
+            -0.0,
+            "",
+            "teeth.flanks = \"right\"",
+        );
         let text = changed(
             &text,
             "gear = \"gear_30.h5\"",
@@ -294,7 +298,7 @@ fn plans_tell_the_flanks() {
     let folder = tempfile::tempdir().unwrap();
     write_models(folder.path());
     let flanks = "[gear_2.microgeometry]\nlead_crowning_um = 4.0\n";
-    let document = InputDocument::new("pair.toml", scene_text(100.0, "slices = 7", flanks));
+    let document = InputDocument::new("pair.toml", scene_text(100.0, "model.slices = 7", flanks));
     let loaded = load_pair(Scene::from_document(document, folder.path()).unwrap()).unwrap();
     let lines = loaded.plan().lines.join("\n");
     assert!(lines.contains("flanks     gear 1: unmodified\n"), "{lines}");
@@ -307,7 +311,7 @@ fn plans_tell_the_flanks() {
         "[run]\nkind = \"static\"",
         -10.0,
         "[body.microgeometry]\ntwist_um = 4.0\n",
-        "slices = 4",
+        "model.slices = 4",
     );
     let built = build_in(&text, folder.path()).unwrap();
     let effect = built
@@ -326,10 +330,10 @@ fn plans_tell_the_flanks() {
 fn what_would_be_ignored_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     write_models(folder.path());
-    let error = result_of(&scene_text(100.0, "slices = 11", ""), folder.path()).unwrap_err();
+    let error = result_of(&scene_text(100.0, "model.slices = 11", ""), folder.path()).unwrap_err();
     assert!(
         error.starts_with("pair.toml:")
-            && error.contains("mesh.slices: found 11 slices, allowed are 1 to 10"),
+            && error.contains("mesh.model.slices: found 11 slices, allowed are 1 to 10"),
         "{error}"
     );
     let error = result_of(
@@ -359,8 +363,8 @@ fn what_would_be_ignored_is_refused() {
     for (of_wheel, further, told) in [
         (
             "",
-            "slices = 0",
-            "gear_mesh.0.slices: found 0 slices, allowed are 1 to 10",
+            "model.slices = 0",
+            "gear_mesh.0.model.slices: found 0 slices, allowed are 1 to 10",
         ),
         (
             table,
@@ -405,12 +409,12 @@ fn transmission_error_converges_with_the_slices() {
         let text = changed(&text, &points, "points_per_pitch = 8");
         result_of(&text, folder.path()).unwrap().te_m
     };
-    let limit = curve("slices = 24");
+    let limit = curve("model.slices = 24");
     let off = [2, 4, 8, 12, 16].map(|slices| {
-        let found = curve(&format!("slices = {slices}"));
+        let found = curve(&format!("model.slices = {slices}"));
         (found.iter().zip(&limit)).fold(0.0_f64, |most, (a, b)| most.max((a / b - 1.0).abs()))
     });
     assert!(off[1] < off[0] / 3.0 && off[2] < off[1] / 3.0, "{off:?}");
     assert!(off[3] < 1e-2 && off[4] < 1e-2, "{off:?}");
-    assert_eq!(curve("slices = 12"), curve(""));
+    assert_eq!(curve("model.slices = 12"), curve(""));
 }

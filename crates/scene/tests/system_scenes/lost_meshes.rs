@@ -80,8 +80,8 @@ fn a_load_against_the_only_flanks_ends_the_run() {
     let scene = changed(&text("scene_two_wheels.toml"), "to = -100.0", "to = 100.0");
     let scene = changed(
         &scene,
-        "model = \"impact\"",
-        "model = \"impact\"\nflanks = \"right\"",
+        "gear_2 = \"wheel\"",
+        "gear_2 = \"wheel\"\nteeth = { flanks = \"right\" }",
     );
     let error = failure(&scene);
     assert!(!error.is_input(), "{error}");

@@ -15,17 +15,17 @@ use crate::system_runs::Desk;
 
 const POINTS: usize = 120;
 const TORQUE: f64 = 100.0;
-const HYBRID: &str = "model = \"hybrid\"\nlocal = \"weber-banaschek\"\n";
+const HYBRID: &str = "model.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n";
 const FROM_FILE: &str =
-    "model = \"iso6336\"\nstiffness = { from = \"pair.h5\", torque_Nm = 100.0 }\n";
+    "model.kind = \"iso6336\"\nmodel.stiffness = { from = \"pair.h5\", torque_Nm = 100.0 }\n";
 
 /// The models and the result of their pair at rest, on the extended path.
 fn folder() -> (tempfile::TempDir, SceneResult) {
     let folder = tempfile::tempdir().unwrap();
     write_models(folder.path());
     let text = format!(
-        "title = \"at rest\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n[mesh]\nmodel = \"hybrid\"\n\
-         local = \"weber-banaschek\"\npath = \"extended\"\n[run]\ntorques_Nm = [50.0, {TORQUE:?}]\npitches = 2\npoints_per_pitch = {POINTS}\n"
+        "title = \"at rest\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n[mesh]\nmodel.kind = \"hybrid\"\n\
+         model.local = \"weber-banaschek\"\nteeth.path = \"extended\"\n[run]\ntorques_Nm = [50.0, {TORQUE:?}]\npitches = 2\npoints_per_pitch = {POINTS}\n"
     );
     let scene = Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap();
     let result = run(&gearmesh_scene::load(scene).unwrap(), &|_, _| ()).unwrap();
@@ -38,7 +38,7 @@ fn with_mesh(mesh: &str, speed_rpm: f64) -> String {
         "[run]\nkind = \"static\"",
         -speed_rpm,
         "",
-        "flanks = \"right\"",
+        "teeth.flanks = \"right\"",
     );
     changed(&text, HYBRID, mesh)
 }
@@ -51,8 +51,7 @@ fn at_driver_angle(mesh: &str, driver_rad: f64, folder: &Path) -> (System, State
     let angle = (at_pitch_point - driver_rad).to_degrees();
     let mut text = changed(&with_mesh(mesh, 0.0), "speed_rpm = -0.0", "angle_deg = 0.0");
     if mesh.contains("impact") {
-        let damping =
-            "damping = { kind = \"stiffness-proportional\", time_s = 1e-6, full_depth_um = 1.0 }\n";
+        let damping = "model.damping = { kind = \"stiffness-proportional\", time_s = 1e-6, full_depth_um = 1.0 }\n";
         text = changed(&text, damping, "");
     }
     let text = changed(
@@ -115,8 +114,7 @@ fn the_spring_has_the_transmission_error_of_the_pair() {
 #[test]
 fn computed_or_from_a_file_is_the_same() {
     let (folder, _) = folder();
-    let computed =
-        "model = \"iso6336\"\nstiffness = { torque_Nm = 100.0, local = \"weber-banaschek\" }\n";
+    let computed = "model.kind = \"iso6336\"\nmodel.stiffness = { torque_Nm = 100.0, local = \"weber-banaschek\" }\n";
     let of = |mesh: &str| {
         let (mut system, state) = at_driver_angle(mesh, 0.05, folder.path());
         te_m(&mut system, &state)
@@ -190,7 +188,7 @@ fn resonances_are_those_of_hybrid() {
 #[test]
 fn impact_has_the_means_of_the_curve() {
     let (folder, result) = folder();
-    let mesh = "model = \"impact\"\npath = \"line-of-action\"\nstiffness = { from = \"pair.h5\", torque_Nm = 100.0 }\n";
+    let mesh = "model.kind = \"impact\"\nteeth.path = \"line-of-action\"\nmodel.stiffness = { from = \"pair.h5\", torque_Nm = 100.0 }\n";
     let curve = &result.curve(&result.te_m, 1)[..POINTS];
     let mean = curve.iter().sum::<f64>() / POINTS as f64;
     let places: Vec<usize> = (0..POINTS).step_by(2).collect();
@@ -222,12 +220,12 @@ fn what_does_not_fit_is_named() {
         ),
         (changed(FROM_FILE, "pair.h5", "gear_30.h5"), "gear_30.h5"),
         (
-            format!("{FROM_FILE}stiffness_amplitude = 0.1\n"),
+            format!("{FROM_FILE}model.stiffness_amplitude = 0.1\n"),
             "remove one of the two",
         ),
         (
             changed(FROM_FILE, "iso6336", "analytic"),
-            "only by \"impact\", \"iso6336\"",
+            "`stiffness` belongs to kind \"impact\" and \"iso6336\", not to \"analytic\"",
         ),
         (
             changed(FROM_FILE, "100.0", "-1.0"),
@@ -237,7 +235,7 @@ fn what_does_not_fit_is_named() {
         let found = refused(&mesh, folder.path());
         assert!(found.contains(words), "{found}");
     }
-    let constant = "model = \"iso6336\"\n";
+    let constant = "model.kind = \"iso6336\"\n";
     let built = build_in(&with_mesh(constant, 0.0), folder.path()).unwrap();
     assert!(note(&built).contains("constant over the mesh cycle: it excites no vibration"));
 }

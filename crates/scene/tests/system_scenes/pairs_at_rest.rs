@@ -43,7 +43,7 @@ impl Twin {
         let text = format!(
             "title = \"at rest\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\nflank = \"{}\"\n\
              [run]\ntorques_Nm = [{torque_nm:?}]\nstart_deg = {:?}\npitches = {PITCHES}\npoints_per_pitch = {POINTS}\n\
-             [mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n{effects}\n",
+             [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{effects}\n",
             flank.name(),
             self.start_deg()
         );
@@ -72,8 +72,8 @@ impl Twin {
              [[joint]]\nname = \"axle 2\"\nkind = \"revolute\"\nbody_2 = \"wheel\"\n\
              [[motion]]\nname = \"drive\"\njoint = \"axle 1\"\nangle_deg = 0.0\n\
              [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
-             [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\
-             flanks = \"{}\"\npath = \"line-of-action\"\n{}\n",
+             [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n\
+             teeth.flanks = \"{}\"\nteeth.path = \"line-of-action\"\n{}\n",
             angles.join(", "),
             -hand * self.torque_nm,
             self.flank.name(),
@@ -142,7 +142,7 @@ fn pitch_errors_are_those_of_the_bodies() {
     for flank in [Flank::Right, Flank::Left] {
         let side = flank.name();
         let errors = format!(
-            "errors_1 = [{}]\nerrors_2 = [{}]",
+            "teeth.errors_1 = [{}]\nteeth.errors_2 = [{}]",
             pitch(side, 30, 0),
             pitch(side, 41, 5)
         );
@@ -161,20 +161,20 @@ fn pitch_errors_are_those_of_the_bodies() {
 fn faults_are_those_of_the_bodies() {
     for (effects, least_effects_m) in [
         (
-            "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]",
+            "teeth.errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]",
             [5e-7, 2e-6],
         ),
         (
-            "errors_1 = [{ kind = \"spall\", tooth = 1, side = \"right\", radii_mm = [44.5, 47.5], z_mm = [-10.0, 10.0], depth_um = 8.0, \
+            "teeth.errors_1 = [{ kind = \"spall\", tooth = 1, side = \"right\", radii_mm = [44.5, 47.5], z_mm = [-10.0, 10.0], depth_um = 8.0, \
              edge_deg = 2.0 }]",
             [5e-6, 5e-6],
         ),
         (
-            "errors_2 = [{ kind = \"tip-chip\", tooth = 39, end = \"+z\", height_mm = 2.0, length_mm = 12.0 }]",
+            "teeth.errors_2 = [{ kind = \"tip-chip\", tooth = 39, end = \"+z\", height_mm = 2.0, length_mm = 12.0 }]",
             [1e-8, 3e-7],
         ),
         (
-            "errors_2 = [{ kind = \"broken-tooth\", tooth = 38, above_radius_mm = 63.5 }]",
+            "teeth.errors_2 = [{ kind = \"broken-tooth\", tooth = 38, above_radius_mm = 63.5 }]",
             [3e-8, 1e-6],
         ),
     ] {
@@ -202,15 +202,15 @@ fn eccentricity_is_that_of_the_bodies() {
             effects,
         };
         twin(
-            "eccentricity_1 = { offset_um = 40.0, direction_deg = 70.0 }\n\
-             eccentricity_2 = { offset_um = 30.0, direction_deg = 200.0 }",
+            "teeth.eccentricity_1 = { offset_um = 40.0, direction_deg = 70.0 }\n\
+             teeth.eccentricity_2 = { offset_um = 30.0, direction_deg = 200.0 }",
         )
         .agrees(5e-11, 1e-5);
         let tilts = [
-            "eccentricity_1 = { tilt_mrad = 0.25, tilt_direction_deg = 20.0 }\n\
-             eccentricity_2 = { tilt_mrad = 0.25, tilt_direction_deg = 30.0 }",
-            "eccentricity_1 = { tilt_mrad = 0.5, tilt_direction_deg = 20.0 }\n\
-             eccentricity_2 = { tilt_mrad = 0.5, tilt_direction_deg = 30.0 }",
+            "teeth.eccentricity_1 = { tilt_mrad = 0.25, tilt_direction_deg = 20.0 }\n\
+             teeth.eccentricity_2 = { tilt_mrad = 0.25, tilt_direction_deg = 30.0 }",
+            "teeth.eccentricity_1 = { tilt_mrad = 0.5, tilt_direction_deg = 20.0 }\n\
+             teeth.eccentricity_2 = { tilt_mrad = 0.5, tilt_direction_deg = 30.0 }",
         ];
         let [(small, _), (large, effect)] = tilts.map(|effects| twin(effects).difference());
         // r_b2 t^2/2, both axes leaning by t/2.
@@ -234,7 +234,7 @@ fn misalignment_is_taken_from_a_gearbox() {
         "z_mm,removed_um\n-10,0\n10,6\n",
     )
     .unwrap();
-    let lead = "errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]";
+    let lead = "teeth.errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]";
     let pair = pair();
     let roll = pair.working_pressure_angle_rad.tan();
     let start_deg = pair.gear_1.half_angle_rad(roll).to_degrees();
@@ -249,8 +249,8 @@ fn misalignment_is_taken_from_a_gearbox() {
          [[bearing]]\nname = \"bearing\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n[bearing.model]\nkind = \"linear\"\n\
          radial_stiffness_N_per_mm = 1e7\naxial_stiffness_N_per_mm = 1e7\ntilt_stiffness_Nm_per_rad = 4e4\n\
          [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
-         [[gear_mesh]]\nname = \"stage\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\
-         flanks = \"{flanks}\"\npath = \"line-of-action\"\n{lead}\n",
+         [[gear_mesh]]\nname = \"stage\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n\
+         teeth.flanks = \"{flanks}\"\nteeth.path = \"line-of-action\"\n{lead}\n",
             -sign * 100.0
         )
     };
@@ -266,7 +266,7 @@ fn misalignment_is_taken_from_a_gearbox() {
         let text = format!(
             "title = \"taken\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n{keys}\n\
              [run]\ntorques_Nm = [{torque_nm:?}]\nstart_deg = {start_deg:?}\npitches = 1\npoints_per_pitch = 4\n\
-             [mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\npath = \"line-of-action\"\n{lead}\n"
+             [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\nteeth.path = \"line-of-action\"\n{lead}\n"
         );
         load_pair(
             Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap(),
@@ -334,7 +334,7 @@ fn misalignment_is_taken_from_a_gearbox() {
     }
     let both = format!("{from}\ndeviation_mrad = 0.1");
     let text = format!(
-        "title = \"t\"\n[pair]\ngear_1 = \"a\"\ngear_2 = \"b\"\ncentre_distance_mm = 106.8\n{both}\n[run]\ntorques_Nm = [1.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel = \"hybrid\"\n"
+        "title = \"t\"\n[pair]\ngear_1 = \"a\"\ngear_2 = \"b\"\ncentre_distance_mm = 106.8\n{both}\n[run]\ntorques_Nm = [1.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel.kind = \"hybrid\"\n"
     );
     let refused =
         Scene::from_document(InputDocument::new("pair.toml", text), folder.path()).unwrap_err();
@@ -354,7 +354,7 @@ fn the_path_is_extended_where_nothing_is_said() {
     let plan = |path: &str| {
         let text = format!(
             "title = \"path\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
-             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 24\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n{path}\n"
+             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 24\n[mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n{path}\n"
         );
         let scene =
             Scene::from_document(InputDocument::new("p.toml", text), folder.path()).unwrap();
@@ -367,11 +367,15 @@ fn the_path_is_extended_where_nothing_is_said() {
         told.contains("path `extended` with a tip edge radius of 100 um"),
         "{told}"
     );
-    assert_eq!(open, plan("path = \"extended\"").1);
-    let (told, rigid) = plan("path = \"line-of-action\"");
+    assert_eq!(open, plan("teeth.path = \"extended\"").1);
+    let (told, rigid) = plan("teeth.path = \"line-of-action\"");
     assert!(told.contains("path `line-of-action`"), "{told}");
     assert_ne!(open, rigid);
-    assert!(plan("edge_radius_um = 50.0").0.contains("radius of 50 um"));
+    assert!(
+        plan("teeth.edge_radius_um = 50.0")
+            .0
+            .contains("radius of 50 um")
+    );
 }
 
 /// One faulty tooth, or an axis beside the body's: the gear repeats after a revolution only. A deviation of all teeth
@@ -388,17 +392,20 @@ fn errors_of_single_teeth_set_the_period() {
     let periods = |effects: &str| {
         let text = format!(
             "title = \"periods\"\n[pair]\ngear_1 = \"gear_30.h5\"\ngear_2 = \"gear_41.h5\"\ncentre_distance_mm = 106.8\n\
-             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n{effects}\n"
+             [run]\ntorques_Nm = [100.0]\npitches = 1\npoints_per_pitch = 4\n[mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"weber-banaschek\"\n{effects}\n"
         );
         let scene =
             Scene::from_document(InputDocument::new("p.toml", text), folder.path()).unwrap();
         load_pair(scene).unwrap().periods.contact()
     };
     assert_eq!(
-        periods("errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]"),
+        periods("teeth.errors_1 = [{ kind = \"deviation\", lead = \"lead.csv\" }]"),
         periods("")
     );
     let broken = "[{ kind = \"broken-tooth\", tooth = 3, above_radius_mm = 47.0 }]";
-    assert_eq!(periods(&format!("errors_1 = {broken}")) % 30, 0);
-    assert_eq!(periods("eccentricity_2 = { offset_um = 10.0 }") % 41, 0);
+    assert_eq!(periods(&format!("teeth.errors_1 = {broken}")) % 30, 0);
+    assert_eq!(
+        periods("teeth.eccentricity_2 = { offset_um = 10.0 }") % 41,
+        0
+    );
 }

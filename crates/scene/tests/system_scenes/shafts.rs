@@ -43,14 +43,12 @@ kind = "revolute"
 body_2 = "d"
 [[shaft]]
 name = "lay"
-kind = "beam"
+model = { kind = "beam", young_GPa = 206.0, poisson = 0.3 }
 origin_mm = [150.0, 0.0, 0.0]
 stations_mm = [-50.0, 0.0, 100.0, 150.0]
 outer_diameters_mm = [40.0, 50.0, 40.0]
 inner_diameters_mm = [0.0, 20.0, 0.0]
 density_kg_per_m3 = 7850.0
-young_GPa = 206.0
-poisson = 0.3
 [[shaft.part]]
 station = 3
 mass_kg = 1.5
@@ -73,18 +71,18 @@ model = { kind = "linear", radial_stiffness_N_per_mm = 1e5 }
 name = "first"
 gear_1 = "a"
 gear_2 = "b"
-model = "analytic"
+teeth = { friction = { model = "coulomb", dynamic_coefficient = 0.05 } }
+[gear_mesh.model]
+kind = "analytic"
 slices = 3
-friction = { model = "coulomb", dynamic_coefficient = 0.05 }
 damping = { kind = "viscous", damping_N_s_per_mm = 1.0, full_depth_um = 1.0 }
 [[gear_mesh]]
 name = "second"
 gear_1 = "c"
 gear_2 = "d"
-model = "iso6336"
-flanks = "left"
+model = { kind = "iso6336", stiffness_amplitude = 0.1 }
+teeth = { flanks = "left" }
 microgeometry = false
-stiffness_amplitude = 0.1
 "#;
 
 /// A lay shaft passes the speed on, its mass is all there, and the second mesh drives on left flanks because its gear 1
@@ -168,14 +166,12 @@ fn a_beam_shaft_twists_as_the_closed_form_says() {
         inertia_kg_m2 = [1e-3, 1e-3, 2e-3]
         [[shaft]]
         name = "bar"
-        kind = "beam"
+        model = { kind = "beam", young_GPa = 210.0, poisson = 0.3 }
         origin_mm = [0.0, 0.0, 0.0]
         axis = [1.0, 0.0, 0.0]
         stations_mm = [0.0, 200.0, 500.0]
         outer_diameters_mm = [20.0, 16.0]
         density_kg_per_m3 = 7850.0
-        young_GPa = 210.0
-        poisson = 0.3
         [[shaft.seat]]
         station = 2
         body = "disc"

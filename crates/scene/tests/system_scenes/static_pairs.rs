@@ -17,7 +17,7 @@ fn scene(model: &str, tilt_deg: f64, angles_deg: &[f64]) -> String {
          [[joint]]\nname = \"b\"\nkind = \"revolute\"\nbody_2 = \"wheel\"\n\
          [[motion]]\nname = \"drive\"\njoint = \"a\"\nangle_deg = 0.0\n\
          [[load]]\nbody = \"wheel\"\ntorque_Nm = -100.0\n\
-         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"{model}\"\nslices = 5\nflanks = \"right\"\n"
+         [[gear_mesh]]\nname = \"mesh\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel.kind = \"{model}\"\nmodel.slices = 5\nteeth.flanks = \"right\"\n"
     )
 }
 
@@ -89,7 +89,7 @@ fn a_tilted_pair_between_two_torques_comes_to_rest() {
     for model in ["iso6336", "analytic"] {
         for tilt_deg in ["[0.001, 0.0]", "[0.0, 0.001]"] {
             let text = scene(model, 0.0, &[0.0]);
-            let text = changed(&text, "flanks = \"right\"\n", "");
+            let text = changed(&text, "teeth.flanks = \"right\"\n", "");
             let text = changed(&text, "motion = \"drive\"\nangles_deg = [0.0]\n", "");
             let text = changed(
                 &text,

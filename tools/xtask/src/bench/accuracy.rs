@@ -151,7 +151,7 @@ fn gear_text(space: Space, element: &str, flank_mm: f64) -> String {
 fn scene_text(model: &str, local: &str) -> String {
     format!(
         "title = \"accuracy\"\n[pair]\ngear_1 = \"{model}\"\ngear_2 = \"{model}\"\ncentre_distance_mm = 150.05\n\
-         [mesh]\nmodel = \"hybrid\"\nlocal = \"{local}\"\npath = \"line-of-action\"\n\
+         [mesh]\nmodel.kind = \"hybrid\"\nmodel.local = \"{local}\"\nteeth.path = \"line-of-action\"\n\
          [run]\ntorques_Nm = [170.0, 340.0]\npitches = {PITCHES}\npoints_per_pitch = 60\n"
     )
 }

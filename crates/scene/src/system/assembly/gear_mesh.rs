@@ -11,17 +11,18 @@ use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 
 use super::bodies::Bodies;
 use super::gears::Gear;
-use super::mesh_model::{SceneMesh, refuse_unused};
+use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::built::BuiltGauge;
-use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, MeshModel};
+use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, TeethTable};
+use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::{MM, UM};
 
 /// A mesh of two bodies, ready but for its place in the system.
 pub(super) struct PreparedMesh {
     pub name: String,
     pub key: String,
-    pub model: MeshModel,
+    pub model: MeshKind,
     /// Numbers of the bodies of gear 1 and gear 2.
     pub bodies: [usize; 2],
     pub teeth: [usize; 2],
@@ -46,7 +47,11 @@ impl PreparedMesh {
         parts: &mut Parts,
     ) -> Result<Self, InputError> {
         let keys = TableKeys::new(document, &key);
-        refuse_unused(table, &keys)?;
+        let [model_key, teeth_key] = ["model", "teeth"].map(|part| format!("{key}.{part}"));
+        let model_keys = TableKeys::new(document, &model_key);
+        let teeth_keys = TableKeys::new(document, &teeth_key);
+        let kind = table.model.kind();
+        let teeth = teeth(table, &keys)?;
         let numbers = [
             bodies.find_body(&keys, "gear_1", &table.gear_1)?,
             bodies.find_body(&keys, "gear_2", &table.gear_2)?,
@@ -75,26 +80,29 @@ impl PreparedMesh {
         };
         let gears = [gear(0)?, gear(1)?];
         let seats = [
-            seat(&table.eccentricity_1, &keys, "eccentricity_1")?,
-            seat(&table.eccentricity_2, &keys, "eccentricity_2")?,
+            seat(&teeth.eccentricity_1, &teeth_keys, "eccentricity_1")?,
+            seat(&teeth.eccentricity_2, &teeth_keys, "eccentricity_2")?,
         ];
         let at_start = pose(bodies, numbers, &seats);
         let pair = fitting_pair(gears, &at_start, &keys)?;
         let mut prepared = Self {
             name: table.name.clone(),
-            model: table.model,
+            model: kind,
             bodies: numbers,
             teeth: [pair.gear_1.teeth, pair.gear_2.teeth],
             base_radii_m: [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m],
             seats,
             mesh: None,
-            sides: table.flanks.unwrap_or_default().flanks().to_vec(),
+            sides: teeth.flanks.flanks().to_vec(),
             slice_width_m: 0.0,
             key: key.clone(),
         };
         let mut scene = SceneMesh {
             table,
+            teeth,
             keys,
+            model_keys,
+            teeth_keys,
             folder,
             gears,
             pair: &pair,
@@ -104,7 +112,7 @@ impl PreparedMesh {
         };
         scene.curve = scene.static_curve(prepared.sides[0])?;
         scene.refuse_unfelt_cracks()?;
-        if table.model == MeshModel::Kinematic {
+        if kind == MeshKind::Kinematic {
             scene.microgeometry()?;
         } else {
             let mesh = scene.mesh(&prepared.sides)?;
@@ -162,11 +170,11 @@ impl PreparedMesh {
                 }
                 builder.element(element);
                 let kind = match self.model {
-                    MeshModel::Kinematic => "kinematic mesh",
-                    MeshModel::Impact => "impact mesh",
-                    MeshModel::Iso6336 => "iso6336 mesh",
-                    MeshModel::Analytic => "analytic mesh",
-                    MeshModel::Hybrid => "hybrid mesh",
+                    MeshKind::Kinematic => "kinematic mesh",
+                    MeshKind::Impact => "impact mesh",
+                    MeshKind::Iso6336 => "iso6336 mesh",
+                    MeshKind::Analytic => "analytic mesh",
+                    MeshKind::Hybrid => "hybrid mesh",
                 };
                 parts.element(&self.name, kind, bodies, ends);
             }
@@ -187,6 +195,27 @@ fn pose(bodies: &Bodies, numbers: [usize; 2], seats: &[Marker; 2]) -> Pose {
         b: seats[1],
     };
     Pose::from(&pair.motion(&a, &b))
+}
+
+/// What touches and how, as far as the model knows it.
+fn teeth(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<TeethTable, InputError> {
+    let (kind, teeth) = (table.model.kind(), table.teeth.clone());
+    let knows = match kind {
+        MeshKind::Kinematic if teeth.is_some() => ("teeth", "no flanks"),
+        MeshKind::Iso6336 if teeth.as_ref().is_some_and(|t| !t.errors_1.is_empty()) => {
+            ("teeth.errors_1", "no single teeth")
+        }
+        MeshKind::Iso6336 if teeth.as_ref().is_some_and(|t| !t.errors_2.is_empty()) => {
+            ("teeth.errors_2", "no single teeth")
+        }
+        _ => return Ok(teeth.unwrap_or_default()),
+    };
+    let problem = format!(
+        "is not used by kind = \"{}\", which knows {}; remove it",
+        kind.name(),
+        knows.1
+    );
+    Err(keys.error(knows.0, problem))
 }
 
 /// Place of a gear on its body.

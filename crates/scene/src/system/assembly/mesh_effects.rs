@@ -3,17 +3,19 @@
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::{DampingTable, MeshModel, TouchingFlanks};
+use crate::system::tables::gear_mesh::TouchingFlanks;
+use crate::system::tables::mesh_model::{DampingTable, MeshKind, MeshModel};
 
 impl SceneMesh<'_> {
     /// Lists the effects of this mesh.
     pub(super) fn effects(&self, parts: &mut Parts) {
-        let table = self.table;
+        let (table, teeth) = (self.table, &self.teeth);
+        let kind = table.model.kind();
         let name = |what: &str| format!("mesh `{}`: {what}", table.name);
-        if table.model == MeshModel::Kinematic {
+        if kind == MeshKind::Kinematic {
             return;
         }
-        let flanks = match table.flanks.unwrap_or_default() {
+        let flanks = match teeth.flanks {
             TouchingFlanks::Both => Some(format!(
                 "both sides, {:.1} um of backlash",
                 self.pair.backlash_m() / UM
@@ -21,30 +23,31 @@ impl SceneMesh<'_> {
             TouchingFlanks::Right | TouchingFlanks::Left => None,
         };
         parts.effect(name("backlash"), flanks);
-        let damping = match (&table.damping, table.damping_N_s_per_mm) {
-            (Some(DampingTable::StiffnessProportional { .. }), _) => {
+        let damping = match (&table.model, table.model.damping()) {
+            (_, Some(DampingTable::StiffnessProportional { .. })) => {
                 Some("proportional to stiffness".to_string())
             }
-            (Some(DampingTable::Viscous { .. }), _) => Some("viscous".to_string()),
-            (None, Some(_)) => Some("STEP of the depth".to_string()),
-            (None, None) => None,
+            (_, Some(DampingTable::Viscous { .. })) => Some("viscous".to_string()),
+            (MeshModel::Impact(impact), None) if impact.damping_N_s_per_mm.is_some() => {
+                Some("STEP of the depth".to_string())
+            }
+            (_, None) => None,
         };
         parts.effect(name("damping"), damping);
         parts.effect(
             name("friction"),
-            table
+            teeth
                 .friction
                 .as_ref()
                 .map(|_| "`coulomb`, regularised".to_string()),
         );
         parts.effect(name("microgeometry"), self.acting_microgeometry());
-        let kinds: Vec<&str> = table
-            .errors_1
-            .iter()
-            .chain(&table.errors_2)
-            .map(|error| error.kind())
-            .collect();
-        let cracks = table.cracks_1.len() + table.cracks_2.len();
+        let errors = teeth.errors_1.iter().chain(&teeth.errors_2);
+        let kinds: Vec<&str> = errors.map(|error| error.kind()).collect();
+        let cracks = match &table.model {
+            MeshModel::Analytic(model) => model.cracks_1.len() + model.cracks_2.len(),
+            _ => 0,
+        };
         let of_models = (self.gears.iter().zip([1, 2])).filter_map(|(gear, number)| {
             let crack = gear.model.as_ref()?.crack.as_ref()?;
             Some(format!("gear {number}: {}", crack.description()))
@@ -57,7 +60,7 @@ impl SceneMesh<'_> {
             name("errors and faults"),
             (!kinds.is_empty()).then(|| kinds.join(", ")),
         );
-        let eccentric = table.eccentricity_1.is_some() || table.eccentricity_2.is_some();
+        let eccentric = teeth.eccentricity_1.is_some() || teeth.eccentricity_2.is_some();
         parts.effect(
             name("eccentricity"),
             eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
@@ -68,7 +71,7 @@ impl SceneMesh<'_> {
     fn acting_microgeometry(&self) -> Option<String> {
         let on = self.table.microgeometry.unwrap_or(true)
             && self.gears.iter().any(|gear| gear.has_microgeometry());
-        let from_curve = self.table.model == MeshModel::Iso6336 && self.curve.is_some();
+        let from_curve = self.table.model.kind() == MeshKind::Iso6336 && self.curve.is_some();
         let of_curve = if from_curve {
             ", in the pair's static curve"
         } else {

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
 use crate::system::scene::SystemScene;
-use crate::system::tables::gear_mesh::MeshModel;
+use crate::system::tables::mesh_model::MeshKind;
 
 /// Steps that a mesh period needs at least: the scheme's error of a motion at the mesh frequency, |C| (2π/10)² with C
 /// of docs/theory/multibody.md, is then 3.4 % of its inertia force. At five steps it is 14 %, at two the mesh frequency
@@ -74,7 +74,7 @@ pub(super) fn refuse_long_steps(
     // A ratio has no teeth to be followed.
     let toothed = meshes
         .iter()
-        .filter(|mesh| mesh.model != MeshModel::Kinematic);
+        .filter(|mesh| mesh.model != MeshKind::Kinematic);
     let frequencies =
         toothed.flat_map(|mesh| states.map(|bodies| (frequency_hz(mesh, bodies), &mesh.name)));
     let Some((highest_hz, name)) = frequencies.max_by(|a, b| a.0.total_cmp(&b.0)) else {

@@ -15,80 +15,22 @@ use gearmesh_geometry::{Flank, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
-use crate::system::tables::gear_mesh::{GearMeshTable, MeshModel, PathWord, TouchingFlanks};
+use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
+use crate::system::tables::mesh_model::{
+    AnalyticTable, DampingTable, HybridTable, MeshKind, MeshModel,
+};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
 /// does not state.
 pub(super) const REFERENCE_LINE_LOAD_N_PER_M: f64 = 1e5;
 
-pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<(), InputError> {
-    let touching: &[&str] = &["impact", "iso6336", "analytic", "hybrid"];
-    let elastic: &[&str] = &["iso6336", "analytic", "hybrid"];
-    let single_teeth: &[&str] = &["impact", "analytic", "hybrid"];
-    keys.refuse_unused(
-        ("model", table.model.name()),
-        &[
-            ("flanks", table.flanks.is_some(), touching),
-            ("path", table.path.is_some(), touching),
-            ("slices", table.slices.is_some(), touching),
-            (
-                "stiffness_N_per_mm_e",
-                table.stiffness_N_per_mm_e.is_some(),
-                &["impact"],
-            ),
-            ("exponent", table.exponent.is_some(), &["impact"]),
-            (
-                "stiffness",
-                table.stiffness.is_some(),
-                &["impact", "iso6336"],
-            ),
-            (
-                "damping_N_s_per_mm",
-                table.damping_N_s_per_mm.is_some(),
-                &["impact"],
-            ),
-            (
-                "full_damping_depth_um",
-                table.full_damping_depth_um.is_some(),
-                &["impact"],
-            ),
-            (
-                "stiffness_N_per_mm_um",
-                table.stiffness_N_per_mm_um.is_some(),
-                &["iso6336"],
-            ),
-            (
-                "line_load_N_per_mm",
-                table.line_load_N_per_mm.is_some(),
-                &["iso6336"],
-            ),
-            (
-                "stiffness_amplitude",
-                table.stiffness_amplitude.is_some(),
-                &["iso6336"],
-            ),
-            ("local", table.local.is_some(), &["hybrid"]),
-            (
-                "nominal_force_N",
-                table.nominal_force_N.is_some(),
-                &["hybrid"],
-            ),
-            ("damping", table.damping.is_some(), elastic),
-            ("friction", table.friction.is_some(), touching),
-            ("errors_1", !table.errors_1.is_empty(), single_teeth),
-            ("errors_2", !table.errors_2.is_empty(), single_teeth),
-            ("cracks_1", !table.cracks_1.is_empty(), &["analytic"]),
-            ("cracks_2", !table.cracks_2.is_empty(), &["analytic"]),
-            ("eccentricity_1", table.eccentricity_1.is_some(), touching),
-            ("eccentricity_2", table.eccentricity_2.is_some(), touching),
-        ],
-    )
-}
-
 /// A table with all that its models are made from.
 pub(super) struct SceneMesh<'a> {
     pub table: &'a GearMeshTable,
+    pub teeth: TeethTable,
     pub keys: TableKeys<'a>,
+    pub model_keys: TableKeys<'a>,
+    pub teeth_keys: TableKeys<'a>,
     pub folder: &'a Path,
     pub gears: [&'a Arc<Gear>; 2],
     pub pair: &'a GearPair,
@@ -121,7 +63,7 @@ impl SceneMesh<'_> {
                 self.keys.error(
                     key,
                     format!(
-                        "model = \"hybrid\" needs reduced gears (.h5), found {}",
+                        "kind = \"hybrid\" needs reduced gears (.h5), found {}",
                         self.gears[i].file.display()
                     ),
                 )
@@ -133,7 +75,8 @@ impl SceneMesh<'_> {
     /// The microgeometry that acts.
     pub(super) fn microgeometry(&self) -> Result<[FlankErrors; 2], InputError> {
         let on = self.table.microgeometry.unwrap_or(true);
-        let blind = matches!(self.table.model, MeshModel::Kinematic | MeshModel::Iso6336);
+        let kind = self.table.model.kind();
+        let blind = matches!(kind, MeshKind::Kinematic | MeshKind::Iso6336);
         let mut errors: [FlankErrors; 2] = [Vec::new(), Vec::new()];
         for (gear, list) in self.gears.iter().zip(&mut errors) {
             // A curve of the pair holds it already.
@@ -143,9 +86,9 @@ impl SceneMesh<'_> {
             }
             if blind {
                 let problem = format!(
-                    "the gear of {} has microgeometry, which model = \"{}\" cannot feel: set microgeometry = false to leave it out, or take another model",
+                    "the gear of {} has microgeometry, which kind = \"{}\" cannot feel: set microgeometry = false to leave it out, or take another model",
                     gear.file.display(),
-                    self.table.model.name()
+                    kind.name()
                 );
                 return Err(self.keys.error("microgeometry", problem));
             }
@@ -153,8 +96,8 @@ impl SceneMesh<'_> {
         }
         if blind && self.table.microgeometry == Some(true) {
             let problem = format!(
-                "is true, but model = \"{}\" knows no flanks; remove it",
-                self.table.model.name()
+                "is true, but kind = \"{}\" knows no flanks; remove it",
+                kind.name()
             );
             return Err(self.keys.error("microgeometry", problem));
         }
@@ -163,13 +106,13 @@ impl SceneMesh<'_> {
 
     /// A crack of a gear's file that the model would pass over in silence.
     pub(super) fn refuse_unfelt_cracks(&self) -> Result<(), InputError> {
-        if self.table.model == MeshModel::Hybrid {
+        if self.table.model.kind() == MeshKind::Hybrid {
             return Ok(());
         }
         for (key, gear) in ["gear_1", "gear_2"].into_iter().zip(self.gears) {
             if gear.definition.crack.is_some() {
                 let problem = format!(
-                    "the gear of {} has a [crack], which only model = \"hybrid\" feels; take that model, or a gear without the crack \
+                    "the gear of {} has a [crack], which only kind = \"hybrid\" feels; take that model, or a gear without the crack \
                      (\"analytic\" has cracks_1 and cracks_2)",
                     gear.file.display()
                 );
@@ -181,7 +124,7 @@ impl SceneMesh<'_> {
 
     fn errors(&self) -> Result<[FlankErrors; 2], InputError> {
         let mut errors = self.microgeometry()?;
-        for (number, tables) in [&self.table.errors_1, &self.table.errors_2]
+        for (number, tables) in [&self.teeth.errors_1, &self.teeth.errors_2]
             .into_iter()
             .enumerate()
         {
@@ -190,7 +133,7 @@ impl SceneMesh<'_> {
                 let key = format!("errors_{}.{i}", number + 1);
                 let made = table.on_gear(
                     (&gear.profile, gear.tooth.face_width_m),
-                    (&self.keys, &key),
+                    (&self.teeth_keys, &key),
                     self.folder,
                 )?;
                 errors[number].push(made);
@@ -201,16 +144,16 @@ impl SceneMesh<'_> {
 
     /// The slices: one where models state none.
     fn stated_layout(&self) -> Result<SliceLayout, InputError> {
-        if self.table.model == MeshModel::Hybrid {
-            let resolved =
-                SliceLayout::resolved(self.models()?, self.displacement_m, self.table.slices);
+        let stated = self.table.model.slices();
+        if self.table.model.kind() == MeshKind::Hybrid {
+            let resolved = SliceLayout::resolved(self.models()?, self.displacement_m, stated);
             return resolved.map_err(|error| match error {
-                ContactError::Slices { .. } => self.keys.error("slices", error),
+                ContactError::Slices { .. } => self.model_keys.error("slices", error),
                 _ => self.keys.error("", error),
             });
         }
-        let count = self.table.slices.unwrap_or(1);
-        self.keys.require(
+        let count = stated.unwrap_or(1);
+        self.model_keys.require(
             "slices",
             count as f64,
             (1..=200).contains(&count),
@@ -223,35 +166,37 @@ impl SceneMesh<'_> {
         let mut teeth: Vec<(Flank, Box<dyn TeethModel>)> = Vec::new();
         let layout = self.stated_layout()?;
         let slices = layout.slices;
-        match self.table.model {
-            MeshModel::Kinematic | MeshModel::Impact => {
-                let law = self.impact(slices)?;
+        match &self.table.model {
+            // An ideal ratio has no forces of its own and is not made here.
+            MeshModel::Kinematic {} => {}
+            MeshModel::Impact(model) => {
+                let law = self.impact(model, slices)?;
                 teeth.extend(
                     sides
                         .iter()
                         .map(|side| (*side, Box::new(law) as Box<dyn TeethModel>)),
                 );
             }
-            MeshModel::Iso6336 => {
+            MeshModel::Iso6336(model) => {
                 for side in sides {
-                    let spring = self.spring(*side, &layout)?;
-                    teeth.push((*side, self.damped(spring, slices)?));
+                    let spring = self.spring(model, *side, &layout)?;
+                    teeth.push((*side, self.damped(&model.damping, spring, slices)?));
                 }
             }
-            MeshModel::Analytic => {
-                let beams = self.beams(slices)?;
+            MeshModel::Analytic(model) => {
+                let beams = self.beams(model, slices)?;
                 for side in sides {
-                    teeth.push((*side, self.damped(beams.clone(), slices)?));
+                    teeth.push((*side, self.damped(&model.damping, beams.clone(), slices)?));
                 }
             }
-            MeshModel::Hybrid => {
+            MeshModel::Hybrid(model) => {
                 for side in sides {
-                    let reduced = self.reduced(*side, layout)?;
-                    teeth.push((*side, self.damped(reduced, slices)?));
+                    let reduced = self.reduced(model, *side, layout)?;
+                    teeth.push((*side, self.damped(&model.damping, reduced, slices)?));
                 }
             }
         }
-        let ends = match self.table.path.unwrap_or_default() {
+        let ends = match self.teeth.path {
             PathWord::LineOfAction => PathEnds::LineOfAction,
             PathWord::Extended => PathEnds::Extended,
         };
@@ -266,7 +211,7 @@ impl SceneMesh<'_> {
         .map_err(self.fault())?;
         let mut teeth = teeth.into_iter();
         let Some((side, model)) = teeth.next() else {
-            return Err(self.keys.error("flanks", "names no flanks"));
+            return Err(self.keys.error("teeth.flanks", "names no flanks"));
         };
         let mut mesh = GearMesh::new(kinematics, side, model).map_err(self.fault())?;
         for (side, model) in teeth {
@@ -284,7 +229,7 @@ impl SceneMesh<'_> {
         mut mesh: GearMesh,
         modes: [usize; 2],
     ) -> Result<GearMesh, InputError> {
-        if self.table.model != MeshModel::Hybrid {
+        if self.table.model.kind() != MeshKind::Hybrid {
             return Ok(mesh);
         }
         let models = self.models()?;
@@ -298,7 +243,7 @@ impl SceneMesh<'_> {
         Ok(mesh)
     }
 
-    fn beams(&self, slices: usize) -> Result<BeamTeeth, InputError> {
+    fn beams(&self, model: &AnalyticTable, slices: usize) -> Result<BeamTeeth, InputError> {
         let tooth = |i: usize| {
             let gear = &self.gears[i].definition;
             BeamTooth {
@@ -310,22 +255,27 @@ impl SceneMesh<'_> {
                 bore_radius_m: gear.blank.bore_radius_m,
             }
         };
-        let cracks = [&self.table.cracks_1, &self.table.cracks_2];
+        let cracks = [&model.cracks_1, &model.cracks_2];
         let [first, second] =
             cracks.map(|list| list.iter().map(|crack| crack.crack()).collect::<Vec<_>>());
         BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
     }
 
-    fn reduced(&self, side: Flank, layout: SliceLayout) -> Result<ReducedTeeth, InputError> {
+    fn reduced(
+        &self,
+        model: &HybridTable,
+        side: Flank,
+        layout: SliceLayout,
+    ) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
-        let nominal = self.table.nominal_force_N.unwrap_or(reference);
-        self.keys
+        let nominal = model.nominal_force_N.unwrap_or(reference);
+        self.model_keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let local = self.table.local.unwrap_or_default();
-        ReducedTeeth::on_slices(self.pair, side, models, (local, layout), nominal).map_err(|error| {
-            let hint = match self.table.flanks.unwrap_or_default() {
-                TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
+        let contact = (model.local, layout);
+        ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
+            let hint = match self.teeth.flanks {
+                TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",
                 _ => "",
             };
             self.keys.error("", format!("{} flanks: {error}{hint}", side.name()))
@@ -334,22 +284,21 @@ impl SceneMesh<'_> {
 
     fn damped(
         &self,
+        damping: &Option<DampingTable>,
         teeth: impl TeethModel + 'static,
         slices: usize,
     ) -> Result<Box<dyn TeethModel>, InputError> {
-        let Some(damping) = &self.table.damping else {
+        let Some(damping) = damping else {
             return Ok(Box::new(teeth));
         };
-        let damping = damping.check(&self.keys)?;
+        let damping = damping.check(&self.model_keys)?;
         let damped =
-            Damped::new(teeth, damping, slices).map_err(|e| self.keys.error("damping", e))?;
+            Damped::new(teeth, damping, slices).map_err(|e| self.model_keys.error("damping", e))?;
         Ok(Box::new(damped))
     }
 
     fn friction(&self) -> Result<Option<Friction>, InputError> {
-        let table = self.table.friction.as_ref();
-        table
-            .map(|table| table.of_gear_mesh(&self.keys))
-            .transpose()
+        let table = self.teeth.friction.as_ref();
+        table.map(|table| table.check(&self.teeth_keys)).transpose()
     }
 }

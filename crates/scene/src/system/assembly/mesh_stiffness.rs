@@ -9,7 +9,7 @@ use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
 use gearmesh_geometry::{Flank, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
-use crate::system::tables::gear_mesh::MeshModel;
+use crate::system::tables::mesh_model::{ImpactTable, Iso6336Table, MeshModel};
 use crate::system::tables::{MM, UM};
 
 /// N/(mm·µm) in SI, N/m².
@@ -17,8 +17,8 @@ const N_PER_MM_UM: f64 = 1e9;
 
 impl SceneMesh<'_> {
     /// K in N/mm^e and e of `impact`.
-    fn impact_stiffness(&self) -> Result<(f64, f64), InputError> {
-        let (table, keys) = (self.table, &self.keys);
+    fn impact_stiffness(&self, table: &ImpactTable) -> Result<(f64, f64), InputError> {
+        let keys = &self.model_keys;
         if let Some(e) = table.exponent {
             keys.require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
         }
@@ -31,7 +31,7 @@ impl SceneMesh<'_> {
             }
             return Ok(curve.pair_law(self.pair, self.zone_width_m(), table.exponent));
         }
-        let needed_by = "model = \"impact\" without `stiffness`";
+        let needed_by = "kind = \"impact\" without `stiffness`";
         let k = keys.needed(
             "stiffness_N_per_mm_e",
             table.stiffness_N_per_mm_e,
@@ -44,24 +44,19 @@ impl SceneMesh<'_> {
     }
 
     /// The law of `impact`.
-    pub(super) fn impact(&self, slices: usize) -> Result<Impact, InputError> {
-        let table = self.table;
-        let (k, e) = self.impact_stiffness()?;
+    pub(super) fn impact(&self, table: &ImpactTable, slices: usize) -> Result<Impact, InputError> {
+        let keys = &self.model_keys;
+        let (k, e) = self.impact_stiffness(table)?;
         let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(self.fault())?;
         let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
             // Without damping the depth has no meaning.
             (None, None) => (0.0, UM),
             (damping, depth) => {
-                let damping =
-                    self.keys
-                        .needed("damping_N_s_per_mm", damping, "full_damping_depth_um")?;
-                let depth =
-                    self.keys
-                        .needed("full_damping_depth_um", depth, "damping_N_s_per_mm")?;
-                self.keys
-                    .require("damping_N_s_per_mm", damping, damping >= 0.0, "0 or more")?;
-                self.keys
-                    .require("full_damping_depth_um", depth, depth > 0.0, "more than 0")?;
+                let [c, d] = ["damping_N_s_per_mm", "full_damping_depth_um"];
+                let damping = keys.needed(c, damping, d)?;
+                let depth = keys.needed(d, depth, c)?;
+                keys.require(c, damping, damping >= 0.0, "0 or more")?;
+                keys.require(d, depth, depth > 0.0, "more than 0")?;
                 (damping / MM, UM * depth)
             }
         };
@@ -69,8 +64,11 @@ impl SceneMesh<'_> {
     }
 
     /// c_γα of `iso6336` \[N/m²\] where no curve gives it, and how it was found.
-    fn mesh_stiffness_n_per_m2(&self) -> Result<(f64, &'static str), InputError> {
-        let (table, keys) = (self.table, &self.keys);
+    fn mesh_stiffness_n_per_m2(
+        &self,
+        table: &Iso6336Table,
+    ) -> Result<(f64, &'static str), InputError> {
+        let keys = &self.model_keys;
         match (table.stiffness_N_per_mm_um, table.line_load_N_per_mm) {
             (Some(_), Some(_)) => Err(keys.error(
                 "line_load_N_per_mm",
@@ -95,10 +93,11 @@ impl SceneMesh<'_> {
     /// The spring of `iso6336` on one side of the teeth.
     pub(super) fn spring(
         &self,
+        table: &Iso6336Table,
         side: Flank,
         layout: &SliceLayout,
     ) -> Result<MeshSpring, InputError> {
-        let (table, slices) = (self.table, layout.slices);
+        let slices = layout.slices;
         let middle = self.pair.working_pressure_angle_rad.tan();
         let helix = self.pair.base_helix_angle_rad();
         if let Some(curve) = &self.curve {
@@ -112,7 +111,7 @@ impl SceneMesh<'_> {
             ] {
                 if given {
                     let problem = "is not used where `stiffness` takes it from the pair's curve; remove one of the two";
-                    return Err(self.keys.error(key, problem));
+                    return Err(self.model_keys.error(key, problem));
                 }
             }
             let slope = self.pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
@@ -121,7 +120,7 @@ impl SceneMesh<'_> {
                 .with_phase_of_mid_face(ahead)
                 .on_base_helix(helix));
         }
-        let (per_width, _) = self.mesh_stiffness_n_per_m2()?;
+        let (per_width, _) = self.mesh_stiffness_n_per_m2(table)?;
         let spring = MeshSpring::new(per_width * self.zone_width_m(), slices, middle)
             .map_err(self.fault())?
             .on_base_helix(helix);
@@ -129,7 +128,7 @@ impl SceneMesh<'_> {
             None => Ok(spring),
             Some(amplitude) => {
                 let ok = (0.0..1.0).contains(&amplitude);
-                (self.keys).require("stiffness_amplitude", amplitude, ok, "0 to below 1")?;
+                (self.model_keys).require("stiffness_amplitude", amplitude, ok, "0 to below 1")?;
                 spring
                     .with_sine(amplitude, middle, self.pair.gear_1.teeth)
                     .map_err(self.fault())
@@ -166,12 +165,12 @@ impl SceneMesh<'_> {
 
     /// What stiffness the mesh has, for plan and result; nothing for models that have none of their own.
     pub(super) fn stiffness_note(&self) -> Result<Option<String>, InputError> {
-        let table = self.table;
         let c_gamma =
             |stiffness_n_per_m: f64| stiffness_n_per_m / self.zone_width_m() / N_PER_MM_UM;
-        let words = match (table.model, &self.curve, &table.stiffness) {
-            (MeshModel::Impact, Some(curve), Some(source)) => {
-                let (k, e) = self.impact_stiffness()?;
+        let source = self.table.model.pair_stiffness();
+        let words = match (&self.table.model, &self.curve, source) {
+            (MeshModel::Impact(table), Some(curve), Some(source)) => {
+                let (k, e) = self.impact_stiffness(table)?;
                 format!(
                     "K {k:.5e} N/mm^e of each pair of teeth, e {e:.4}, from {} at {} N m: its mean deflection and mean tangent; secant c_gamma {:.3} N/(mm um)",
                     curve_name(source.from.as_deref()),
@@ -179,7 +178,7 @@ impl SceneMesh<'_> {
                     c_gamma(curve.mean_secant_n_per_m())
                 )
             }
-            (MeshModel::Iso6336, Some(curve), Some(source)) => {
+            (MeshModel::Iso6336(_), Some(curve), Some(source)) => {
                 let tangent = curve.tangent_n_per_m();
                 let shares: Vec<String> = (tangent.amplitudes().take(3))
                     .map(|a| format!("{:.2}", 100.0 * a / tangent.mean()))
@@ -201,8 +200,8 @@ impl SceneMesh<'_> {
                     curve.remainder_m() / UM
                 )
             }
-            (MeshModel::Iso6336, ..) => {
-                let (stiffness, how) = self.mesh_stiffness_n_per_m2()?;
+            (MeshModel::Iso6336(table), ..) => {
+                let (stiffness, how) = self.mesh_stiffness_n_per_m2(table)?;
                 let cycle = match table.stiffness_amplitude {
                     Some(a) if a > 0.0 => {
                         format!("a sine of {:.2} % over the mesh cycle", 100.0 * a)
@@ -216,7 +215,7 @@ impl SceneMesh<'_> {
             }
             _ => return Ok(None),
         };
-        Ok(Some(format!("mesh `{}`: {words}", table.name)))
+        Ok(Some(format!("mesh `{}`: {words}", self.table.name)))
     }
 }
 

@@ -53,7 +53,7 @@ use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
 use super::tables::body::Flexibility;
-use super::tables::gear_mesh::MeshModel;
+use super::tables::mesh_model::MeshKind;
 
 /// A scene whose gears have been read. Systems can be built from it again and again.
 #[derive(Debug, Clone)]
@@ -305,7 +305,7 @@ impl LoadedSystem {
             let keys = TableKeys::new(&self.scene.document, &key);
             let hybrid = meshes
                 .iter()
-                .find(|mesh| mesh.model == MeshModel::Hybrid && mesh.bodies.contains(&i));
+                .find(|mesh| mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&i));
             let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
                 (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
                 (Flexibility::Rigid, Some(mesh), _) => format!(
@@ -347,7 +347,7 @@ impl LoadedSystem {
                 )
             })?;
             let of_body = |mesh: &&PreparedMesh| {
-                mesh.model == MeshModel::Hybrid && mesh.bodies.contains(&body)
+                mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&body)
             };
             let loaded: Vec<(String, usize)> = meshes
                 .iter()

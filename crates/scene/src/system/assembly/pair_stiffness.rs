@@ -14,7 +14,8 @@ use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
 use super::mesh_model::SceneMesh;
 use crate::pair::{Scene, SceneResult};
-use crate::system::tables::gear_mesh::{MeshModel, PairStiffnessTable, PathWord};
+use crate::system::tables::gear_mesh::PathWord;
+use crate::system::tables::mesh_model::{MeshKind, PairStiffnessTable};
 use crate::system::tables::{MM, UM};
 
 /// Harmonics of the mesh cycle where a scene says nothing.
@@ -41,10 +42,10 @@ struct Curves {
 impl SceneMesh<'_> {
     /// The curve that `stiffness` names; none where the table has no such key.
     pub(super) fn static_curve(&self, side: Flank) -> Result<Option<PairCurve>, InputError> {
-        let Some(table) = &self.table.stiffness else {
+        let Some(table) = self.table.model.pair_stiffness() else {
             return Ok(None);
         };
-        let keys = &self.keys;
+        let keys = &self.model_keys;
         let torque = table.torque_Nm;
         keys.require("stiffness.torque_Nm", torque, torque > 0.0, "more than 0")?;
         let harmonics = table.harmonics.unwrap_or(HARMONICS);
@@ -58,8 +59,8 @@ impl SceneMesh<'_> {
             }
             (None, _) => self.computed(table, side)?,
         };
-        if self.table.model == MeshModel::Impact && table.harmonics.is_some() {
-            let problem = "is not used by model = \"impact\", which takes the means; remove it";
+        if self.table.model.kind() == MeshKind::Impact && table.harmonics.is_some() {
+            let problem = "is not used by kind = \"impact\", which takes the means; remove it";
             return Err(keys.error("stiffness.harmonics", problem));
         }
         let samples = PairSamples {
@@ -77,7 +78,7 @@ impl SceneMesh<'_> {
 
     /// Takes the curves from the result of a `[pair]` scene of the same gears.
     fn stored(&self, file: &Path, table: &PairStiffnessTable) -> Result<Curves, InputError> {
-        let keys = &self.keys;
+        let keys = &self.model_keys;
         let shown = file.display();
         let fault = |problem: String| keys.error("stiffness.from", problem);
         if !file.exists() {
@@ -133,7 +134,7 @@ impl SceneMesh<'_> {
 
     /// Computes the curves over one pitch, as a `[pair]` scene of the bodies' reduced gears would.
     fn computed(&self, table: &PairStiffnessTable, side: Flank) -> Result<Curves, InputError> {
-        let keys = &self.keys;
+        let keys = &self.model_keys;
         let model = |i: usize| {
             self.gears[i].model.as_deref().ok_or_else(|| {
                 let problem = format!(
@@ -145,7 +146,7 @@ impl SceneMesh<'_> {
         };
         let models = [model(0)?, model(1)?];
         let pair = self.pair.clone().on_flanks(side);
-        let extended = self.table.path.unwrap_or_default() == PathWord::Extended;
+        let extended = self.teeth.path == PathWord::Extended;
         let extension =
             (extended && !pair.is_helical()).then(|| PathExtension::new(&pair, EDGE_RADIUS_M));
         let on = self.table.microgeometry.unwrap_or(true);

@@ -6,11 +6,11 @@ use gearmesh_rating::{LoadPoint, NominalRating};
 
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
-use crate::rating::{FatigueJob, FatigueRule, Rating, RatingTable, nominal_error, nominal_method};
+use crate::rating::{FatigueJob, FatigueTable, RatingTable, nominal_error, nominal_method};
 use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
 use crate::system::names;
 use crate::system::scene::SystemScene;
-use crate::system::tables::gear_mesh::MeshModel;
+use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::run::Run;
 use crate::system_run::element_column;
 
@@ -25,25 +25,23 @@ pub(super) fn build(
     for (i, table) in scene.tables.rating.iter().enumerate() {
         let key = format!("rating.{i}");
         let keys = TableKeys::new(&scene.document, &key);
-        let rating = table.check(&keys)?;
         table.refuse_keys_of_pairs(&keys)?;
-        let from_s = start(scene, &rating, table.from_s, &keys)?;
-        let job = match &rating {
-            Rating::Fatigue(rule) => {
-                fatigue(scene, (table, rule), from_s, (bodies, gauges), &keys)?
-            }
-            Rating::Nominal(load) => {
+        let from_s = start(scene, table, &keys)?;
+        let job = match table {
+            RatingTable::Fatigue(table) => fatigue(scene, table, from_s, (bodies, gauges), &keys)?,
+            RatingTable::Nominal(table) => {
+                let load = table.load_point();
                 let mesh = keys.needed("mesh", table.mesh.clone(), "kind = \"nominal\"")?;
                 let prepared = meshes.iter().find(|other| other.name == mesh);
                 let prepared = prepared.ok_or_else(|| {
                     let known: Vec<&str> = meshes.iter().map(|mesh| &*mesh.name).collect();
                     keys.error("mesh", names::unknown("gear mesh", &mesh, &known))
                 })?;
-                let job = nominal(prepared, *load, bodies, &keys)?;
+                let job = nominal(prepared, load, bodies, &keys)?;
                 written(scene, &mesh, &keys)?;
                 RatingJob {
                     name: format!("mesh {mesh}"),
-                    method: nominal_method(*load),
+                    method: nominal_method(load),
                     from_s,
                     columns: normal_forces(prepared),
                     turn_column: None,
@@ -59,14 +57,13 @@ pub(super) fn build(
 /// Time from which rows count; the run must have what the rating needs.
 fn start(
     scene: &SystemScene,
-    rating: &Rating,
-    from_s: Option<f64>,
+    rating: &RatingTable,
     keys: &TableKeys<'_>,
 ) -> Result<f64, InputError> {
-    let run = scene.run.kind().name();
+    let (run, from_s) = (scene.run.kind().name(), rating.from_s());
     let end_s = match (&scene.run, rating) {
         (Run::Transient { end_s }, _) => *end_s,
-        (Run::SpeedSweep(_), Rating::Nominal(_)) => {
+        (Run::SpeedSweep(_), RatingTable::Nominal(_)) => {
             if from_s.is_some() {
                 let problem =
                     "is not used by run.kind = \"speed-sweep\", whose windows all count; remove it";
@@ -74,7 +71,7 @@ fn start(
             }
             return Ok(0.0);
         }
-        (Run::SpeedSweep(_), Rating::Fatigue(_)) => {
+        (Run::SpeedSweep(_), RatingTable::Fatigue(_)) => {
             let problem = "\"fatigue\" counts the rows of a run.kind = \"transient\"; a speed-sweep keeps none";
             return Err(keys.error("kind", problem));
         }
@@ -105,11 +102,12 @@ fn written(scene: &SystemScene, mesh: &str, keys: &TableKeys<'_>) -> Result<(), 
 
 fn fatigue(
     scene: &SystemScene,
-    (table, rule): (&RatingTable, &FatigueRule),
+    table: &FatigueTable,
     from_s: f64,
     (bodies, gauges): (&Bodies, &[BuiltGauge]),
     keys: &TableKeys<'_>,
 ) -> Result<RatingJob, InputError> {
+    let rule = &table.rule(keys)?;
     if let Some(body) = &table.body {
         bodies.find_body(keys, "body", body)?;
     }
@@ -171,7 +169,7 @@ fn nominal(
     bodies: &Bodies,
     keys: &TableKeys<'_>,
 ) -> Result<NominalRating, InputError> {
-    if mesh.model == MeshModel::Kinematic {
+    if mesh.model == MeshKind::Kinematic {
         let problem = format!("`{}` is kinematic and has no normal force", mesh.name);
         return Err(keys.error("mesh", problem));
     }

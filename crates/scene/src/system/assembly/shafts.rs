@@ -13,13 +13,13 @@ use super::bodies::{Bodies, Frame, PlacedBody, axes_along, direction, vector};
 use super::lump::Lump;
 use super::parts::Parts;
 use crate::system::tables::MM;
-use crate::system::tables::shaft::{ShaftKind, ShaftTable};
+use crate::system::tables::shaft::{ShaftModel, ShaftTable};
 
 /// A shaft whose bodies are in the list.
 pub(super) struct PlacedShaft {
     name: String,
     key: String,
-    kind: ShaftKind,
+    model: ShaftModel,
     axes: UnitQuaternion<f64>,
     /// Places of the stations in the world \[m\].
     points_m: Vec<Vector3<f64>>,
@@ -47,15 +47,7 @@ impl PlacedShaft {
         bodies: &mut Bodies,
     ) -> Result<Self, InputError> {
         let keys = TableKeys::new(document, &key);
-        let rigid = table.kind == ShaftKind::Rigid;
-        keys.refuse_unused(
-            ("kind", if rigid { "rigid" } else { "beam" }),
-            &[
-                ("young_GPa", table.young_GPa.is_some(), &["beam"]),
-                ("poisson", table.poisson.is_some(), &["beam"]),
-                ("damping_s", table.damping_s.is_some(), &["beam"]),
-            ],
-        )?;
+        let rigid = matches!(table.model, ShaftModel::Rigid {});
         let origin = vector(&keys, "origin_mm", table.origin_mm, MM)?;
         let axis = direction(&keys, "axis", table.axis.unwrap_or([0.0, 0.0, 1.0]))?;
         let axes = axes_along(&axis);
@@ -170,15 +162,11 @@ impl PlacedShaft {
         };
         Ok(Self {
             name: table.name.clone(),
-            kind: table.kind,
+            model: table.model,
             axes,
             points_m,
             lengths_m: z.windows(2).map(|pair| pair[1] - pair[0]).collect(),
-            sections: if rigid {
-                Vec::new()
-            } else {
-                sections(table, &keys, &radii)?
-            },
+            sections: sections(table.model, &keys, &radii)?,
             stations,
             seated,
             key,
@@ -224,9 +212,9 @@ impl PlacedShaft {
 
     /// Kind in words.
     pub(super) fn describe(&self) -> String {
-        match self.kind {
-            ShaftKind::Rigid => format!("shaft `{}`: `rigid`", self.name),
-            ShaftKind::Beam => format!(
+        match self.model {
+            ShaftModel::Rigid {} => format!("shaft `{}`: `rigid`", self.name),
+            ShaftModel::Beam { .. } => format!(
                 "shaft `{}`: `beam`, {} stations",
                 self.name,
                 self.stations.len()
@@ -296,22 +284,24 @@ fn radii(
     Ok(radii)
 }
 
+/// Sections of the beams; none of a rigid shaft.
 fn sections(
-    table: &ShaftTable,
+    model: ShaftModel,
     keys: &TableKeys<'_>,
     radii: &[[f64; 2]],
 ) -> Result<Vec<BeamSection>, InputError> {
-    let young = keys.needed("young_GPa", table.young_GPa, "kind = \"beam\"")?;
-    keys.require("young_GPa", young, young > 0.0, "more than 0")?;
-    let poisson = keys.needed("poisson", table.poisson, "kind = \"beam\"")?;
-    keys.require(
-        "poisson",
+    let ShaftModel::Beam {
+        young_GPa: young,
         poisson,
-        (0.0..0.5).contains(&poisson),
-        "0 to below 0.5",
-    )?;
-    let damping_s = table.damping_s.unwrap_or(0.0);
-    keys.require("damping_s", damping_s, damping_s >= 0.0, "0 or more")?;
+        damping_s,
+    } = model
+    else {
+        return Ok(Vec::new());
+    };
+    keys.require("model.young_GPa", young, young > 0.0, "more than 0")?;
+    let ok = (0.0..0.5).contains(&poisson);
+    keys.require("model.poisson", poisson, ok, "0 to below 0.5")?;
+    keys.require("model.damping_s", damping_s, damping_s >= 0.0, "0 or more")?;
     let round = |[inner, outer]: &[f64; 2]| BeamSection {
         damping_s,
         ..BeamSection::round(*outer, *inner, 1e9 * young, poisson)

@@ -18,8 +18,8 @@ use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
 use super::shafts::PlacedShaft;
 use crate::system::tables::bearing::BearingTable;
-use crate::system::tables::gear_mesh::MeshModel;
 use crate::system::tables::joint::JointWord;
+use crate::system::tables::mesh_model::MeshKind;
 
 /// Share by which speeds that a scene states on both gears of a `kinematic` mesh may miss its ratio: they are written
 /// with a few figures.
@@ -212,7 +212,7 @@ pub(super) fn refuse_missed_ratios(
 ) -> Result<(), InputError> {
     for mesh in meshes
         .iter()
-        .filter(|mesh| mesh.model == MeshModel::Kinematic)
+        .filter(|mesh| mesh.model == MeshKind::Kinematic)
     {
         let spin = |gear: usize| {
             bodies.list[mesh.bodies[gear]]

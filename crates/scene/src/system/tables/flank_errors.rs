@@ -10,7 +10,7 @@ use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
 use gearmesh_drivetrain::{FlankError, RootCrack};
 use gearmesh_geometry::input::{NumberTable, TableKeys};
-use gearmesh_geometry::{Flank, InputError, ToothGeometry};
+use gearmesh_geometry::{Flank, InputError, ToothGeometry, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -29,7 +29,8 @@ pub enum EndWord {
 
 /// An error or fault.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "FlankErrorTable")]
 pub enum FlankErrorTable {
     /// Each flank of one side stands back by an amount.
     Pitch {
@@ -85,6 +86,8 @@ pub enum FlankErrorTable {
 /// Length in roll angle over which the edges of a spall fall where the scene states none: about the width of a Hertz
 /// contact on teeth of some millimetres' module.
 const DEFAULT_EDGE_DEG: f64 = 0.5;
+
+kinds!(FlankErrorTable, "kind");
 
 impl FlankErrorTable {
     /// Name in files.

@@ -1,10 +1,11 @@
-//! `friction` of gear meshes and of pairs: one vocabulary. A gear mesh knows how fast the flanks slide, a pair at rest
-//! only where they would turn round.
+//! `friction` of gear meshes and of pairs: a gear mesh knows how fast the flanks slide, a pair at rest only where they
+//! would turn round.
 
 use gearmesh_contact::Friction as PathFriction;
 use gearmesh_drivetrain::Friction as SpeedFriction;
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,56 +17,54 @@ const DEFAULT_STATIC_SPEED_MM_PER_S: f64 = 10.0;
 /// Distance from the pitch point within which friction turns round in a pair where the scene states none \[µm\].
 const DEFAULT_REVERSAL_UM: f64 = 20.0;
 
-/// `friction`.
+/// `friction` of gear meshes.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(tag = "model", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "model", rename = "FrictionTable")]
 pub enum FrictionTable {
     /// Coulomb, regularised.
     Coulomb {
-        /// Coefficient of sliding. In gear meshes from `dynamic_speed_mm_per_s` on.
-        dynamic_coefficient: Option<f64>,
-        /// Gear meshes: coefficient at `static_speed_mm_per_s`; that of sliding where not given.
+        /// Coefficient from `dynamic_speed_mm_per_s` on.
+        dynamic_coefficient: f64,
+        /// Coefficient at `static_speed_mm_per_s`; the dynamic one where not given.
         static_coefficient: Option<f64>,
-        /// Gear meshes: sliding speed of the static coefficient; 10 where not given.
+        /// Sliding speed of the static coefficient; 10 where not given.
         static_speed_mm_per_s: Option<f64>,
-        /// Gear meshes: sliding speed from which the dynamic coefficient holds; ten times the static one where not
-        /// given.
+        /// Sliding speed from which the dynamic coefficient holds; ten times the static one where not given.
         dynamic_speed_mm_per_s: Option<f64>,
-        /// Pairs: distance from the pitch point within which friction turns round; 20 where not given.
-        reversal_um: Option<f64>,
-        /// Pairs: the former name of `dynamic_coefficient`.
-        coefficient: Option<f64>,
     },
 }
 
+kinds!(FrictionTable, "model");
+
+/// `friction` of pairs at rest.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "model", rename = "PairFrictionTable")]
+pub enum PairFrictionTable {
+    /// Coulomb, regularised.
+    Coulomb {
+        /// Coefficient of sliding.
+        dynamic_coefficient: f64,
+        /// Distance from the pitch point within which friction turns round; 20 where not given.
+        reversal_um: Option<f64>,
+    },
+}
+
+kinds!(PairFrictionTable, "model");
+
 impl FrictionTable {
-    /// The friction of a gear mesh; `keys` are those of its table.
+    /// The friction in SI units; `keys` are those of the table around it.
     ///
     /// # Errors
-    /// [`InputError`] for a number out of its range, or a key of pairs.
-    pub(crate) fn of_gear_mesh(&self, keys: &TableKeys<'_>) -> Result<SpeedFriction, InputError> {
+    /// [`InputError`] for a number out of its range.
+    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<SpeedFriction, InputError> {
         let Self::Coulomb {
-            dynamic_coefficient,
+            dynamic_coefficient: sliding,
             static_coefficient,
             static_speed_mm_per_s,
             dynamic_speed_mm_per_s,
-            reversal_um,
-            coefficient,
-        } = self;
-        if coefficient.is_some() {
-            return Err(keys.error("friction.coefficient", "is called dynamic_coefficient"));
-        }
-        if reversal_um.is_some() {
-            return Err(keys.error(
-                "friction.reversal_um",
-                "is for scenes of a [pair], which stand; a gear mesh has static_speed_mm_per_s in its place",
-            ));
-        }
-        let sliding = keys.needed(
-            "friction.dynamic_coefficient",
-            *dynamic_coefficient,
-            "friction",
-        )?;
+        } = *self;
         let resting = static_coefficient.unwrap_or(sliding);
         let slow = static_speed_mm_per_s.unwrap_or(DEFAULT_STATIC_SPEED_MM_PER_S);
         let fast = dynamic_speed_mm_per_s.unwrap_or(10.0 * slow);
@@ -94,68 +93,26 @@ impl FrictionTable {
         SpeedFriction::new([resting, sliding], [MM * slow, MM * fast])
             .map_err(|e| keys.error("friction", e))
     }
+}
 
-    /// The friction of a pair at rest, and a note where a key has its former name; `keys` are those of its table.
+impl PairFrictionTable {
+    /// The friction in SI units; `keys` are those of the table around it.
     ///
     /// # Errors
-    /// [`InputError`] for a number out of its range, or a key of gear meshes.
-    pub(crate) fn of_pair(
-        &self,
-        keys: &TableKeys<'_>,
-    ) -> Result<(PathFriction, Option<String>), InputError> {
+    /// [`InputError`] for a number out of its range.
+    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<PathFriction, InputError> {
         let Self::Coulomb {
-            dynamic_coefficient,
-            static_coefficient,
-            static_speed_mm_per_s,
-            dynamic_speed_mm_per_s,
+            dynamic_coefficient: sliding,
             reversal_um,
-            coefficient,
-        } = self;
-        for (key, given) in [
-            ("static_coefficient", static_coefficient.is_some()),
-            ("static_speed_mm_per_s", static_speed_mm_per_s.is_some()),
-            ("dynamic_speed_mm_per_s", dynamic_speed_mm_per_s.is_some()),
-        ] {
-            if given {
-                return Err(keys.error(
-                    &format!("friction.{key}"),
-                    "is for gear meshes, which have speeds; a [pair] stands and has reversal_um in its place",
-                ));
-            }
-        }
-        let (key, sliding, note) = match (dynamic_coefficient, coefficient) {
-            (Some(value), None) => ("friction.dynamic_coefficient", *value, None),
-            (None, Some(value)) => {
-                let key = "friction.coefficient";
-                let note = keys
-                    .error(key, "is now called dynamic_coefficient")
-                    .to_string();
-                (key, *value, Some(note))
-            }
-            (Some(_), Some(_)) => {
-                return Err(keys.error(
-                    "friction.coefficient",
-                    "is the former name of dynamic_coefficient; remove it",
-                ));
-            }
-            (None, None) => {
-                return Err(
-                    keys.error("friction.dynamic_coefficient", "missing; friction needs it")
-                );
-            }
-        };
-        keys.require(key, sliding, (0.0..=1.0).contains(&sliding), "0 to 1")?;
+        } = *self;
+        let ok = (0.0..=1.0).contains(&sliding);
+        keys.require("friction.dynamic_coefficient", sliding, ok, "0 to 1")?;
         let reversal = reversal_um.unwrap_or(DEFAULT_REVERSAL_UM);
-        keys.require(
-            "friction.reversal_um",
-            reversal,
-            reversal > 0.0,
-            "more than 0",
-        )?;
-        let friction = PathFriction {
+        let ok = reversal > 0.0;
+        keys.require("friction.reversal_um", reversal, ok, "more than 0")?;
+        Ok(PathFriction {
             coefficient: sliding,
             reversal_m: UM * reversal,
-        };
-        Ok((friction, note))
+        })
     }
 }

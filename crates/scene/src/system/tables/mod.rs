@@ -9,6 +9,7 @@ pub mod function;
 pub mod gear_mesh;
 pub mod joint;
 pub mod load;
+pub mod mesh_model;
 pub mod output;
 pub mod run;
 pub mod shaft;

@@ -11,49 +11,84 @@ use std::f64::consts::TAU;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// `[run]` as it stands in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "RunTable")]
+pub enum RunTable {
+    /// Motion in time.
+    Transient {
+        /// End of the run.
+        end_s: f64,
+    },
+    /// Static equilibria.
+    Static(StaticTable),
+    /// Natural frequencies.
+    Eigen(EigenTable),
+    /// Up and down through a range of speeds.
+    SpeedSweep(SpeedSweepTable),
+}
+
+kinds!(RunTable, "kind");
+
+/// Keys of `kind = "static"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StaticTable {
+    /// Shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone where not given.
+    pub load_factors: Option<Vec<f64>>,
+    /// Name of the `[[motion]]` that is varied.
+    pub motion: Option<String>,
+    /// Angles of the motion.
+    pub angles_deg: Option<Vec<f64>>,
+}
+
+/// Keys of `kind = "eigen"`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-pub struct RunTable {
-    /// What is done.
-    pub kind: RunKind,
-    /// `transient`: end of the run.
-    pub end_s: Option<f64>,
-    /// `static`, `eigen`: shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone
-    /// where not given.
+pub struct EigenTable {
+    /// Shares of all `[[load]]` at which an equilibrium is sought, one after the other; 1 alone where not given.
     pub load_factors: Option<Vec<f64>>,
-    /// `static`, `eigen`, `speed-sweep`: name of the `[[motion]]` that is varied.
+    /// Name of the `[[motion]]` that is varied.
     pub motion: Option<String>,
-    /// `static`: angles of the motion.
-    pub angles_deg: Option<Vec<f64>>,
-    /// `eigen`: speeds of the motion.
+    /// Speeds of the motion.
     pub speeds_rpm: Option<Vec<f64>>,
-    /// `eigen`: the operating point is where the motion stands after this time; the static equilibrium where not given.
-    /// `speed-sweep`: time at each speed before it is measured.
+    /// The operating point is where the motion stands after this time; the static equilibrium where not given.
     pub settle_s: Option<f64>,
-    /// `eigen`: highest frequency that is listed.
+    /// Highest frequency that is listed.
     pub most_frequency_Hz: Option<f64>,
-    /// `speed-sweep`: first speed.
-    pub from_rpm: Option<f64>,
-    /// `speed-sweep`: last speed.
-    pub to_rpm: Option<f64>,
-    /// `speed-sweep`: "up" from the first to the last speed, "down" back, or "up-down"; "up-down" where not given.
-    pub direction: Option<Direction>,
-    /// `speed-sweep`, stepped: number of speeds.
+}
+
+/// Keys of `kind = "speed-sweep"`: stepped with `speeds`, `settle_s` and `measure_s`, ramped with `ramp_s`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedSweepTable {
+    /// Name of the `[[motion]]` that is varied.
+    pub motion: String,
+    /// First speed.
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+    /// "up" from the first to the last speed, "down" back, or "up-down"; "up-down" where not given.
+    #[serde(default)]
+    pub direction: Direction,
+    /// Stepped: number of speeds.
     pub speeds: Option<usize>,
-    /// `speed-sweep`, stepped: time over which each speed is measured.
+    /// Stepped: time at each speed before it is measured.
+    pub settle_s: Option<f64>,
+    /// Stepped: time over which each speed is measured.
     pub measure_s: Option<f64>,
-    /// `speed-sweep`, ramped: time of each ramp.
+    /// Ramped: time of each ramp.
     pub ramp_s: Option<f64>,
 }
 
 /// `run.kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunKind {
     /// Motion in time.
     Transient,
@@ -274,169 +309,109 @@ impl Run {
 }
 
 impl RunTable {
-    /// Checks the keys of the chosen kind and refuses those of others.
+    /// Checks the numbers.
     ///
     /// # Errors
     /// [`InputError`] naming the key.
     pub fn check(&self, document: &InputDocument) -> Result<Run, InputError> {
         let keys = TableKeys::new(document, "run");
-        self.refuse_unused(&keys)?;
-        let kind = format!("kind = \"{}\"", self.kind.name());
-        let positive = |key: &str, value: f64| {
-            keys.require(key, value, value > 0.0, "more than 0")?;
-            Ok::<f64, InputError>(value)
-        };
-        let needed = |key: &str, value: Option<f64>| positive(key, keys.needed(key, value, &kind)?);
         let optional =
-            |key: &str, value: Option<f64>| value.map(|value| positive(key, value)).transpose();
-        Ok(match self.kind {
-            RunKind::Transient => Run::Transient {
-                end_s: needed("end_s", self.end_s)?,
+            |key: &str, value: Option<f64>| value.map(|v| positive(&keys, key, v)).transpose();
+        Ok(match self {
+            Self::Transient { end_s } => Run::Transient {
+                end_s: positive(&keys, "end_s", *end_s)?,
             },
-            RunKind::Static => Run::Static {
-                load_factors: self.load_factors(&keys)?,
-                angles_rad: self.values(&keys, "angles_deg", &self.angles_deg, TAU / 360.0)?,
-            },
-            RunKind::Eigen => Run::Eigen {
-                settle_s: optional("settle_s", self.settle_s)?,
-                load_factors: self.load_factors(&keys)?,
-                speeds_rad_per_s: self.values(&keys, "speeds_rpm", &self.speeds_rpm, TAU / 60.0)?,
-                most_frequency_hz: optional("most_frequency_Hz", self.most_frequency_Hz)?,
-            },
-            RunKind::SpeedSweep => {
-                let speed = |key: &str, value: Option<f64>| {
-                    let rpm = keys.needed(key, value, &kind)?;
-                    keys.require(key, rpm, true, "a finite number")?;
-                    Ok::<f64, InputError>(rpm * TAU / 60.0)
-                };
-                let schedule = match self.ramp_s {
-                    Some(ramp) => {
-                        for (key, given) in [
-                            ("speeds", self.speeds.is_some()),
-                            ("settle_s", self.settle_s.is_some()),
-                            ("measure_s", self.measure_s.is_some()),
-                        ] {
-                            if given {
-                                return Err(keys.error(key, "belongs to a stepped sweep, ramp_s to a ramped one; remove one of the two"));
-                            }
-                        }
-                        Schedule::Ramped {
-                            ramp_s: positive("ramp_s", ramp)?,
-                        }
-                    }
-                    None => {
-                        let speeds =
-                            keys.needed("speeds", self.speeds, "a stepped sweep (or give ramp_s)")?;
-                        keys.require(
-                            "speeds",
-                            speeds as f64,
-                            (2..=100_000).contains(&speeds),
-                            "2 to 100000",
-                        )?;
-                        Schedule::Stepped {
-                            speeds,
-                            settle_s: needed("settle_s", self.settle_s)?,
-                            measure_s: needed("measure_s", self.measure_s)?,
-                        }
-                    }
-                };
-                Run::SpeedSweep(SpeedSweep {
-                    motion: keys.needed("motion", self.motion.clone(), &kind)?,
-                    from_rad_per_s: speed("from_rpm", self.from_rpm)?,
-                    to_rad_per_s: speed("to_rpm", self.to_rpm)?,
-                    direction: self.direction.unwrap_or_default(),
-                    schedule,
-                })
+            Self::Static(table) => {
+                let angles = ("angles_deg", table.angles_deg.as_deref(), TAU / 360.0);
+                Run::Static {
+                    load_factors: load_factors(table.load_factors.as_deref(), &keys)?,
+                    angles_rad: motion_values(&keys, table.motion.as_deref(), angles)?,
+                }
             }
+            Self::Eigen(table) => {
+                let speeds = ("speeds_rpm", table.speeds_rpm.as_deref(), TAU / 60.0);
+                Run::Eigen {
+                    settle_s: optional("settle_s", table.settle_s)?,
+                    load_factors: load_factors(table.load_factors.as_deref(), &keys)?,
+                    speeds_rad_per_s: motion_values(&keys, table.motion.as_deref(), speeds)?,
+                    most_frequency_hz: optional("most_frequency_Hz", table.most_frequency_Hz)?,
+                }
+            }
+            Self::SpeedSweep(table) => Run::SpeedSweep(SpeedSweep {
+                motion: table.motion.clone(),
+                from_rad_per_s: table.from_rpm * TAU / 60.0,
+                to_rad_per_s: table.to_rpm * TAU / 60.0,
+                direction: table.direction,
+                schedule: table.schedule(&keys)?,
+            }),
         })
     }
+}
 
-    fn refuse_unused(&self, keys: &TableKeys<'_>) -> Result<(), InputError> {
-        keys.refuse_unused(
-            ("kind", self.kind.name()),
-            &[
-                ("end_s", self.end_s.is_some(), &["transient"]),
-                (
-                    "load_factors",
-                    self.load_factors.is_some(),
-                    &["static", "eigen"],
-                ),
-                (
-                    "motion",
-                    self.motion.is_some(),
-                    &["static", "eigen", "speed-sweep"],
-                ),
-                ("angles_deg", self.angles_deg.is_some(), &["static"]),
-                ("speeds_rpm", self.speeds_rpm.is_some(), &["eigen"]),
-                (
-                    "settle_s",
-                    self.settle_s.is_some(),
-                    &["eigen", "speed-sweep"],
-                ),
-                (
-                    "most_frequency_Hz",
-                    self.most_frequency_Hz.is_some(),
-                    &["eigen"],
-                ),
-                ("from_rpm", self.from_rpm.is_some(), &["speed-sweep"]),
-                ("to_rpm", self.to_rpm.is_some(), &["speed-sweep"]),
-                ("direction", self.direction.is_some(), &["speed-sweep"]),
-                ("speeds", self.speeds.is_some(), &["speed-sweep"]),
-                ("measure_s", self.measure_s.is_some(), &["speed-sweep"]),
-                ("ramp_s", self.ramp_s.is_some(), &["speed-sweep"]),
-            ],
-        )
-    }
-
-    fn load_factors(&self, keys: &TableKeys<'_>) -> Result<Vec<f64>, InputError> {
-        let factors = self.load_factors.clone().unwrap_or_else(|| vec![1.0]);
-        if factors.is_empty() {
-            return Err(keys.error(
-                "load_factors",
-                "is empty; give at least one, or leave the key out for full load",
-            ));
-        }
-        for (i, &factor) in factors.iter().enumerate() {
-            keys.require(
-                &format!("load_factors.{i}"),
-                factor,
-                true,
-                "a finite number",
-            )?;
-        }
-        Ok(factors)
-    }
-
-    /// A list of values of the varied motion: list and motion are given together or not at all.
-    fn values(
-        &self,
-        keys: &TableKeys<'_>,
-        key: &str,
-        values: &Option<Vec<f64>>,
-        unit: f64,
-    ) -> Result<Option<MotionValues>, InputError> {
-        let (motion, values) = match (&self.motion, values) {
-            (None, None) => return Ok(None),
-            (Some(motion), Some(values)) => (motion.clone(), values),
-            (Some(_), None) => {
-                return Err(keys.error(key, "missing; `motion` is varied over these values"));
+impl SpeedSweepTable {
+    fn schedule(&self, keys: &TableKeys<'_>) -> Result<Schedule, InputError> {
+        if let Some(ramp_s) = self.ramp_s {
+            for (key, given) in [
+                ("speeds", self.speeds.is_some()),
+                ("settle_s", self.settle_s.is_some()),
+                ("measure_s", self.measure_s.is_some()),
+            ] {
+                if given {
+                    return Err(keys.error(
+                        key,
+                        "belongs to a stepped sweep, ramp_s to a ramped one; remove one of the two",
+                    ));
+                }
             }
-            (None, Some(_)) => {
-                return Err(keys.error(
-                    "motion",
-                    format!("missing; {key} are values of a [[motion]], name it"),
-                ));
-            }
-        };
-        if values.is_empty() {
-            return Err(keys.error(key, "is empty; give at least one value"));
+            let ramp_s = positive(keys, "ramp_s", ramp_s)?;
+            return Ok(Schedule::Ramped { ramp_s });
         }
-        for (i, &value) in values.iter().enumerate() {
-            keys.require(&format!("{key}.{i}"), value, true, "a finite number")?;
-        }
-        Ok(Some(MotionValues {
-            motion,
+        let stepped = "a stepped sweep (or give ramp_s)";
+        let speeds = keys.needed("speeds", self.speeds, stepped)?;
+        let ok = (2..=100_000).contains(&speeds);
+        keys.require("speeds", speeds as f64, ok, "2 to 100000")?;
+        let needed =
+            |key: &str, value: Option<f64>| positive(keys, key, keys.needed(key, value, stepped)?);
+        Ok(Schedule::Stepped {
+            speeds,
+            settle_s: needed("settle_s", self.settle_s)?,
+            measure_s: needed("measure_s", self.measure_s)?,
+        })
+    }
+}
+
+fn positive(keys: &TableKeys<'_>, key: &str, value: f64) -> Result<f64, InputError> {
+    keys.require(key, value, value > 0.0, "more than 0")?;
+    Ok(value)
+}
+
+fn load_factors(factors: Option<&[f64]>, keys: &TableKeys<'_>) -> Result<Vec<f64>, InputError> {
+    match factors {
+        Some([]) => Err(keys.error(
+            "load_factors",
+            "is empty; give at least one, or leave the key out for full load",
+        )),
+        stated => Ok(stated.unwrap_or(&[1.0]).to_vec()),
+    }
+}
+
+/// A list of values of the varied motion, with its key and unit: list and motion are given together or not at all.
+fn motion_values(
+    keys: &TableKeys<'_>,
+    motion: Option<&str>,
+    (key, values, unit): (&str, Option<&[f64]>, f64),
+) -> Result<Option<MotionValues>, InputError> {
+    match (motion, values) {
+        (None, None) => Ok(None),
+        (Some(_), Some([])) => Err(keys.error(key, "is empty; give at least one value")),
+        (Some(motion), Some(values)) => Ok(Some(MotionValues {
+            motion: motion.to_owned(),
             values: values.iter().map(|value| value * unit).collect(),
-        }))
+        })),
+        (Some(_), None) => Err(keys.error(key, "missing; `motion` is varied over these values")),
+        (None, Some(_)) => {
+            let problem = format!("missing; {key} are values of a [[motion]], name it");
+            Err(keys.error("motion", problem))
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! `[[shaft]]`: stations along an axis, round sections between them, lumped parts and bodies that sit on it.
 
+use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -10,8 +11,8 @@ use serde::Deserialize;
 pub struct ShaftTable {
     /// Name. The stations' bodies are called NAME/0, NAME/1, …, that of a rigid shaft NAME.
     pub name: String,
-    /// "beam": a body at each station, Timoshenko beams between them. "rigid": one body.
-    pub kind: ShaftKind,
+    /// Model.
+    pub model: ShaftModel,
     /// Where the shaft's z = 0 is, in the world at the start.
     pub origin_mm: [f64; 3],
     /// Axis in the world at the start; [0, 0, 1] where not given.
@@ -24,12 +25,6 @@ pub struct ShaftTable {
     pub inner_diameters_mm: Option<Vec<f64>>,
     /// Density.
     pub density_kg_per_m3: f64,
-    /// Beams: Young's modulus.
-    pub young_GPa: Option<f64>,
-    /// Beams: Poisson's ratio.
-    pub poisson: Option<f64>,
-    /// Beams: damping over stiffness; none where not given.
-    pub damping_s: Option<f64>,
     /// Speed about the axis at the start, also of the bodies on the shaft that state none; 0 where not given.
     pub speed_rpm: Option<f64>,
     /// Lumped parts.
@@ -40,15 +35,27 @@ pub struct ShaftTable {
     pub seat: Vec<SeatTable>,
 }
 
-/// `shaft.kind`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ShaftKind {
-    /// Does not give way.
-    Rigid,
-    /// Timoshenko beams.
-    Beam,
+/// `shaft.model`.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "ShaftModel")]
+#[allow(non_snake_case)]
+pub enum ShaftModel {
+    /// One body, which does not give way.
+    Rigid {},
+    /// A body at each station, Timoshenko beams between them.
+    Beam {
+        /// Young's modulus.
+        young_GPa: f64,
+        /// Poisson's ratio.
+        poisson: f64,
+        /// Damping over stiffness; none where not given.
+        #[serde(default)]
+        damping_s: f64,
+    },
 }
+
+kinds!(ShaftModel, "kind");
 
 /// `[[shaft.part]]`: mass and inertia at a station.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -1,0 +1,251 @@
+//! `gear_mesh.model`: the models of a mesh, one table a kind, cheapest first.
+
+use std::path::PathBuf;
+
+use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::Damping;
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::kinds;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::flank_errors::CrackTable;
+use super::{MM, UM};
+
+/// `gear_mesh.model`, cheapest first.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "MeshModel")]
+pub enum MeshModel {
+    /// An ideal ratio.
+    Kinematic {},
+    /// K δ^e with damping, as in ADAMS.
+    Impact(ImpactTable),
+    /// One spring for the whole mesh, after ISO 6336-1.
+    Iso6336(Iso6336Table),
+    /// Each tooth a beam on its foundation, Hertz.
+    Analytic(AnalyticTable),
+    /// Reduced gears and the complementarity problem.
+    Hybrid(HybridTable),
+}
+
+kinds!(MeshModel, "kind");
+
+/// A kind of model without its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshKind {
+    /// See [`MeshModel::Kinematic`].
+    Kinematic,
+    /// See [`MeshModel::Impact`].
+    Impact,
+    /// See [`MeshModel::Iso6336`].
+    Iso6336,
+    /// See [`MeshModel::Analytic`].
+    Analytic,
+    /// See [`MeshModel::Hybrid`].
+    Hybrid,
+}
+
+impl MeshKind {
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kinematic => "kinematic",
+            Self::Impact => "impact",
+            Self::Iso6336 => "iso6336",
+            Self::Analytic => "analytic",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}
+
+impl MeshModel {
+    /// Its kind.
+    #[must_use]
+    pub fn kind(&self) -> MeshKind {
+        match self {
+            Self::Kinematic {} => MeshKind::Kinematic,
+            Self::Impact(_) => MeshKind::Impact,
+            Self::Iso6336(_) => MeshKind::Iso6336,
+            Self::Analytic(_) => MeshKind::Analytic,
+            Self::Hybrid(_) => MeshKind::Hybrid,
+        }
+    }
+
+    /// Slices that it states.
+    #[must_use]
+    pub fn slices(&self) -> Option<usize> {
+        match self {
+            Self::Kinematic {} => None,
+            Self::Impact(table) => table.slices,
+            Self::Iso6336(table) => table.slices,
+            Self::Analytic(table) => table.slices,
+            Self::Hybrid(table) => table.slices,
+        }
+    }
+
+    /// The curve of the pair that it takes its stiffness from.
+    #[must_use]
+    pub fn pair_stiffness(&self) -> Option<&PairStiffnessTable> {
+        match self {
+            Self::Impact(table) => table.stiffness.as_ref(),
+            Self::Iso6336(table) => table.stiffness.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// `damping`, of the models that have such a table.
+    #[must_use]
+    pub fn damping(&self) -> Option<&DampingTable> {
+        match self {
+            Self::Kinematic {} | Self::Impact(_) => None,
+            Self::Iso6336(table) => table.damping.as_ref(),
+            Self::Analytic(table) => table.damping.as_ref(),
+            Self::Hybrid(table) => table.damping.as_ref(),
+        }
+    }
+}
+
+/// Keys of `kind = "impact"`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[allow(non_snake_case)]
+pub struct ImpactTable {
+    /// K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
+    pub stiffness_N_per_mm_e: Option<f64>,
+    /// e, at least 1; with `stiffness` that of the pair's curve where not given.
+    pub exponent: Option<f64>,
+    /// Instead of a stated one: the stiffness of the pair itself, from its static curve at one torque.
+    pub stiffness: Option<PairStiffnessTable>,
+    /// Largest damping, none where not given.
+    pub damping_N_s_per_mm: Option<f64>,
+    /// With damping: depth from which it acts in full.
+    pub full_damping_depth_um: Option<f64>,
+    /// Slices across the face width, 1 where not given.
+    pub slices: Option<usize>,
+}
+
+/// Keys of `kind = "iso6336"`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[allow(non_snake_case)]
+pub struct Iso6336Table {
+    /// Mesh stiffness c_γα; after ISO 6336-1 method B from the gears' data where neither this nor `stiffness` is given.
+    pub stiffness_N_per_mm_um: Option<f64>,
+    /// Without a stated stiffness: line load F_t K_A/b, below 100 N/mm the stiffness falls; 100 where not given.
+    pub line_load_N_per_mm: Option<f64>,
+    /// Amplitude of the stiffness over the mesh cycle, over its mean, below 1; constant where not given.
+    pub stiffness_amplitude: Option<f64>,
+    /// Instead of these: the stiffness of the pair itself, from its static curve at one torque.
+    pub stiffness: Option<PairStiffnessTable>,
+    /// Damping; none where not given.
+    pub damping: Option<DampingTable>,
+    /// Slices across the face width, 1 where not given.
+    pub slices: Option<usize>,
+}
+
+/// Keys of `kind = "analytic"`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct AnalyticTable {
+    /// Damping; none where not given.
+    pub damping: Option<DampingTable>,
+    /// Slices across the face width, 1 where not given.
+    pub slices: Option<usize>,
+    /// Root cracks of gear 1.
+    pub cracks_1: Vec<CrackTable>,
+    /// Root cracks of gear 2.
+    pub cracks_2: Vec<CrackTable>,
+}
+
+/// Keys of `kind = "hybrid"`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[allow(non_snake_case)]
+pub struct HybridTable {
+    /// Local contact; "calibrated" where not given.
+    pub local: LocalContact,
+    /// Slices over the overlap of the faces; those of the models where not given.
+    pub slices: Option<usize>,
+    /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
+    /// N/mm times the face width where not given.
+    pub nominal_force_N: Option<f64>,
+    /// Damping; none where not given.
+    pub damping: Option<DampingTable>,
+}
+
+/// `stiffness`: the pair's own static curve.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct PairStiffnessTable {
+    /// Result (.h5) of a `[pair]` scene of these gears, relative to the scene. Where not given, the curve is computed,
+    /// as the models of the two bodies' reduced gears have it.
+    pub from: Option<PathBuf>,
+    /// Torque on gear 2 at which stiffness and transmission error are taken, without sign; with `from` one of that
+    /// scene's torques.
+    pub torque_Nm: f64,
+    /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
+    pub harmonics: Option<usize>,
+    /// Without `from`: local contact of the curve; "calibrated" where not given.
+    pub local: Option<LocalContact>,
+}
+
+/// `damping`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "DampingTable")]
+#[allow(non_snake_case)]
+pub enum DampingTable {
+    /// The teeth feel the gap g + τ ġ.
+    StiffnessProportional {
+        /// τ: damping over stiffness.
+        time_s: f64,
+        /// Depth from which it acts in full.
+        full_depth_um: f64,
+    },
+    /// c for each pair of teeth.
+    Viscous {
+        /// c.
+        damping_N_s_per_mm: f64,
+        /// Depth from which it acts in full.
+        full_depth_um: f64,
+    },
+}
+
+kinds!(DampingTable, "kind");
+
+impl DampingTable {
+    /// The damping in SI units; `keys` are those of the model.
+    ///
+    /// # Errors
+    /// [`InputError`] for a number out of its range.
+    pub(crate) fn check(&self, keys: &TableKeys<'_>) -> Result<Damping, InputError> {
+        let (name, value, depth) = match self {
+            Self::StiffnessProportional {
+                time_s,
+                full_depth_um,
+            } => ("time_s", *time_s, *full_depth_um),
+            Self::Viscous {
+                damping_N_s_per_mm,
+                full_depth_um,
+            } => ("damping_N_s_per_mm", *damping_N_s_per_mm, *full_depth_um),
+        };
+        let at = |name: &str| format!("damping.{name}");
+        keys.require(&at(name), value, value >= 0.0, "0 or more")?;
+        keys.require(&at("full_depth_um"), depth, depth > 0.0, "more than 0")?;
+        let full_depth_m = UM * depth;
+        Ok(match self {
+            Self::StiffnessProportional { time_s, .. } => Damping::StiffnessProportional {
+                time_s: *time_s,
+                full_depth_m,
+            },
+            Self::Viscous { .. } => Damping::Viscous {
+                coefficient_n_s_per_m: value / MM,
+                full_depth_m,
+            },
+        })
+    }
+}
