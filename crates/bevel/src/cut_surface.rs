@@ -112,7 +112,7 @@ impl CutSurface {
     }
 
     /// From the machine into the member's frame; `direction` vectors have no place.
-    fn to_member(&self, motion: &Motion, p: JetVector, direction: bool) -> JetVector {
+    fn in_member_frame(&self, motion: &Motion, p: JetVector, direction: bool) -> JetVector {
         let d = if direction { p } else { p - motion.origin };
         let (sin, cos) = self.settings.root_angle_rad.sin_cos();
         let x = JetVector::constant([sin, 0.0, -cos]).dot(d);
@@ -187,8 +187,8 @@ impl CutSurface {
         };
         let p = start + up.times(s);
         let point = SurfacePoint::from_jets(
-            self.to_member(&motion, p, false),
-            self.to_member(&motion, normal, true),
+            self.in_member_frame(&motion, p, false),
+            self.in_member_frame(&motion, normal, true),
             s - edge,
         );
         point.r.iter().all(|x| x.is_finite()).then_some(point)
@@ -268,8 +268,8 @@ impl CutSurface {
         let normal = outward.times(cl) + JetVector([Jet::constant(0.0), Jet::constant(0.0), sl]);
         let p = centre + normal.times(Jet::constant(rho));
         Some(SurfacePoint::from_jets(
-            self.to_member(&motion, p, false),
-            self.to_member(&motion, normal, true),
+            self.in_member_frame(&motion, p, false),
+            self.in_member_frame(&motion, normal, true),
             left,
         ))
     }

@@ -68,6 +68,8 @@ fn help_names_all_commands() {
         "schema",
         "demo",
         "export",
+        "bevel",
+        "tca",
     ] {
         let help = succeeds(&[command, "--help"]).stdout;
         assert!(
