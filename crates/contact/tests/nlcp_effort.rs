@@ -89,7 +89,7 @@ fn helical_positions_take_few_corrections() {
         factorisations <= corrections + 400,
         "{factorisations} {corrections}"
     );
-    assert!(mean < 5.0 && most <= 12, "{mean} {most}");
+    assert!(mean < 3.2 && most <= 6, "{mean} {most}");
 }
 
 /// Corrections of each of the twenty steps; the first is cold.

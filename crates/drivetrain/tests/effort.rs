@@ -15,7 +15,7 @@ fn steps_take_few_evaluations() {
     for (name, pair, most) in [
         ("impact", &spur, 2.9),
         ("hybrid", &spur, 2.6),
-        ("hybrid", &helical, 2.9),
+        ("hybrid", &helical, 3.2),
     ] {
         let begin = |params| {
             let system = running_pair(pair, running_mesh(name, pair), 0);

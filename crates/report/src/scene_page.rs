@@ -201,7 +201,9 @@ fn overview(r: &SceneResult) -> Section {
     for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
         // Results of older programs do not say.
         if !words.is_empty() {
-            section = section.push(Text::note(format!("Flanks of gear {number}: {words}.")));
+            section = section.push(Text::paragraph(format!(
+                "Flanks of gear {number}: {words}."
+            )));
         }
     }
     for sentence in r.incomplete() {

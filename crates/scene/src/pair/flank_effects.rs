@@ -1,5 +1,5 @@
-//! `gear_1.microgeometry` and `gear_2.microgeometry`; `errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` in `mesh.teeth` of a pair: the tables are those of gear
-//! meshes.
+//! `gear_1.microgeometry` and `gear_2.microgeometry`; `errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2`
+//! in `mesh.teeth` of a pair: the tables are those of gear meshes.
 
 use std::sync::Arc;
 
