@@ -32,7 +32,7 @@ pub mod tooth;
 pub use definition::{
     Blank, Contour, ContourPoint, CrackDefinition, ElementKind, FlankSide, GaugeDefinition,
     GearDefinition, Holes, HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange,
-    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
+    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, Web,
 };
 pub use input::InputError;
 pub use microgeometry::Microgeometry;

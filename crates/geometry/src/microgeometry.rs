@@ -1,16 +1,17 @@
 //! Microgeometry: material removed from the ideal involute flank, in metres along the flank normal.
 
 /// Shape of a tip relief between its start and the tip circle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ReliefShape {
     /// Grows with the roll length from the start.
+    #[default]
     Linear,
     /// Grows with the square of the roll length from the start.
     Parabolic,
 }
 
 /// Profile crowning: a parabola in roll length, zero at `centre_roll_rad`, `amount_m` at the tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ProfileCrowning {
     /// Material removed at the tip circle \[m\].
     pub amount_m: f64,
@@ -19,7 +20,7 @@ pub struct ProfileCrowning {
 }
 
 /// Tip relief: zero up to `start_roll_rad`, `amount_m` at the tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TipRelief {
     /// Material removed at the tip circle \[m\].
     pub amount_m: f64,

@@ -14,7 +14,7 @@ use crate::reduced_gear::{Flank, GaugeRows, ReducedGear};
 use crate::reduced_gear_error::ReducedGearError;
 
 /// Natural modes with the bore held, modal mass 1, lowest first.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModalBasis {
     /// ω² of each mode (rad²/s²).
     pub omega_squared: Vec<f64>,

@@ -9,7 +9,7 @@
 use crate::reduced_gear::{Flank, ReducedGear};
 
 /// A crack and its rows φ.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RootCrack {
     /// Cracked tooth.
     pub tooth: usize,

@@ -91,10 +91,8 @@ impl SceneMesh<'_> {
             InputDocument::new(format!("scene inside {shown}"), result.scene_toml.clone());
         let scene = Scene::from_document(document, self.folder)?;
         for (i, gear) in self.gears.iter().enumerate() {
-            let source = format!("gear {} inside {shown}", i + 1);
-            let document = InputDocument::new(source, result.gear_toml[i].clone());
-            let of_result = GearDefinition::from_document(&document)?;
-            if let Some(what) = difference(&of_result, &gear.definition) {
+            let of_result = result.gears[i].definition_in(&shown)?;
+            if let Some(what) = difference(of_result, &gear.definition) {
                 let problem = format!(
                     "gear {} of the pair in {shown} is another one than the gear of {}: {what}",
                     i + 1,
