@@ -18,7 +18,7 @@ use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, StaticContact
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, TimeFunction};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, Misalignment};
+use gearmesh_geometry::{Flank, GearDefinition, GearPair, Misalignment};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::ReducedGear;
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
@@ -63,8 +63,8 @@ fn at_ten_rpm(driven: &str, periods: usize) {
         pair: pair.clone(),
         extension: None,
         zone: gearmesh_contact::ContactZone::of_equal_faces(gear_1.tooth.face_width_m),
-        microgeometry_1: gear_1.microgeometry.clone(),
-        microgeometry_2: gear_2.microgeometry.clone(),
+        microgeometry_1: gear_1.microgeometry.right.clone(),
+        microgeometry_2: gear_2.microgeometry.right.clone(),
     };
     let local = LocalContact::Calibrated;
     let options = ContactOptions {
@@ -78,8 +78,7 @@ fn at_ten_rpm(driven: &str, periods: usize) {
     let steps = 160;
     for (torque, off_static) in [(100.0, 1e-3), (300.0, 2e-3)] {
         let nominal_n = torque / pair.gear_2.base_radius_m;
-        let teeth =
-            || ReducedTeeth::new(&pair, FlankSide::Right, models, local, nominal_n).unwrap();
+        let teeth = || ReducedTeeth::new(&pair, Flank::Right, models, local, nominal_n).unwrap();
         let planes = *teeth().layout();
         let kinematics = || {
             let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
@@ -96,13 +95,13 @@ fn at_ten_rpm(driven: &str, periods: usize) {
             )
             .unwrap()
         };
-        let mut alone = GearMesh::new(kinematics(), FlankSide::Right, teeth()).unwrap();
+        let mut alone = GearMesh::new(kinematics(), Flank::Right, teeth()).unwrap();
         let damping = Damping::StiffnessProportional {
             time_s: 1e-6,
             full_depth_m: 1e-6,
         };
         let damped = Damped::new(teeth(), damping, planes.slices).unwrap();
-        let mesh = GearMesh::new(kinematics(), FlankSide::Right, damped).unwrap();
+        let mesh = GearMesh::new(kinematics(), Flank::Right, damped).unwrap();
         let scene = Scene {
             width_m: gear_1.tooth.face_width_m,
             te_m: equilibrium(&mut alone, &pair, 0.0, torque),
@@ -171,9 +170,9 @@ fn seed_002_shows_its_mesh_frequency() {
     )
     .unwrap();
     let friction = Friction::new([0.78, 0.65], [1e-3, 0.1]).unwrap();
-    let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
+    let mesh = GearMesh::new(kinematics, Flank::Right, law)
         .unwrap()
-        .with_side(FlankSide::Left, law)
+        .with_side(Flank::Left, law)
         .unwrap()
         .with_friction(friction);
     let scene = Scene {

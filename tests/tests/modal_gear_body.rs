@@ -8,7 +8,7 @@ use gearmesh_dynamics::{
     Body, Joint, JointKind, Marker, Motion, Params, Simulation, System, TimeFunction,
 };
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, Misalignment, involute};
+use gearmesh_geometry::{Flank, GearDefinition, GearPair, Misalignment, involute};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::ReducedGear;
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
@@ -70,7 +70,7 @@ impl Scene {
     fn mesh(&self, modes_2: usize) -> GearMesh {
         let teeth = ReducedTeeth::new(
             &self.pair,
-            FlankSide::Right,
+            Flank::Right,
             [&self.model, &self.model],
             LocalContact::Calibrated,
             1000.0,
@@ -84,7 +84,7 @@ impl Scene {
             PathEnds::Extended,
         )
         .unwrap();
-        let mesh = GearMesh::new(kinematics, FlankSide::Right, teeth).unwrap();
+        let mesh = GearMesh::new(kinematics, Flank::Right, teeth).unwrap();
         match modes_2 {
             0 => mesh,
             count => mesh.with_modes(2, &self.model, count).unwrap(),

@@ -62,12 +62,7 @@ class Ball:
 
     def forces(self, q, v, speed=0.0, unloaded_scale=1.0):
         """Residuals of the balls (Z, 2), force and moment on the inner ring, Q_i, Q_o and contact angles."""
-        theta = np.array([q[3], q[4], 0.0])
-        t = np.linalg.norm(theta)
-        axis = np.array([0, 0, 1.0])
-        if t > 0:
-            n = theta / t
-            axis = axis * cos(t) + np.cross(n, axis) * sin(t) + n * n.dot(axis) * (1 - cos(t))
+        axis = turned(q)
         centre = np.array(q[:3])
         F, M = np.zeros(3), np.zeros(3)
         res, rows = np.zeros((self.Z, 2)), []
@@ -107,6 +102,12 @@ class Ball:
         return res, F, M, rows
 
 
+def slopes(misfit, x):
+    """Jacobian by central differences of 1e-4: coordinates are of the size of micrometres and may be zero."""
+    steps = 1e-4 * np.eye(len(x))
+    return np.array([(misfit(x + step) - misfit(x - step)) / 2e-4 for step in steps]).T
+
+
 def solve_ball(rows, load, speed=0.0, guess=None, held=(), places=None):
     """Ring coordinates under (Fx, Fy, Fz, Mx, My); `held` names coordinates that stay at zero.
     `places`: where the balls' centres begin, returned third."""
@@ -142,11 +143,104 @@ def solve_ball(rows, load, speed=0.0, guess=None, held=(), places=None):
     x = np.zeros(len(free) + sum(2 * r.Z for r in rows))
     x[: len(free)] = q0[free] / np.array([1e-3 if i < 3 else 1e-3 / arm for i in free])
     for _ in range(4):
-        x = root(misfit, x, method="hybr", options=dict(xtol=1e-14, maxfev=200000)).x
+        x = root(misfit, x, jac=lambda at: slopes(misfit, at), method="hybr", options=dict(xtol=1e-14, maxfev=200000)).x
     size = np.abs(misfit(x)).max()
     assert size < 1e-6 * (1 + np.abs(load).max()), size
     q, v = unpack(x)
     return q, [r.forces(q, vr, speed) for r, vr in zip(rows, v)], v
+
+
+class Rollers:
+    """A row of cylindrical rollers, led along z by the ribs of a ring: each has a place r and a tilt phi about the circumferential direction."""
+
+    def __init__(self, Z, D, L, dm, clearance, laminae=40):
+        self.Z, self.D, self.dm = Z, D, dm
+        self.l = L / laminae
+        self.x = (np.arange(laminae) + 0.5) * self.l - L / 2
+        # ISO/TS 16281: Q = 35948 L^(8/9) delta^(10/9) for both races together, each of which takes half of delta.
+        self.c = 35948 * L ** (8 / 9) / L * 2 ** (10 / 9) * E_STAR / (206e3 / (2 * (1 - 0.3**2)))
+        self.reach = D / 2 - 0.00035 * D * np.log(1 / (1 - (2 * self.x / L) ** 2))
+        self.Ri, self.Ro = dm / 2 - D / 2 - clearance / 4, dm / 2 + D / 2 + clearance / 4
+        self.psi = 2 * pi * np.arange(Z) / Z
+
+    def line_load(self, approach):
+        return self.c * self.l * np.maximum(approach, 0.0) ** (10 / 9)
+
+    def forces(self, q, v):
+        """Residuals of the rollers (force along r, moment), force and moment on the inner ring, loads of each roller at both races."""
+        axis = turned(q)
+        centre = np.array(q[:3])
+        F, M, res, rows = np.zeros(3), np.zeros(3), np.zeros((self.Z, 2)), []
+        for j, p in enumerate(self.psi):
+            er, ez = np.array([cos(p), sin(p), 0]), np.array([0, 0, 1.0])
+            r, phi = v[j]
+            # Points of the roller's axis; a positive tilt moves its upper end (towards -z) inwards: along = -z at phi = 0.
+            along = -(ez * cos(phi) + er * sin(phi))
+            points = r * er + self.x[:, None] * along
+            w = points - centre
+            flat = w - np.outer(w @ axis, axis)
+            distance = np.linalg.norm(flat, axis=1)
+            normals = flat / distance[:, None]
+            Qi = self.line_load(self.reach - (distance - self.Ri))
+            Qo = self.line_load(self.reach - (self.Ro - points @ er))
+            on_roller = Qi[:, None] * normals - Qo[:, None] * er
+            F -= (Qi[:, None] * normals).sum(axis=0)
+            M -= np.cross(w, Qi[:, None] * normals).sum(axis=0)
+            # Virtual work of a turn of the roller: its points move by d(along)/d(phi) x.
+            across = -(-ez * sin(phi) + er * cos(phi))
+            res[j] = on_roller.sum(axis=0) @ er, (self.x * (on_roller @ across)).sum()
+            rows.append((Qi.sum(), Qo.sum(), Qi.max() / self.l))
+        return res, F, M, rows
+
+
+def turned(q):
+    """Axis of the ring: e_z turned by the rotation vector (q3, q4, 0)."""
+    t = np.hypot(q[3], q[4])
+    if t == 0:
+        return np.array([0, 0, 1.0])
+    n = np.array([q[3], q[4], 0]) / t
+    z = np.array([0, 0, 1.0])
+    return z * cos(t) + np.cross(n, z) * sin(t)
+
+
+def solve_rollers(row, force, moments=None, tilt=(0.0, 0.0), guess=(0.0, 0.0)):
+    """Ring under (Fx, Fy) with stated moments (N mm), or with a held tilt. Rollers without load stay midway."""
+    count = 2 if moments is None else 4
+    arm = 3.0
+
+    def unpack(x):
+        q = np.array([x[0], x[1], 0, *(tilt if moments is None else x[2:4])])
+        q[:2] *= 1e-3
+        if moments is not None:
+            q[3:] *= 1e-3 / arm
+        v = x[count:].reshape(-1, 2) * np.array([1e-3, 1e-3 / arm])
+        v[:, 0] += row.dm / 2
+        return q, v
+
+    def misfit(x):
+        q, v = unpack(x)
+        res, F, M, per = row.forces(q, v)
+        for j, loads in enumerate(per):
+            if loads[0] == 0 and loads[1] == 0:
+                res[j] = 1e3 * (v[j] - [row.dm / 2, 0.0])
+            else:
+                res[j, 1] /= arm
+        total = list(F[:2] + np.array(force))
+        if moments is not None:
+            total += list((M[:2] + np.array(moments)) / row.dm * 2)
+        return np.concatenate([total, res.ravel()])
+
+    x = np.zeros(count + 2 * row.Z)
+    x[:2] = 1e3 * np.array(guess)
+    # Rollers on the loaded side begin pressed.
+    for j, p in enumerate(row.psi):
+        x[count + 2 * j] = 0.5e3 * (guess[0] * cos(p) + guess[1] * sin(p))
+    for method in ("lm", "hybr", "hybr"):
+        x = root(misfit, x, jac=lambda at: slopes(misfit, at), method=method, options=dict(xtol=1e-14)).x
+    size = np.abs(misfit(x)).max()
+    assert size < 1e-6 * (1 + np.abs(force).max()), size
+    q, v = unpack(x)
+    return q, row.forces(q, v)
 
 
 def show(name, q, sets):
@@ -180,6 +274,20 @@ def main():
     show("deep groove, 2000 N radial, no clearance", q, s)
     q, s, _ = solve_ball([groove(0.015)], [2000, 0, 0, 0, 0], guess=[0.022, 0, 0, 0, 0], held=(1, 2, 3, 4))
     show("deep groove, 2000 N radial, 15 um clearance", q, s)
+    # From pure thrust, where all balls bear load, a part of the rest after the other.
+    q, v = [0.0, 0.0, 0.1, 0.0, 0.0], None
+    for part in np.linspace(0, 1, 6):
+        load = [1500 * part, 500 * part, 800, 3000 * part, -4000 * part]
+        q, s, v = solve_ball([groove(0.010)], load, guess=q, places=v)
+    show("deep groove, 10 um clearance, 1500, 500, 800 N, 3, -4 N m", q, s)
+
+    row = Rollers(12, 7.5, 9.0, 33.5, 0.010)
+    q, s = solve_rollers(row, [4000, 1000], guess=[0.020, 0.005])
+    show("NU 204, 4000, 1000 N", q, [s])
+    q, s = solve_rollers(row, [4000, 1000], tilt=(0.8e-3, -1.5e-3), guess=[0.020, 0.005])
+    show("NU 204, 4000, 1000 N, tilt 0.8, -1.5 mrad", q, [s])
+    q, s = solve_rollers(row, [4000, 1000], moments=(1500.0, 4000.0), guess=[0.020, 0.005])
+    show("NU 204, 4000, 1000 N, 1.5, 4 N m", q, [s])
 
 
 if __name__ == "__main__":

@@ -1,19 +1,15 @@
-//! A row of balls between two grooves: the equilibrium of every ball, and what the row does to the inner ring.
-//!
-//! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in that plane. A
-//! groove is a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r. With the
-//! distance ℓ of b from that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7)
-//! of docs/theory/rolling_bearings.md.
+//! A row of balls between two grooves.
 
-use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
+use nalgebra::Vector3;
 
-use crate::ball_kinematics::{BallInMotion, BallMotion, ContactAngles, RaceControl};
+use crate::ball_equilibrium::Ball;
 use crate::element_load::ElementLoad;
+use crate::element_place::ElementPlace;
 use crate::error::BearingError;
-use crate::operation::{Control, Operation};
+use crate::operation::Operation;
 use crate::point_contact::PointContact;
 use crate::ring_load::RingLoad;
-use crate::ring_pose::{RingPose, cross};
+use crate::ring_pose::RingPose;
 
 /// A groove.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,12 +47,6 @@ pub struct BallRow {
     pub first_angle_rad: f64,
 }
 
-/// Forces that count as none \[N\].
-const NO_FORCE_N: f64 = 1e-9;
-
-/// Newton's iterations of one ball before it is given up.
-const MOST_ITERATIONS: usize = 60;
-
 impl BallRow {
     /// Angle of a ball \[rad\].
     #[must_use]
@@ -66,456 +56,35 @@ impl BallRow {
             + std::f64::consts::TAU * ball as f64 / self.balls as f64
     }
 
-    /// Adds what the row does to the ring, and hands every ball's load to `each`.
+    /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its place, which it
+    /// leaves where it ends.
     ///
     /// # Errors
-    /// [`BearingError::NoBallEquilibrium`].
+    /// [`BearingError::NoBallEquilibrium`], [`BearingError::PulledOut`].
     pub(crate) fn add(
         &self,
         pose: &RingPose,
         operation: &Operation,
+        places: &mut [ElementPlace],
         ring: &mut RingLoad,
         mut each: impl FnMut(ElementLoad),
     ) -> Result<(), BearingError> {
         let (step_sine, step_cosine) = (std::f64::consts::TAU / self.balls as f64).sin_cos();
         let (mut sine, mut cosine) = self.angle_rad(0, operation).sin_cos();
-        for ball in 0..self.balls {
-            let place = Ball {
+        for (number, place) in places.iter_mut().enumerate() {
+            let ball = Ball {
                 row: self,
                 pose,
                 operation,
                 e_r: Vector3::new(cosine, sine, 0.0),
-                number: ball,
+                number,
             };
-            each(place.add(ring)?);
+            each(ball.add(place, ring)?);
             (sine, cosine) = (
                 sine * step_cosine + cosine * step_sine,
                 cosine * step_cosine - sine * step_sine,
             );
         }
         Ok(())
-    }
-}
-
-/// One ball at its angle.
-struct Ball<'a> {
-    row: &'a BallRow,
-    pose: &'a RingPose,
-    operation: &'a Operation,
-    e_r: Vector3<f64>,
-    number: usize,
-}
-
-/// The contact with the inner ring for a place of the ball.
-struct InnerContact {
-    /// Ball's centre from the ring's middle.
-    w: Vector3<f64>,
-    /// Radial and circumferential unit vectors of the ring at the ball.
-    e: Vector3<f64>,
-    t: Vector3<f64>,
-    radius: f64,
-    /// From the groove's centre to the ball's centre.
-    n: Vector3<f64>,
-    /// ∂n/∂α.
-    m: Vector3<f64>,
-    length: f64,
-    cosine: f64,
-    sine: f64,
-    load: f64,
-    slope: f64,
-}
-
-struct OuterContact {
-    /// From the groove's centre to the ball's centre, in the ball's plane.
-    n: Vector2<f64>,
-    m: Vector2<f64>,
-    length: f64,
-    load: f64,
-    slope: f64,
-}
-
-/// Everything at one place of the ball.
-struct State {
-    inner: InnerContact,
-    outer: OuterContact,
-    motion: Option<(BallMotion, RaceControl)>,
-    /// Force on the ball in its plane; zero at equilibrium.
-    residual: Vector2<f64>,
-}
-
-impl State {
-    /// Sum of the sizes of all forces \[N\].
-    fn scale(&self) -> f64 {
-        let centrifugal = self.motion.map_or(0.0, |(m, _)| m.centrifugal_n.value);
-        self.inner.load + self.outer.load + centrifugal
-    }
-
-    /// Friction at the inner and outer race that bears the gyroscopic moment: value and derivatives by α_i, α_o.
-    fn friction(&self) -> [(f64, [f64; 2]); 2] {
-        let none = (0.0, [0.0; 2]);
-        match &self.motion {
-            None => [none; 2],
-            Some((motion, control)) => {
-                let friction = (motion.friction_n.value, motion.friction_n.by);
-                match control {
-                    RaceControl::Outer => [none, friction],
-                    RaceControl::Inner => [friction, none],
-                }
-            }
-        }
-    }
-}
-
-impl Ball<'_> {
-    fn in_plane(&self, v: &Vector3<f64>) -> Vector2<f64> {
-        Vector2::new(self.e_r.dot(v), v.z)
-    }
-
-    /// Equilibrium, then load and tangent.
-    fn add(&self, ring: &mut RingLoad) -> Result<ElementLoad, BearingError> {
-        let Some(start) = self.start() else {
-            return Ok(self.unloaded());
-        };
-        let (place, state) = match self.operation.control {
-            Control::OuterRace => self.equilibrium(start, RaceControl::Outer)?,
-            Control::LeastSpin => {
-                let (place, outer) = self.equilibrium(start, RaceControl::Outer)?;
-                if outer.motion.is_some() && outer.inner.load > 0.0 {
-                    let (other, inner) = self.equilibrium(place, RaceControl::Inner)?;
-                    if self.spin_power(&inner) < self.spin_power(&outer) {
-                        (other, inner)
-                    } else {
-                        (place, outer)
-                    }
-                } else {
-                    (place, outer)
-                }
-            }
-        };
-        if state.scale() > NO_FORCE_N {
-            self.add_to_ring(&state, ring);
-        }
-        Ok(self.report(&place, &state))
-    }
-
-    /// Where the iteration begins; none where the ball is loose and nothing presses it.
-    fn start(&self) -> Option<Vector2<f64>> {
-        let row = self.row;
-        let (inner, outer) = (&row.inner, &row.outer);
-        // Nearest point of the inner ring's circle of groove centres, in the ball's plane.
-        let a = &self.pose.axis;
-        let e = (self.e_r - a * self.e_r.dot(a)).normalize();
-        let centre = self.pose.centre_m + e * inner.centre_radius_m + a * inner.centre_z_m;
-        let centre = self.in_plane(&centre);
-        let from = Vector2::new(outer.centre_radius_m, outer.centre_z_m);
-        let between = centre - from;
-        let distance = between.norm();
-        let approach = distance - inner.arm_m - outer.arm_m;
-        let moving = self.operation.is_turning();
-        if approach > 0.0 {
-            // Two springs in series along the line between the groove centres.
-            let ratio = outer.contact.stiffness_n_per_m15 / inner.contact.stiffness_n_per_m15;
-            let share = 1.0 / (1.0 + ratio.cbrt().powi(2));
-            return Some(from + between * ((outer.arm_m + approach * share) / distance));
-        }
-        if moving {
-            let angles = ContactAngles {
-                inner: (1.0, 0.0),
-                outer: (1.0, 0.0),
-            };
-            let motion = self.motion_at(&angles, RaceControl::Outer);
-            let pressed = motion.centrifugal_n.value / outer.contact.stiffness_n_per_m15;
-            return Some(from + Vector2::new(outer.arm_m + pressed.cbrt().powi(2), 0.0));
-        }
-        // The ring's tilt and the ball's plane make a difference of second order: within it the iteration decides.
-        let doubt = self.pose.centre_m.norm_squared() / row.pitch_radius_m
-            + row.pitch_radius_m * (a.x * a.x + a.y * a.y);
-        (approach > -doubt).then(|| from + between * (outer.arm_m / distance))
-    }
-
-    fn motion_at(&self, angles: &ContactAngles, control: RaceControl) -> BallMotion {
-        let row = self.row;
-        let ball = BallInMotion {
-            diameter_ratio: 0.5 * row.ball_diameter_m / row.pitch_radius_m,
-            mass_kg: row.ball_mass_kg,
-            pitch_radius_m: row.pitch_radius_m,
-            ball_radius_m: 0.5 * row.ball_diameter_m,
-        };
-        let speeds = (
-            self.operation.inner_rad_per_s,
-            self.operation.outer_rad_per_s,
-        );
-        ball.at(angles, speeds, control)
-    }
-
-    /// Contacts and forces with the ball's centre at (r, z).
-    fn state(&self, place: &Vector2<f64>, control: RaceControl) -> State {
-        let inner = self.inner_contact(place);
-        let outer = self.outer_contact(place);
-        let motion = self.operation.is_turning().then(|| {
-            let angles = ContactAngles {
-                inner: (inner.cosine, inner.sine),
-                outer: (outer.n[0], outer.n[1]),
-            };
-            (self.motion_at(&angles, control), control)
-        });
-        let mut state = State {
-            residual: -self.in_plane(&inner.n) * inner.load - outer.n * outer.load,
-            inner,
-            outer,
-            motion,
-        };
-        if let Some((motion, _)) = &state.motion {
-            state.residual[0] += motion.centrifugal_n.value;
-            let [inner, outer] = state.friction();
-            state.residual -= self.in_plane(&state.inner.m) * inner.0 + state.outer.m * outer.0;
-        }
-        state
-    }
-
-    fn inner_contact(&self, place: &Vector2<f64>) -> InnerContact {
-        let groove = &self.row.inner;
-        let a = &self.pose.axis;
-        let w = self.e_r * place[0] + Vector3::z() * place[1] - self.pose.centre_m;
-        let height = w.dot(a);
-        let radial = w - a * height;
-        let radius = radial.norm();
-        let e = radial / radius;
-        let (out, up) = (radius - groove.centre_radius_m, height - groove.centre_z_m);
-        let length = out.hypot(up).max(f64::MIN_POSITIVE);
-        let (cosine, sine) = (-out / length, -up / length);
-        let (load, slope) = groove.contact.load(length - groove.arm_m);
-        InnerContact {
-            w,
-            e,
-            t: a.cross(&e),
-            radius,
-            n: -(e * cosine + a * sine),
-            m: e * sine - a * cosine,
-            length,
-            cosine,
-            sine,
-            load,
-            slope,
-        }
-    }
-
-    fn outer_contact(&self, place: &Vector2<f64>) -> OuterContact {
-        let groove = &self.row.outer;
-        let d = place - Vector2::new(groove.centre_radius_m, groove.centre_z_m);
-        let length = d.norm().max(f64::MIN_POSITIVE);
-        let n = d / length;
-        let (load, slope) = groove.contact.load(length - groove.arm_m);
-        OuterContact {
-            n,
-            m: Vector2::new(-n[1], n[0]),
-            length,
-            load,
-            slope,
-        }
-    }
-
-    /// Change of the inner contact's force on the ring by a displacement of the ball relative to it, without the part of δφ × f.
-    fn inner_by_point(&self, state: &State) -> Matrix3<f64> {
-        let c = &state.inner;
-        let [(friction, by), _] = state.friction();
-        let by_angle = c.m / c.length;
-        let hoop = (-c.load * c.cosine + friction * c.sine) / c.radius;
-        c.n * (c.n * c.slope).transpose()
-            + c.m * (c.m * (c.load / c.length)).transpose()
-            + c.t * (c.t * hoop).transpose()
-            + (c.m * by[0] - c.n * friction) * by_angle.transpose()
-    }
-
-    /// −∂residual/∂place, and the part of ∂residual that goes through α_i alone, by a displacement relative to the ring.
-    fn plane_tangent(
-        &self,
-        state: &State,
-        plane: &Matrix3x2<f64>,
-        by_point: &Matrix3<f64>,
-    ) -> (Matrix2<f64>, Vector2<f64>) {
-        let (i, o) = (&state.inner, &state.outer);
-        let [inner, outer] = state.friction();
-        let m_i = self.in_plane(&i.m);
-        let mut tangent = plane.tr_mul(&(by_point * plane));
-        tangent +=
-            o.n * (o.n * o.slope).transpose() + o.m * (o.m * (o.load / o.length)).transpose();
-        let mut through_inner = Vector2::zeros();
-        if let Some((motion, _)) = &state.motion {
-            let by_o = o.m / o.length;
-            let mut through_outer = o.m * outer.1[1] - o.n * outer.0 + m_i * inner.1[1];
-            through_outer[0] -= motion.centrifugal_n.by[1];
-            through_inner = o.m * outer.1[0];
-            through_inner[0] -= motion.centrifugal_n.by[0];
-            tangent += through_outer * by_o.transpose();
-            tangent += through_inner * (plane.tr_mul(&i.m) / i.length).transpose();
-        }
-        (tangent, through_inner)
-    }
-
-    fn plane(&self) -> Matrix3x2<f64> {
-        Matrix3x2::from_columns(&[self.e_r, Vector3::z()])
-    }
-
-    /// Newton's method with backtracking on the residual.
-    fn equilibrium(
-        &self,
-        start: Vector2<f64>,
-        control: RaceControl,
-    ) -> Result<(Vector2<f64>, State), BearingError> {
-        let plane = self.plane();
-        let mut place = start;
-        let mut state = self.state(&place, control);
-        for _ in 0..MOST_ITERATIONS {
-            let size = state.residual.norm();
-            let scale = state.scale();
-            if size <= 1e-14 * scale || scale <= NO_FORCE_N {
-                return Ok((place, state));
-            }
-            let by_point = self.inner_by_point(&state);
-            let (tangent, _) = self.plane_tangent(&state, &plane, &by_point);
-            let Some(inverse) = tangent.try_inverse() else {
-                break;
-            };
-            let step = inverse * state.residual;
-            // Rounding of the ball's place: nothing finer can be told.
-            if step.norm() <= 4e-16 * self.row.pitch_radius_m {
-                return Ok((place, state));
-            }
-            let mut factor = (0.2 * self.row.outer.arm_m / step.norm()).min(1.0);
-            loop {
-                let next = place + step * factor;
-                let found = self.state(&next, control);
-                if found.residual.norm() < size {
-                    (place, state) = (next, found);
-                    break;
-                }
-                factor *= 0.5;
-                if factor < 1e-6 {
-                    // No descent: rounding of the residual, or no equilibrium.
-                    if size <= 1e-9 * scale + NO_FORCE_N {
-                        return Ok((place, state));
-                    }
-                    return Err(self.no_equilibrium(size));
-                }
-            }
-        }
-        let size = state.residual.norm();
-        Err(self.no_equilibrium(size))
-    }
-
-    fn no_equilibrium(&self, unbalanced_n: f64) -> BearingError {
-        BearingError::NoBallEquilibrium {
-            ball: self.number + 1,
-            angle_deg: self.e_r.y.atan2(self.e_r.x).to_degrees(),
-            unbalanced_n,
-        }
-    }
-
-    fn add_to_ring(&self, state: &State, ring: &mut RingLoad) {
-        let c = &state.inner;
-        let [(friction, by), _] = state.friction();
-        if c.load == 0.0 && friction == 0.0 {
-            return;
-        }
-        let plane = self.plane();
-        let by_point = self.inner_by_point(state);
-        let force = c.n * c.load + c.m * friction;
-        ring.add_at_fixed_point(&c.w, &force, &by_point);
-        // How the ball follows: tangent δv = −C δq.
-        let (tangent, through_inner) = self.plane_tangent(state, &plane, &by_point);
-        let Some(inverse) = tangent.try_inverse() else {
-            return;
-        };
-        let mut by_ring = Matrix3x6::zeros();
-        by_ring.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        by_ring.neg_mut();
-        by_ring.fixed_view_mut::<3, 3>(0, 3).copy_from(&cross(&c.w));
-        let mut force_by_ring = by_point * by_ring;
-        let turn = cross(&force);
-        let mut block = force_by_ring.fixed_view_mut::<3, 3>(0, 3);
-        block -= turn;
-        let through = through_inner * (by_ring.tr_mul(&c.m) / c.length).transpose();
-        let follows: Matrix2x6<f64> = -(inverse * (plane.tr_mul(&force_by_ring) + through));
-        // The friction depends on the outer contact's angle, too.
-        let mut by_place = by_point * plane;
-        let by_outer = (state.outer.m / state.outer.length).transpose() * by[1];
-        by_place += c.m * by_outer;
-        let force_follows = by_place * follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(0, 0);
-        block += force_follows;
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
-        block += cross(&c.w) * force_follows - turn * (plane * follows);
-        if friction != 0.0 {
-            self.add_friction_moment(state, &by_ring, &(plane * follows), &follows, ring);
-        }
-    }
-
-    /// The friction at the inner race acts on the ball's surface, not at its middle: moment −(D/2) τ t.
-    fn add_friction_moment(
-        &self,
-        state: &State,
-        by_ring: &Matrix3x6<f64>,
-        moves: &Matrix3x6<f64>,
-        follows: &Matrix2x6<f64>,
-        ring: &mut RingLoad,
-    ) {
-        let c = &state.inner;
-        let [(friction, by), _] = state.friction();
-        let arm = -0.5 * self.row.ball_diameter_m;
-        let relative = by_ring + moves;
-        let by_inner = (relative.tr_mul(&c.m) / c.length).transpose() * by[0];
-        let by_outer = (state.outer.m / state.outer.length).transpose() * follows * by[1];
-        let mut turned = Matrix3x6::zeros();
-        turned.fixed_view_mut::<3, 3>(0, 3).copy_from(&-cross(&c.t));
-        turned -= c.e * (relative.tr_mul(&c.t) / c.radius).transpose();
-        let mut moment = ring.load.fixed_rows_mut::<3>(3);
-        moment += c.t * (arm * friction);
-        let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
-        block += (c.t * (by_inner + by_outer) + turned * friction) * arm;
-    }
-
-    /// Σ Q a E |spin|, which the power of spin friction is proportional to under one coefficient of friction.
-    fn spin_power(&self, state: &State) -> f64 {
-        let Some((motion, _)) = &state.motion else {
-            return 0.0;
-        };
-        let share = |groove: &Groove, load: f64, spin: f64| {
-            load * groove.contact.ellipse(load).half_length_m
-                * groove.contact.second_integral
-                * spin.abs()
-        };
-        let [inner, outer] = motion.contact_spin_rad_per_s;
-        share(&self.row.inner, state.inner.load, inner)
-            + share(&self.row.outer, state.outer.load, outer)
-    }
-
-    fn unloaded(&self) -> ElementLoad {
-        ElementLoad {
-            angle_rad: self.row.angle_rad(self.number, self.operation),
-            inner_contact_angle_rad: self.row.free_angle_rad,
-            outer_contact_angle_rad: self.row.free_angle_rad,
-            ..ElementLoad::default()
-        }
-    }
-
-    fn report(&self, place: &Vector2<f64>, state: &State) -> ElementLoad {
-        let row = self.row;
-        let motion = state.motion.as_ref().map(|(motion, _)| motion);
-        ElementLoad {
-            angle_rad: row.angle_rad(self.number, self.operation),
-            inner_load_n: state.inner.load,
-            outer_load_n: state.outer.load,
-            inner_contact_angle_rad: state.inner.sine.atan2(state.inner.cosine),
-            outer_contact_angle_rad: state.outer.n[1].atan2(state.outer.n[0]),
-            radial_m: place[0] - row.pitch_radius_m,
-            axial_m: place[1] - row.middle_z_m,
-            centrifugal_n: motion.map_or(0.0, |m| m.centrifugal_n.value),
-            gyroscopic_nm: motion.map_or(0.0, |m| 0.5 * row.ball_diameter_m * m.friction_n.value),
-            orbit_rad_per_s: motion.map_or(0.0, |m| m.orbit_rad_per_s),
-            spin_rad_per_s: motion.map_or(0.0, |m| m.spin_rad_per_s),
-            controlled_by_inner: matches!(state.motion, Some((_, RaceControl::Inner))),
-            ..ElementLoad::default()
-        }
     }
 }

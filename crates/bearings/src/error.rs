@@ -45,6 +45,16 @@ pub enum BearingError {
         "the load pulls the rings of an angular-contact bearing apart: a single row bears axial loads along +z only; give it a preload, a second row, or          turn the load round"
     )]
     PulledOut,
+    /// A number that makes no sense.
+    #[error("{what} is {found}: it must be {allowed}")]
+    Parameter {
+        /// Which number.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
     /// A load that the bearing cannot carry by its kind.
     #[error("{0}")]
     NotCarried(&'static str),

@@ -7,6 +7,7 @@
 //! | one row of balls or rollers | [`BallRow`], [`RollerRow`] | `ball_row.rs`, `roller_row.rs` |
 //! | how balls orbit and spin | | `ball_kinematics.rs` |
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
+//! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
@@ -14,13 +15,17 @@
 //! SI units. Frame: that of the outer ring, z its axis; the pose of the inner ring is seen in it, loads act on the inner ring.
 //! Formulas are derived in docs/theory/rolling_bearings.md.
 
+mod ball_equilibrium;
 mod ball_kinematics;
 pub mod ball_row;
 pub mod bearing_file;
 mod build_rows;
 pub mod catalogue;
 pub mod definition;
+mod dual;
+pub mod dynamic;
 pub mod element_load;
+pub mod element_place;
 pub mod elliptic;
 mod error;
 pub mod estimate;
@@ -31,15 +36,19 @@ pub mod operation;
 pub mod point_contact;
 pub mod quasi_static;
 pub mod ratings;
+pub mod ring_equilibrium;
 pub mod ring_load;
 pub mod ring_pose;
+mod roller_equilibrium;
 pub mod roller_row;
 
 pub use ball_kinematics::RaceControl;
 pub use ball_row::BallRow;
 pub use catalogue::CatalogueLine;
 pub use definition::BearingDefinition;
+pub use dynamic::{DynamicBearing, DynamicEffects};
 pub use element_load::ElementLoad;
+pub use element_place::ElementPlaces;
 pub use error::BearingError;
 pub use frequencies::BearingFrequencies;
 pub use life::Life;
@@ -48,6 +57,7 @@ pub use operation::{Control, Operation};
 pub use point_contact::PointContact;
 pub use quasi_static::QuasiStaticBearing;
 pub use ratings::Ratings;
+pub use ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 pub use ring_load::RingLoad;
 pub use ring_pose::RingPose;
 pub use roller_row::RollerRow;

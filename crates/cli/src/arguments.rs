@@ -1,6 +1,10 @@
 //! The command line. Each argument is described once, here; help follows from it.
 
 use crate::length_unit::LengthUnit;
+use gearmesh_contact::LocalContact;
+use gearmesh_geometry::Flank;
+
+use crate::file_words::{flank_words, local_words};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -115,26 +119,6 @@ pub struct ModesArguments {
     pub json: bool,
 }
 
-/// Side of a tooth.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Side {
-    /// Faces clockwise.
-    Right,
-    /// Faces counter-clockwise.
-    Left,
-}
-
-/// Local contact term.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Local {
-    /// The mesh's own near field.
-    None,
-    /// Weber and Banaschek's logarithm on the patterns.
-    WeberBanaschek,
-    /// The mesh's near field corrected by the model's plane-strain calibration.
-    Calibrated,
-}
-
 /// `gearmesh compliance`.
 #[derive(Debug, Args)]
 #[allow(non_snake_case)]
@@ -145,8 +129,8 @@ pub struct ComplianceArguments {
     #[arg(long)]
     pub tooth: usize,
     /// Loaded side
-    #[arg(long, value_enum, default_value = "right")]
-    pub flank: Side,
+    #[arg(long, value_parser = flank_words(), default_value = Flank::Right.name())]
+    pub flank: Flank,
     /// Radius of the load; several, separated by commas, give a table
     #[arg(long, value_delimiter = ',', required = true)]
     pub radius_mm: Vec<f64>,
@@ -160,8 +144,8 @@ pub struct ComplianceArguments {
     #[arg(long)]
     pub at_tooth: Option<usize>,
     /// Local contact term
-    #[arg(long, value_enum, default_value = "calibrated")]
-    pub local: Local,
+    #[arg(long, value_parser = local_words(), default_value = LocalContact::default().name())]
+    pub local: LocalContact,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

@@ -5,6 +5,7 @@ mod arguments;
 mod commands;
 mod console;
 mod failure;
+mod file_words;
 mod interrupt;
 mod length_unit;
 mod memory;

@@ -5,10 +5,10 @@ use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use crate::length_unit::LengthUnit;
 use gearmesh_geometry::input::{InputDocument, MOST_MESH_BYTES, demand_readable};
-use gearmesh_geometry::{ElementKind, GearDefinition, MeshedBody};
+use gearmesh_geometry::{Element, GearDefinition, MeshedBody};
+use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
-use gearmesh_mesh::{ElementShape, GearMesh};
-use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
+use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{
@@ -143,18 +143,14 @@ pub fn export_mesh(
         cell_fields: fields.cell,
         ..MeshData::default()
     };
-    let kind = match mesh.elements.shape() {
-        ElementShape::Hex8 => CellKind::Hex8,
-        ElementShape::Hex20 => CellKind::Hex20,
-        ElementShape::Tet10 => CellKind::Tet10,
-    };
+    let kind = mesh.elements.shape();
     data.cells
         .insert(kind, mesh.elements.connectivity().to_vec());
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");
     write_mesh(&exchange, &data).map_err(Failure::work)?;
-    let incompatible_modes = if gear.mesh.element == ElementKind::Hex8Incompatible {
+    let incompatible_modes = if gear.mesh.element == Element::Hex8Incompatible {
         "yes"
     } else {
         "no"

@@ -97,8 +97,8 @@ fn contact(helix_deg: f64, slices: usize) -> StaticContact {
     let pair = GearPair::new(profile_1, profile_2, 0.150, Misalignment::default()).unwrap();
     let lines = ContactLines {
         pair,
-        microgeometry_1: gears[0].microgeometry.clone(),
-        microgeometry_2: gears[1].microgeometry.clone(),
+        microgeometry_1: gears[0].microgeometry.right.clone(),
+        microgeometry_2: gears[1].microgeometry.right.clone(),
         extension: None,
         zone: gearmesh_contact::ContactZone::of_equal_faces(gears[0].tooth.face_width_m),
     };

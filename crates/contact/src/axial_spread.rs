@@ -34,7 +34,7 @@ impl AxialSpread {
             rows: (0..slices)
                 .map(|slice| axial_shares(slice, slices).collect())
                 .collect(),
-            width_m: gear.face_width_m / slices as f64,
+            width_m: gear.slice_width_m(),
         }
     }
 
@@ -42,7 +42,7 @@ impl AxialSpread {
     #[must_use]
     pub fn new(gear: &ReducedGear, centres_m: impl IntoIterator<Item = f64>, width_m: f64) -> Self {
         let slices = gear.grid.slices;
-        let own_m = gear.face_width_m / slices as f64;
+        let own_m = gear.slice_width_m();
         let rows = centres_m.into_iter().map(|centre_m| {
             let from_face = centre_m + 0.5 * gear.face_width_m;
             let ends = [-0.5, 0.5].map(|half| (from_face + half * width_m) / own_m);

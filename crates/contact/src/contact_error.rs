@@ -21,6 +21,17 @@ pub enum ContactError {
         /// Face widths.
         widths_mm: [f64; 2],
     },
+    /// A number of slices that the models cannot stand for.
+    #[error(
+        "found {found} slices, allowed are 1 to {most}: the flank grids of the models resolve no more over the overlap of the faces; \
+         for more, reduce the gears again with more `slices` under [reduction]"
+    )]
+    Slices {
+        /// Slices asked for.
+        found: usize,
+        /// Most slices.
+        most: usize,
+    },
     /// The model's teeth are not those of the pair.
     #[error("the model of gear {gear} has {found} teeth, the pair needs {needed}")]
     Teeth {

@@ -126,11 +126,44 @@ impl SliceLayout {
     #[must_use]
     pub fn of_models(models: [&ReducedGear; 2], displacement_m: f64) -> Self {
         let widths = models.map(|model| model.face_width_m);
-        let slice = |model: &ReducedGear| model.face_width_m / model.grid.slices as f64;
-        let coarser = slice(models[0]).max(slice(models[1]));
+        let coarser = models
+            .map(ReducedGear::slice_width_m)
+            .into_iter()
+            .fold(0.0, f64::max);
         let zone = ContactZone::new(widths, displacement_m);
         let slices = (zone.width_m / coarser).round().max(1.0) as usize;
         Self::new(widths, displacement_m, slices)
+    }
+
+    /// So many slices of two models, or [`Self::of_models`] where no number is given. A model knows the compliance at its stations along the
+    /// tooth, two to each of its own slices: slices narrower than the spacing of the coarser model's would stand on stations that
+    /// they share.
+    ///
+    /// # Errors
+    /// [`ContactError::Apart`], and [`ContactError::Slices`] for none or more than the models resolve.
+    pub fn resolved(
+        models: [&ReducedGear; 2],
+        displacement_m: f64,
+        slices: Option<usize>,
+    ) -> Result<Self, ContactError> {
+        let own = Self::of_models(models, displacement_m);
+        own.check()?;
+        let Some(slices) = slices else {
+            return Ok(own);
+        };
+        let spacing = |model: &ReducedGear| 0.5 * model.face_width_m / model.grid.slices as f64;
+        let coarser = spacing(models[0]).max(spacing(models[1]));
+        // Rounding must not take a slice away where whole numbers fit.
+        let most = (own.reference.width_m / coarser * (1.0 + 1e-9))
+            .floor()
+            .max(1.0) as usize;
+        if !(1..=most).contains(&slices) {
+            return Err(ContactError::Slices {
+                found: slices,
+                most,
+            });
+        }
+        Ok(Self { slices, ..own })
     }
 
     /// Width of a slice at the reference \[m\].

@@ -1,7 +1,7 @@
 //! Errors and faults of single flanks, beside the microgeometry that all teeth have.
 
 use crate::contact_patch::ContactPatch;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_geometry::flank_error::{FlankError, FlankPoint};
 use std::fmt;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ impl FlankDeviations {
     /// How far they open the gap of a patch on flanks of this side \[m\], along the normal; infinite where one of the
     /// flanks is not there. What is removed from a tip edge opens the gap by its component, cos δ.
     #[must_use]
-    pub fn opening_m(&self, patch: &ContactPatch, side: FlankSide) -> f64 {
+    pub fn opening_m(&self, patch: &ContactPatch, side: Flank) -> f64 {
         let of_gear = |gear: usize| {
             let at = FlankPoint {
                 tooth: patch.teeth[gear],

@@ -19,8 +19,9 @@
 use crate::nlcp::{LineContact, LocalLaw, LocalLawError};
 use std::f64::consts::PI;
 
-/// Local contact compliance added to the model's.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Local contact compliance added to the model's; its words in files and on the command line are those of [`LocalContact::name`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum LocalContact {
     /// None: C_hub as the mesh gives it, near field of the hats included. Cheapest, and mesh dependent.
     None,
@@ -41,8 +42,11 @@ pub enum CompliancePart {
 }
 
 impl LocalContact {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::None, Self::WeberBanaschek, Self::Calibrated];
+
     /// The word for it in scene files and on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::None => "none",
             Self::WeberBanaschek => "weber-banaschek",

@@ -122,7 +122,7 @@ impl SliceCompliance {
         // A single slice has no neighbours.
         let neighboured = near_field.as_ref().filter(|_| slices > 1);
         let to_neighbours = neighboured.map_or(Vec::new(), |field| {
-            let own_width_m = gear.face_width_m / grid.slices as f64;
+            let own_width_m = gear.slice_width_m();
             let neighbours = NeighbourTerm::new(own_width_m / slice_width_m);
             let opposite_m = gear.opposite_distances_m(flank);
             // Hats are stiffer at a station than between two, where the load is shared.

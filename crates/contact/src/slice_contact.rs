@@ -60,15 +60,15 @@ pub struct SliceContact {
 }
 
 impl SliceContact {
-    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on slices over the overlap of their faces
-    /// where gear 2 stands displaced by `displacement_m` along the axes; for up to `most_lines` contact lines at once.
+    /// Prepares the contact of two reduced gears with so many teeth, loaded on flanks of one hand, on the slices of a layout; for up to
+    /// `most_lines` contact lines at once.
     ///
     /// # Errors
     /// [`ContactError`] when the models do not fit the teeth or each other.
     pub fn of_gears(
         models: [&ReducedGear; 2],
         (teeth, flank): ([usize; 2], Flank),
-        (local, displacement_m): (LocalContact, f64),
+        (local, layout): (LocalContact, SliceLayout),
         most_lines: usize,
     ) -> Result<Self, ContactError> {
         for gear in 0..2 {
@@ -82,7 +82,6 @@ impl SliceContact {
                 });
             }
         }
-        let layout = SliceLayout::of_models(models, displacement_m);
         layout.check()?;
         let condense = |gear: usize| {
             let spread = layout.spread(gear + 1, models[gear]);

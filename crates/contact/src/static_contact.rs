@@ -13,6 +13,7 @@
 use crate::contact_error::ContactError;
 use crate::contact_lines::{ContactLine, ContactLines, Friction};
 use crate::contact_patch::ContactPatch;
+use crate::contact_zone::SliceLayout;
 use crate::drive::Drive;
 use crate::flank_deviations::FlankDeviations;
 use crate::hertz;
@@ -20,8 +21,7 @@ use crate::local_contact::LocalContact;
 use crate::nlcp::{FLOOR_FRACTION, Info};
 use crate::runout::{Placement, Runout};
 use crate::slice_contact::SliceContact;
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_model::ReducedGear;
 
 /// Gap of a slice without flank \[m\]: beyond any deflection, and small enough for the solver's sums.
 const NO_FLANK_M: f64 = 1.0;
@@ -73,23 +73,34 @@ impl StaticContact {
     /// # Errors
     /// [`ContactError`] when the models do not fit the pair or each other.
     pub fn new(
-        mut lines: ContactLines,
+        lines: ContactLines,
         gear_1: &ReducedGear,
         gear_2: &ReducedGear,
         options: ContactOptions,
     ) -> Result<Self, ContactError> {
+        let layout = SliceLayout::of_models([gear_1, gear_2], lines.zone.displacement_m);
+        Self::on_slices(lines, [gear_1, gear_2], options, layout)
+    }
+
+    /// The same on the slices of a layout, see [`SliceLayout::resolved`].
+    ///
+    /// # Errors
+    /// As [`StaticContact::new`].
+    pub fn on_slices(
+        mut lines: ContactLines,
+        models: [&ReducedGear; 2],
+        options: ContactOptions,
+        layout: SliceLayout,
+    ) -> Result<Self, ContactError> {
         if lines.pair.is_helical() && lines.extension.is_some() {
             return Err(ContactError::HelicalExtension);
         }
-        let flank = match lines.pair.flank {
-            FlankSide::Right => Flank::Right,
-            FlankSide::Left => Flank::Left,
-        };
+        let flank = lines.pair.flank;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
-        let placed = (options.local, lines.zone.displacement_m);
+        let placed = (options.local, layout);
         // Gears beside their axes may stand closer together than the pair.
         let most_lines = lines.most_pairs() + 1;
-        let slices = SliceContact::of_gears([gear_1, gear_2], (teeth, flank), placed, most_lines)?;
+        let slices = SliceContact::of_gears(models, (teeth, flank), placed, most_lines)?;
         lines.zone = slices.layout().reference;
         let capacity = slices.capacity();
         Ok(Self {

@@ -8,37 +8,15 @@ use gearmesh_contact::{
     ContactError, ContactLines, ContactOptions, Friction, LocalContact, PathExtension,
     StaticContact,
 };
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment, ToothGeometry};
-use gearmesh_model::Flank;
-use pair_common::{FRICTIONLESS, made_up_gear, tooth};
+use gearmesh_geometry::{Flank, Microgeometry};
+use pair_common::{FRICTIONLESS, helical as lines, made_up_gear};
 
 const FACE_WIDTH_M: f64 = 20e-3;
-
-/// Gear 1 with the given helix (degrees, positive right), at the centre distance of equal clearance for every angle.
-fn lines(helix_deg: f64, flank: FlankSide) -> ContactLines {
-    let gear = |teeth: usize, helix_deg: f64| {
-        let mut d = tooth(teeth, 0.0, 0.0);
-        d.helix_angle_rad = helix_deg.to_radians();
-        ToothGeometry::new(&d).unwrap()
-    };
-    let (g1, g2) = (gear(31, helix_deg), gear(40, -helix_deg));
-    let centre = g1.reference_radius_m + g2.reference_radius_m;
-    let pair = GearPair::new(g1, g2, centre, Misalignment::default())
-        .unwrap()
-        .on_flanks(flank);
-    ContactLines {
-        pair,
-        microgeometry_1: Microgeometry::default(),
-        microgeometry_2: Microgeometry::default(),
-        extension: None,
-        zone: gearmesh_contact::ContactZone::of_equal_faces(FACE_WIDTH_M),
-    }
-}
 
 fn contact(lines: &ContactLines, options: ContactOptions, slices: usize) -> StaticContact {
     let models = [&lines.pair.gear_1, &lines.pair.gear_2].map(|gear| {
         let mut model = made_up_gear(gear, FACE_WIDTH_M, slices);
-        if lines.pair.flank == FlankSide::Left {
+        if lines.pair.flank == Flank::Left {
             model.flanks = vec![Flank::Left];
         }
         model
@@ -87,7 +65,7 @@ fn a_vanishing_helix_is_a_spur_pair() {
                 reversal_m: 20e-6,
             }),
         };
-        let (spur, almost) = (lines(0.0, FlankSide::Right), lines(1e-9, FlankSide::Right));
+        let (spur, almost) = (lines(0.0, Flank::Right), lines(1e-9, Flank::Right));
         assert!(almost.pair.is_helical() && !spur.pair.is_helical());
         let (mut a, mut b) = (contact(&spur, options, 5), contact(&almost, options, 5));
         for angle in angles(&spur, 37) {
@@ -110,7 +88,7 @@ fn a_vanishing_helix_is_a_spur_pair() {
 /// One sign of the transmission error: driven on the left flanks a spur pair has the same curve, backlash or not.
 #[test]
 fn left_flanks_of_a_spur_pair_have_the_curve_of_the_right_ones() {
-    let [right, left] = [FlankSide::Right, FlankSide::Left].map(|flank| lines(0.0, flank));
+    let [right, left] = [Flank::Right, Flank::Left].map(|flank| lines(0.0, flank));
     assert!(right.pair.backlash_m() > 1e-5);
     let of_right = curve(&right, 200.0, 5, 23);
     let of_left = curve(&left, 200.0, 5, 23);
@@ -123,12 +101,12 @@ fn left_flanks_of_a_spur_pair_have_the_curve_of_the_right_ones() {
 /// flanks. The bodies here are their own mirror images.
 #[test]
 fn hands_and_flanks_are_mirror_images() {
-    let right = lines(18.0, FlankSide::Right);
+    let right = lines(18.0, Flank::Right);
     let slices = 6;
     for (helix_deg, flank, axial_sign, over) in [
-        (-18.0, FlankSide::Right, -1.0, true),
-        (-18.0, FlankSide::Left, 1.0, false),
-        (18.0, FlankSide::Left, -1.0, true),
+        (-18.0, Flank::Right, -1.0, true),
+        (-18.0, Flank::Left, 1.0, false),
+        (18.0, Flank::Left, -1.0, true),
     ] {
         let image = lines(helix_deg, flank);
         let (mut a, mut b) = (
@@ -150,7 +128,7 @@ fn hands_and_flanks_are_mirror_images() {
                 };
                 assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-6));
             }
-            if flank == FlankSide::Left {
+            if flank == Flank::Left {
                 // Gear 1 turns the other way, so that its teeth come in the other order.
                 for (l, m) in a.active_lines().iter().zip(b.active_lines()) {
                     assert_eq!(l.pair, m.pair);
@@ -165,7 +143,7 @@ fn hands_and_flanks_are_mirror_images() {
 #[test]
 fn torque_and_axial_force_balance() {
     for helix_deg in [12.0f64, -30.0] {
-        let lines = lines(helix_deg, FlankSide::Right);
+        let lines = lines(helix_deg, Flank::Right);
         let mut contact = contact(&lines, FRICTIONLESS, 8);
         let (r1, r2) = (
             lines.pair.gear_1.base_radius_m,
@@ -190,7 +168,7 @@ fn torque_and_axial_force_balance() {
 #[test]
 fn contact_lines_have_the_mean_length_of_the_field_of_action() {
     for helix_deg in [7.0, 25.0] {
-        let lines = lines(helix_deg, FlankSide::Right);
+        let lines = lines(helix_deg, Flank::Right);
         let mut contact = contact(&lines, FRICTIONLESS, 7);
         let (points, mut sum, mut most) = (400, 0.0, 0);
         for angle in angles(&lines, points) {
@@ -228,7 +206,7 @@ fn largest_step(curve: &[f64]) -> f64 {
 /// A spur pair jumps where a line enters; slanted lines enter slice by slice and each slice with a growing length.
 #[test]
 fn the_transmission_error_of_helical_teeth_is_continuous() {
-    let (spur, helical) = (lines(0.0, FlankSide::Right), lines(15.0, FlankSide::Right));
+    let (spur, helical) = (lines(0.0, Flank::Right), lines(15.0, Flank::Right));
     let steps = |lines: &ContactLines, points| largest_step(&curve(lines, 200.0, 5, points));
     let spur = (steps(&spur, 50), steps(&spur, 800));
     assert!(spur.1 > 0.8 * spur.0, "{spur:?}");
@@ -248,7 +226,7 @@ fn the_transmission_error_of_helical_teeth_is_continuous() {
 fn an_integer_overlap_ratio_smooths_the_transmission_error() {
     let ripple = |overlap: f64| {
         let sin = overlap * std::f64::consts::PI * 3e-3 / FACE_WIDTH_M;
-        let lines = lines(sin.asin().to_degrees(), FlankSide::Right);
+        let lines = lines(sin.asin().to_degrees(), Flank::Right);
         assert!((lines.pair.overlap_ratio(FACE_WIDTH_M) - overlap).abs() < 1e-12);
         peak_to_peak(&curve(&lines, 200.0, 16, 60))
     };
@@ -258,7 +236,7 @@ fn an_integer_overlap_ratio_smooths_the_transmission_error() {
 
 #[test]
 fn lead_crowning_and_misalignment_move_the_load() {
-    let mut crowned = lines(20.0, FlankSide::Right);
+    let mut crowned = lines(20.0, Flank::Right);
     crowned.microgeometry_1 = Microgeometry {
         tip_roll_rad: crowned.pair.gear_1.tip_roll_rad,
         face_width_m: FACE_WIDTH_M,
@@ -280,7 +258,7 @@ fn lead_crowning_and_misalignment_move_the_load() {
         }
         (moment / sum, ends / sum)
     };
-    let (plain, relieved) = (centroid(&lines(20.0, FlankSide::Right)), centroid(&crowned));
+    let (plain, relieved) = (centroid(&lines(20.0, Flank::Right)), centroid(&crowned));
     assert!(relieved.1 < 0.7 * plain.1, "{plain:?} {relieved:?}");
     let mut tilted = crowned.clone();
     tilted.pair.misalignment.deviation_rad = 1e-3;
@@ -290,7 +268,7 @@ fn lead_crowning_and_misalignment_move_the_load() {
 
 #[test]
 fn an_extended_path_is_refused() {
-    let mut lines = lines(20.0, FlankSide::Right);
+    let mut lines = lines(20.0, Flank::Right);
     lines.extension = Some(PathExtension::new(&lines.pair, 100e-6));
     let models =
         [&lines.pair.gear_1, &lines.pair.gear_2].map(|gear| made_up_gear(gear, FACE_WIDTH_M, 3));

@@ -47,6 +47,23 @@ fn solves_do_not_allocate() {
     }
 }
 
+/// Slices that enter and leave the path one by one, from position to position and cold.
+#[test]
+fn helical_positions_do_not_allocate() {
+    let lines = pair_common::helical(20.0, gearmesh_geometry::Flank::Right);
+    let mut contact = pair_common::contact(&lines, pair_common::FRICTIONLESS, 12);
+    let before = allocations();
+    for k in 0..300 {
+        if k % 50 == 0 {
+            contact.reset();
+        }
+        contact
+            .solve(1e-3 * f64::from(k), Drive::Torque(300.0))
+            .unwrap();
+    }
+    assert_eq!(allocations() - before, 0);
+}
+
 #[test]
 fn positions_with_tip_edges_do_not_allocate() {
     let gears = [

@@ -5,7 +5,7 @@ mod pair_common;
 
 use gearmesh_contact::{ContactLine, ContactLines, TipContact, TipGear};
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment};
 use pair_common::{extended, pair, tooth};
 use proptest::prelude::*;
 
@@ -18,8 +18,8 @@ fn placed(pair: &GearPair, gear: usize, turned_rad: f64, roll_rad: f64) -> [f64;
         (&pair.gear_2, 1.0)
     };
     let working = pair.working_pressure_angle_rad.tan();
-    let point = tooth.flank_point_m(FlankSide::Right, roll_rad);
-    let pitch_point = tooth.flank_point_m(FlankSide::Right, working);
+    let point = tooth.flank_point_m(Flank::Right, roll_rad);
+    let pitch_point = tooth.flank_point_m(Flank::Right, working);
     let towards = if gear == 1 { 0.0 } else { std::f64::consts::PI };
     let angle = towards - pitch_point[1].atan2(pitch_point[0]) + sense * turned_rad;
     let (s, c) = angle.sin_cos();

@@ -6,7 +6,7 @@ mod mesh_common;
 
 use divan::Bencher;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use mesh_common::*;
 use nalgebra::Vector3;
 
@@ -19,14 +19,14 @@ const PAIRS: [usize; 2] = [1, 2];
 
 fn bench(bencher: Bencher<'_, '_>, name: &str, pairs: usize) {
     let pair = spur_pair();
-    let model = model(name, &pair, FlankSide::Right);
-    let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, model).unwrap();
+    let model = model(name, &pair, Flank::Right);
+    let mut mesh = GearMesh::new(kinematics(&pair), Flank::Right, model).unwrap();
     let mut k = 0.0;
     let steps: Vec<Pose> = (0..64)
         .map(|_| {
             k += 1.0;
             let theta = if pairs == 1 { 0.0 } else { 0.1 } + 1e-4 * k;
-            let phi = angles(&pair, FlankSide::Right, theta, -9e-6 - 1e-8 * k);
+            let phi = angles(&pair, Flank::Right, theta, -9e-6 - 1e-8 * k);
             pose(&pair, phi, Vector3::zeros(), Vector3::zeros())
         })
         .collect();

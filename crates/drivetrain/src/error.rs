@@ -1,7 +1,7 @@
 //! What can go wrong in setting up or evaluating a gear mesh.
 
 use gearmesh_contact::ContactError;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::tooth_overlap::turning;
 
@@ -102,7 +102,7 @@ pub enum DrivetrainError {
     )]
     TeethPressed {
         /// Side of the teeth.
-        flank: FlankSide,
+        flank: Flank,
         /// How deep.
         depth_mm: f64,
         /// What is allowed.
@@ -117,7 +117,7 @@ pub enum DrivetrainError {
     )]
     TeethBehind {
         /// The side that is left out.
-        behind: FlankSide,
+        behind: Flank,
         /// How deep.
         depth_mm: f64,
         /// What is allowed.

@@ -8,7 +8,7 @@
 //! the assembly of the load ask for no more.
 
 use gearmesh_contact::SliceLayout;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
@@ -51,12 +51,12 @@ pub trait FlankKinematics: Send {
     fn locate(&mut self, pose: &Pose) -> Result<(), DrivetrainError>;
 
     /// Gap \[m\] of ideal flanks of one side if none of that side can touch, for a short cut; none if some might.
-    fn open_gap_m(&self, _side: FlankSide) -> Option<f64> {
+    fn open_gap_m(&self, _side: Flank) -> Option<f64> {
         None
     }
 
     /// Finds all patches that face each other on one side; `pose`: the one that was located.
-    fn contacts(&self, pose: &Pose, side: FlankSide, found: &mut FlankContacts);
+    fn contacts(&self, pose: &Pose, side: Flank, found: &mut FlankContacts);
 
     /// The same at any pose, whichever was located.
     ///
@@ -65,15 +65,15 @@ pub trait FlankKinematics: Send {
     fn contacts_at(
         &self,
         pose: &Pose,
-        side: FlankSide,
+        side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError>;
 
     /// Second derivative of the gap of a contact by the increments of the pose.
-    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6;
+    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
 
     /// Σ F ∂²gap over all contacts with their forces \[N\].
-    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: FlankSide) -> Matrix6 {
+    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: Flank) -> Matrix6 {
         let loaded = forces_n.iter().enumerate().filter(|(_, f)| **f > 0.0);
         loaded.fold(Matrix6::zeros(), |sum, (i, force)| {
             sum + *force * self.gap_curvature(found, i, side)
@@ -81,19 +81,19 @@ pub trait FlankKinematics: Send {
     }
 
     /// k: load on gear 2 of a unit friction force on it at a contact, along the profile; sliding of gear 2 over gear 1 is k·(u̇, ω).
-    fn sliding(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Vector6;
+    fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6;
 
     /// ∂k by the increments of the pose.
-    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6;
+    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
 
     /// Gap \[m\] of the nearest ideal flanks of one side, continued beyond their ends, as the transmission error counts it.
-    fn nearest_gap_m(&self, side: FlankSide) -> Option<f64>;
+    fn nearest_gap_m(&self, side: Flank) -> Option<f64>;
 
     /// Whether no tooth reaches the mate.
     fn is_apart(&self) -> bool;
 
     /// How deep flanks of one side stand in each other \[m\]; zero where none do.
-    fn overlap_m(&self, pose: &Pose, side: FlankSide) -> f64 {
+    fn overlap_m(&self, pose: &Pose, side: Flank) -> f64 {
         let mut found = FlankContacts::default();
         self.contacts(pose, side, &mut found);
         found.deepest_overlap_m()

@@ -9,8 +9,8 @@
 //! Friction pushes on the modes by φ_t, along the profile towards the tip. Theory: docs/theory/gear_meshes.md.
 
 use gearmesh_contact::{AxialSpread, ProfileHats};
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_geometry::Flank;
+use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, ModalRows};
@@ -23,14 +23,6 @@ pub struct ModalMotion<'a> {
     pub coordinates: [&'a [f64]; 2],
     /// η̇.
     pub rates: [&'a [f64]; 2],
-}
-
-/// The hand of flanks of a model that a side of the teeth means.
-pub(crate) fn flank_of(side: FlankSide) -> Flank {
-    match side {
-        FlankSide::Right => Flank::Right,
-        FlankSide::Left => Flank::Left,
-    }
 }
 
 /// NᵀΦ of one gear's flanks of one side, condensed to slices.
@@ -53,12 +45,11 @@ impl FlankModes {
     /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it has fewer modes.
     pub fn new(
         gear: &ReducedGear,
-        side: FlankSide,
+        side: Flank,
         modes: usize,
         spread: &AxialSpread,
     ) -> Result<Self, DrivetrainError> {
-        let flank = flank_of(side);
-        gear.flank_index(flank)?;
+        gear.flank_index(side)?;
         let basis = gear.modal_basis()?;
         if modes > basis.count() {
             return Err(DrivetrainError::Length {
@@ -74,7 +65,7 @@ impl FlankModes {
         let mut tangential_rows = rows.clone();
         for mode in 0..modes {
             for tooth in 0..gear.teeth {
-                let shape = gear.mode_at_flank(mode, tooth, flank)?;
+                let shape = gear.mode_at_flank(mode, tooth, side)?;
                 for station in 0..stations {
                     for slice in 0..slices {
                         let row = ((tooth * stations + station) * slices + slice) * modes + mode;

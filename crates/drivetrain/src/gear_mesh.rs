@@ -9,7 +9,7 @@
 //! compliance and the microgeometry's slope change with the pose, of the order of deflection over the pitch, 1e-3 of the stiffness.
 
 use gearmesh_dynamics::Power;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
@@ -60,7 +60,7 @@ pub struct MeshEffort {
 }
 
 struct Side {
-    flank: FlankSide,
+    flank: Flank,
     model: Box<dyn TeethModel>,
     found: FlankContacts,
     loads: TeethLoads,
@@ -88,7 +88,7 @@ impl GearMesh {
     /// [`DrivetrainError::UnusedFlankErrors`] if the kinematics have flank errors that the model cannot feel.
     pub fn new(
         kinematics: MeshKinematics,
-        flank: FlankSide,
+        flank: Flank,
         model: impl TeethModel + 'static,
     ) -> Result<Self, DrivetrainError> {
         Self::of_flanks(Box::new(InvoluteMesh::new(kinematics)), flank, model)
@@ -100,7 +100,7 @@ impl GearMesh {
     /// As [`GearMesh::new`], and [`DrivetrainError::NoCommonGap`].
     pub fn of_flanks(
         kinematics: Box<dyn FlankKinematics>,
-        flank: FlankSide,
+        flank: Flank,
         model: impl TeethModel + 'static,
     ) -> Result<Self, DrivetrainError> {
         let mesh = Self {
@@ -122,7 +122,7 @@ impl GearMesh {
     /// As [`GearMesh::new`], and [`DrivetrainError::SideAfterModes`].
     pub fn with_side(
         mut self,
-        flank: FlankSide,
+        flank: Flank,
         model: impl TeethModel + 'static,
     ) -> Result<Self, DrivetrainError> {
         if self.modal.count() > 0 {
@@ -199,13 +199,13 @@ impl GearMesh {
 
     /// Teeth facing each other at the last pose, and their normal forces \[N\]; none if that side is not modelled.
     #[must_use]
-    pub fn side(&self, flank: FlankSide) -> Option<(&FlankContacts, &[f64])> {
+    pub fn side(&self, flank: Flank) -> Option<(&FlankContacts, &[f64])> {
         let side = self.sides.iter().find(|side| side.flank == flank)?;
         Some((&side.found, &side.loads.normal_n))
     }
 
     /// The sides that are modelled.
-    pub fn flanks(&self) -> impl Iterator<Item = FlankSide> {
+    pub fn flanks(&self) -> impl Iterator<Item = Flank> {
         self.sides.iter().map(|side| side.flank)
     }
 
@@ -223,7 +223,7 @@ impl GearMesh {
 
     /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.
     #[must_use]
-    pub fn friction_coefficients(&self, flank: FlankSide) -> &[f64] {
+    pub fn friction_coefficients(&self, flank: Flank) -> &[f64] {
         let side = self.sides.iter().find(|side| side.flank == flank);
         side.map_or(&[], |side| &side.friction)
     }
@@ -373,7 +373,7 @@ struct Assembly<'a> {
     rates: Vector6,
     found: &'a FlankContacts,
     loads: &'a TeethLoads,
-    flank: FlankSide,
+    flank: Flank,
     kinematics: &'a dyn FlankKinematics,
     friction: Option<Friction>,
     modal_rates: [&'a [f64]; 2],

@@ -1,7 +1,7 @@
 //! Involute gears on parallel axes as a mesh sees them: their kinematics at the last pose.
 
 use gearmesh_contact::SliceLayout;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
@@ -31,7 +31,7 @@ impl InvoluteMesh {
         &self,
         found: &'a FlankContacts,
         contact: usize,
-        side: FlankSide,
+        side: Flank,
     ) -> Option<SlidingAt<'a>> {
         let contact = &found.contacts[contact];
         Some(SlidingAt {
@@ -75,24 +75,24 @@ impl FlankKinematics for InvoluteMesh {
         self.kinematics.locate(pose, &mut self.at)
     }
 
-    fn open_gap_m(&self, side: FlankSide) -> Option<f64> {
+    fn open_gap_m(&self, side: Flank) -> Option<f64> {
         self.kinematics.open_gap_m(&self.at, side)
     }
 
-    fn contacts(&self, pose: &Pose, side: FlankSide, found: &mut FlankContacts) {
+    fn contacts(&self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
         self.kinematics.contacts_at(pose, &self.at, side, found);
     }
 
     fn contacts_at(
         &self,
         pose: &Pose,
-        side: FlankSide,
+        side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         self.kinematics.contacts(pose, side, found)
     }
 
-    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6 {
+    fn gap_curvature(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
         let contact = &found.contacts[contact];
         // Roll angles in the middle of a slice: those of the section but for a slice that is partly on the path.
         let roll_rad = found.section(contact).roll_rad;
@@ -100,7 +100,7 @@ impl FlankKinematics for InvoluteMesh {
     }
 
     /// Plane by plane: there it changes with the roll angles in proportion, so that their mean by the forces stands for all contacts.
-    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: FlankSide) -> Matrix6 {
+    fn load_curvature(&self, found: &FlankContacts, forces_n: &[f64], side: Flank) -> Matrix6 {
         let mut sum = Matrix6::zeros();
         for slice in 0..found.planes.len() {
             let (mut of_plane, mut rolled) = (0.0, [0.0; 2]);
@@ -118,18 +118,18 @@ impl FlankKinematics for InvoluteMesh {
         sum
     }
 
-    fn sliding(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Vector6 {
+    fn sliding(&self, found: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
         let at = self.sliding_at(found, contact, side);
         at.map_or_else(Vector6::zeros, |at| at.direction())
     }
 
-    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: FlankSide) -> Matrix6 {
+    fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
         let at = self.sliding_at(found, contact, side);
         at.map_or_else(Matrix6::zeros, |at| at.direction_gradient())
     }
 
     /// Transverse.
-    fn nearest_gap_m(&self, side: FlankSide) -> Option<f64> {
+    fn nearest_gap_m(&self, side: Flank) -> Option<f64> {
         self.kinematics.nearest_gap_m(&self.at, side)
     }
 

@@ -10,7 +10,7 @@
 //!
 //! all of them on gear 1; gear 2 feels the opposite force.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 use crate::gear_mesh::GearMesh;
@@ -50,7 +50,7 @@ impl SliceLineLoads {
     /// Writes q \[N/m\] of each slice.
     pub(crate) fn write(&self, mesh: &GearMesh, out: &mut [f64]) {
         out.fill(0.0);
-        for flank in [FlankSide::Right, FlankSide::Left] {
+        for flank in [Flank::Right, Flank::Left] {
             let Some((found, forces)) = mesh.side(flank) else {
                 continue;
             };

@@ -3,7 +3,7 @@
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::relative_motion::PairTangent;
 use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMotion};
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
@@ -235,8 +235,8 @@ impl ForceElement for MeshElement {
 
     fn channels(&self) -> Vec<Channel> {
         let sides = self.mesh.flanks().map(|flank| match flank {
-            FlankSide::Right => "normal_force_right_N",
-            FlankSide::Left => "normal_force_left_N",
+            Flank::Right => "normal_force_right_N",
+            Flank::Left => "normal_force_left_N",
         });
         let slices = self
             .line_loads

@@ -21,7 +21,7 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_geometry::{FlankSide, ToothGeometry};
+use gearmesh_geometry::{Flank, ToothGeometry};
 
 use gearmesh_contact::SliceLayout;
 
@@ -64,7 +64,7 @@ pub struct MeshKinematics {
 struct PlacedTeeth<'a> {
     frame: &'a MeshFrame,
     rates: &'a Vector6,
-    side: FlankSide,
+    side: Flank,
     /// Roll angles that it is behind tooth 0 \[rad\].
     behind_rad: [f64; 2],
     teeth: [usize; 2],
@@ -189,7 +189,7 @@ impl MeshKinematics {
 
     /// Gap \[m\] of ideal flanks of one side in the middle of the zone if no flanks of that side can touch at a pose that has been located; none if some
     /// might. Spur teeth only: in each plane all their pairs have the same ideal gap.
-    pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: FlankSide) -> Option<f64> {
+    pub(crate) fn open_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
         let middle = at.middle.as_ref().filter(|_| self.helix.is_none())?;
         let frame = at.frame.as_ref()?;
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];
@@ -220,7 +220,7 @@ impl MeshKinematics {
     pub fn contacts(
         &self,
         pose: &Pose,
-        side: FlankSide,
+        side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         let mut at = PoseGeometry::default();
@@ -234,7 +234,7 @@ impl MeshKinematics {
         &self,
         pose: &Pose,
         at: &PoseGeometry,
-        side: FlankSide,
+        side: Flank,
         found: &mut FlankContacts,
     ) {
         found.clear();
@@ -457,7 +457,7 @@ impl MeshKinematics {
         &self,
         found: &FlankContacts,
         slice: usize,
-        side: FlankSide,
+        side: Flank,
         roll_rad: [f64; 2],
     ) -> Matrix6 {
         let (plane, zero) = (&found.planes[slice], &found.zeros[slice]);
@@ -479,7 +479,7 @@ impl MeshKinematics {
         &self,
         gear: usize,
         tooth: usize,
-        (side, roll, z_m): (FlankSide, f64, f64),
+        (side, roll, z_m): (Flank, f64, f64),
     ) -> (f64, [f64; 2]) {
         let end = self.gears[gear].flank_end_roll_rad;
         let beyond = roll - end;

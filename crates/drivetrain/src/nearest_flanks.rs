@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_geometry::{FlankSide, ToothGeometry};
+use gearmesh_geometry::{Flank, ToothGeometry};
 
 use crate::gear_mesh::GearMesh;
 use crate::mesh_frame::PoseGeometry;
@@ -29,7 +29,7 @@ impl MeshKinematics {
 
     /// Transverse gap \[m\] in the middle of the zone of the pair of ideal flanks that is nearest, continued beyond their ends: at most half a base
     /// pitch open or overlapping. None at a pose that has not been located.
-    pub(crate) fn nearest_gap_m(&self, at: &PoseGeometry, side: FlankSide) -> Option<f64> {
+    pub(crate) fn nearest_gap_m(&self, at: &PoseGeometry, side: Flank) -> Option<f64> {
         let frame = at.frame.as_ref()?;
         let plane = at.middle.as_ref()?.plane(frame, side);
         let [r1, r2] = [self.gears[0].base_radius_m, self.gears[1].base_radius_m];

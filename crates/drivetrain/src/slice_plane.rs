@@ -6,7 +6,7 @@
 //! d = u − ½ D′ h + 2 (s + F/2) f,      v·∂d = (v, z₂ b × v) + 2 (f·v) ∂(s + F/2)
 //! ```
 
-use gearmesh_geometry::{FlankSide, ToothGeometry};
+use gearmesh_geometry::{Flank, ToothGeometry};
 use nalgebra::{SMatrix, Vector3};
 
 use crate::error::DrivetrainError;
@@ -109,7 +109,7 @@ impl CentreLine {
     }
 
     /// The slice plane for flanks of one side.
-    pub(crate) fn plane(&self, frame: &MeshFrame, side: FlankSide) -> SlicePlane {
+    pub(crate) fn plane(&self, frame: &MeshFrame, side: Flank) -> SlicePlane {
         let (sin, cos) = self.pressure_angle;
         let sigma = side.mirror();
         let normal = sin * self.radial - sigma * cos * self.tangential;
@@ -156,7 +156,7 @@ impl SlicePlane {
     pub(crate) fn transverse_curvature(
         &self,
         frame: &MeshFrame,
-        side: FlankSide,
+        side: Flank,
         base_radii_m: [f64; 2],
     ) -> Matrix6 {
         let turn = self.turn(frame);

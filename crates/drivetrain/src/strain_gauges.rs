@@ -8,12 +8,12 @@
 //! reach the gear through another mesh or a joint are not in it: strain is linear, so that the readings of all meshes of a gear add up, gᵀΦη
 //! counted once ([`ModalPart`]). What the modes read of the mesh's forces at rest is taken out, for the rows hold it already.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_model::{GaugeRows, ReducedGear};
 use gearmesh_recovery::{GaugeArray, LoadedSlice, Strain};
 
 use crate::error::DrivetrainError;
-use crate::flank_modes::{dot, flank_of};
+use crate::flank_modes::dot;
 use crate::gear_mesh::GearMesh;
 
 /// Whether a mesh's gauges read the vibration of their gear, too.
@@ -32,7 +32,7 @@ pub struct StrainGauges {
     /// 0 or 1.
     gear: usize,
     names: Vec<String>,
-    sides: Vec<(FlankSide, GaugeArray)>,
+    sides: Vec<(Flank, GaugeArray)>,
     /// gᵀΦ, `[gauge][mode]`; empty without modes.
     modal: Vec<f64>,
     modal_part: ModalPart,
@@ -88,7 +88,7 @@ impl StrainGauges {
         let spread = mesh.kinematics().layout().spread(gear, model);
         let mut sides = Vec::new();
         for side in mesh.flanks() {
-            let array = GaugeArray::new(model, &rows, flank_of(side), &spread)?;
+            let array = GaugeArray::new(model, &rows, side, &spread)?;
             sides.push((side, array));
         }
         Ok(Self {

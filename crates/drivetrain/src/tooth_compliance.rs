@@ -15,7 +15,7 @@
 //! Sources: D. C. H. Yang, J. Y. Lin, J. Mech. Trans. Autom. 109 (1987) 189-196; X. Tian, thesis, University of Alberta (2004), for shear;
 //! S. Wu, M. Zuo, A. Parey, J. Sound Vib. 317 (2008) 308-324 for the crack.
 
-use gearmesh_geometry::{FlankSide, Material, ToothGeometry};
+use gearmesh_geometry::{Flank, Material, ToothGeometry};
 
 use crate::error::{DrivetrainError, positive};
 use crate::ring_foundation::RingFoundation;
@@ -30,7 +30,7 @@ const STATIONS: usize = 61;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootCrack {
     /// Side of the tooth on which it opens.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Radius at which it starts \[m\].
     pub start_radius_m: f64,
     /// Its depth \[m\].
@@ -159,7 +159,7 @@ impl BeamTooth<'_> {
         let flank = (1..=SECTIONS).map(|k| {
             let share = k as f64 / SECTIONS as f64;
             let roll = t.form_roll_rad + (roll_rad - t.form_roll_rad) * share;
-            t.flank_point_m(FlankSide::Right, roll)
+            t.flank_point_m(Flank::Right, roll)
         });
         let mut sections: Vec<Section> = (fillet.chain(flank))
             .map(|p| Section {
@@ -187,7 +187,7 @@ impl BeamTooth<'_> {
     ) -> ComplianceParts {
         let t = self.tooth;
         let (sin, cos) = (roll_rad - t.base_half_angle_rad).sin_cos();
-        let [x_f, minus_y_f] = t.flank_point_m(FlankSide::Right, roll_rad);
+        let [x_f, minus_y_f] = t.flank_point_m(Flank::Right, roll_rad);
         let y_f = -minus_y_f;
         let (young, width) = (self.material.young_pa, self.face_width_m);
         let shear_modulus = young / (2.0 * (1.0 + self.material.poisson));
@@ -253,8 +253,8 @@ fn cut(sections: &mut [Section], crack: RootCrack) {
     let tip_half = crack.tip_half_m(mouth.half[0]);
     let tip_x = mouth.x - crack.depth_m * crack.angle_rad.cos();
     let side = match crack.side {
-        FlankSide::Right => 0,
-        FlankSide::Left => 1,
+        Flank::Right => 0,
+        Flank::Left => 1,
     };
     for section in sections.iter_mut() {
         if section.x >= tip_x && section.half[side] > tip_half {

@@ -4,7 +4,7 @@
 //! pass through those of the mate until the next tooth is nearer, half a base pitch deep in it, and the mesh would push with a force that
 //! no work has been done against. A run ends before that.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::error::DrivetrainError;
 use crate::gear_mesh::GearMesh;
@@ -60,20 +60,20 @@ impl GearMesh {
     }
 
     /// The side that the mesh leaves out, where it has only one.
-    fn left_out(&self) -> Option<FlankSide> {
-        let has = |side: FlankSide| self.flanks().any(|flank| flank == side);
-        match (has(FlankSide::Right), has(FlankSide::Left)) {
-            (true, false) => Some(FlankSide::Left),
-            (false, true) => Some(FlankSide::Right),
+    fn left_out(&self) -> Option<Flank> {
+        let has = |side: Flank| self.flanks().any(|flank| flank == side);
+        match (has(Flank::Right), has(Flank::Left)) {
+            (true, false) => Some(Flank::Left),
+            (false, true) => Some(Flank::Right),
             _ => None,
         }
     }
 }
 
 /// Which way loads have to turn both gears for flanks of one side to be pressed together.
-pub(crate) fn turning(side: FlankSide) -> &'static str {
+pub(crate) fn turning(side: Flank) -> &'static str {
     match side {
-        FlankSide::Right => "clockwise (torques negative about z)",
-        FlankSide::Left => "counter-clockwise (torques positive about z)",
+        Flank::Right => "clockwise (torques negative about z)",
+        Flank::Left => "counter-clockwise (torques positive about z)",
     }
 }

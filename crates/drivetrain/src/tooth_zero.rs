@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearmesh_geometry::{FlankSide, ToothGeometry};
+use gearmesh_geometry::{Flank, ToothGeometry};
 
 use crate::mesh_frame::MeshFrame;
 use crate::pose::Vector6;
@@ -24,7 +24,7 @@ impl ToothZero {
     pub(crate) fn new(
         gears: &[ToothGeometry; 2],
         frame: &MeshFrame,
-        side: FlankSide,
+        side: Flank,
         plane: &SlicePlane,
     ) -> Self {
         let sigma = side.mirror();
@@ -43,7 +43,7 @@ impl ToothZero {
     pub(crate) fn rolls_rad(
         gears: &[ToothGeometry; 2],
         spin_rad: f64,
-        side: FlankSide,
+        side: Flank,
         plane: &SlicePlane,
     ) -> [f64; 2] {
         let seen_from_mate = [-plane.polar_rad, spin_rad - plane.polar_rad - PI];

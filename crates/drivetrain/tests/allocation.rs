@@ -7,7 +7,7 @@ mod mesh_common;
 
 use counting_allocator::allocations;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use mesh_common::*;
 use nalgebra::Vector3;
 
@@ -21,9 +21,9 @@ fn evaluations_do_not_allocate() {
     for pair in pairs() {
         for name in CONFORMING {
             let of = |side| Damped::new(model(name, &pair, side), damping, SLICES).unwrap();
-            let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
+            let mesh = GearMesh::new(kinematics(&pair), Flank::Right, of(Flank::Right))
                 .unwrap()
-                .with_side(FlankSide::Left, of(FlankSide::Left))
+                .with_side(Flank::Left, of(Flank::Left))
                 .unwrap()
                 .with_friction(friction);
             let mut mesh = with_own_modes(name, &pair, mesh);
@@ -31,7 +31,7 @@ fn evaluations_do_not_allocate() {
             let poses: Vec<Pose> = (0..200)
                 .map(|k| {
                     let k = f64::from(k);
-                    let phi = angles(&pair, FlankSide::Right, 0.0021 * k, -10e-6 + 1.5e-6 * k);
+                    let phi = angles(&pair, Flank::Right, 0.0021 * k, -10e-6 + 1.5e-6 * k);
                     pose(&pair, phi, Vector3::zeros(), Vector3::zeros())
                 })
                 .collect();
@@ -53,8 +53,14 @@ fn evaluations_do_not_allocate() {
 #[test]
 fn steps_and_output_do_not_allocate() {
     use mesh_common::running_pair::*;
-    let pair = pair_a();
-    let system = running_pair(&pair, running_mesh("hybrid", &pair), 8);
+    for pair in [pair_a(), helical_pair_a()] {
+        steps_do_not_allocate(&pair);
+    }
+}
+
+fn steps_do_not_allocate(pair: &gearmesh_geometry::GearPair) {
+    use mesh_common::running_pair::*;
+    let system = running_pair(pair, running_mesh("hybrid", pair), 8);
     let mut run = gearmesh_dynamics::Simulation::new(system.build().unwrap(), params()).unwrap();
     let names = run.system().channels();
     let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();

@@ -11,10 +11,14 @@ use mesh_common::running_pair::*;
 /// Six-degree bodies at 600 rpm and 50 steps a mesh period: Newton's corrections and factorisations a step, and what is called.
 #[test]
 fn steps_take_few_evaluations() {
-    let pair = pair_a();
-    for (name, most) in [("impact", 2.9), ("hybrid", 2.6)] {
+    let (spur, helical) = (pair_a(), helical_pair_a());
+    for (name, pair, most) in [
+        ("impact", &spur, 2.9),
+        ("hybrid", &spur, 2.6),
+        ("hybrid", &helical, 0.1),
+    ] {
         let begin = |params| {
-            let system = running_pair(&pair, running_mesh(name, &pair), 0);
+            let system = running_pair(pair, running_mesh(name, pair), 0);
             Simulation::new(system.build().unwrap(), params).unwrap()
         };
         let mut run = begin(params());

@@ -13,11 +13,11 @@ use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::microgeometry::{ProfileCrowning, ReliefShape, TipRelief};
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment};
 use mesh_common::*;
 use nalgebra::{Vector2, Vector3};
 
-const SIDES: [FlankSide; 2] = [FlankSide::Right, FlankSide::Left];
+const SIDES: [Flank; 2] = [Flank::Right, Flank::Left];
 
 fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
     let span = gear.tip_roll_rad - gear.form_roll_rad;
@@ -35,6 +35,8 @@ fn microgeometry(gear: &gearmesh_geometry::ToothGeometry) -> Microgeometry {
         }),
         lead_crowning_m: 5e-6,
         flank_angle_m: 3e-6,
+        form_roll_rad: gear.form_roll_rad,
+        ..Default::default()
     }
 }
 
@@ -249,9 +251,9 @@ fn derivatives_agree_with_differences() {
         found
     };
     for (side, theta) in [
-        (FlankSide::Right, 0.05),
-        (FlankSide::Left, 0.13),
-        (FlankSide::Right, 0.21),
+        (Flank::Right, 0.05),
+        (Flank::Left, 0.13),
+        (Flank::Right, 0.21),
     ] {
         let tilt = Vector3::new(3e-3, -2e-3, 0.0);
         let phi = angles(&pair, side, theta, -5e-6);
@@ -345,11 +347,9 @@ fn tip_edges_have_the_exact_gap_to_second_order() {
                 TipGear::One => TipContact::new(&pair, tip, roll, pair.roll_2_rad(roll)),
                 TipGear::Two => TipContact::new(&pair, tip, pair.roll_2_rad(roll), roll),
             };
-            let phi = angles(&pair, FlankSide::Right, theta, 0.0);
+            let phi = angles(&pair, Flank::Right, theta, 0.0);
             let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
-            kinematics
-                .contacts(&at, FlankSide::Right, &mut found)
-                .unwrap();
+            kinematics.contacts(&at, Flank::Right, &mut found).unwrap();
             let line = found.lines.iter().find(|l| l.teeth == [0, 0]).unwrap();
             let gap = found.contacts[line.contacts.0].gap_m;
             errors.push((gap / exact.gap_m - 1.0).abs());
@@ -370,11 +370,9 @@ fn teeth_are_found_without_memory() {
     let mut found = FlankContacts::default();
     for turn in [0i64, 1, 7, -3] {
         let theta = std::f64::consts::TAU * turn as f64;
-        let phi = angles(&pair, FlankSide::Right, theta, 0.0);
+        let phi = angles(&pair, Flank::Right, theta, 0.0);
         let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
-        kinematics
-            .contacts(&at, FlankSide::Right, &mut found)
-            .unwrap();
+        kinematics.contacts(&at, Flank::Right, &mut found).unwrap();
         let expected = (-30 * turn).rem_euclid(41) as usize;
         let at_pitch = found.lines.iter().find(|l| l.teeth[0] == 0).unwrap();
         assert_eq!(at_pitch.teeth[1], expected, "turn {turn}");
@@ -389,7 +387,7 @@ fn impossible_poses_are_refused() {
     let mut found = FlankContacts::default();
     let mut refuse = |shift: Vector3<f64>, tilt: Vector3<f64>| {
         let at = pose(&pair, [0.0; 2], shift, tilt);
-        let refused = kinematics.contacts(&at, FlankSide::Right, &mut found);
+        let refused = kinematics.contacts(&at, Flank::Right, &mut found);
         refused.unwrap_err().to_string()
     };
     let upside_down = refuse(Vector3::zeros(), Vector3::new(3.1, 0.0, 0.0));

@@ -13,17 +13,12 @@ use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, involute};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, involute};
 use mesh_common::*;
 
 fn right_only(pair: &GearPair, errors: [FlankErrors; 2]) -> GearMesh {
     let kinematics = kinematics_with(pair, errors, PathEnds::LineOfAction);
-    GearMesh::new(
-        kinematics,
-        FlankSide::Right,
-        reduced_teeth(pair, FlankSide::Right),
-    )
-    .unwrap()
+    GearMesh::new(kinematics, Flank::Right, reduced_teeth(pair, Flank::Right)).unwrap()
 }
 
 /// Same transmission error as the static scene. That one takes compliance at the roll angle that gear 2 has without load, and has no
@@ -69,9 +64,9 @@ fn a_spring_on_the_own_curve_has_the_pairs_transmission_error() {
     for pair in pairs() {
         let (curve, te_m) = own_curve(&pair, 200.0, 24);
         assert!(curve.remainder_m() < 0.6e-6, "{:e}", curve.remainder_m());
-        let spring = own_spring(&pair, FlankSide::Right);
+        let spring = own_spring(&pair, Flank::Right);
         let kinematics = kinematics_with(&pair, [Vec::new(), Vec::new()], PathEnds::LineOfAction);
-        let mut mesh = GearMesh::new(kinematics, FlankSide::Right, spring).unwrap();
+        let mut mesh = GearMesh::new(kinematics, Flank::Right, spring).unwrap();
         for (k, expected) in te_m.iter().enumerate() {
             let theta = pair.pitch_1_rad() * (k as f64 / te_m.len() as f64);
             let found = equilibrium(&mut mesh, &pair, theta, 200.0);
@@ -106,12 +101,12 @@ fn mates_of_unequal_width_agree_with_the_static_scene() {
     };
     let models = [&wide, &narrow];
     let local = gearmesh_contact::LocalContact::WeberBanaschek;
-    let teeth = ReducedTeeth::new(&pair, FlankSide::Right, models, local, 4000.0).unwrap();
+    let teeth = ReducedTeeth::new(&pair, Flank::Right, models, local, 4000.0).unwrap();
     let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
     let (none, a) = ([Vec::new(), Vec::new()], pair.centre_distance_m);
     let ends = PathEnds::LineOfAction;
     let kinematics = MeshKinematics::new(gears, none, a, *teeth.layout(), ends).unwrap();
-    let mut mesh = GearMesh::new(kinematics, FlankSide::Right, teeth).unwrap();
+    let mut mesh = GearMesh::new(kinematics, Flank::Right, teeth).unwrap();
     let mut unequal = contact(&narrow, 0.0);
     let mut equal = contact(&made(&pair.gear_2, 20e-3, 5), 0.0);
     let [mut up, mut down] = [6e-3, -6e-3].map(|shift| contact(&narrow, shift));
@@ -139,7 +134,7 @@ fn pitch_errors_are_the_unloaded_transmission_error() {
     let mut removed = vec![0.0; 30];
     removed[3] = 8e-6;
     removed[4] = -5e-6;
-    let errors = PitchErrors::new(FlankSide::Right, removed, 30).unwrap();
+    let errors = PitchErrors::new(Flank::Right, removed, 30).unwrap();
     let mut mesh = right_only(&pair, [vec![Arc::new(errors)], Vec::new()]);
     let mut ideal = right_only(&pair, [Vec::new(), Vec::new()]);
     // Tooth 4 leads by 5 µm wherever it is in mesh; tooth 3 alone in mesh lets gear 2 fall back by 8 µm.
@@ -169,7 +164,7 @@ fn faults_act_where_they_are() {
         Arc::new(TipChip::new((gear, WIDTH), 5, FaceEnd::Positive, [6e-3, 9e-3]).unwrap());
     let patch = SpallPatch {
         tooth: 5,
-        side: FlankSide::Right,
+        side: Flank::Right,
         radii_m: [middle_radius - 0.5e-3, middle_radius + 0.5e-3],
         z_m: [-5e-3, 5e-3],
         depth_m: 50e-6,
@@ -198,7 +193,7 @@ fn faults_act_where_they_are() {
         };
         let (with, without) = (force(&mut mesh, at), force(&mut whole, at));
         assert!(with < without, "{what} {with} {without}");
-        let (found, forces) = mesh.side(FlankSide::Right).unwrap();
+        let (found, forces) = mesh.side(Flank::Right).unwrap();
         let line = found.lines.iter().find(|l| l.teeth[0] == 5).unwrap();
         let touching = (0..found.contacts.len())
             .filter(|&i| found.lines[found.contacts[i].line].teeth[0] == 5 && forces[i] > 0.0)
@@ -215,7 +210,7 @@ fn cracks_soften_their_tooth() {
     let t = &pair.gear_1;
     let stiffness = |depth_m: f64| {
         let crack = RootCrack {
-            side: FlankSide::Right,
+            side: Flank::Right,
             start_radius_m: t.root_radius_m + 0.4e-3,
             depth_m,
             angle_rad: 1.0,

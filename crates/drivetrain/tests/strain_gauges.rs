@@ -7,7 +7,7 @@ use gearmesh_contact::AxialSpread;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Channel, Simulation};
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_recovery::{LoadedSlice, grid_forces};
 use mesh_common::running_pair::*;
 use mesh_common::*;
@@ -24,10 +24,10 @@ fn gauges_read_the_forces_on_the_flanks() {
         let friction = Friction::new([mu, mu], [1e-9, 2e-9]).unwrap();
         let mut mesh = running_mesh("hybrid", &pair).with_friction(friction);
         for (side, theta) in [
-            (FlankSide::Right, 0.01),
-            (FlankSide::Right, 0.06),
-            (FlankSide::Left, 0.03),
-            (FlankSide::Left, 0.09),
+            (Flank::Right, 0.01),
+            (Flank::Right, 0.06),
+            (Flank::Left, 0.03),
+            (Flank::Left, 0.09),
         ] {
             let phi = angles(&pair, side, theta, -12e-6);
             let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
@@ -62,7 +62,7 @@ fn gauges_read_the_forces_on_the_flanks() {
                     }
                 });
                 let loads = grid_forces(&model.grid, &AxialSpread::own(model), slices);
-                let flank = usize::from(side == FlankSide::Left);
+                let flank = usize::from(side == Flank::Left);
                 let mut rubbed = 0;
                 for (gauge, found) in model.gauges.iter().zip(&found) {
                     let (mut first, mut second) = (0.0, 0.0);

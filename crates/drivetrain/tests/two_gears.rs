@@ -15,7 +15,7 @@ use gearmesh_dynamics::{
     Joint, JointKind, Marker, MarkerPair, Motion, System, TimeFunction, natural_modes,
 };
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, ToothGeometry};
 use mesh_common::*;
 
 /// √(k/m_eq), m_eq = I₁I₂/(I₁r_b2² + I₂r_b1²), with a constant stiffness; the other mode is the free turning of the pair.
@@ -24,7 +24,7 @@ fn two_gears_swing_at_the_closed_form() {
     let pair = spur_pair();
     let stiffness = 3e8;
     let spring = MeshSpring::new(stiffness, SLICES, pair.working_pressure_angle_rad.tan()).unwrap();
-    let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, spring).unwrap();
+    let mesh = GearMesh::new(kinematics(&pair), Flank::Right, spring).unwrap();
     let mut system = two_gears(&pair, mesh, (0.0, 0.0, -10e-6), WIDTH)
         .0
         .build()
@@ -153,9 +153,9 @@ fn the_pair_of_seed_003() {
         1,
     )
     .unwrap();
-    let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
+    let mesh = GearMesh::new(kinematics, Flank::Right, law)
         .unwrap()
-        .with_side(FlankSide::Left, law)
+        .with_side(Flank::Left, law)
         .unwrap();
     let (mut builder, [gear_1, gear_2]) = two_gears(&pair, mesh, (0.0, 0.0, 1e-6), 100e-3);
     let ramp_s = 0.03;

@@ -179,15 +179,11 @@ impl Basis {
             vectors: Vec::new(),
             images: Vec::new(),
         };
-        let mut seed = 1_u64;
+        // The same vectors in every run.
+        let mut random = fastrand::Rng::with_seed(1);
         for _ in 0..BLOCK {
             let start: Vec<f64> = (0..operator.size())
-                .map(|_| {
-                    seed = seed
-                        .wrapping_mul(6_364_136_223_846_793_005)
-                        .wrapping_add(1_442_695_040_888_963_407);
-                    (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-                })
+                .map(|_| 2.0 * random.f64() - 1.0)
                 .collect();
             // Twice, so that what joints and equations without mass forbid is gone.
             let moved = operator.apply(&start);

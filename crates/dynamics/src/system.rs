@@ -88,7 +88,7 @@ impl Slot {
     }
 
     /// For each local degree of freedom that of the system; none for the ground's.
-    fn system_dofs(&self) -> Vec<Option<usize>> {
+    pub(crate) fn system_dofs(&self) -> Vec<Option<usize>> {
         let mut system = vec![None; self.loads.by_position.pattern().columns()];
         for place in &self.places {
             for i in 0..place.count {

@@ -1,6 +1,8 @@
-//! The elements on offer, by name: stiffness, strain operator, volume of one hexahedron, tetrahedron or wedge.
+//! Stiffness, strain operator, mass and volume of one hexahedron, tetrahedron or wedge.
 //!
 //! Degrees of freedom of an element: 3 i + a is the displacement of node i along axis a (x, y, z).
+
+use gearmesh_elements::Element;
 
 use crate::element_matrix::ElementMatrix;
 use crate::error::ElementError;
@@ -12,24 +14,6 @@ use crate::{hex8, hex8_incompatible, hex20, tet10, wedge6, wedge15};
 
 /// Strain per nodal displacement (1/m): rows xx, yy, zz, xy, yz, xz with engineering shear, `operator[row][3 i + a]`.
 pub type StrainOperator = [Vec<f64>; 6];
-
-/// Kind and formulation of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Element {
-    /// Hexahedron of eight nodes, trilinear displacement, 2×2×2 Gauss points. Locks in bending.
-    Hex8,
-    /// [`Element::Hex8`] with three condensed bending modes (QM6). No locking in bending; the default.
-    #[default]
-    Hex8Incompatible,
-    /// Hexahedron of twenty nodes, quadratic displacement and edges (serendipity), 3×3×3 Gauss points.
-    Hex20,
-    /// Tetrahedron of ten nodes, quadratic displacement and edges, eight points.
-    Tet10,
-    /// Wedge of six nodes beside hexahedra of eight, 3×2 points. Locks in bending.
-    Wedge6,
-    /// Wedge of fifteen nodes beside hexahedra of twenty (serendipity), 6×3 points.
-    Wedge15,
-}
 
 /// Evaluates an expression with the module that has the shape functions of an element.
 macro_rules! with_shape {
@@ -59,46 +43,95 @@ macro_rules! with_shape {
     };
 }
 
-impl Element {
-    /// Every formulation.
-    pub const ALL: [Self; 6] = [
-        Self::Hex8,
-        Self::Hex8Incompatible,
-        Self::Hex20,
-        Self::Tet10,
-        Self::Wedge6,
-        Self::Wedge15,
-    ];
-
-    /// The name in files and messages.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Hex8 => "hex8",
-            Self::Hex8Incompatible => "hex8-incompatible",
-            Self::Hex20 => "hex20",
-            Self::Tet10 => "tet10",
-            Self::Wedge6 => "wedge6",
-            Self::Wedge15 => "wedge15",
-        }
-    }
-
-    /// The formulation with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|e| e.name() == name)
-    }
-
-    /// Number of nodes.
-    pub const fn node_count(self) -> usize {
-        self.natural_nodes().len()
-    }
-
+/// What a finite element computes from its nodes.
+pub trait ElementFormulas: Sized {
     /// Natural coordinates of the nodes in VTK order, corners first.
-    pub const fn natural_nodes(self) -> &'static [[f64; 3]] {
+    fn natural_nodes(self) -> &'static [[f64; 3]];
+
+    /// Natural coordinates of the centre: the mean of the corners.
+    fn centre(self) -> [f64; 3];
+
+    /// The nodes of each face: corners counter-clockwise seen from outside, then the nodes on the edges between them in
+    /// the same order.
+    fn faces(self) -> &'static [&'static [usize]];
+
+    /// The points of the stiffness with their weights, which sum to the volume of the reference shape.
+    fn integration_points(self) -> &'static [WeightedPoint];
+
+    /// The points of the mass, exact where edges are straight (wedges: where the element is a prism), also for
+    /// integrals of smooth functions against the shape functions.
+    fn mass_points(self) -> &'static [WeightedPoint];
+
+    /// Shape functions at a natural point, one per node; the condensed modes are not among them.
+    fn shape_functions(self, natural: [f64; 3]) -> Vec<f64>;
+
+    /// Position (m) of a natural point: x = Σ N_i x_i.
+    fn position_at(self, coordinates: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3];
+
+    /// Jacobian determinant (m³) at a natural point: volume per unit of natural volume.
+    ///
+    /// # Errors
+    /// [`ElementError::JacobianNotPositive`]; [`ElementError::NodeCount`].
+    fn jacobian_determinant(
+        self,
+        coordinates: &[[f64; 3]],
+        natural: [f64; 3],
+    ) -> Result<f64, ElementError>;
+
+    /// Volume (m³). The rule of the stiffness is exact where edges are straight, and for curved tetrahedra.
+    ///
+    /// # Errors
+    /// As [`ElementFormulas::jacobian_determinant`], at a Gauss point.
+    fn volume(self, coordinates: &[[f64; 3]]) -> Result<f64, ElementError>;
+
+    /// Stiffness K = ∫ Bᵀ D B dV (N/m) from the coordinates (m) of the nodes.
+    ///
+    /// # Errors
+    /// [`ElementError::JacobianNotPositive`] at a Gauss point or the centre; [`ElementError::NodeCount`].
+    fn stiffness(
+        self,
+        coordinates: &[[f64; 3]],
+        material: &Material,
+    ) -> Result<ElementMatrix, ElementError>;
+
+    /// Strain operator (6 × 3 nodes, 1/m) at a natural point: strain = operator · nodal displacements.
+    ///
+    /// For [`Element::Hex8Incompatible`] the condensed modes are included, so that
+    /// K = Σ w |J| operatorᵀ D operator over the Gauss points holds for every element.
+    ///
+    /// # Errors
+    /// [`ElementError::JacobianNotPositive`] at the point, and for the incompatible element at a Gauss point or the
+    /// centre; [`ElementError::NodeCount`].
+    fn strain_operator(
+        self,
+        coordinates: &[[f64; 3]],
+        material: &Material,
+        natural: [f64; 3],
+    ) -> Result<StrainOperator, ElementError>;
+
+    /// Checks that the Jacobian is positive at the Gauss points, the nodes and the centre.
+    ///
+    /// The Gauss points and the centre are where the stiffness needs it, the nodes are where strain is read at a
+    /// surface and where a bad shape shows first.
+    fn check_shape(self, coordinates: &[[f64; 3]]) -> Result<(), ElementError>;
+
+    /// Mass (kg) from the coordinates (m) of the nodes and the density ρ (kg/m³).
+    ///
+    /// # Errors
+    /// [`ElementError::JacobianNotPositive`] at a Gauss point; [`ElementError::NodeCount`].
+    fn mass(
+        self,
+        coordinates: &[[f64; 3]],
+        density_kg_per_m3: f64,
+    ) -> Result<ElementMatrix, ElementError>;
+}
+
+impl ElementFormulas for Element {
+    fn natural_nodes(self) -> &'static [[f64; 3]] {
         with_shape!(self, shape => &shape::NODES)
     }
 
-    /// Natural coordinates of the centre: the mean of the corners.
-    pub const fn centre(self) -> [f64; 3] {
+    fn centre(self) -> [f64; 3] {
         match self {
             Self::Hex8 | Self::Hex8Incompatible | Self::Hex20 => [0.0; 3],
             Self::Tet10 => [0.25; 3],
@@ -106,9 +139,7 @@ impl Element {
         }
     }
 
-    /// The nodes of each face: corners counter-clockwise seen from outside, then the nodes on the edges between them in
-    /// the same order.
-    pub const fn faces(self) -> &'static [&'static [usize]] {
+    fn faces(self) -> &'static [&'static [usize]] {
         match self {
             Self::Hex8 | Self::Hex8Incompatible => &hex8::FACES,
             Self::Hex20 => &hex20::FACES,
@@ -118,8 +149,7 @@ impl Element {
         }
     }
 
-    /// The points of the stiffness with their weights, which sum to the volume of the reference shape.
-    pub const fn integration_points(self) -> &'static [WeightedPoint] {
+    fn integration_points(self) -> &'static [WeightedPoint] {
         match self {
             Self::Hex8 | Self::Hex8Incompatible => &GAUSS_2,
             Self::Hex20 => &GAUSS_3,
@@ -129,9 +159,7 @@ impl Element {
         }
     }
 
-    /// The points of the mass, exact where edges are straight (wedges: where the element is a prism), also for
-    /// integrals of smooth functions against the shape functions.
-    pub const fn mass_points(self) -> &'static [WeightedPoint] {
+    fn mass_points(self) -> &'static [WeightedPoint] {
         match self {
             Self::Hex8 | Self::Hex8Incompatible | Self::Hex20 => &GAUSS_3,
             Self::Tet10 => &TET_14,
@@ -139,22 +167,16 @@ impl Element {
         }
     }
 
-    /// Shape functions at a natural point, one per node; the condensed modes are not among them.
-    pub fn shape_functions(self, natural: [f64; 3]) -> Vec<f64> {
+    fn shape_functions(self, natural: [f64; 3]) -> Vec<f64> {
         with_shape!(self, shape => shape::shape_functions(natural).to_vec())
     }
 
-    /// Position (m) of a natural point: x = Σ N_i x_i.
-    pub fn position_at(self, coordinates: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
+    fn position_at(self, coordinates: &[[f64; 3]], natural: [f64; 3]) -> [f64; 3] {
         let n = self.shape_functions(natural);
         std::array::from_fn(|k| n.iter().zip(coordinates).map(|(n, x)| n * x[k]).sum())
     }
 
-    /// Jacobian determinant (m³) at a natural point: volume per unit of natural volume.
-    ///
-    /// # Errors
-    /// [`ElementError::JacobianNotPositive`]; [`ElementError::NodeCount`].
-    pub fn jacobian_determinant(
+    fn jacobian_determinant(
         self,
         coordinates: &[[f64; 3]],
         natural: [f64; 3],
@@ -165,22 +187,14 @@ impl Element {
         })
     }
 
-    /// Volume (m³). The rule of the stiffness is exact where edges are straight, and for curved tetrahedra.
-    ///
-    /// # Errors
-    /// As [`Element::jacobian_determinant`], at a Gauss point.
-    pub fn volume(self, coordinates: &[[f64; 3]]) -> Result<f64, ElementError> {
+    fn volume(self, coordinates: &[[f64; 3]]) -> Result<f64, ElementError> {
         self.integration_points()
             .iter()
             .map(|(point, weight)| Ok(weight * self.jacobian_determinant(coordinates, *point)?))
             .sum()
     }
 
-    /// Stiffness K = ∫ Bᵀ D B dV (N/m) from the coordinates (m) of the nodes.
-    ///
-    /// # Errors
-    /// [`ElementError::JacobianNotPositive`] at a Gauss point or the centre; [`ElementError::NodeCount`].
-    pub fn stiffness(
+    fn stiffness(
         self,
         coordinates: &[[f64; 3]],
         material: &Material,
@@ -196,15 +210,7 @@ impl Element {
         })
     }
 
-    /// Strain operator (6 × 3 nodes, 1/m) at a natural point: strain = operator · nodal displacements.
-    ///
-    /// For [`Element::Hex8Incompatible`] the condensed modes are included, so that
-    /// K = Σ w |J| operatorᵀ D operator over the Gauss points holds for every element.
-    ///
-    /// # Errors
-    /// [`ElementError::JacobianNotPositive`] at the point, and for the incompatible element at a Gauss point or the
-    /// centre; [`ElementError::NodeCount`].
-    pub fn strain_operator(
+    fn strain_operator(
         self,
         coordinates: &[[f64; 3]],
         material: &Material,
@@ -220,16 +226,20 @@ impl Element {
         })
     }
 
-    /// Checks that the Jacobian is positive at the Gauss points, the nodes and the centre.
-    ///
-    /// The Gauss points and the centre are where the stiffness needs it, the nodes are where strain is read at a
-    /// surface and where a bad shape shows first.
-    pub(crate) fn check_shape(self, coordinates: &[[f64; 3]]) -> Result<(), ElementError> {
+    fn check_shape(self, coordinates: &[[f64; 3]]) -> Result<(), ElementError> {
         let gauss = self.integration_points().iter().map(|(point, _)| point);
         for point in gauss.chain(self.natural_nodes()).chain(&[self.centre()]) {
             self.jacobian_determinant(coordinates, *point)?;
         }
         Ok(())
+    }
+
+    fn mass(
+        self,
+        coordinates: &[[f64; 3]],
+        density_kg_per_m3: f64,
+    ) -> Result<ElementMatrix, ElementError> {
+        crate::mass::mass_of(self, coordinates, density_kg_per_m3)
     }
 }
 
@@ -284,20 +294,12 @@ mod tests {
             }
             let sum: f64 = element.shape_functions([0.3, 0.1, -0.7]).iter().sum();
             assert!((sum - 1.0).abs() < 1e-14);
-            let corners = corner_count(element);
+            let corners = element.cell().corner_count();
             for axis in 0..3 {
                 let nodes = &element.natural_nodes()[..corners];
                 let mean = nodes.iter().map(|x| x[axis]).sum::<f64>() / corners as f64;
                 assert!((mean - element.centre()[axis]).abs() < 1e-15);
             }
-        }
-    }
-
-    fn corner_count(element: Element) -> usize {
-        match element {
-            Element::Tet10 => 4,
-            Element::Wedge6 | Element::Wedge15 => 6,
-            _ => 8,
         }
     }
 
@@ -447,13 +449,5 @@ mod tests {
                 expected: 20
             })
         );
-    }
-
-    #[test]
-    fn names_lead_back() {
-        for element in Element::ALL {
-            assert_eq!(Element::from_name(element.name()), Some(element));
-        }
-        assert_eq!(Element::from_name("hex9"), None);
     }
 }

@@ -38,22 +38,6 @@ pub(crate) const NODES: [[f64; 3]; 20] = [
     [-1.0, 1.0, 0.0],
 ];
 
-/// The corners at the ends of each edge; edge k carries node 8 + k.
-pub const EDGE_CORNERS: [[usize; 2]; 12] = [
-    [0, 1],
-    [1, 2],
-    [2, 3],
-    [3, 0],
-    [4, 5],
-    [5, 6],
-    [6, 7],
-    [7, 4],
-    [0, 4],
-    [1, 5],
-    [2, 6],
-    [3, 7],
-];
-
 /// The nodes of each face: corners counter-clockwise seen from outside, then the edges between them.
 pub(crate) const FACES: [&[usize]; 6] = [
     &[0, 3, 2, 1, 11, 10, 9, 8],
@@ -108,13 +92,14 @@ mod tests {
     use super::*;
     use crate::isoparametric::stiffness;
     use crate::quadrature::{GAUSS_2, GAUSS_3, WeightedPoint};
+    use gearmesh_elements::HEX_EDGES;
 
     /// Corners moved, edges bent.
     fn distorted() -> [[f64; 3]; 20] {
         let mut x = NODES;
         x[6] = [1.4, 1.2, 1.3];
         x[1] = [0.9, -1.2, -0.8];
-        for (k, [a, b]) in EDGE_CORNERS.into_iter().enumerate() {
+        for (k, [a, b]) in HEX_EDGES.into_iter().enumerate() {
             x[8 + k] = std::array::from_fn(|axis| {
                 0.5 * (x[a][axis] + x[b][axis]) + 0.1 * ((3 * k + axis) as f64).sin()
             });
@@ -124,7 +109,7 @@ mod tests {
 
     #[test]
     fn mid_edge_nodes_lie_between_their_corners() {
-        for (k, [a, b]) in EDGE_CORNERS.into_iter().enumerate() {
+        for (k, [a, b]) in HEX_EDGES.into_iter().enumerate() {
             let middle = std::array::from_fn(|axis| 0.5 * (NODES[a][axis] + NODES[b][axis]));
             assert_eq!(NODES[8 + k], middle);
         }

@@ -119,19 +119,19 @@ pub use constraints::DofMap;
 pub use cyclic::CyclicInterface;
 pub use cylindrical::CylindricalFrames;
 pub use doubled_nodes::{DoubledNodes, JumpFactor};
-pub use element::{Element, StrainOperator};
+pub use element::{ElementFormulas, StrainOperator};
 pub use element_matrix::ElementMatrix;
 pub use error::{ElementError, FeError};
 pub use factor::{Factor, FactorInfo, SymbolicFactor};
+pub use gearmesh_elements::Element;
 pub use graph::NodeGraph;
 pub use hex8::CORNERS;
-pub use hex20::EDGE_CORNERS;
 pub use mass::{assemble_mass, mass_moments, mass_product};
 pub use material::{LameParameters, Material, von_mises};
 pub use model::{ElementBlock, FeModel};
 pub use modes::{
-    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, search_modes,
-    shifted_stiffness,
+    ModeProblem, ModeSettings, NaturalModes, WantedModes, natural_modes, numbers_without_pattern,
+    search_modes, shifted_stiffness,
 };
 pub use ordering::DofOrdering;
 pub use quadratic_mesh::{QuadraticMesh, arc_middle, chord_middle};
@@ -140,5 +140,3 @@ pub use rigid_group::{RigidGroup, rigid_motions};
 pub use static_condensation::{CondensedLoads, StaticCondensation};
 pub use structured::StructuredMesh;
 pub use symmetric_product::SymmetricRows;
-pub use tet10::TET_EDGE_CORNERS;
-pub use wedge15::WEDGE_EDGE_CORNERS;

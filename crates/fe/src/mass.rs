@@ -1,6 +1,6 @@
 //! Consistent mass matrix: M_ij = ∫ ρ N_i N_j dV in each of the three directions.
 //!
-//! Integrated by [`Element::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
+//! Integrated by [`ElementFormulas::mass_points`]: exact for any hexahedron with eight nodes and any wedge with six, and for
 //! straight-edged elements with more nodes. The condensed modes of the incompatible element carry no mass: they are
 //! inner unknowns of its stiffness only.
 
@@ -9,42 +9,38 @@ use rayon::prelude::*;
 
 use crate::assembly::{SparseMatrix, assemble};
 use crate::constraints::DofMap;
-use crate::element::Element;
+use crate::element::ElementFormulas;
 use crate::element_matrix::ElementMatrix;
 use crate::error::{ElementError, FeError};
 use crate::graph::NodeGraph;
 use crate::model::FeModel;
+use gearmesh_elements::Element;
 
-impl Element {
-    /// Mass (kg) from the coordinates (m) of the nodes and the density ρ (kg/m³).
-    ///
-    /// # Errors
-    /// [`ElementError::JacobianNotPositive`] at a Gauss point; [`ElementError::NodeCount`].
-    pub fn mass(
-        self,
-        coordinates: &[[f64; 3]],
-        density_kg_per_m3: f64,
-    ) -> Result<ElementMatrix, ElementError> {
-        let n = self.node_count();
-        let mut scalar = vec![0.0; n * n];
-        for &(point, weight) in self.mass_points() {
-            let volume = weight * self.jacobian_determinant(coordinates, point)?;
-            let shape = self.shape_functions(point);
-            for i in 0..n {
-                let share = density_kg_per_m3 * volume * shape[i];
-                for j in i..n {
-                    scalar[i * n + j] += share * shape[j];
-                }
+/// Mass of one element, [`ElementFormulas::mass`].
+pub(crate) fn mass_of(
+    element: Element,
+    coordinates: &[[f64; 3]],
+    density_kg_per_m3: f64,
+) -> Result<ElementMatrix, ElementError> {
+    let n = element.node_count();
+    let mut scalar = vec![0.0; n * n];
+    for &(point, weight) in element.mass_points() {
+        let volume = weight * element.jacobian_determinant(coordinates, point)?;
+        let shape = element.shape_functions(point);
+        for i in 0..n {
+            let share = density_kg_per_m3 * volume * shape[i];
+            for j in i..n {
+                scalar[i * n + j] += share * shape[j];
             }
         }
-        Ok(ElementMatrix::from_upper(3 * n, |i, j| {
-            if i % 3 == j % 3 {
-                scalar[i / 3 * n + j / 3]
-            } else {
-                0.0
-            }
-        }))
     }
+    Ok(ElementMatrix::from_upper(3 * n, |i, j| {
+        if i % 3 == j % 3 {
+            scalar[i / 3 * n + j / 3]
+        } else {
+            0.0
+        }
+    }))
 }
 
 /// Mass matrix M (free x free, kg) of a model of one density (kg/m³) under constraints.

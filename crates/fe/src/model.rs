@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::element::{Element, StrainOperator};
+use crate::element::{ElementFormulas, StrainOperator};
 use crate::element_matrix::ElementMatrix;
 use crate::error::FeError;
 use crate::material::Material;
+use gearmesh_elements::Element;
 
 /// Elements of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -61,11 +61,20 @@ pub trait ModeProblem {
     fn solve_in_place(&self, b: MatMut<'_, f64>);
     /// The vectors that the search begins with: numbers without pattern, the same in every run.
     fn start(&self, columns: usize) -> Mat<f64> {
-        let angle = |i: usize, j: usize| 12.9898 * i as f64 + 78.233 * (j + 1) as f64;
-        Mat::from_fn(self.size(), columns, |i, j| {
-            (angle(i, j).sin() * 43_758.545_3).fract()
-        })
+        numbers_without_pattern(self.size(), columns)
     }
+}
+
+/// Numbers between −1 and 1, the same in every run; a wider matrix begins with the columns of a narrower one.
+pub fn numbers_without_pattern(rows: usize, columns: usize) -> Mat<f64> {
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut numbers = Mat::zeros(rows, columns);
+    for column in 0..columns {
+        for row in 0..rows {
+            numbers[(row, column)] = 2.0 * random.f64() - 1.0;
+        }
+    }
+    numbers
 }
 
 /// K and M as matrices, with the factor of K + s M.

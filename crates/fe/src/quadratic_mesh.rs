@@ -2,9 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::hex20::EDGE_CORNERS;
-use crate::tet10::TET_EDGE_CORNERS;
-use crate::wedge15::WEDGE_EDGE_CORNERS;
+use gearmesh_elements::{HEX_EDGES, TET_EDGES, WEDGE_EDGES};
 
 /// A mesh of quadratic elements of N nodes in VTK node order.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +25,7 @@ impl QuadraticMesh<20> {
         hexes: &[[u32; 8]],
         place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
     ) -> Self {
-        with_edge_nodes(nodes, hexes, &EDGE_CORNERS, place)
+        with_edge_nodes(nodes, hexes, &HEX_EDGES, place)
     }
 }
 
@@ -41,7 +39,7 @@ impl QuadraticMesh<10> {
         tetrahedra: &[[u32; 4]],
         place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
     ) -> Self {
-        with_edge_nodes(nodes, tetrahedra, &TET_EDGE_CORNERS, place)
+        with_edge_nodes(nodes, tetrahedra, &TET_EDGES, place)
     }
 }
 
@@ -55,7 +53,7 @@ impl QuadraticMesh<15> {
         wedges: &[[u32; 6]],
         place: impl FnMut([u32; 2], [[f64; 3]; 2]) -> [f64; 3],
     ) -> Self {
-        with_edge_nodes(nodes, wedges, &WEDGE_EDGE_CORNERS, place)
+        with_edge_nodes(nodes, wedges, &WEDGE_EDGES, place)
     }
 }
 

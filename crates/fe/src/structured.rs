@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::element::Element;
 use crate::error::FeError;
 use crate::material::Material;
 use crate::model::FeModel;
 use crate::quadratic_mesh::QuadraticMesh;
+use gearmesh_elements::Element;
 
 /// A mesh of hexahedra in VTK node order.
 #[derive(Debug, Clone, PartialEq)]

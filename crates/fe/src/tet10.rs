@@ -15,6 +15,8 @@
 //!
 //! Source: T. J. R. Hughes, *The Finite Element Method*, 1987, appendix 3.I.
 
+use gearmesh_elements::TET_EDGES;
+
 /// Natural coordinates of the ten nodes.
 pub(crate) const NODES: [[f64; 3]; 10] = [
     [0.0, 0.0, 0.0],
@@ -28,9 +30,6 @@ pub(crate) const NODES: [[f64; 3]; 10] = [
     [0.5, 0.0, 0.5],
     [0.0, 0.5, 0.5],
 ];
-
-/// The corners at the ends of each edge; edge k carries node 4 + k.
-pub const TET_EDGE_CORNERS: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
 /// Gradients of the four volume coordinates L in natural coordinates.
 const L_GRADIENTS: [[f64; 3]; 4] = [
@@ -58,7 +57,7 @@ pub(crate) fn shape_functions(natural: [f64; 3]) -> [f64; 10] {
     std::array::from_fn(|i| match i {
         0..4 => l[i] * (2.0 * l[i] - 1.0),
         _ => {
-            let [a, b] = TET_EDGE_CORNERS[i - 4];
+            let [a, b] = TET_EDGES[i - 4];
             4.0 * l[a] * l[b]
         }
     })
@@ -70,7 +69,7 @@ pub(crate) fn natural_gradients(natural: [f64; 3]) -> [[f64; 3]; 10] {
     std::array::from_fn(|i| match i {
         0..4 => L_GRADIENTS[i].map(|g| (4.0 * l[i] - 1.0) * g),
         _ => {
-            let [a, b] = TET_EDGE_CORNERS[i - 4];
+            let [a, b] = TET_EDGES[i - 4];
             std::array::from_fn(|k| 4.0 * (l[b] * L_GRADIENTS[a][k] + l[a] * L_GRADIENTS[b][k]))
         }
     })

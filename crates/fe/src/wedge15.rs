@@ -34,19 +34,6 @@ pub(crate) const NODES: [[f64; 3]; 15] = [
     [0.0, 1.0, 0.0],
 ];
 
-/// The corners at the ends of each edge; edge k carries node 6 + k.
-pub const WEDGE_EDGE_CORNERS: [[usize; 2]; 9] = [
-    [0, 1],
-    [1, 2],
-    [2, 0],
-    [3, 4],
-    [4, 5],
-    [5, 3],
-    [0, 3],
-    [1, 4],
-    [2, 5],
-];
-
 /// The area coordinates that the mid-edge nodes of a triangle belong to.
 const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 

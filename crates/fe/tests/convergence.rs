@@ -12,7 +12,8 @@ use std::f64::consts::PI;
 
 use common::{ELEMENTS, nodes_where, steel};
 use gearmesh_fe::{
-    DofMap, Element, Factor, FeModel, Material, StructuredMesh, assemble_stiffness, chord_middle,
+    DofMap, Element, ElementFormulas, Factor, FeModel, Material, StructuredMesh,
+    assemble_stiffness, chord_middle,
 };
 
 const AMPLITUDE: [f64; 3] = [1.0, -0.5, 0.7];

@@ -5,7 +5,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use gearmesh_fe::{
     CondensedLoads, CyclicInterface, CylindricalFrames, DofMap, Element, Factor, FeError, FeModel,
-    Material, StaticCondensation, StructuredMesh, assemble_stiffness,
+    Material, StaticCondensation, StructuredMesh, assemble_stiffness, numbers_without_pattern,
 };
 
 fn close(a: &Mat<f64>, b: &Mat<f64>, tolerance: f64) -> bool {
@@ -20,14 +20,6 @@ fn interior(part: &StaticCondensation, loads: &CondensedLoads) -> Mat<f64> {
         loads.put_interior(load, y.col_mut(load));
     }
     y
-}
-
-/// Numbers without pattern, the same in every run.
-fn noise(rows: usize, columns: usize) -> Mat<f64> {
-    Mat::from_fn(rows, columns, |i, j| {
-        let x = (12.9898 * (i as f64 + 1.0) + 78.233 * (j as f64 + 1.0)).sin() * 43758.5453;
-        x - x.floor() - 0.5
-    })
 }
 
 fn steel(mesh: StructuredMesh) -> FeModel {
@@ -64,7 +56,7 @@ fn condensation_is_block_elimination() {
     let shift = Mat::from_fn(b.len(), 1, |row, _| f64::from(row % 3 == 1));
     assert!((part.stiffness() * &shift).norm_max() < 1e-12 * s.norm_max());
 
-    let loads = noise(dense.nrows(), 3);
+    let loads = numbers_without_pattern(dense.nrows(), 3);
     let rows = |r: &[usize]| Mat::from_fn(r.len(), 3, |x, y| loads[(r[x], y)]);
     let (p_i, p_b) = (rows(&i), rows(&b));
     let held = k_ii.solve(&p_i);
@@ -85,7 +77,7 @@ fn condensation_is_block_elimination() {
     assert!(close(&work, &(p_i.transpose() * &held_single), 1e-12));
 
     let inside = interior(&part, &condensed);
-    let u_b = noise(b.len(), 3);
+    let u_b = numbers_without_pattern(b.len(), 3);
     let full = part.expand(u_b.as_ref(), Some(inside.as_ref()));
     let u_i = held - k_ii.solve(&k_ib * &u_b);
     let taken = |r: &[usize]| Mat::from_fn(r.len(), 3, |x, y| full[(r[x], y)]);
@@ -119,7 +111,7 @@ fn turned_parts_have_one_stiffness_in_cylindrical_components() {
     assert!(close(&here, &there, 1e-13));
     // u'ᵀ K' u' = uᵀ K u for any field.
     let n = here.nrows();
-    let turned = noise(n, 2);
+    let turned = numbers_without_pattern(n, 2);
     let mut u = Mat::zeros(n, 2);
     for node in 0..n / 3 {
         for column in 0..2 {
@@ -144,7 +136,7 @@ fn turned_parts_have_one_stiffness_in_cylindrical_components() {
 #[test]
 fn harmonics_solve_the_circulant_system() {
     let cut = 7;
-    let root = noise(2 * cut, 2 * cut);
+    let root = numbers_without_pattern(2 * cut, 2 * cut);
     let s = &root * root.transpose() + Mat::<f64>::identity(2 * cut, 2 * cut) * 0.1;
     for sectors in [2, 3, 4, 7] {
         let ring = CyclicInterface::new(s.as_ref(), sectors).unwrap();
@@ -161,7 +153,7 @@ fn harmonics_solve_the_circulant_system() {
         let inverse = whole.llt(Side::Lower).unwrap();
         let loads: Vec<Mat<f64>> = (0..sectors)
             .map(|sector| {
-                noise(2 * cut + sector, 4)
+                numbers_without_pattern(2 * cut + sector, 4)
                     .subrows(sector, 2 * cut)
                     .to_owned()
             })

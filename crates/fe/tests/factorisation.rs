@@ -6,7 +6,8 @@ mod common;
 use common::{distorted_cube, model};
 use faer::Mat;
 use gearmesh_fe::{
-    DofMap, DofOrdering, Element, Factor, FeError, FeModel, StructuredMesh, assemble_stiffness,
+    DofMap, DofOrdering, Element, ElementFormulas, Factor, FeError, FeModel, StructuredMesh,
+    assemble_stiffness,
 };
 use proptest::prelude::*;
 

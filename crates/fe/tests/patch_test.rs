@@ -6,7 +6,8 @@ mod common;
 
 use common::{ELEMENTS, distorted_cube, model, nodes_where};
 use gearmesh_fe::{
-    DofMap, DofOrdering, Element, ElementBlock, Factor, FeError, FeModel, assemble_stiffness,
+    DofMap, DofOrdering, Element, ElementBlock, ElementFormulas, Factor, FeError, FeModel,
+    assemble_stiffness,
 };
 
 const GRADIENT: [[f64; 3]; 3] = [[1.0, 0.3, -0.2], [0.5, -0.7, 0.4], [-0.1, 0.6, 0.8]];

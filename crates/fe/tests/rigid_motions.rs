@@ -7,7 +7,7 @@ use common::{
     ELEMENTS, distorted_cube, distorted_element, model, nodes_where, rotate, rotation, steel,
 };
 use faer::{Mat, Side};
-use gearmesh_fe::{DofMap, Element, Factor, FeError, assemble_stiffness};
+use gearmesh_fe::{DofMap, Element, ElementFormulas, Factor, FeError, assemble_stiffness};
 
 fn stiffness(element: Element, x: &[[f64; 3]]) -> Mat<f64> {
     let k = element.stiffness(x, &steel()).unwrap();

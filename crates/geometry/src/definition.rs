@@ -1,10 +1,14 @@
 //! What a gear is: the validated definition, in SI units. The defaults of its parts are empty records to be filled, no gears.
 
-use crate::microgeometry::Microgeometry;
+use gearmesh_elements::Element;
+
+use crate::microgeometry::GearMicrogeometry;
 use crate::tooth::ToothGeometry;
+use std::fmt;
 use std::path::PathBuf;
 
-/// Hand of a flank: the right flank faces clockwise seen from +z.
+/// Hand of a flank, and so of a side of the teeth; its words in files and on the command line are those of [`Flank::name`]. Teeth
+/// are numbered counter-clockwise seen from +z.
 #[derive(
     Debug,
     Clone,
@@ -20,15 +24,24 @@ use std::path::PathBuf;
     Default,
 )]
 #[serde(rename_all = "kebab-case")]
-pub enum FlankSide {
+pub enum Flank {
     /// Faces clockwise; a load on it turns the gear counter-clockwise.
     #[default]
     Right,
-    /// Faces counter-clockwise; the mirror image.
+    /// Faces counter-clockwise, the mirror image; a load on it turns the gear clockwise.
     Left,
 }
 
-impl FlankSide {
+impl fmt::Display for Flank {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+impl Flank {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Right, Self::Left];
+
     /// +1 for the right flank, −1 for its mirror image: the factor of y.
     pub fn mirror(self) -> f64 {
         match self {
@@ -46,7 +59,7 @@ impl FlankSide {
     }
 
     /// Name in files and prints.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Right => "right",
             Self::Left => "left",
@@ -134,7 +147,7 @@ pub struct MeshedBody {
 
 impl MeshedBody {
     /// Name of the set on a flank.
-    pub fn flank_set(&self, tooth: usize, side: FlankSide) -> String {
+    pub fn flank_set(&self, tooth: usize, side: Flank) -> String {
         self.flank_sets
             .replace("{tooth}", &tooth.to_string())
             .replace("{side}", side.name())
@@ -287,36 +300,11 @@ pub enum HubSupport {
     ReferencePoint,
 }
 
-/// Finite element of the body.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-    Default,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum ElementKind {
-    /// Eight nodes, full integration.
-    Hex8,
-    /// Eight nodes with incompatible bending modes.
-    #[default]
-    Hex8Incompatible,
-    /// Twenty nodes, quadratic, with curved edges.
-    Hex20,
-    /// Tetrahedra of ten nodes, quadratic, with curved edges; the body below the teeth is meshed freely.
-    Tet10,
-}
-
 /// Element sizes and the quality that the mesh must reach.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MeshSettings {
     /// Element.
-    pub element: ElementKind,
+    pub element: Element,
     /// Why tetrahedra were chosen, where the definition leaves the choice.
     pub chosen_because: Option<&'static str>,
     /// Element length along the flank \[m\].
@@ -336,11 +324,11 @@ pub struct MeshSettings {
 impl MeshSettings {
     /// The element lengths where a gear file gives none, in the unit of module and face width: along flank and fillet,
     /// in the body, along the axis.
-    pub fn default_lengths(element: ElementKind, module: f64, face_width: f64) -> [f64; 4] {
+    pub fn default_lengths(element: Element, module: f64, face_width: f64) -> [f64; 4] {
         // Quadratic tetrahedra on twice the lengths have about as many nodes as bricks of eight nodes.
         let coarser = match element {
-            ElementKind::Tet10 => 2.0,
-            ElementKind::Hex8 | ElementKind::Hex8Incompatible | ElementKind::Hex20 => 1.0,
+            Element::Tet10 => 2.0,
+            _ => 1.0,
         };
         [
             coarser * 0.3 * module,
@@ -372,7 +360,7 @@ pub struct ReductionSettings {
     /// Slices over the face width.
     pub slices: usize,
     /// Flanks that carry loads.
-    pub flanks: Vec<FlankSide>,
+    pub flanks: Vec<Flank>,
 }
 
 /// Where a gauge sits on the root fillet.
@@ -399,7 +387,7 @@ pub struct GaugeDefinition {
     /// Tooth.
     pub tooth: usize,
     /// Side of the tooth.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Centre of the gauge on the profile.
     pub position: RootPosition,
     /// Length along the profile \[m\].
@@ -416,7 +404,7 @@ pub struct CrackDefinition {
     /// Tooth.
     pub tooth: usize,
     /// Side of the tooth on which it opens.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Its mouth on the profile.
     pub start: RootPosition,
     /// Depth \[m\].
@@ -436,8 +424,8 @@ pub struct GearDefinition {
     pub blank: Blank,
     /// Material.
     pub material: Material,
-    /// Microgeometry of both flanks.
-    pub microgeometry: Microgeometry,
+    /// Microgeometry of right and left flanks, as the gear file states it; a scene may state another.
+    pub microgeometry: GearMicrogeometry,
     /// Mesh.
     pub mesh: MeshSettings,
     /// Reduction.

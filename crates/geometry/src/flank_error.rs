@@ -1,8 +1,7 @@
 //! Deviations of the flanks from the ideal involute: material removed, tooth by tooth. The kinds other than the
 //! microgeometry are in the drivetrain crate, `errors/`.
 
-use crate::definition::FlankSide;
-use crate::microgeometry::Microgeometry;
+use crate::definition::Flank;
 
 /// A point of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,7 +9,7 @@ pub struct FlankPoint {
     /// Tooth.
     pub tooth: usize,
     /// Side of the tooth.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Roll angle \[rad\].
     pub roll_rad: f64,
     /// Axial position from mid-face \[m\].
@@ -54,18 +53,4 @@ pub fn most_added_m(removed_m: &[f64]) -> f64 {
     removed_m
         .iter()
         .fold(0.0, |most, removed| most.max(-removed))
-}
-
-impl FlankError for Microgeometry {
-    fn removed(&self, at: FlankPoint) -> Removed {
-        Removed {
-            depth_m: self.removed_m(at.roll_rad, at.z_m),
-            slope_m_per_rad: self.removed_slope_m_per_rad(at.roll_rad),
-            slope_along_axis: self.removed_slope_along_axis(at.z_m),
-        }
-    }
-
-    fn most_added_m(&self) -> f64 {
-        Self::most_added_m(self)
-    }
 }

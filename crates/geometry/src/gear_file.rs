@@ -15,6 +15,9 @@ mod modes_table;
 mod openings_table;
 mod reduction_table;
 mod tooth_table;
+mod topography_table;
+
+pub use microgeometry_table::MicrogeometryTable;
 
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};
@@ -86,9 +89,11 @@ impl GearDefinition {
         let profile = ToothGeometry::new(&tooth).map_err(|e| document.error("tooth", e))?;
         let blank = file.blank.check(document, &tooth, &profile)?;
         let material = file.material.check(document)?;
-        let microgeometry = file
-            .microgeometry
-            .check(document, &profile, tooth.face_width_m)?;
+        let microgeometry = file.microgeometry.check(
+            (document, "microgeometry"),
+            (&profile, tooth.face_width_m),
+            None,
+        )?;
         let mesh = file.mesh.check(document, &tooth, &blank)?;
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
         let hub_support = file.hub.support();

@@ -1,23 +1,31 @@
 //! Reading TOML for people: every complaint names file, line, key, what was found and what is allowed.
 
 mod csv_rows;
+mod former_keys;
+mod kinds;
 mod number_ranges;
+mod number_table;
 mod readable_file;
 mod table_keys;
 mod unit_slips;
 mod wording;
 
 pub use csv_rows::{CsvRows, shown_field};
+use former_keys::Renewed;
+pub use former_keys::{FormerTable, Move};
+pub use kinds::{Kinds, read_kind};
 pub use number_ranges::NumberRange;
+pub use number_table::NumberTable;
 pub use readable_file::{
     MOST_MESH_BYTES, MOST_TEXT_BYTES, UnreadableFile, demand_readable, read_bytes,
 };
 pub use table_keys::TableKeys;
 
 use serde::de::DeserializeOwned;
-use serde_path_to_error::Segment;
 use std::fmt::Display;
 use std::path::Path;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// A complaint about an input file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -41,6 +49,8 @@ pub struct InputDocument {
     pub file: String,
     /// Its content, kept verbatim for provenance.
     pub text: String,
+    /// Tables that had another form in earlier files.
+    former: &'static [FormerTable],
 }
 
 impl InputDocument {
@@ -60,7 +70,7 @@ impl InputDocument {
         let bytes = read_bytes(path, MOST_TEXT_BYTES)
             .map_err(|cause| complaint(None, cause.to_string()))?;
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { file, text }),
+            Ok(text) => Ok(Self::new(file, text)),
             Err(error) => {
                 let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
                 let line = 1 + sound.iter().filter(|b| **b == b'\n').count();
@@ -75,7 +85,65 @@ impl InputDocument {
         Self {
             file: file.into(),
             text: text.into(),
+            former: &[],
         }
+    }
+
+    /// The document, whose tables may have a former form. All keys of complaints are those of the present form, lines
+    /// those of the text.
+    #[must_use]
+    pub fn with_former(self, former: &'static [FormerTable]) -> Self {
+        Self { former, ..self }
+    }
+
+    /// What of the text has a former form: a complaint for each, with what is written now.
+    ///
+    /// # Errors
+    /// [`InputError`] for a text that is no TOML.
+    pub fn former_notes(&self) -> Result<Vec<InputError>, InputError> {
+        let mut tree = DeTable::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
+        let renewed = self.former.iter();
+        let renewed = renewed.flat_map(|former| former.renew(tree.get_mut(), &self.text));
+        let note = |renewed: Renewed| {
+            let ends = renewed
+                .places
+                .iter()
+                .map(|place| (self.line_of(place.start), self.line_of(place.end)));
+            let mut lines: Vec<usize> = ends.flat_map(|(first, last)| first..=last).collect();
+            lines.sort_unstable();
+            lines.dedup();
+            let problem = format!(
+                "{} in a form of earlier versions, which is still read; now it is written\n    {}",
+                wording::lines(&lines),
+                renewed.present
+            );
+            InputError {
+                file: self.file.clone(),
+                line: lines.first().copied(),
+                key: renewed.key,
+                problem,
+            }
+        };
+        Ok(renewed.map(note).collect())
+    }
+
+    /// The present form of a dotted path that may be a former one.
+    #[must_use]
+    pub fn present_path(&self, path: &str) -> String {
+        let present = self
+            .former
+            .iter()
+            .find_map(|former| former.present_path(path));
+        present.unwrap_or_else(|| path.to_owned())
+    }
+
+    /// The values of the text in the present form, with their places in the text.
+    fn tree(&self) -> Result<Spanned<DeTable<'_>>, toml::de::Error> {
+        let mut tree = DeTable::parse(&self.text)?;
+        for former in self.former {
+            former.renew(tree.get_mut(), &self.text);
+        }
+        Ok(tree)
     }
 
     /// Parses the document into a structure whose keys are all checked by serde; every number is finite and within the
@@ -99,27 +167,25 @@ impl InputDocument {
     /// # Errors
     /// As [`InputDocument::parse`].
     pub fn glance<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let deserializer =
-            toml::Deserializer::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
-        serde_path_to_error::deserialize(deserializer).map_err(|e| {
-            let path = e.path().iter().filter_map(|segment| match segment {
-                Segment::Map { key } => Some(key.clone()),
-                Segment::Seq { index } => Some(index.to_string()),
-                Segment::Enum { .. } | Segment::Unknown => None,
-            });
-            self.complaint(path.collect(), e.inner())
-        })
+        let tree = self.tree().map_err(|e| self.complaint(Vec::new(), &e))?;
+        serde_path_to_error::deserialize(toml::Deserializer::from(tree))
+            .map_err(|e| self.complaint(kinds::keys_of(e.path()), e.inner()))
     }
 
     /// A complaint about what serde found at `path`.
-    fn complaint(&self, path: Vec<String>, error: &toml::de::Error) -> InputError {
-        let (key, problem) = wording::in_plain_words(path, error.message().trim());
+    fn complaint(&self, mut path: Vec<String>, error: &toml::de::Error) -> InputError {
+        let (deeper, message) = kinds::told_below(error.message().trim());
+        path.extend(deeper.iter().map(|part| (*part).to_owned()));
+        // A span is that of the place that serde knows.
+        let span = error.span().filter(|_| deeper.is_empty());
+        let line = match span {
+            Some(span) => Some(self.line_of(span.start)),
+            None => self.locate(&path.join(".")),
+        };
+        let (key, problem) = wording::in_plain_words(path, message);
         InputError {
             file: self.file.clone(),
-            line: error
-                .span()
-                .map(|span| self.line_of(span.start))
-                .or_else(|| self.locate(&key)),
+            line,
             key,
             problem,
         }
@@ -135,21 +201,31 @@ impl InputDocument {
         }
     }
 
+    /// Whether a dotted key is in the file.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.walk(key)
+            .is_some_and(|(_, parts)| parts == key.split('.').count())
+    }
+
     /// Line of a dotted key, or of the deepest parent of it that is in the file.
     fn locate(&self, key: &str) -> Option<usize> {
-        let table = toml::de::DeTable::parse(&self.text).ok()?;
+        self.walk(key).map(|(line, _)| line)
+    }
+
+    /// Line of the deepest part of a dotted key that is in the file, and how many parts that are.
+    fn walk(&self, key: &str) -> Option<(usize, usize)> {
+        let table = self.tree().ok()?;
         let mut found = None;
-        let mut value: Option<&toml::Spanned<toml::de::DeValue<'_>>> = None;
-        for part in key.split('.') {
+        let mut value: Option<&Spanned<DeValue<'_>>> = None;
+        for (above, part) in key.split('.').enumerate() {
             let next = match value.map(|v| v.get_ref()) {
                 None => table
                     .get_ref()
                     .get_key_value(part)
                     .map(|(k, v)| (k.span(), v)),
-                Some(toml::de::DeValue::Table(t)) => {
-                    t.get_key_value(part).map(|(k, v)| (k.span(), v))
-                }
-                Some(toml::de::DeValue::Array(a)) => part
+                Some(DeValue::Table(t)) => t.get_key_value(part).map(|(k, v)| (k.span(), v)),
+                Some(DeValue::Array(a)) => part
                     .parse::<usize>()
                     .ok()
                     .and_then(|i| a.get(i))
@@ -157,7 +233,7 @@ impl InputDocument {
                 Some(_) => None,
             };
             let Some((span, next)) = next else { break };
-            found = Some(self.line_of(span.start));
+            found = Some((self.line_of(span.start), above + 1));
             value = Some(next);
         }
         found

@@ -8,7 +8,7 @@
 //! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
-//! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs` |
+//! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
 //! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
 //!
@@ -30,12 +30,13 @@ mod tip_in_fillet;
 pub mod tooth;
 
 pub use definition::{
-    Blank, Contour, ContourPoint, CrackDefinition, ElementKind, FlankSide, GaugeDefinition,
-    GearDefinition, Holes, HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange,
-    Openings, ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, Web,
+    Blank, Contour, ContourPoint, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Holes,
+    HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
+    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, Web,
 };
+pub use gearmesh_elements::Element;
 pub use input::InputError;
-pub use microgeometry::Microgeometry;
+pub use microgeometry::{GearMicrogeometry, Microgeometry};
 pub use pair::{GearPair, Misalignment, PairError};
 pub use profile_curve::ProfileCurve;
 pub use tooth::{GeometryError, ToothGeometry};

@@ -1,6 +1,6 @@
 //! Two gears at a centre distance: working pressure angle, path of contact, backlash, sliding, interference.
 
-use crate::definition::FlankSide;
+use crate::definition::Flank;
 use crate::involute;
 use crate::tip_in_fillet;
 use crate::tooth::ToothGeometry;
@@ -120,7 +120,7 @@ pub struct GearPair {
     /// Axis errors.
     pub misalignment: Misalignment,
     /// Side of the flanks in contact, on both gears: right where gear 1 turns clockwise.
-    pub flank: FlankSide,
+    pub flank: Flank,
     /// Roll angle on gear 1 where contact starts (tip of gear 2).
     pub roll_start_1_rad: f64,
     /// Roll angle on gear 1 where contact ends (tip of gear 1).
@@ -173,7 +173,7 @@ impl GearPair {
             centre_distance_m,
             working_pressure_angle_rad: alpha_w,
             misalignment,
-            flank: FlankSide::Right,
+            flank: Flank::Right,
         };
         for (gear, tip, mate) in [
             (1, &pair.gear_1, &pair.gear_2),
@@ -237,7 +237,7 @@ impl GearPair {
     }
 
     /// The same pair with contact on the flanks of the given side.
-    pub fn on_flanks(self, flank: FlankSide) -> Self {
+    pub fn on_flanks(self, flank: Flank) -> Self {
         Self { flank, ..self }
     }
 
@@ -298,8 +298,8 @@ impl GearPair {
     /// gear 1's tooth p with gear 2's tooth −p, on left flanks the mirror image, tooth −p with tooth p.
     pub fn teeth_of(&self, pair: i64) -> [usize; 2] {
         let pair = match self.flank {
-            FlankSide::Right => pair,
-            FlankSide::Left => -pair,
+            Flank::Right => pair,
+            Flank::Left => -pair,
         };
         let wrap = |tooth: i64, teeth: usize| tooth.rem_euclid(teeth as i64) as usize;
         [

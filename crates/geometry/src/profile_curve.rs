@@ -1,6 +1,6 @@
 //! The outline of half a tooth by arc length: root arc, fillet, flank, chamfer, tip land.
 
-use crate::definition::{FlankSide, RootPosition};
+use crate::definition::{Flank, RootPosition};
 use crate::involute;
 use crate::tooth::ToothGeometry;
 
@@ -102,9 +102,9 @@ impl ProfileCurve {
         match piece {
             Piece::RootArc => on_circle(t.root_radius_m),
             Piece::Fillet => t.trochoid.point_m(parameter),
-            Piece::Flank => t.flank_point_m(FlankSide::Right, parameter),
+            Piece::Flank => t.flank_point_m(Flank::Right, parameter),
             Piece::Chamfer => {
-                let a = t.flank_point_m(FlankSide::Right, t.flank_end_roll_rad);
+                let a = t.flank_point_m(Flank::Right, t.flank_end_roll_rad);
                 let angle = -t.tip_half_angle_rad();
                 let b = [t.tip_radius_m * angle.cos(), t.tip_radius_m * angle.sin()];
                 [
@@ -288,8 +288,8 @@ impl ProfileCurve {
     /// t = r_b ξ − √(r_f² − r_b²) (the normal is a tangent of the base circle), or to the point of tangency where the
     /// root lies inside the base circle.
     pub fn opposite_distance_m(&self, roll_rad: f64) -> f64 {
-        let p = self.tooth.flank_point_m(FlankSide::Right, roll_rad);
-        let (n, _) = self.tooth.flank_frame(FlankSide::Right, roll_rad);
+        let p = self.tooth.flank_point_m(Flank::Right, roll_rad);
+        let (n, _) = self.tooth.flank_frame(Flank::Right, roll_rad);
         let mirrored = |s: &Sample| {
             let q = self.point(s.piece, s.parameter);
             [q[0], -q[1]]

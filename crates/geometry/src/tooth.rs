@@ -1,6 +1,6 @@
 //! One tooth: root arc, trochoidal fillet, involute flank, chamfer and tip, as functions of simple parameters.
 
-use crate::definition::{FlankSide, ToothDefinition};
+use crate::definition::{Flank, ToothDefinition};
 use crate::fillet::Trochoid;
 use crate::involute;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -255,7 +255,7 @@ impl ToothGeometry {
     /// β_b and −sin β_b along +z on right flanks, +sin β_b on left ones. On the helicoid ∂P/∂z = (tan β_b e_t + e_z)
     /// besides a part along the profile, with e_t = n_t on the right and −n_t on the left flank. Turn it with its
     /// section.
-    pub fn flank_normal(&self, side: FlankSide, roll_rad: f64) -> [f64; 3] {
+    pub fn flank_normal(&self, side: Flank, roll_rad: f64) -> [f64; 3] {
         let ([x, y], _) = self.flank_frame(side, roll_rad);
         let (sin, cos) = self.base_helix_angle_rad().sin_cos();
         [cos * x, cos * y, -side.mirror() * sin]
@@ -276,7 +276,7 @@ impl ToothGeometry {
     }
 
     /// Point of a flank \[m\] at a roll angle, for the tooth centred on +x.
-    pub fn flank_point_m(&self, side: FlankSide, roll_rad: f64) -> [f64; 2] {
+    pub fn flank_point_m(&self, side: Flank, roll_rad: f64) -> [f64; 2] {
         let r = involute::radius_m(roll_rad, self.base_radius_m);
         let psi = self.half_angle_rad(roll_rad);
         [r * psi.cos(), -side.mirror() * r * psi.sin()]
@@ -285,7 +285,7 @@ impl ToothGeometry {
     /// Unit normal of a flank, into the material, and unit tangent towards the tip.
     ///
     /// With φ = ξ − ψ_b the base tangent's polar angle on the right flank: normal e_t(φ), tangent e_r(φ).
-    pub fn flank_frame(&self, side: FlankSide, roll_rad: f64) -> ([f64; 2], [f64; 2]) {
+    pub fn flank_frame(&self, side: Flank, roll_rad: f64) -> ([f64; 2], [f64; 2]) {
         let (s, c) = (roll_rad - self.base_half_angle_rad).sin_cos();
         let mirror = side.mirror();
         ([-s, mirror * c], [c, mirror * s])

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{ElementKind, GearDefinition};
+use gearmesh_geometry::{Element, GearDefinition};
 
-fn element(web: &str, more: &str) -> (ElementKind, Option<&'static str>) {
+fn element(web: &str, more: &str) -> (Element, Option<&'static str>) {
     let text = format!(
         "name = \"g\"\n[tooth]\nteeth = 30\nmodule_mm = 3.0\nface_width_mm = 20.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\n\
          [blank]\nkind = \"contour\"\nbore_diameter_mm = 20.0\nhub_z_mm = [-12.0, 9.0]\nweb = [{web}]\n{more}"
@@ -19,12 +19,12 @@ const RIM: &str = "{ diameter_mm = 70.0, z_mm = [-2.0, 4.0] }";
 #[test]
 fn layers_are_taken_where_they_follow_the_contour() {
     let found = element(&format!("{HUB}, {RIM}"), "");
-    assert_eq!(found, (ElementKind::Hex8Incompatible, None));
+    assert_eq!(found, (Element::Hex8Incompatible, None));
     // 45 degrees.
     let steep =
         "{ diameter_mm = 60.0, z_mm = [-2.0, 4.0] }, { diameter_mm = 62.0, z_mm = [-3.0, 3.0] }";
     let found = element(&format!("{HUB}, {steep}, {RIM}"), "");
-    assert_eq!(found, (ElementKind::Hex8Incompatible, None));
+    assert_eq!(found, (Element::Hex8Incompatible, None));
 }
 
 #[test]
@@ -56,13 +56,9 @@ fn tetrahedra_are_taken_elsewhere_and_the_reason_is_told() {
             "a point of the contour lies among the openings",
         ),
     ] {
-        assert_eq!(
-            element(&web, more),
-            (ElementKind::Tet10, Some(reason)),
-            "{web}"
-        );
+        assert_eq!(element(&web, more), (Element::Tet10, Some(reason)), "{web}");
     }
     // Asked for, it needs no reason.
     let asked = element(&format!("{HUB}, {RIM}"), "[mesh]\nelement = \"tet10\"\n");
-    assert_eq!(asked, (ElementKind::Tet10, None));
+    assert_eq!(asked, (Element::Tet10, None));
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve, RootPosition};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, RootPosition};
 
 const GEAR: &str = "name = \"g\"\n[tooth]\nteeth = 30\nmodule_mm = 3.0\nface_width_mm = 20.0\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\n";
 const SOLID: &str = "[blank]\nkind = \"solid\"\nbore_diameter_mm = 30.0\n";
@@ -19,7 +19,7 @@ fn a_crack_starts_across_the_fillet_at_the_30_degree_tangent() {
     let found = read(crack).unwrap();
     let curve = ProfileCurve::new(&found.profile);
     let crack = found.crack.unwrap();
-    assert_eq!((crack.tooth, crack.side), (3, FlankSide::Left));
+    assert_eq!((crack.tooth, crack.side), (3, Flank::Left));
     assert_eq!(crack.start, RootPosition::TangentAngle(30f64.to_radians()));
     assert_eq!(crack.depth_m, 1.5e-3);
     assert!((crack.angle_rad.to_degrees() - 60.0).abs() < 0.05);

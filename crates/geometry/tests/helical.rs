@@ -4,7 +4,7 @@
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{
-    FlankSide, GearDefinition, GearPair, Misalignment, PairError, ToothGeometry, involute,
+    Flank, GearDefinition, GearPair, Misalignment, PairError, ToothGeometry, involute,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -80,8 +80,8 @@ fn a_vanishing_helix_is_a_spur_gear() {
         let q = almost.trochoid.point_m(share * almost.fillet_end_m);
         assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-16);
         let roll = spur.form_roll_rad + share * (spur.tip_roll_rad - spur.form_roll_rad);
-        let p = spur.flank_point_m(FlankSide::Left, roll);
-        let q = almost.flank_point_m(FlankSide::Left, roll);
+        let p = spur.flank_point_m(Flank::Left, roll);
+        let q = almost.flank_point_m(Flank::Left, roll);
         assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-16);
     }
 }
@@ -131,9 +131,9 @@ fn the_fillet_is_the_envelope_of_an_elliptic_rounding() {
         }
         // Common tangent with the involute.
         let end = g.trochoid.point_m(g.fillet_end_m);
-        let start = g.flank_point_m(FlankSide::Right, g.form_roll_rad);
+        let start = g.flank_point_m(Flank::Right, g.form_roll_rad);
         assert!((end[0] - start[0]).hypot(end[1] - start[1]) < 1e-12);
-        let (_, t) = g.flank_frame(FlankSide::Right, g.form_roll_rad);
+        let (_, t) = g.flank_frame(Flank::Right, g.form_roll_rad);
         let angle = g.trochoid.tangent_angle_rad(g.fillet_end_m);
         assert!((t[1].atan2(t[0]) - angle).abs() < 1e-12);
     }
@@ -143,7 +143,7 @@ fn the_fillet_is_the_envelope_of_an_elliptic_rounding() {
 fn the_normal_stands_on_the_helicoid() {
     for helix_deg in [18.0, -33.0] {
         let g = ToothGeometry::new(&tooth(31, helix_deg, 0.1)).unwrap();
-        for side in [FlankSide::Right, FlankSide::Left] {
+        for side in [Flank::Right, Flank::Left] {
             let point = |roll: f64, z: f64| {
                 let [x, y] = turned(g.flank_point_m(side, roll), z * g.twist_rad_per_m());
                 [x, y, z]
@@ -170,10 +170,10 @@ fn the_normal_stands_on_the_helicoid() {
 #[test]
 fn helicoids_of_opposite_hand_touch_along_the_contact_line() {
     for (helix_deg, side) in [
-        (22.0, FlankSide::Right),
-        (-22.0, FlankSide::Right),
-        (22.0, FlankSide::Left),
-        (-22.0, FlankSide::Left),
+        (22.0, Flank::Right),
+        (-22.0, Flank::Right),
+        (22.0, Flank::Left),
+        (-22.0, Flank::Left),
     ] {
         let pair = pair(helix_deg, -helix_deg).unwrap().on_flanks(side);
         let mirror = side.mirror();
@@ -216,10 +216,10 @@ fn helicoids_of_opposite_hand_touch_along_the_contact_line() {
 #[test]
 fn misalignment_opens_the_flanks_as_a_rigid_tilt_does() {
     for (helix_deg, side) in [
-        (0.0, FlankSide::Right),
-        (22.0, FlankSide::Right),
-        (-22.0, FlankSide::Right),
-        (22.0, FlankSide::Left),
+        (0.0, Flank::Right),
+        (22.0, Flank::Right),
+        (-22.0, Flank::Right),
+        (22.0, Flank::Left),
     ] {
         for (inclination_rad, deviation_rad) in [(1.0, 0.0), (0.0, 1.0)] {
             let mut pair = pair(helix_deg, -helix_deg).unwrap().on_flanks(side);

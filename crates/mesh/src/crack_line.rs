@@ -8,7 +8,7 @@
 
 use crate::MeshError;
 use crate::tooth_cell::ToothCell;
-use gearmesh_geometry::{CrackDefinition, FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{CrackDefinition, Flank, GearDefinition, ProfileCurve};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// How far from the tip nodes give way, in sides of quads.
@@ -67,8 +67,8 @@ impl CrackLine {
         // The definition was checked for this place.
         let arc = curve.arc_length_at(crack.start).unwrap_or_default();
         let wanted = match crack.side {
-            FlankSide::Right => arc,
-            FlankSide::Left => total - arc,
+            Flank::Right => arc,
+            Flank::Left => total - arc,
         };
         let off = |i: &usize| (cell.outline_arc_m[*i] - wanted).abs();
         let place = (1..cell.outline.len() - 1).min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -100,8 +100,8 @@ impl CrackLine {
         Ok(Self {
             mouth_radius_m: line.mouth[0].hypot(line.mouth[1]),
             beyond: match crack.side {
-                FlankSide::Right => right,
-                FlankSide::Left => left,
+                Flank::Right => right,
+                Flank::Left => left,
             },
             doubled,
             path,

@@ -1,69 +1,17 @@
 //! Elements of one kind as a flat list of node numbers.
 
-use gearmesh_geometry::ElementKind;
-
-/// Kind of an element by its nodes; the formulation (incompatible modes or none) is no matter of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ElementShape {
-    /// Hexahedron with eight nodes, VTK order.
-    Hex8,
-    /// Hexahedron with twenty nodes, VTK order: the corners first, then the middles of the edges.
-    Hex20,
-    /// Tetrahedron with ten nodes, VTK order: the corners first, then the middles of the edges.
-    Tet10,
-}
-
-impl ElementShape {
-    /// The shape of an element that a definition names.
-    pub const fn of(kind: ElementKind) -> Self {
-        match kind {
-            ElementKind::Hex8 | ElementKind::Hex8Incompatible => Self::Hex8,
-            ElementKind::Hex20 => Self::Hex20,
-            ElementKind::Tet10 => Self::Tet10,
-        }
-    }
-
-    /// Number of nodes.
-    pub const fn node_count(self) -> usize {
-        match self {
-            Self::Hex8 => 8,
-            Self::Hex20 => 20,
-            Self::Tet10 => 10,
-        }
-    }
-
-    /// Name of such elements in prints.
-    pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Hex8 | Self::Hex20 => "hexahedra",
-            Self::Tet10 => "tetrahedra",
-        }
-    }
-
-    /// True for those with nodes in the middle of their edges.
-    pub const fn is_quadratic(self) -> bool {
-        !matches!(self, Self::Hex8)
-    }
-
-    /// Number of corners; they are the first nodes of an element.
-    pub const fn corner_count(self) -> usize {
-        match self {
-            Self::Hex8 | Self::Hex20 => 8,
-            Self::Tet10 => 4,
-        }
-    }
-}
+use gearmesh_elements::CellKind;
 
 /// Elements of one shape.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ElementList {
-    shape: ElementShape,
+    shape: CellKind,
     connectivity: Vec<u32>,
 }
 
 impl ElementList {
     /// No elements yet.
-    pub const fn new(shape: ElementShape) -> Self {
+    pub const fn new(shape: CellKind) -> Self {
         Self {
             shape,
             connectivity: Vec::new(),
@@ -87,7 +35,7 @@ impl ElementList {
     }
 
     /// Their shape.
-    pub const fn shape(&self) -> ElementShape {
+    pub const fn shape(&self) -> CellKind {
         self.shape
     }
 

@@ -5,7 +5,7 @@
 //! tetrahedra only the teeth are made of layers, each brick of them split (`tet_mesh.rs`); the body is a free mesh.
 
 use crate::MeshError;
-use crate::elements::{ElementList, ElementShape};
+use crate::elements::ElementList;
 use crate::face::{FaceShape, OutlineFace};
 use crate::heights::Heights;
 use crate::layers::Layers;
@@ -15,7 +15,8 @@ use crate::section::Section;
 use crate::solid_body::SolidBody;
 use crate::tet_split;
 use crate::twist::Twist;
-use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_elements::CellKind;
+use gearmesh_geometry::{Element, Flank, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -53,7 +54,7 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
-        if gear.mesh.element == ElementKind::Tet10 && gear.blank.meshed.is_none() {
+        if gear.mesh.element == Element::Tet10 && gear.blank.meshed.is_none() {
             return Self::in_tetrahedra(gear, python);
         }
         if let Some(body) = &gear.blank.meshed {
@@ -203,8 +204,8 @@ impl GearMesh {
     /// Elements that a quad has in a layer.
     pub(crate) fn in_brick(&self) -> u32 {
         match self.elements.shape() {
-            ElementShape::Hex8 | ElementShape::Hex20 => 1,
-            ElementShape::Tet10 => tet_split::TETRAHEDRA as u32,
+            CellKind::Tet10 => tet_split::TETRAHEDRA as u32,
+            _ => 1,
         }
     }
 
@@ -299,12 +300,7 @@ impl GearMesh {
 
     /// Faces of one side of a tooth between two arc lengths (from the centre of that side's tooth space), including
     /// those that are partly outside.
-    pub fn outline_faces(
-        &self,
-        tooth: usize,
-        side: FlankSide,
-        arc_m: [f64; 2],
-    ) -> Vec<OutlineFace> {
+    pub fn outline_faces(&self, tooth: usize, side: Flank, arc_m: [f64; 2]) -> Vec<OutlineFace> {
         let cell = &self.section.cell;
         let total = cell.outline_arc_m[cell.outline_arc_m.len() - 1];
         let map = &self.section.cell_nodes[tooth];
@@ -312,12 +308,12 @@ impl GearMesh {
         for i in 0..cell.outline_quads.len() {
             // On the left side arc length runs the other way, start and end change places.
             let (start, end) = match side {
-                FlankSide::Right => (i, i + 1),
-                FlankSide::Left => (i + 1, i),
+                Flank::Right => (i, i + 1),
+                Flank::Left => (i + 1, i),
             };
             let from_space = |k: usize| match side {
-                FlankSide::Right => cell.outline_arc_m[k],
-                FlankSide::Left => total - cell.outline_arc_m[k],
+                Flank::Right => cell.outline_arc_m[k],
+                Flank::Left => total - cell.outline_arc_m[k],
             };
             let arcs = [from_space(start), from_space(end)];
             if arcs[1] <= arc_m[0] || arcs[0] >= arc_m[1] {
@@ -333,7 +329,7 @@ impl GearMesh {
                 };
                 let step = if middle.is_some() { 2 } else { 1 };
                 let (low, high) = (step * layer, step * (layer + 1));
-                if let (Some(m), ElementShape::Tet10) = (middle, self.elements.shape()) {
+                if let (Some(m), CellKind::Tet10) = (middle, self.elements.shape()) {
                     faces.extend(self.split_faces([a, m, b], arcs, layer, element));
                     continue;
                 }
@@ -388,7 +384,7 @@ impl GearMesh {
 
     /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut, and the opposite side of the tooth
     /// above it (fillet and flank up to the tip corner).
-    pub fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32> {
+    pub fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32> {
         let cell = &self.section.cell;
         let mut nodes = self.tooth_cut(tooth);
         let last = cell.outline.len() - 1;
@@ -399,8 +395,8 @@ impl GearMesh {
             .position(|n| Some(n) == cell.cut.first())
             .unwrap_or(0);
         nodes.extend(match loaded {
-            FlankSide::Left => self.outline_nodes(tooth, cut..=tip),
-            FlankSide::Right => self.outline_nodes(tooth, last - tip..=last - cut),
+            Flank::Left => self.outline_nodes(tooth, cut..=tip),
+            Flank::Right => self.outline_nodes(tooth, last - tip..=last - cut),
         });
         nodes.sort_unstable();
         nodes.dedup();

@@ -5,7 +5,7 @@
 //! 19 (1952) 526). Layers that grow with the distance from the edge win that back.
 
 use crate::grading::{Pieces, graded};
-use gearmesh_geometry::{ElementKind, GearDefinition};
+use gearmesh_geometry::{Element, GearDefinition};
 
 /// Thickness of the layers at the web's faces, as a share of `axial_m`.
 const AT_EDGE: f64 = 0.2;
@@ -64,7 +64,7 @@ impl Layers {
         }
         let half = 0.5 * gear.tooth.face_width_m;
         let axial = gear.mesh.axial_m;
-        if gear.mesh.element == ElementKind::Tet10 {
+        if gear.mesh.element == Element::Tet10 {
             return Self::even(gear.tooth.face_width_m, axial);
         }
         let mut breaks = vec![-half, half];

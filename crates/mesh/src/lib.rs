@@ -53,7 +53,7 @@ pub mod tooth_cell;
 pub mod twist;
 
 pub use cut_line::CutLine;
-pub use elements::{ElementList, ElementShape};
+pub use elements::ElementList;
 pub use face::{FaceShape, OutlineFace};
 pub use gear_mesh::GearMesh;
 pub use mesh_size::MeshSize;

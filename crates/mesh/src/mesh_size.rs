@@ -11,7 +11,7 @@ use crate::grading::{Pieces, graded};
 use crate::layers::Layers;
 use crate::tooth_blocks::ToothBlocks;
 use crate::tooth_cell::ring_radius_m;
-use gearmesh_geometry::{ElementKind, GearDefinition, Openings};
+use gearmesh_geometry::{Element, GearDefinition, Openings};
 use std::f64::consts::{PI, TAU};
 
 /// Radii at which an integral over a region takes its integrand.
@@ -86,7 +86,7 @@ impl MeshSize {
         for pair in circles.windows(2) {
             let ((outer, web_only), (inner, _)) = (pair[0], pair[1]);
             let layers = if web_only { web } else { all };
-            if element == ElementKind::Tet10 {
+            if element == Element::Tet10 {
                 let share = web_share(gear, web_only);
                 let volume = cubes(gear, outer, inner, &length) * share;
                 body_nodes += TET_NODES * volume;
@@ -116,19 +116,19 @@ impl MeshSize {
 
 /// Nodes above a corner of the cross-section, with those in the middles of the sides (as many as two corners have) and,
 /// in split bricks, of the quads.
-fn nodes_a_corner(element: ElementKind, layers: f64) -> f64 {
+fn nodes_a_corner(element: Element, layers: f64) -> f64 {
     match element {
-        ElementKind::Hex8 | ElementKind::Hex8Incompatible => layers + 1.0,
-        ElementKind::Hex20 => 4.0 * layers + 3.0,
-        ElementKind::Tet10 => 4.0 * (2.0 * layers + 1.0),
+        Element::Tet10 => 4.0 * (2.0 * layers + 1.0),
+        _ if element.cell().is_quadratic() => 4.0 * layers + 3.0,
+        _ => layers + 1.0,
     }
 }
 
 /// Elements in a layer above a quad of the teeth.
-fn elements_a_brick(element: ElementKind) -> f64 {
+fn elements_a_brick(element: Element) -> f64 {
     match element {
-        ElementKind::Tet10 => crate::tet_split::TETRAHEDRA as f64,
-        ElementKind::Hex8 | ElementKind::Hex8Incompatible | ElementKind::Hex20 => 1.0,
+        Element::Tet10 => crate::tet_split::TETRAHEDRA as f64,
+        _ => 1.0,
     }
 }
 

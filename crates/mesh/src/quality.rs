@@ -6,6 +6,7 @@
 
 use crate::MeshError;
 use crate::elements::ElementList;
+use gearmesh_elements::{HEX_EDGES, TET_EDGES};
 
 /// What the quality of a mesh comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,27 +51,11 @@ const CORNERS: [[usize; 4]; 8] = [
     [7, 6, 4, 3],
 ];
 
-/// The corners at the ends of each edge; edge k of a twenty-node hexahedron has node 8 + k in its middle.
-const EDGES: [[usize; 2]; 12] = [
-    [0, 1],
-    [1, 2],
-    [2, 3],
-    [3, 0],
-    [4, 5],
-    [5, 6],
-    [6, 7],
-    [7, 4],
-    [0, 4],
-    [1, 5],
-    [2, 6],
-    [3, 7],
-];
-
 /// Scaled Jacobian of one hexahedron from the coordinates of its eight or twenty nodes (VTK order).
 pub fn scaled_jacobian(nodes: &[[f64; 3]]) -> f64 {
     // Direction of the edge from corner `from` to corner `to`, at `from`.
     let edge = |from: usize, to: usize| -> [f64; 3] {
-        let middle = EDGES
+        let middle = HEX_EDGES
             .iter()
             .position(|e| e.contains(&from) && e.contains(&to))
             .and_then(|k| nodes.get(8 + k));
@@ -104,9 +89,6 @@ const TET_NODES: [[f64; 3]; 10] = [
     [0.5, 0.0, 0.5],
     [0.0, 0.5, 0.5],
 ];
-
-/// The corners at the ends of each edge of a tetrahedron; edge k has node 4 + k in its middle.
-pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
 /// Distortion of a ten-node tetrahedron: the smallest Jacobian determinant at its nodes over that of the tetrahedron
 /// with straight edges between the same corners. 1 where edges are straight with their nodes in the middle; 0 or less
@@ -230,7 +212,7 @@ mod tests {
     #[test]
     fn a_bent_edge_turns_its_corners() {
         let mut nodes = brick().to_vec();
-        for [a, b] in EDGES {
+        for [a, b] in HEX_EDGES {
             nodes.push(std::array::from_fn(|i| 0.5 * (nodes[a][i] + nodes[b][i])));
         }
         assert!((scaled_jacobian(&nodes) - 1.0).abs() < 1e-14);

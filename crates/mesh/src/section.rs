@@ -3,11 +3,11 @@
 use crate::MeshError;
 use crate::body::{body_problem, first_tooth};
 use crate::crack_line::CrackLine;
-use crate::elements::ElementShape;
 use crate::plane_mesher::mesh_plane;
 use crate::python::PythonEnvironment;
 use crate::tooth_blocks::ToothBlocks;
 use crate::tooth_cell::ToothCell;
+use gearmesh_elements::CellKind;
 use gearmesh_geometry::GearDefinition;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -53,11 +53,11 @@ fn rotated(p: [f64; 2], angle: f64) -> [f64; 2] {
 
 impl Section {
     /// Shape of the whole elements above its quads.
-    pub const fn element_shape(&self) -> ElementShape {
+    pub const fn element_shape(&self) -> CellKind {
         if self.mid_sides.is_empty() {
-            ElementShape::Hex8
+            CellKind::Hex8
         } else {
-            ElementShape::Hex20
+            CellKind::Hex20
         }
     }
 
@@ -71,9 +71,9 @@ impl Section {
         let sectors = gear.sectors();
         let teeth_per_sector = teeth / sectors;
         let cell_problem = ToothBlocks::new(gear);
-        let shape = ElementShape::of(gear.mesh.element);
+        let shape = gear.mesh.element.cell();
         let mismatch = || crate::plane_mesher::PlaneMeshError::Mismatch("another number of meshes");
-        if shape == ElementShape::Tet10 {
+        if shape == CellKind::Tet10 {
             let mut meshes = mesh_plane(python, std::slice::from_ref(&cell_problem.problem))?;
             let cell = cell_problem.finish(meshes.pop().ok_or_else(mismatch)?, shape);
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
@@ -92,7 +92,7 @@ impl Section {
         let crack = crack
             .map(|crack| CrackLine::new(&mut cell, gear, crack))
             .transpose()?;
-        if shape == ElementShape::Hex20 {
+        if shape == CellKind::Hex20 {
             body.make_quadratic(&mut body_mesh);
         }
         let ring_per_tooth = cell.bottom.len() - 1;

@@ -3,12 +3,13 @@
 use crate::body::first_tooth;
 use crate::elements::ElementList;
 use crate::python::PythonEnvironment;
-use crate::quality::{TET_EDGES, tetrahedron_jacobian};
+use crate::quality::tetrahedron_jacobian;
 use crate::solid_mesher::{SolidMesh, SolidMeshError, SolidProblem, mesh_solid};
 use crate::solid_problem::solid_problem;
 use crate::tooth_cell::ring_radius_m;
 use crate::twist::Twist;
 use crate::{GearMesh, MeshError};
+use gearmesh_elements::TET_EDGES;
 use gearmesh_geometry::GearDefinition;
 use std::collections::{BTreeMap, HashSet};
 use std::f64::consts::TAU;

@@ -4,16 +4,18 @@
 //! in the middle of every edge of its six tetrahedra, on the outline those of the face diagonals too.
 
 use crate::MeshError;
-use crate::elements::{ElementList, ElementShape};
+use crate::elements::ElementList;
 use crate::face::{FaceShape, OutlineFace};
 use crate::gear_mesh::GearMesh;
 use crate::layers::Layers;
 use crate::python::PythonEnvironment;
-use crate::quality::{self, TET_EDGES};
+use crate::quality;
 use crate::section::Section;
 use crate::solid_body::{Foot, SolidBody, edge};
 use crate::tet_split::{BrickCorner, node_order, tetrahedra};
 use crate::twist::Twist;
+use gearmesh_elements::CellKind;
+use gearmesh_elements::TET_EDGES;
 use gearmesh_geometry::GearDefinition;
 use std::collections::{BTreeMap, HashSet};
 
@@ -82,7 +84,7 @@ impl GearMesh {
             .iter()
             .map(|q| tetrahedra(q.map(|n| order[n]), q.map(|n| cell.nodes[n])))
             .collect();
-        let mut elements = ElementList::new(ElementShape::Tet10);
+        let mut elements = ElementList::new(CellKind::Tet10);
         let mut element_of = Vec::with_capacity(section.quads.len() * n_layers);
         for (quad, corners) in section.quads.iter().enumerate() {
             let (sides, centre) = (section.mid_sides[quad], section.centres[quad]);
@@ -169,7 +171,7 @@ impl GearMesh {
             .collect();
         let behind = |corners: &[u32]| {
             (first..first + self.in_brick()).find(|&e| {
-                let own = &self.elements.nodes(e)[..ElementShape::Tet10.corner_count()];
+                let own = &self.elements.nodes(e)[..CellKind::Tet10.corner_count()];
                 corners.iter().all(|n| own.contains(n))
             })
         };

@@ -12,11 +12,11 @@
 //! The cut does not run along the root circle: the fillet is tangent to it there, and elements between the two
 //! would have a zero angle (docs/decisions/0002-submodel-cut.md).
 
-use crate::elements::ElementShape;
 use crate::grading::{Pieces, graded};
 use crate::mid_sides::{CurvedSides, MidSides};
 use crate::plane_mesher::{PlaneMesh, PlaneProblem, Region};
 use crate::tooth_cell::{ToothCell, ring_radius_m};
+use gearmesh_elements::CellKind;
 use gearmesh_geometry::{GearDefinition, ProfileCurve, RootPosition};
 use std::f64::consts::PI;
 
@@ -353,7 +353,7 @@ impl ToothBlocks {
     }
 
     /// Puts the mesher's quads to the blocks, with nodes in the middle of their sides for quadratic elements.
-    pub fn finish(self, mut mesh: PlaneMesh, shape: ElementShape) -> ToothCell {
+    pub fn finish(self, mut mesh: PlaneMesh, shape: CellKind) -> ToothCell {
         let above_cut = mesh
             .owners
             .iter()
@@ -369,15 +369,10 @@ impl ToothBlocks {
                     .unwrap_or(0)
             })
             .collect();
-        let middles = match shape {
-            ElementShape::Hex8 => None,
-            ElementShape::Hex20 | ElementShape::Tet10 => {
-                Some(MidSides::add(&mut mesh, &self.curved))
-            }
-        };
+        let middles = (shape.is_quadratic()).then(|| MidSides::add(&mut mesh, &self.curved));
         let centres = match shape {
-            ElementShape::Hex8 | ElementShape::Hex20 => Vec::new(),
-            ElementShape::Tet10 => mesh.add_centres(),
+            CellKind::Tet10 => mesh.add_centres(),
+            _ => Vec::new(),
         };
         let chain = |corners: Vec<usize>| match &middles {
             None => corners,

@@ -1,7 +1,7 @@
 //! One tooth with the ring below it, meshed: quads, their outline, edges and cut. Its blocks are those of
 //! `tooth_blocks.rs`.
 
-use gearmesh_geometry::{ElementKind, GearDefinition};
+use gearmesh_geometry::{Element, GearDefinition};
 
 /// Share of the rim below the ring that tetrahedra leave to the body.
 const BELOW_RING: f64 = 0.4;
@@ -45,7 +45,7 @@ pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
     let default = root - 1.5 * module;
     match gear.blank.web {
         // Fillets run out into the rim's inner surface: the ring keeps clear of it.
-        Some(web) if gear.mesh.element == ElementKind::Tet10 => {
+        Some(web) if gear.mesh.element == Element::Tet10 => {
             default.max(web.rim_inner_radius_m + BELOW_RING * (root - web.rim_inner_radius_m))
         }
         Some(web) if web.rim_inner_radius_m > root - 2.5 * module => web.rim_inner_radius_m,

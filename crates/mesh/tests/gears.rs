@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use std::f64::consts::{PI, TAU};
@@ -95,7 +95,7 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
     // Flank nodes lie on the involute; supports of the submodel are disjoint from the loaded flank.
     let sets = mesh.node_sets(&gear);
     for tooth in [0, gear.tooth.teeth - 1] {
-        for side in [FlankSide::Right, FlankSide::Left] {
+        for side in [Flank::Right, Flank::Left] {
             let centre = TAU * tooth as f64 / gear.tooth.teeth as f64;
             let flank = &sets[&format!("tooth{tooth}_{}_flank", side.name())];
             assert!(flank.len() >= 4 * mesh.layers.planes_m.len());
@@ -119,7 +119,7 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
         }
     }
     let total: f64 = mesh
-        .outline_faces(1, FlankSide::Left, [0.0, f64::INFINITY])
+        .outline_faces(1, Flank::Left, [0.0, f64::INFINITY])
         .iter()
         .filter(|f| f.range_m(1)[0] == mesh.layers.planes_m[0])
         .map(|f| f.range_m(0)[1] - f.range_m(0)[0])

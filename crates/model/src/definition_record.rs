@@ -1,11 +1,10 @@
 //! The parts of a gear's definition in a file. Lengths in metres, angles in radians.
 
-use gearmesh_geometry::microgeometry::{ProfileCrowning, ReliefShape, TipRelief};
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, CrackDefinition, ElementKind, FlankSide, GaugeDefinition,
-    GearDefinition, GeometryError, Holes, HubSupport, LengthUnit, Material, MeshSettings,
-    MeshedBody, Microgeometry, ModeRange, Openings, ReductionSettings, RootPosition, Slots,
-    Symmetry, ToothDefinition, ToothGeometry, Web,
+    Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,
+    GearMicrogeometry, GeometryError, Holes, HubSupport, LengthUnit, Material, MeshSettings,
+    MeshedBody, ModeRange, Openings, ReductionSettings, RootPosition, Slots, Symmetry,
+    ToothDefinition, ToothGeometry, Web,
 };
 
 use crate::file_error::FileError;
@@ -18,7 +17,7 @@ pub(crate) struct DefinitionParts {
     tooth: ToothDefinition,
     blank: Blank,
     material: Material,
-    microgeometry: Microgeometry,
+    microgeometry: GearMicrogeometry,
     mesh: MeshSettings,
     reduction: ReductionSettings,
     modes: Option<ModeRange>,
@@ -226,41 +225,6 @@ impl Record for Material {
     }
 }
 
-impl Record for Microgeometry {
-    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let what = "roll angle tan(alpha) at the tip circle, where profile amounts are stated";
-        f.number("tip_roll", &mut self.tip_roll_rad, "rad", what)?;
-        let what = "face width, over which lead amounts are stated";
-        f.number("face_width", &mut self.face_width_m, "m", what)?;
-        let crowning = &mut self.profile_crowning;
-        f.optional("profile_crowning", crowning, ProfileCrowning::fields)?;
-        f.optional("tip_relief", &mut self.tip_relief, TipRelief::fields)?;
-        let what = "lead crowning: parabola over the face width, zero at mid-face, material removed at both ends";
-        f.number("lead_crowning", &mut self.lead_crowning_m, "m", what)?;
-        let what = "flank line slope over the face width: removed at +z, added at -z";
-        f.number("flank_angle", &mut self.flank_angle_m, "m", what)
-    }
-}
-
-impl Record for ProfileCrowning {
-    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let what = "material removed at the tip circle";
-        f.number("amount", &mut self.amount_m, "m", what)?;
-        let what = "roll angle tan(alpha) where nothing is removed";
-        f.number("centre_roll", &mut self.centre_roll_rad, "rad", what)
-    }
-}
-
-impl Record for TipRelief {
-    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        let what = "material removed at the tip circle";
-        f.number("amount", &mut self.amount_m, "m", what)?;
-        let what = "roll angle tan(alpha) where it starts";
-        f.number("start_roll", &mut self.start_roll_rad, "rad", what)?;
-        f.choice("shape", &mut self.shape, "shape over the roll length")
-    }
-}
-
 impl Record for MeshSettings {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.choice("element", &mut self.element, "finite element")?;
@@ -297,8 +261,8 @@ impl Record for ReductionSettings {
         f.lines("flanks", &mut names, "flanks that carry loads")?;
         if f.is_reading() {
             let side = |name: &String| match &name[..] {
-                "right" => Ok(FlankSide::Right),
-                "left" => Ok(FlankSide::Left),
+                "right" => Ok(Flank::Right),
+                "left" => Ok(Flank::Left),
                 _ => Err(f.contradiction(
                     "flanks",
                     &format!("found {name}, allowed are right and left"),
@@ -380,13 +344,8 @@ impl Record for CrackDefinition {
     }
 }
 
-impl Named for FlankSide {
+impl Named for Flank {
     const NAMES: &'static [(Self, &'static str)] = &[(Self::Right, "right"), (Self::Left, "left")];
-}
-
-impl Named for ReliefShape {
-    const NAMES: &'static [(Self, &'static str)] =
-        &[(Self::Linear, "linear"), (Self::Parabolic, "parabolic")];
 }
 
 impl Named for LengthUnit {
@@ -404,7 +363,7 @@ impl Named for Symmetry {
     const NAMES: &'static [(Self, &'static str)] = &[(Self::Auto, "auto"), (Self::Off, "off")];
 }
 
-impl Named for ElementKind {
+impl Named for Element {
     const NAMES: &'static [(Self, &'static str)] = &[
         (Self::Hex8, "hex8"),
         (Self::Hex8Incompatible, "hex8-incompatible"),

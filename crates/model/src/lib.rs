@@ -16,7 +16,6 @@
 //! No other crate calls HDF5.
 
 mod atomic_file;
-mod cell_kind;
 mod column_file;
 mod data_tree;
 mod data_tree_file;
@@ -24,13 +23,18 @@ mod data_tree_read;
 mod data_tree_take;
 mod data_tree_write;
 mod definition_record;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod definition_tests;
 mod file_error;
 mod mesh_data;
 mod mesh_file;
+mod microgeometry_record;
 mod modal_basis;
 mod near_field;
 mod own_storage;
 mod record;
+mod record_axes;
 mod reduced_gear;
 mod reduced_gear_check;
 mod reduced_gear_error;
@@ -46,11 +50,12 @@ mod text_heap;
 mod timestamp;
 
 pub use atomic_file::{wait_for_writes, write_by, write_bytes, write_text};
-pub use cell_kind::CellKind;
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use data_tree_read::format_of;
 pub use file_error::FileError;
+pub use gearmesh_elements::CellKind;
+pub use gearmesh_geometry::Flank;
 pub use mesh_data::{EXPORT_ENDINGS, Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;
@@ -58,7 +63,7 @@ pub use near_field::{ContactCurve, NearField};
 pub use record::{
     Fields, ListedField, Named, OPEN, Record, list_record, read_record, write_record,
 };
-pub use reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+pub use reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
 pub use rigid_body::{ReferencePoint, RigidBody};

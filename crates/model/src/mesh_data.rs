@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-use crate::cell_kind::CellKind;
+use gearmesh_elements::CellKind;
 
 /// Endings of the formats of other programs in which meshes are written: those whose files such programs were seen to
 /// read (tests/python/test_exports.py). Not .med: meshio writes its elements inside out for Salome and gmsh; not .cgns,

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::cell_kind::CellKind;
 use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
 use crate::file_error::FileError;
 use crate::mesh_data::{Field, MeshData};
+use gearmesh_elements::CellKind;
 
 /// Name and version of the mesh file.
 pub const MESH_FORMAT: FileFormat = FileFormat {

@@ -10,8 +10,9 @@
 //! and the deflection at the flanks is NᵀR r + NᵀΦ η + (C − NᵀΦ Ω⁻² ΦᵀN) f: what the modes left out give way
 //! statically is the residual flexibility. Nothing is counted twice.
 
-use crate::reduced_gear::{Flank, GaugeRows, ReducedGear};
+use crate::reduced_gear::{GaugeRows, ReducedGear};
 use crate::reduced_gear_error::ReducedGearError;
+use gearmesh_geometry::Flank;
 
 /// Natural modes with the bore held, modal mass 1, lowest first.
 #[derive(Debug, Clone, PartialEq, Default)]

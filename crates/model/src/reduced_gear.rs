@@ -1,7 +1,8 @@
 //! A gear body condensed to unit loads on its flanks: what the online side knows of the finite element model.
 
 use std::borrow::Cow;
-use std::fmt;
+
+use gearmesh_geometry::Flank;
 
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
@@ -9,25 +10,6 @@ use crate::reduced_gear_error::ReducedGearError;
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
 use crate::stored_gear::StoredGear;
-
-/// Side of a tooth. Teeth are numbered counter-clockwise seen from +z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
-pub enum Flank {
-    /// Faces clockwise; a load on it turns the gear counter-clockwise.
-    #[default]
-    Right,
-    /// Faces counter-clockwise; a load on it turns the gear clockwise.
-    Left,
-}
-
-impl fmt::Display for Flank {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Right => "right",
-            Self::Left => "left",
-        })
-    }
-}
 
 /// The points of a flank at which unit loads act. Loads are numbered roll-major: load = roll station · `z_m.len()` +
 /// axial station. Between the points a load is spread by hat functions in roll angle and z.
@@ -192,6 +174,11 @@ pub struct ReducedGear {
 }
 
 impl ReducedGear {
+    /// Width of a slice of the grid \[m\].
+    pub fn slice_width_m(&self) -> f64 {
+        self.face_width_m / self.grid.slices as f64
+    }
+
     /// Teeth in one sector.
     pub fn teeth_per_sector(&self) -> usize {
         self.teeth / self.sectors

@@ -130,11 +130,11 @@ impl ReducedGear {
         let poisson = |value: f64| (0.0..0.5).contains(&value);
         let (item, value) = ("definition.material.poisson", material.poisson);
         in_range(item, value, poisson, "at least 0, less than 0.5")?;
-        let (item, value) = (
-            "definition.microgeometry",
-            gear.microgeometry.most_added_m(),
-        );
-        in_range(item, value, f64::is_finite, "finite")
+        for flanks in [&gear.microgeometry.right, &gear.microgeometry.left] {
+            let (item, value) = ("definition.microgeometry", flanks.most_added_m());
+            in_range(item, value, f64::is_finite, "finite")?;
+        }
+        Ok(())
     }
 
     fn check_crack(&self) -> Result<(), ReducedGearError> {
@@ -388,9 +388,9 @@ fn smallest(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::modal_basis::ModalBasis;
-    use crate::reduced_gear::Flank;
     use crate::root_crack::RootCrack;
     use crate::synthetic::{small_crack, small_reduced_gear};
+    use gearmesh_geometry::Flank;
 
     fn near_field(gear: &mut ReducedGear) -> &mut NearField {
         gear.near_field.as_mut().unwrap()

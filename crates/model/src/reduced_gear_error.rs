@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::reduced_gear::Flank;
+use gearmesh_geometry::Flank;
 
 /// A reduced gear that contradicts itself.
 #[derive(Debug, Clone, Error, PartialEq)]

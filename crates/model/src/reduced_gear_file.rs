@@ -7,9 +7,10 @@ use crate::file_error::FileError;
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::record::{Fields, OPEN, Record, read_record, write_record};
-use crate::reduced_gear::{Flank, GaugeRows, Provenance, ReducedGear};
+use crate::reduced_gear::{GaugeRows, Provenance, ReducedGear};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use gearmesh_geometry::Flank;
 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {

@@ -6,7 +6,8 @@
 //!
 //! Loads on the other side of the teeth press the crack shut: for them the gear is sound.
 
-use crate::reduced_gear::{Flank, ReducedGear};
+use crate::reduced_gear::ReducedGear;
+use gearmesh_geometry::Flank;
 
 /// A crack and its rows φ.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use crate::cell_kind::CellKind;
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
-use crate::reduced_gear::{Flank, FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
 use crate::stored_gear::StoredGear;
+use gearmesh_elements::CellKind;
+use gearmesh_geometry::Flank;
 
 /// The gear file of [`small_reduced_gear`].
 const SYNTHETIC_TEXT: &str = r#"# made up

@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use gearmesh_fe::{
-    DofMap, Element, ElementBlock, Factor, FeModel, Material, ModeSettings, SparseMatrix,
-    assemble_mass, assemble_stiffness, natural_modes as search_modes,
+    DofMap, Element, ElementBlock, ElementFormulas, Factor, FeModel, Material, ModeSettings,
+    SparseMatrix, assemble_mass, assemble_stiffness, natural_modes as search_modes,
 };
 use gearmesh_model::CellKind;
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArray3, PyArrayLike2, PyArrayMethods};

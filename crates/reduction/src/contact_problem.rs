@@ -4,7 +4,7 @@ use crate::ReductionError;
 use faer::Mat;
 use faer::sparse::Triplet;
 use gearmesh_fe::{DofOrdering, Element, Factor, FeError, FeModel, Material, StiffnessMatrix};
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::CutLine;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection};
 use std::f64::consts::FRAC_PI_2;
@@ -67,7 +67,7 @@ impl<'a> ContactProblem<'a> {
         }
         factor.solve_in_place(u.as_mut());
         let centre = section.outline[section.centre];
-        let (normal, _) = profile.flank_frame(FlankSide::Right, roll_rad);
+        let (normal, _) = profile.flank_frame(Flank::Right, roll_rad);
         Ok((0..2)
             .filter_map(|axis| held.free_of[2 * centre + axis].map(|free| (axis, free)))
             .map(|(axis, free)| normal[axis] * u[(free, 0)])
@@ -153,7 +153,7 @@ impl<'a> ContactProblem<'a> {
                 let load = 0.5 * (to - from) * theta.cos().powi(2);
                 total += load;
                 let upper = ((s - arcs[0]) / (arcs[1] - arcs[0])).clamp(0.0, 1.0);
-                let (normal, _) = profile.flank_frame(FlankSide::Right, roll_at(s));
+                let (normal, _) = profile.flank_frame(Flank::Right, roll_at(s));
                 for (force, shape) in ends.iter_mut().zip([1.0 - upper, upper]) {
                     for axis in 0..2 {
                         force[axis] += load * shape * normal[axis];

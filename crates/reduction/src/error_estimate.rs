@@ -27,7 +27,7 @@ use crate::gear_body::GearBody;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
 use crate::{Progress, ReductionError, Within};
-use gearmesh_geometry::{ElementKind, GearDefinition};
+use gearmesh_geometry::{Element, GearDefinition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows};
 
@@ -121,7 +121,7 @@ pub fn estimate(
     progress: &dyn Progress,
 ) -> Result<ErrorEstimate, ReductionError> {
     let fine = reduced_figures(gear, gauges, c_hub, c_tooth, grid);
-    let one_step = gear.mesh.plane_strain || gear.mesh.element == ElementKind::Tet10;
+    let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
     let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
     let mut meshes = vec![fine];
     for (k, &axial) in steps.iter().enumerate() {

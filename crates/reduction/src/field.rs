@@ -3,8 +3,8 @@
 use crate::flank_loads::{SparseVector, flank_grid, flank_loads};
 use crate::gear_body::GearBody;
 use crate::{ReductionError, Silent};
-use gearmesh_fe::von_mises;
-use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_fe::{ElementFormulas, von_mises};
+use gearmesh_geometry::{Flank, GearDefinition};
 
 /// A force on one grid load: tooth, side, load number, normal and tangential (towards the tip) part \[N\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +12,7 @@ pub struct GridForce {
     /// Tooth.
     pub tooth: usize,
     /// Side.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Load number on the flank grid.
     pub load: usize,
     /// Along the inward normal.
@@ -46,7 +46,7 @@ pub fn fields(
     let mut rows: Vec<SparseVector> = Vec::with_capacity(cases.len());
     for case in cases {
         let mut total: std::collections::BTreeMap<usize, f64> = Default::default();
-        let mut teeth: Vec<(usize, FlankSide)> = case.iter().map(|f| (f.tooth, f.side)).collect();
+        let mut teeth: Vec<(usize, Flank)> = case.iter().map(|f| (f.tooth, f.side)).collect();
         teeth.sort_unstable();
         teeth.dedup();
         for (tooth, side) in teeth {

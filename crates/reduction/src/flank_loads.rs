@@ -11,7 +11,7 @@
 
 use crate::face_overlap::overlap_points;
 use crate::toothed_mesh::ToothedMesh;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_model::FlankGrid;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -60,7 +60,7 @@ pub fn flank_loads(
     mesh: &impl ToothedMesh,
     grid: &FlankGrid,
     tooth: usize,
-    side: FlankSide,
+    side: Flank,
 ) -> Vec<GridLoad> {
     let profile = &gear.profile;
     let curve = ProfileCurve::new(profile);

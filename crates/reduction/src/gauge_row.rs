@@ -14,7 +14,7 @@ use crate::ReductionError;
 use crate::face_overlap::overlap_points;
 use crate::flank_loads::SparseVector;
 use crate::toothed_mesh::ToothedMesh;
-use gearmesh_fe::FeModel;
+use gearmesh_fe::{ElementFormulas, FeModel};
 use gearmesh_geometry::{GaugeDefinition, GearDefinition, ProfileCurve};
 use gearmesh_mesh::OutlineFace;
 use std::collections::BTreeMap;

@@ -7,8 +7,8 @@ use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
 use faer::Mat;
-use gearmesh_fe::{DofMap, Element, FeModel, Material};
-use gearmesh_geometry::{ElementKind, GearDefinition, Symmetry};
+use gearmesh_fe::{DofMap, FeModel, Material};
+use gearmesh_geometry::{GearDefinition, Symmetry};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -34,16 +34,6 @@ pub(crate) enum Solver {
     Cyclic(Box<CyclicBody>),
 }
 
-/// The element of the finite element crate that a definition names.
-pub fn element_of(kind: ElementKind) -> Element {
-    match kind {
-        ElementKind::Hex8 => Element::Hex8,
-        ElementKind::Hex8Incompatible => Element::Hex8Incompatible,
-        ElementKind::Hex20 => Element::Hex20,
-        ElementKind::Tet10 => Element::Tet10,
-    }
-}
-
 /// The finite element model of a gear's mesh.
 ///
 /// # Errors
@@ -53,7 +43,7 @@ pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, Reduc
         mesh.nodes.clone(),
         mesh.elements.connectivity().to_vec(),
         Material::new(gear.material.young_pa, gear.material.poisson)?,
-        element_of(gear.mesh.element),
+        gear.mesh.element,
     )?)
 }
 

@@ -20,7 +20,7 @@
 
 use crate::cyclic_body::CyclicBody;
 use faer::{Mat, MatMut, MatRef, c64};
-use gearmesh_fe::{FeError, FeModel, ModeProblem, SymmetricRows};
+use gearmesh_fe::{FeError, FeModel, ModeProblem, SymmetricRows, numbers_without_pattern};
 use gearmesh_mesh::GearMesh;
 
 /// Mass of the parts of a sector, and where the unknowns of a harmonic sit in them. The same for all harmonics.
@@ -415,17 +415,14 @@ impl ModeProblem for HarmonicProblem<'_> {
     /// Closed under multiplication by i, so that both members of each pair are found at the same step.
     fn start(&self, columns: usize) -> Mat<f64> {
         let n = self.mass.unknowns();
-        let number = |i: usize, j: usize| {
-            let angle = 12.9898 * i as f64 + 78.233 * (j + 1) as f64;
-            (angle.sin() * 43_758.545_3).fract()
-        };
+        let number = numbers_without_pattern(self.size(), columns);
         Mat::from_fn(self.size(), columns, |i, j| {
             if self.parts == 1 || j % 2 == 0 {
-                number(i, j)
+                number[(i, j)]
             } else if i < n {
-                -number(n + i, j - 1)
+                -number[(n + i, j - 1)]
             } else {
-                number(i - n, j - 1)
+                number[(i - n, j - 1)]
             }
         })
     }

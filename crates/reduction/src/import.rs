@@ -18,9 +18,9 @@ use crate::reduce::{
 };
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::whole_gear::WholeGear;
-use crate::{Progress, ReductionError, flank_of};
+use crate::{Progress, ReductionError};
 use gearmesh_fe::DofMap;
-use gearmesh_geometry::{FlankSide, GearDefinition, MeshedBody};
+use gearmesh_geometry::{Flank, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
 use gearmesh_model::{FlankGrid, GaugeRows, MeshData, ReducedGear, read_mesh};
 use rayon::prelude::*;
@@ -256,7 +256,7 @@ fn gauges(
     let own_tooth = |tooth: usize, row: &SparseVector| -> Result<Vec<f64>, ReductionError> {
         let mut products = Vec::new();
         for (&side, loads) in gear.reduction.flanks.iter().zip(&loads[tooth]) {
-            let place: (usize, FlankSide) = (tooth, side);
+            let place: (usize, Flank) = (tooth, side);
             let submodel =
                 ToothSubmodel::of_tooth(&mesh.model, mesh, place, loads, Deformation::Spatial)?;
             products.extend(submodel.products(&[row]));
@@ -270,7 +270,7 @@ fn gauges(
             Ok(GaugeRows {
                 name: gauge.name.clone(),
                 tooth: gauge.tooth,
-                side: flank_of(gauge.side),
+                side: gauge.side,
                 description: describe(gauge),
                 error_estimate_relative: 0.0,
                 adjoint,

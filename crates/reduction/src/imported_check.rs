@@ -2,7 +2,7 @@
 
 use crate::imported_error::ImportedMeshError;
 use crate::tooth_frame::{in_tooth, side_index};
-use gearmesh_geometry::{FlankSide, GearDefinition, MeshedBody, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, MeshedBody, ProfileCurve};
 use gearmesh_mesh::OutlineFace;
 use gearmesh_model::MeshData;
 use std::collections::BTreeMap;
@@ -124,7 +124,7 @@ impl ImportCheck<'_> {
     }
 
     /// Distance of a node from a flank's involute \[m\], positive into the tooth.
-    fn off_flank_m(&self, node: u32, tooth: usize, side: FlankSide) -> f64 {
+    fn off_flank_m(&self, node: u32, tooth: usize, side: Flank) -> f64 {
         let teeth = self.gear.tooth.teeth;
         let profile = &self.gear.profile;
         let point = in_tooth(self.mesh.points[node as usize], tooth, teeth, side);
@@ -142,9 +142,9 @@ impl ImportCheck<'_> {
     }
 
     /// Names of the sets of the loaded flanks; all their nodes lie on them.
-    pub(crate) fn flanks(&self) -> Result<Vec<(usize, FlankSide, String)>, Box<ImportedMeshError>> {
+    pub(crate) fn flanks(&self) -> Result<Vec<(usize, Flank, String)>, Box<ImportedMeshError>> {
         let sides = &self.gear.reduction.flanks;
-        let all: Vec<(usize, FlankSide, String)> = (0..self.gear.tooth.teeth)
+        let all: Vec<(usize, Flank, String)> = (0..self.gear.tooth.teeth)
             .flat_map(|tooth| sides.iter().map(move |&side| (tooth, side)))
             .map(|(tooth, side)| (tooth, side, self.body.flank_set(tooth, side)))
             .collect();
@@ -179,7 +179,7 @@ impl ImportCheck<'_> {
     }
 
     /// What a flank in the wrong place looks like: another unit, another phase, the mirror image.
-    fn hint(&self, name: &str, tooth: usize, side: FlankSide) -> String {
+    fn hint(&self, name: &str, tooth: usize, side: Flank) -> String {
         let nodes = self.set(name).unwrap_or(&[]);
         let mean = |f: &dyn Fn(u32) -> f64| {
             nodes.iter().map(|n| f(*n)).sum::<f64>() / nodes.len().max(1) as f64
@@ -194,7 +194,7 @@ impl ImportCheck<'_> {
                 self.gear.profile.reference_radius_m * 1e3
             );
         }
-        let fits = |other: FlankSide, at: usize| {
+        let fits = |other: Flank, at: usize| {
             nodes
                 .iter()
                 .all(|n| self.off_flank_m(*n, at, other).abs() <= self.tolerance_m())
@@ -222,7 +222,7 @@ impl ImportCheck<'_> {
     pub(crate) fn coverage(
         &self,
         outlines: &[[Vec<OutlineFace>; 2]],
-        flanks: &[(usize, FlankSide, String)],
+        flanks: &[(usize, Flank, String)],
     ) -> Result<(), Box<ImportedMeshError>> {
         let profile = &self.gear.profile;
         let half = 0.5 * self.gear.tooth.face_width_m;

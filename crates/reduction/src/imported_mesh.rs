@@ -15,7 +15,7 @@ use crate::imported_outline::outlines;
 use crate::tooth_frame::{in_tooth, nearest_tooth, side_index};
 use crate::toothed_mesh::ToothedMesh;
 use gearmesh_fe::{Element, ElementBlock, FeModel, Material};
-use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition, MeshedBody, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, MeshedBody, ProfileCurve};
 use gearmesh_mesh::{CutLine, OutlineFace};
 use gearmesh_model::{CellKind, MeshData};
 
@@ -85,7 +85,7 @@ impl ImportedMesh {
             .iter()
             .map(|x| {
                 let tooth = nearest_tooth(*x, teeth);
-                let point = in_tooth(*x, tooth, teeth, FlankSide::Right);
+                let point = in_tooth(*x, tooth, teeth, Flank::Right);
                 (!self.cut.is_below(point, margin)).then_some(tooth)
             })
             .collect();
@@ -106,7 +106,7 @@ impl ImportedMesh {
                 .collect();
             below.sort_unstable();
             below.dedup();
-            let sides = [FlankSide::Right, FlankSide::Left].map(|side| {
+            let sides = [Flank::Right, Flank::Left].map(|side| {
                 let faces = &self.outlines[tooth][side_index(side)];
                 let mut on_side: Vec<u32> = faces
                     .iter()
@@ -125,7 +125,7 @@ impl ImportedMesh {
 }
 
 impl ToothedMesh for ImportedMesh {
-    fn outline_faces(&self, tooth: usize, side: FlankSide, arc_m: [f64; 2]) -> Vec<OutlineFace> {
+    fn outline_faces(&self, tooth: usize, side: Flank, arc_m: [f64; 2]) -> Vec<OutlineFace> {
         let faces = self.outlines[tooth][side_index(side)].iter();
         let inside = |face: &&OutlineFace| {
             let [from, to] = face.range_m(0);
@@ -142,7 +142,7 @@ impl ToothedMesh for ImportedMesh {
         self.tooth_elements[tooth].clone()
     }
 
-    fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32> {
+    fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32> {
         let opposite = &self.side_nodes[tooth][side_index(loaded.opposite())];
         let mut nodes = [&self.cut_nodes[tooth][..], &opposite[..]].concat();
         nodes.sort_unstable();
@@ -156,25 +156,23 @@ fn fe_model(check: &ImportCheck<'_>) -> Result<FeModel, ReductionError> {
     let named = check.gear.mesh.element;
     let has = |kind| check.mesh.cells.contains_key(&kind);
     let fits = match named {
-        ElementKind::Hex8 => has(CellKind::Hex8),
-        ElementKind::Hex20 => has(CellKind::Hex20),
-        ElementKind::Tet10 => has(CellKind::Tet10),
         // The default, which says nothing.
-        ElementKind::Hex8Incompatible => true,
+        Element::Hex8Incompatible => true,
+        _ => has(named.cell()),
     };
     if !fits {
         let found: Vec<&str> = check.mesh.cells.keys().map(|kind| kind.name()).collect();
         return Err(ReductionError::Imported(Box::new(
             ImportedMeshError::Element {
                 file: check.file(),
-                element: crate::gear_body::element_of(named).name(),
+                element: named.name(),
                 found: found.join(" and "),
             },
         )));
     }
     let blocks = check.mesh.cells.iter().map(|(kind, nodes)| ElementBlock {
         element: match (kind, named) {
-            (CellKind::Hex8, ElementKind::Hex8) => Element::Hex8,
+            (CellKind::Hex8, Element::Hex8) => Element::Hex8,
             (CellKind::Hex8, _) => Element::Hex8Incompatible,
             (CellKind::Hex20, _) => Element::Hex20,
             (CellKind::Tet10, _) => Element::Tet10,

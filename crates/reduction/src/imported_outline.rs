@@ -2,8 +2,8 @@
 
 use crate::imported_check::ImportCheck;
 use crate::tooth_frame::{in_tooth, nearest_tooth, side_index};
-use gearmesh_fe::FeModel;
-use gearmesh_geometry::FlankSide;
+use gearmesh_fe::{ElementFormulas, FeModel};
+use gearmesh_geometry::Flank;
 use gearmesh_mesh::{FaceShape, OutlineFace};
 use std::collections::HashMap;
 
@@ -70,7 +70,7 @@ pub(crate) fn outlines(check: &ImportCheck<'_>, model: &FeModel) -> Vec<[Vec<Out
         let count = corners.len() as f64;
         let centre = std::array::from_fn(|k| corners.iter().map(|x| x[k]).sum::<f64>() / count);
         let tooth = nearest_tooth(centre, teeth);
-        for side in [FlankSide::Right, FlankSide::Left] {
+        for side in [Flank::Right, Flank::Left] {
             // The centre says which half the face is in; a node on the border belongs to both.
             if in_tooth(centre, tooth, teeth, side)[1] > 0.0 {
                 continue;

@@ -67,9 +67,6 @@ pub use memory_estimate::{MemoryEstimate, OfflineJob};
 pub use mode_figures::GearMode;
 pub use reduce::{ReductionOptions, reduce};
 
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::Flank;
-
 /// Why a gear could not be reduced.
 #[derive(Debug, thiserror::Error)]
 pub enum ReductionError {
@@ -179,13 +176,5 @@ impl Progress for Within<'_> {
 
     fn expect(&self, seconds: f64) {
         self.all.expect(seconds);
-    }
-}
-
-/// The model file's word for a side.
-pub fn flank_of(side: FlankSide) -> Flank {
-    match side {
-        FlankSide::Right => Flank::Right,
-        FlankSide::Left => Flank::Left,
     }
 }

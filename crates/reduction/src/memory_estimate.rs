@@ -14,7 +14,7 @@
 //! d^(4/3) is how the factor of a solid grows under nested dissection: A. George, *Nested dissection of a regular
 //! finite element mesh*, SIAM J. Numer. Anal. 10 (1973) 345-363, in three dimensions.
 
-use gearmesh_geometry::{ElementKind, GearDefinition, MeshSettings, ModeRange, Symmetry};
+use gearmesh_geometry::{Element, GearDefinition, MeshSettings, ModeRange, Symmetry};
 use gearmesh_mesh::MeshSize;
 
 /// Bytes a node before and after the checks: mesh, model and graph; stiffness of the parts, mass, full fields.
@@ -146,7 +146,7 @@ fn shortest(gear: &GearDefinition) -> (&'static str, f64) {
             },
         ),
     ];
-    let quadratic = mesh.element == ElementKind::Hex20;
+    let quadratic = mesh.element == Element::Hex20;
     let least = shares
         .into_iter()
         .min_by(|a, b| a.1.total_cmp(&b.1))

@@ -12,7 +12,7 @@ use crate::flank_loads::{SparseVector, flank_loads};
 use crate::gear_body::model_of;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use gearmesh_fe::FeModel;
-use gearmesh_geometry::{ElementKind, FlankSide, GearDefinition};
+use gearmesh_geometry::{Element, Flank, GearDefinition};
 use gearmesh_mesh::contact_section::ContactGrading;
 use gearmesh_mesh::{CutLine, GearMesh};
 use gearmesh_model::{FlankGrid, NearField};
@@ -158,7 +158,7 @@ fn mean_mesh_compliance(
     gear: &GearDefinition,
     mesh: &GearMesh,
     grid: &FlankGrid,
-    side: FlankSide,
+    side: Flank,
 ) -> Result<Vec<f64>, ReductionError> {
     let teeth = mesh.straight_teeth();
     let model = model_of(gear, &teeth)?;
@@ -200,9 +200,9 @@ pub fn mesh_compliance(
     mesh: &GearMesh,
     model: &FeModel,
     grid: &FlankGrid,
-    side: FlankSide,
+    side: Flank,
 ) -> Result<Vec<f64>, ReductionError> {
-    if gear.mesh.element == ElementKind::Tet10 {
+    if gear.mesh.element == Element::Tet10 {
         return mean_mesh_compliance(gear, mesh, grid, side);
     }
     // Plane strain does not know the thickness; one about as thick as the elements are long keeps them compact.

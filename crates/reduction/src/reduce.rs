@@ -8,9 +8,9 @@ use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
-use crate::{Progress, ReductionError, Silent, flank_of};
+use crate::{Progress, ReductionError, Silent};
 use faer::Mat;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{
     FlankGrid, GaugeRows, NearField, Provenance, ReducedGear, ReductionChecks, StoredGear, utc_now,
@@ -217,7 +217,7 @@ pub(crate) fn assembled(
         face_width_m: gear.tooth.face_width_m,
         young_pa: gear.material.young_pa,
         poisson: gear.material.poisson,
-        flanks: flanks.iter().map(|&side| flank_of(side)).collect(),
+        flanks: flanks.to_vec(),
         opposite_distance_m: opposite.repeat(flanks.len()),
         c_hub,
         c_tooth,
@@ -399,7 +399,7 @@ fn gauges(
             Ok(GaugeRows {
                 name: gauge.name.clone(),
                 tooth: gauge.tooth,
-                side: flank_of(gauge.side),
+                side: gauge.side,
                 description: describe(gauge),
                 error_estimate_relative: 0.0,
                 adjoint,
@@ -420,8 +420,8 @@ pub(crate) fn describe(gauge: &gearmesh_geometry::GaugeDefinition) -> String {
         gearmesh_geometry::RootPosition::Radius(r) => format!("radius {:.4} mm", r * 1e3),
     };
     let side = match gauge.side {
-        FlankSide::Right => "right",
-        FlankSide::Left => "left",
+        Flank::Right => "right",
+        Flank::Left => "left",
     };
     format!(
         "tooth {}, {side} root, {place}, {:.3} mm along the profile, {:.3} mm wide at z {:.3} mm",

@@ -15,7 +15,7 @@ use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::reduce::{IDENTITY_ALLOWED, checked};
 use crate::tooth_vectors::on_tooth;
-use crate::{Progress, ReductionError, flank_of};
+use crate::{Progress, ReductionError};
 use faer::{Mat, Side};
 use gearmesh_fe::DoubledNodes;
 use gearmesh_geometry::{CrackDefinition, GearDefinition};
@@ -129,7 +129,7 @@ pub fn root_crack(
     Ok(CrackedRows {
         crack: RootCrack {
             tooth: definition.tooth,
-            side: flank_of(definition.side),
+            side: definition.side,
             mouth_radius_m: section.map_or(0.0, |line| line.mouth_radius_m),
             depth_m: definition.depth_m,
             angle_rad: definition.angle_rad,
@@ -146,9 +146,7 @@ impl CrackedRows {
     /// Adds to the gauges' rows what the crack makes of them.
     pub fn add_to_gauges(&self, gear: &GearDefinition, rows: &mut [GaugeRows]) {
         let flanks = &gear.reduction.flanks;
-        let index = flanks
-            .iter()
-            .position(|&side| flank_of(side) == self.crack.side);
+        let index = flanks.iter().position(|&side| side == self.crack.side);
         let per_flank = self
             .gauges
             .first()

@@ -1,13 +1,13 @@
 //! Points of a whole gear in the frame of one of its teeth.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use std::f64::consts::TAU;
 
 /// Place of a side in arrays by side: right, left.
-pub(crate) const fn side_index(side: FlankSide) -> usize {
+pub(crate) const fn side_index(side: Flank) -> usize {
     match side {
-        FlankSide::Right => 0,
-        FlankSide::Left => 1,
+        Flank::Right => 0,
+        Flank::Left => 1,
     }
 }
 
@@ -18,12 +18,7 @@ pub(crate) fn nearest_tooth([x, y, _]: [f64; 3], teeth: usize) -> usize {
 }
 
 /// A point \[x, y\] in the frame of a tooth's right half: turned back to +x, and mirrored for the left side.
-pub(crate) fn in_tooth(
-    [x, y, _]: [f64; 3],
-    tooth: usize,
-    teeth: usize,
-    side: FlankSide,
-) -> [f64; 2] {
+pub(crate) fn in_tooth([x, y, _]: [f64; 3], tooth: usize, teeth: usize, side: Flank) -> [f64; 2] {
     let (sin, cos) = (TAU * tooth as f64 / teeth as f64).sin_cos();
     let turned = [cos * x + sin * y, cos * y - sin * x];
     [turned[0], side.mirror() * turned[1]]

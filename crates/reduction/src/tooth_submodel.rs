@@ -9,7 +9,7 @@ use crate::part::Part;
 use crate::toothed_mesh::ToothedMesh;
 use faer::Mat;
 use gearmesh_fe::{DofMap, Factor, FeModel, assemble_stiffness};
-use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_geometry::{Flank, GearDefinition};
 
 /// How a body may deform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +62,7 @@ impl ToothSubmodel {
     pub fn new(
         model: &FeModel,
         mesh: &impl ToothedMesh,
-        side: FlankSide,
+        side: Flank,
         loads: &[GridLoad],
         deformation: Deformation,
     ) -> Result<Self, ReductionError> {
@@ -76,7 +76,7 @@ impl ToothSubmodel {
     pub fn of_tooth(
         model: &FeModel,
         mesh: &impl ToothedMesh,
-        (tooth, side): (usize, FlankSide),
+        (tooth, side): (usize, Flank),
         loads: &[GridLoad],
         deformation: Deformation,
     ) -> Result<Self, ReductionError> {

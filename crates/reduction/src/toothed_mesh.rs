@@ -1,13 +1,13 @@
 //! What loads, gauges and the tooth-only submodel ask of a mesh, wherever it comes from.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_mesh::{GearMesh, OutlineFace};
 
 /// A mesh with teeth.
 pub trait ToothedMesh {
     /// Faces of one side of a tooth between two arc lengths \[m\] from the centre of that side's tooth space, including
     /// those that are partly outside.
-    fn outline_faces(&self, tooth: usize, side: FlankSide, arc_m: [f64; 2]) -> Vec<OutlineFace>;
+    fn outline_faces(&self, tooth: usize, side: Flank, arc_m: [f64; 2]) -> Vec<OutlineFace>;
 
     /// Turn of the teeth per metre of z \[rad/m\], positive for a right hand.
     fn twist_rad_per_m(&self) -> f64;
@@ -17,11 +17,11 @@ pub trait ToothedMesh {
 
     /// Nodes that hold the tooth-only submodel for loads on `loaded`: the cut and the opposite side of the tooth above
     /// it.
-    fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32>;
+    fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32>;
 }
 
 impl ToothedMesh for GearMesh {
-    fn outline_faces(&self, tooth: usize, side: FlankSide, arc_m: [f64; 2]) -> Vec<OutlineFace> {
+    fn outline_faces(&self, tooth: usize, side: Flank, arc_m: [f64; 2]) -> Vec<OutlineFace> {
         Self::outline_faces(self, tooth, side, arc_m)
     }
 
@@ -33,7 +33,7 @@ impl ToothedMesh for GearMesh {
         Self::tooth_elements(self, tooth)
     }
 
-    fn tooth_supports(&self, tooth: usize, loaded: FlankSide) -> Vec<u32> {
+    fn tooth_supports(&self, tooth: usize, loaded: Flank) -> Vec<u32> {
         Self::tooth_supports(self, tooth, loaded)
     }
 }

@@ -198,6 +198,12 @@ fn overview(r: &SceneResult) -> Section {
         table = table.row(row);
     }
     section = section.push(table);
+    for (number, words) in [1, 2].into_iter().zip(&r.microgeometry) {
+        // Results of older programs do not say.
+        if !words.is_empty() {
+            section = section.push(Text::note(format!("Flanks of gear {number}: {words}.")));
+        }
+    }
     for sentence in r.incomplete() {
         section = section.push(Text::note(sentence));
     }

@@ -9,6 +9,8 @@
 //! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs
 //! multibody systems, [`study`] runs one of them again and again with keys that vary.
 
+mod former_forms;
+mod microgeometry_words;
 mod named_files;
 pub mod pair;
 pub mod periods;

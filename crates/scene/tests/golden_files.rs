@@ -80,6 +80,8 @@ fn pair_result(version: u32) -> SceneResult {
         scene_toml: text("# the scene\ntitle = \"golden\"\n"),
         gears: [24, 36].map(|teeth| StoredGear::of_older_file(gear_toml(teeth))),
         model_files: [text("/a/gear_1.h5"), text("/a/gear_2.h5")],
+        // Texts of newer programs: empty in files without them.
+        microgeometry: Default::default(),
         version: text("0.1.0"),
         created_utc: text("2000-01-01T00:00:00Z"),
         pitches: 2,

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::study::{Study, StudyOutcome, run_study};
+use gearmesh_scene::study::{Study, StudyOutcome, StudyScenes, run_study};
 
 /// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
 const SCENE: &str = include_str!("../../../tests/support/wheel.toml");
@@ -130,6 +130,36 @@ fn a_key_that_is_not_in_the_scene_is_told_before_anything_runs() {
         Ok(outcome) => outcome.cases[1].figures.clone().unwrap_err(),
     };
     assert!(told.contains("mass = -1"), "{told}");
+}
+
+/// A study varies the microgeometry that a scene states; a slip in the key is told before the first case.
+#[test]
+fn microgeometry_of_a_body_is_varied() {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models");
+    let text = std::fs::read_to_string(models.join("study_17_25.toml")).unwrap();
+    let scenes = |text: &str| {
+        let document = InputDocument::new("study.toml", text);
+        StudyScenes::new(&Study::from_document(document, &models).unwrap())
+    };
+    let relieved = scenes(&text).unwrap().scenes.pop().unwrap();
+    let built = relieved.load().unwrap().build().unwrap();
+    let note = built
+        .notes
+        .iter()
+        .find(|note| note.contains("flanks of gear 1"));
+    assert!(
+        note.unwrap()
+            .contains("gear 1 tip relief 25 um parabolic from 180 mm (scene); gear 2 unmodified"),
+        "{note:?}"
+    );
+    let slip = text.replace("microgeometry.tip_relief_um", "microgeometry.tip_releif_um");
+    let told = scenes(&slip).err().unwrap().to_string();
+    assert!(
+        told.contains(
+            "`body.0.microgeometry.tip_releif_um` is not in the scene: body.0.microgeometry has"
+        ) && told.contains("not `tip_releif_um`"),
+        "{told}"
+    );
 }
 
 /// A column that is not there fails its case, and says which there are.

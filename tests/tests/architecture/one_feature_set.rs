@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use crate::{assert_no_faults, packages, root, text};
+use crate::assert_no_faults;
+use crate::files::root;
+use crate::packages::{packages, text};
 
 /// Package of a registry to the sets of features with which it is built, as `cargo tree` lists them.
 type Features = BTreeMap<String, BTreeSet<String>>;

@@ -5,9 +5,8 @@ use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_drivetrain::BeamTooth;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, Material, involute};
+use gearmesh_geometry::{Flank, GearDefinition, Material, involute};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::Flank;
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
 use std::f64::consts::PI;
 
@@ -60,7 +59,7 @@ fn the_analytic_tooth_is_that_of_finite_elements() {
             };
             let found = flank_deflection(&reduced, &load, 0, LocalContact::Calibrated).unwrap();
             let (global, local) = found.means_m();
-            let [_, y] = profile.flank_point_m(FlankSide::Right, roll);
+            let [_, y] = profile.flank_point_m(Flank::Right, roll);
             let to_centre_line = y.abs() / (roll - profile.base_half_angle_rad).cos();
             let flattening = 2.0 * (1.0 - poisson * poisson) / (PI * young_pa)
                 * ((2.0 * to_centre_line / HALF_WIDTH).ln() - poisson / (2.0 * (1.0 - poisson)));

@@ -7,7 +7,7 @@
 
 use crate::line_load::line_load_strain;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve, RootPosition};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, RootPosition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::{ReductionOptions, Silent, reduce};
 use std::path::Path;
@@ -66,8 +66,8 @@ fn friction_towards_the_root_lowers_the_strain_of_the_loaded_side() {
             "{lowered:?}"
         );
         let roll = *gear.grid.roll_angles_rad.last().unwrap();
-        let (normal, to_tip) = definition.profile.flank_frame(FlankSide::Right, roll);
-        let p = definition.profile.flank_point_m(FlankSide::Right, roll);
+        let (normal, to_tip) = definition.profile.flank_frame(Flank::Right, roll);
+        let p = definition.profile.flank_point_m(Flank::Right, roll);
         let beam = FRICTION * beam_stress(section, p, to_tip) / beam_stress(section, p, normal);
         let at_tip = *lowered.last().unwrap();
         println!(

@@ -2,10 +2,9 @@
 //! quadratic hexahedra, graded to the contact in all directions. What is not tooth-only, C_g, is smooth and added.
 
 use gearmesh_fe::{
-    DofMap, EDGE_CORNERS, Element, Factor, FeModel, Material, QuadraticMesh, assemble_stiffness,
-    chord_middle,
+    DofMap, Element, Factor, FeModel, Material, QuadraticMesh, assemble_stiffness, chord_middle,
 };
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve, involute};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, involute};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection};
 
@@ -120,7 +119,7 @@ impl GradedTooth {
         let stiffness = assemble_stiffness(&model, &dofs).unwrap();
         let factorised = Factor::of_model(&model, &dofs, &stiffness).unwrap();
 
-        let (normal, _) = profile.flank_frame(FlankSide::Right, roll);
+        let (normal, _) = profile.flank_frame(Flank::Right, roll);
         let outline_hex = |row: usize, layer: usize| &faces[layer * quads + row * (columns - 1)];
         let across = hertz_shares(&section, a);
         let centre = section.centre;
@@ -204,8 +203,9 @@ fn planes(width_m: f64, factor: f64) -> Vec<f64> {
 /// Consistent nodal shares of a unit force, pressed on by a Hertz pressure across and evenly along a layer, on each row
 /// of faces that it touches.
 fn hertz_shares(section: &ContactSection, half_width_m: f64) -> Vec<(usize, [f64; 8])> {
-    assert_eq!([EDGE_CORNERS[0], EDGE_CORNERS[4]], [[0, 1], [4, 5]]);
-    assert_eq!([EDGE_CORNERS[8], EDGE_CORNERS[9]], [[0, 4], [1, 5]]);
+    let edges = Element::Hex20.cell().edges();
+    assert_eq!([edges[0], edges[4]], [[0, 1], [4, 5]]);
+    assert_eq!([edges[8], edges[9]], [[0, 4], [1, 5]]);
     let arcs = &section.outline_arc_m;
     let mut rows: Vec<(usize, [f64; 8])> = Vec::new();
     let strips = 4000;

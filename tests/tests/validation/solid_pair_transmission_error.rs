@@ -51,8 +51,8 @@ fn the_transmission_error_agrees_at_every_position() {
             extension: extended.then(|| PathExtension::new(&pair, EDGE_RADIUS_M)),
             pair,
             zone: gearmesh_contact::ContactZone::of_equal_faces(gear.tooth.face_width_m),
-            microgeometry_1: gear.microgeometry.clone(),
-            microgeometry_2: gear.microgeometry.clone(),
+            microgeometry_1: gear.microgeometry.right.clone(),
+            microgeometry_2: gear.microgeometry.right.clone(),
         };
         let options = ContactOptions {
             local: LocalContact::Calibrated,

@@ -1,7 +1,7 @@
 //! A filleted web with holes in ten-node tetrahedra against scikit-fem on the same mesh: stiffness and displacements.
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_geometry::{Flank, GearDefinition};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{CellKind, MeshData, write_mesh};
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
@@ -62,8 +62,8 @@ fn stiffness_and_displacements_are_those_of_scikit_fem() {
     let grid = flank_grid(&gear);
     // A load in the middle of a flank, one on a corner of a flank elsewhere.
     let loads: Vec<SparseVector> = [
-        (0, FlankSide::Right, grid.load(2, 2)),
-        (11, FlankSide::Left, grid.load(3, 0)),
+        (0, Flank::Right, grid.load(2, 2)),
+        (11, Flank::Left, grid.load(3, 0)),
     ]
     .into_iter()
     .map(|(tooth, side, load)| {

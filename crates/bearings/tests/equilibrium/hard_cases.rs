@@ -1,8 +1,10 @@
 //! Hard cases: what must not fail, and what must hold there.
 
 use crate::common::{B218, B6205, PAIR, ROLLERS, TAPERED, bearing, close, definition};
-use gearmesh_bearings::quasi_static::{AppliedBearingLoad, TiltCondition};
-use gearmesh_bearings::{Control, Operation, QuasiStaticBearing, RingPose};
+use gearmesh_bearings::{
+    AppliedBearingLoad, BearingError, Control, ElementPlaces, Operation, QuasiStaticBearing,
+    RingPose, TiltCondition,
+};
 use nalgebra::Vector5;
 
 const FREE: TiltCondition = TiltCondition::Moments([0.0; 2]);
@@ -203,4 +205,72 @@ fn stiffness_at_a_tenth_of_c_is_near_palmgrens() {
     let stiffness = 1.5 * force / (1e-3 * palmgren_mm);
     close(-ring.tangent[(0, 0)], stiffness, 0.15);
     assert!(definition(B6205).stated_ratings.dynamic_n.is_none());
+}
+
+/// A ring that walks at random, through lift-off and speed: searches that begin at the places before find what searches from nothing find.
+#[test]
+fn warm_searches_find_what_cold_ones_find() {
+    let mut numbers = fastrand::Rng::with_seed(5);
+    let mut any = || 2.0 * numbers.f64() - 1.0;
+    for (text, rpm) in [
+        (B218, 0.0),
+        (B218, 9000.0),
+        (B6205, 6000.0),
+        (PAIR, 15000.0),
+        (ROLLERS, 3000.0),
+        (TAPERED, 0.0),
+    ] {
+        let bearing = bearing(text);
+        let operation = at_rpm(rpm);
+        let mut places = ElementPlaces::unknown(&bearing.rows);
+        let mut compared = 0;
+        for _ in 0..200 {
+            let q = Vector5::new(
+                2e-5 * any(),
+                2e-5 * any(),
+                4e-5 * any(),
+                3e-4 * any(),
+                3e-4 * any(),
+            );
+            let pose = RingPose::from_five(&q);
+            let cold = bearing.evaluate(&pose, &operation);
+            let warm = bearing.evaluate_from(&pose, &operation, &mut places);
+            match (cold, warm) {
+                (Ok(cold), Ok(warm)) => {
+                    compared += 1;
+                    let scale = cold.load.norm() + 1.0;
+                    assert!(
+                        (cold.load - warm.load).norm() < 1e-9 * scale,
+                        "{text} {q:?}"
+                    );
+                    let scale = cold.tangent.norm() + 1.0;
+                    assert!(
+                        (cold.tangent - warm.tangent).norm() < 1e-6 * scale,
+                        "{text} {q:?}"
+                    );
+                }
+                (cold, warm) => assert_eq!(
+                    cold.is_err(),
+                    warm.is_err(),
+                    "{text} {q:?} {cold:?} {warm:?}"
+                ),
+            }
+        }
+        assert!(compared > 60, "{text}: {compared}");
+    }
+}
+
+/// A single row pulled out of its groove is an error, not a bearing that settles where no groove is.
+#[test]
+fn a_ring_pulled_out_is_an_error() {
+    let bearing = bearing(B218);
+    let pulled = RingPose::from_five(&Vector5::new(0.0, 0.0, -2e-3, 0.0, 0.0));
+    for rpm in [0.0, 5000.0] {
+        let found = bearing.evaluate(&pulled, &at_rpm(rpm));
+        assert_eq!(found, Err(BearingError::PulledOut), "{rpm}");
+    }
+    // A little back, the balls are loose: no load, no error.
+    let loose = RingPose::from_five(&Vector5::new(0.0, 0.0, -2e-5, 0.0, 0.0));
+    let ring = bearing.evaluate(&loose, &at_rpm(0.0)).unwrap();
+    assert_eq!(ring.load.norm(), 0.0);
 }

@@ -4,8 +4,8 @@ use crate::common::{B218, B6205, ROLLERS, bearing, close, definition};
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingDefinition;
 use gearmesh_bearings::life::Lubrication;
-use gearmesh_bearings::quasi_static::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::ratings::{ball_dynamic_factor, ball_static_factor, roller_dynamic_factor};
+use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Life, Operation, QuasiStaticBearing, Ratings};
 use gearmesh_geometry::input::InputDocument;
 

@@ -2,7 +2,7 @@
 //! bearing of 7 balls of 11.5 mm on 43.5 mm, conformities 0.52 and 0.53, 210 GPa, C 23 400 N.
 
 use crate::common::{close, definition};
-use gearmesh_bearings::quasi_static::{AppliedBearingLoad, TiltCondition};
+use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{Life, Operation, QuasiStaticBearing};
 
 const SEVEN: &str = r#"

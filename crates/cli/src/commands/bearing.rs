@@ -6,7 +6,8 @@ use crate::failure::Failure;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::life::Lubrication;
-use gearmesh_bearings::quasi_static::{AppliedBearingLoad, RowLoads, TiltCondition};
+use gearmesh_bearings::quasi_static::RowLoads;
+use gearmesh_bearings::{AppliedBearingLoad, TiltCondition};
 use gearmesh_bearings::{
     BearingError, Control, ElementLoad, Life, Operation, QuasiStaticBearing, Ratings, RingLoad,
     RingPose,

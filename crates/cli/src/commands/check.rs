@@ -111,6 +111,7 @@ fn scene(path: &Path, scene: SceneFile) -> Result<(), Failure> {
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
+            loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
             let built = loaded.build()?;
             RunJob::from_scene(loaded.clone())?;

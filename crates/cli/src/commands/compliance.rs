@@ -1,12 +1,11 @@
 //! `gearmesh compliance`: deflection along a flank.
 
-use crate::arguments::{ComplianceArguments, Local, Side};
+use crate::arguments::ComplianceArguments;
 use crate::console;
 use crate::failure::Failure;
-use gearmesh_contact::LocalContact;
 use gearmesh_contact::flank_deflection::{FlankLoad, flank_deflection};
 use gearmesh_geometry::involute;
-use gearmesh_model::{Flank, ReductionChecks, read_reduced_gear};
+use gearmesh_model::{ReductionChecks, read_reduced_gear};
 use serde_json::json;
 
 /// Runs the command.
@@ -37,15 +36,6 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
         radius_mm(stations[0]),
         radius_mm(stations[stations.len() - 1]),
     );
-    let flank = match a.flank {
-        Side::Right => Flank::Right,
-        Side::Left => Flank::Left,
-    };
-    let local = match a.local {
-        Local::None => LocalContact::None,
-        Local::WeberBanaschek => LocalContact::WeberBanaschek,
-        Local::Calibrated => LocalContact::Calibrated,
-    };
     let mut rows = Vec::new();
     for &radius in &a.radius_mm {
         if !(radius >= low - 1e-6 && radius <= high + 1e-6) {
@@ -55,14 +45,14 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
         }
         let load = FlankLoad {
             tooth: a.tooth,
-            flank,
+            flank: a.flank,
             radius_m: radius * 1e-3,
             line_load_n_per_m: a.line_load_N_per_mm * 1e3,
             half_width_m: a.half_width_mm * 1e-3,
         };
         rows.push((
             radius,
-            flank_deflection(&model, &load, at_tooth, local).map_err(Failure::input)?,
+            flank_deflection(&model, &load, at_tooth, a.local).map_err(Failure::input)?,
         ));
     }
     // Made for a load on tooth 0; on others the body below may differ.
@@ -88,8 +78,8 @@ pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
     }
     let mesh_error = console::mesh_error(mesh_error);
     console::data(format!(
-        "{}: deflection along the {flank} flank's inward normal at tooth {at_tooth}, line load on tooth {}; mesh error {mesh_error}",
-        model.name, a.tooth
+        "{}: deflection along the {} flank's inward normal at tooth {at_tooth}, line load on tooth {}; mesh error {mesh_error}",
+        model.name, a.flank, a.tooth
     ));
     let slices: Vec<String> = (0..model.grid.slices)
         .map(|k| format!("{:>11}", format!("slice {k} um")))

@@ -1,7 +1,7 @@
 //! How the axes of gears in mesh stand to each other in a static result: to be put into a `[pair]`.
 
 use crate::failure::Failure;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_scene::system_run::SystemResult;
 
 /// A line for each mesh whose gears' places are in the result, at its last point.
@@ -16,7 +16,7 @@ pub fn lines(result: &SystemResult) -> Result<Vec<String>, Failure> {
             continue;
         };
         let flank = result.loaded_flank(&mesh.name, last);
-        let flank = flank.map_err(Failure::work)?.unwrap_or(FlankSide::Right);
+        let flank = flank.map_err(Failure::work)?.unwrap_or(Flank::Right);
         let found = axes.misalignment(flank);
         lines.push(format!(
             "axes of mesh {} at point {last}, {} flanks: inclination_mrad = {:.6}, deviation_mrad = {:.6}, centre distance {:.4} mm",

@@ -22,6 +22,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Failure> {
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
+            loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
             // What the run would refuse is refused here.
             RunJob::from_scene(loaded.clone())?;

@@ -17,6 +17,7 @@ use std::time::Duration;
 
 /// Runs a scene.
 pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure> {
+    loaded.scene.notes.iter().for_each(console::note);
     let job = RunJob::from_scene(loaded)?;
     job.head.notes.iter().for_each(console::note);
     let resumes = job.kind.resumes();

@@ -3,8 +3,7 @@
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
-use gearmesh_geometry::GearDefinition;
-use gearmesh_mesh::ElementShape;
+use gearmesh_geometry::{Element, GearDefinition};
 use gearmesh_reduction::GearBody;
 use gearmesh_report::scene_page::GearPicture;
 use gearmesh_scene::{LoadedScene, SceneResult};
@@ -18,9 +17,7 @@ pub fn pictures(
     let (mut pictures, mut left_out) = (Vec::new(), Vec::new());
     for gear in [1, 2] {
         let definition = result.gears[gear - 1].definition_in("the result")?;
-        if definition.blank.meshed.is_some()
-            || ElementShape::of(definition.mesh.element) == ElementShape::Tet10
-        {
+        if definition.blank.meshed.is_some() || definition.mesh.element == Element::Tet10 {
             left_out.push(format!(
                 "{}: its mesh has no cross-section of quadrilaterals; `gearmesh recover --field-gear {gear}` writes the whole field",
                 definition.name

@@ -3,20 +3,17 @@
 use super::Data;
 use gearmesh_contact::nlcp::{ContactBody, LineContact, LocalLaw};
 
-/// Marsaglia's xorshift64* generator.
-pub struct Random(u64);
+/// Numbers that are the same in every run.
+pub struct Random(fastrand::Rng);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
-        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+        Random(fastrand::Rng::with_seed(seed))
     }
 
     /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
+        self.0.f64()
     }
 
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
@@ -29,7 +26,7 @@ impl Random {
     }
 
     pub fn below(&mut self, n: usize) -> usize {
-        ((self.unit() * n as f64) as usize).min(n - 1)
+        self.0.usize(..n)
     }
 
     /// Roughly normal: sum of twelve uniforms.

@@ -3,9 +3,9 @@
 
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, PathExtension, StaticContact};
 use gearmesh_geometry::definition::ToothDefinition;
-use gearmesh_geometry::{GearPair, Microgeometry, Misalignment, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment, ToothGeometry};
 use gearmesh_model::synthetic::small_reduced_gear;
-use gearmesh_model::{Flank, FlankGrid, ReducedGear};
+use gearmesh_model::{FlankGrid, ReducedGear};
 
 /// A tooth of the standard rack.
 pub fn tooth(teeth: usize, profile_shift: f64, tip_chamfer_m: f64) -> ToothDefinition {
@@ -100,6 +100,27 @@ pub fn made_up_gear(tooth: &ToothGeometry, face_width_m: f64, slices: usize) -> 
         reference_point: None,
         modes: None,
         ..small_reduced_gear()
+    }
+}
+
+/// 31/40 teeth with this helix angle (degrees, positive right on gear 1), at the centre distance of equal clearance for every angle.
+pub fn helical(helix_deg: f64, flank: Flank) -> ContactLines {
+    let gear = |teeth: usize, helix_deg: f64| {
+        let mut d = tooth(teeth, 0.0, 0.0);
+        d.helix_angle_rad = helix_deg.to_radians();
+        ToothGeometry::new(&d).unwrap()
+    };
+    let (g1, g2) = (gear(31, helix_deg), gear(40, -helix_deg));
+    let centre = g1.reference_radius_m + g2.reference_radius_m;
+    let pair = GearPair::new(g1, g2, centre, Misalignment::default())
+        .unwrap()
+        .on_flanks(flank);
+    ContactLines {
+        pair,
+        microgeometry_1: Microgeometry::default(),
+        microgeometry_2: Microgeometry::default(),
+        extension: None,
+        zone: gearmesh_contact::ContactZone::of_equal_faces(20e-3),
     }
 }
 

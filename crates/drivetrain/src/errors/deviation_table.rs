@@ -103,13 +103,13 @@ impl FlankError for DeviationTable {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use gearmesh_geometry::FlankSide;
+    use gearmesh_geometry::Flank;
 
     #[test]
     fn rows_are_met_and_lines_between() {
         let table = DeviationTable::new(&[[0.2, 0.0], [0.4, 8e-6]], &[[0.0, 1e-6]]).unwrap();
         let at = |roll_rad| {
-            let (tooth, side, z_m) = (3, FlankSide::Right, 0.0);
+            let (tooth, side, z_m) = (3, Flank::Right, 0.0);
             table.removed(FlankPoint {
                 tooth,
                 side,

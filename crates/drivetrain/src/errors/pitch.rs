@@ -1,6 +1,6 @@
 //! Pitch errors: each flank of one side shifted along its normal.
 
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 
 use crate::error::DrivetrainError;
 use crate::flank_error::{FlankError, FlankPoint, Removed, most_added_m};
@@ -8,7 +8,7 @@ use crate::flank_error::{FlankError, FlankPoint, Removed, most_added_m};
 /// Cumulative pitch deviations of the flanks of one side, given as material removed: a flank that stands back by f has +f.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PitchErrors {
-    side: FlankSide,
+    side: Flank,
     removed_m: Vec<f64>,
 }
 
@@ -17,11 +17,7 @@ impl PitchErrors {
     ///
     /// # Errors
     /// [`DrivetrainError::Length`] unless there is one for each tooth, [`DrivetrainError::Value`] if one is not finite.
-    pub fn new(
-        side: FlankSide,
-        removed_m: Vec<f64>,
-        teeth: usize,
-    ) -> Result<Self, DrivetrainError> {
+    pub fn new(side: Flank, removed_m: Vec<f64>, teeth: usize) -> Result<Self, DrivetrainError> {
         let owner = "pitch errors";
         if removed_m.len() != teeth {
             return Err(DrivetrainError::Length {
@@ -68,7 +64,7 @@ mod tests {
 
     #[test]
     fn each_tooth_and_side_has_its_own() {
-        let errors = PitchErrors::new(FlankSide::Left, vec![1e-6, -2e-6], 2).unwrap();
+        let errors = PitchErrors::new(Flank::Left, vec![1e-6, -2e-6], 2).unwrap();
         let at = |tooth, side| {
             let (roll_rad, z_m) = (0.3, 0.0);
             errors
@@ -80,9 +76,9 @@ mod tests {
                 })
                 .depth_m
         };
-        assert_eq!(at(1, FlankSide::Left), -2e-6);
-        assert_eq!(at(1, FlankSide::Right), 0.0);
-        assert!(PitchErrors::new(FlankSide::Left, vec![0.0], 2).is_err());
-        assert!(PitchErrors::new(FlankSide::Left, vec![0.0, f64::NAN], 2).is_err());
+        assert_eq!(at(1, Flank::Left), -2e-6);
+        assert_eq!(at(1, Flank::Right), 0.0);
+        assert!(PitchErrors::new(Flank::Left, vec![0.0], 2).is_err());
+        assert!(PitchErrors::new(Flank::Left, vec![0.0, f64::NAN], 2).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! A spall: material lost from a patch of one flank.
 
-use gearmesh_geometry::{FlankSide, ToothGeometry, involute};
+use gearmesh_geometry::{Flank, ToothGeometry, involute};
 
 use super::check_tooth;
 use crate::error::{DrivetrainError, positive};
@@ -13,7 +13,7 @@ pub struct SpallPatch {
     /// Tooth.
     pub tooth: usize,
     /// Flank.
-    pub side: FlankSide,
+    pub side: Flank,
     /// Lower and upper radius \[m\].
     pub radii_m: [f64; 2],
     /// Lower and upper axial position from mid-face \[m\].

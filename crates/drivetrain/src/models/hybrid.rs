@@ -15,15 +15,14 @@
 
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
-    ContactLines, ContactPatch, ContactZone, Drive, FlankPlace, LocalContact, PatchBalance,
-    SliceLayout, nlcp::FLOOR_FRACTION,
+    ContactLines, ContactPatch, Drive, FlankPlace, LocalContact, PatchBalance, SliceLayout,
+    nlcp::FLOOR_FRACTION,
 };
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
 use crate::error::{DrivetrainError, positive};
 use crate::flank_contacts::{FlankContacts, TeethLine};
-use crate::flank_modes::flank_of;
 use crate::pose::Vector6;
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -83,7 +82,7 @@ impl ReducedTeeth {
     /// As [`Self::displaced`].
     pub fn new(
         pair: &GearPair,
-        side: FlankSide,
+        side: Flank,
         models: [&ReducedGear; 2],
         local: LocalContact,
         nominal_force_n: f64,
@@ -98,9 +97,24 @@ impl ReducedTeeth {
     /// [`DrivetrainError::Contact`] when the models do not fit the pair, each other or the side, [`DrivetrainError::Value`].
     pub fn displaced(
         pair: &GearPair,
-        side: FlankSide,
+        side: Flank,
         models: [&ReducedGear; 2],
         (local, displacement_m): (LocalContact, f64),
+        nominal_force_n: f64,
+    ) -> Result<Self, DrivetrainError> {
+        let layout = SliceLayout::of_models(models, displacement_m);
+        Self::on_slices(pair, side, models, (local, layout), nominal_force_n)
+    }
+
+    /// The same on the slices of a layout, see [`SliceLayout::resolved`].
+    ///
+    /// # Errors
+    /// As [`Self::displaced`].
+    pub fn on_slices(
+        pair: &GearPair,
+        side: Flank,
+        models: [&ReducedGear; 2],
+        (local, layout): (LocalContact, SliceLayout),
         nominal_force_n: f64,
     ) -> Result<Self, DrivetrainError> {
         let lines = ContactLines {
@@ -108,13 +122,13 @@ impl ReducedTeeth {
             microgeometry_1: Microgeometry::default(),
             microgeometry_2: Microgeometry::default(),
             extension: None,
-            zone: ContactZone::new(models.map(|model| model.face_width_m), displacement_m),
+            zone: layout.reference,
         };
         // Tip edges add up to half a pitch at either end, and gears may stand closer together than the pair.
         let most_lines = lines.most_pairs() + 2;
         let teeth = [pair.gear_1.teeth, pair.gear_2.teeth];
-        let flanks = (teeth, flank_of(side));
-        let slices = SliceContact::of_gears(models, flanks, (local, displacement_m), most_lines)?;
+        let flanks = (teeth, side);
+        let slices = SliceContact::of_gears(models, flanks, (local, layout), most_lines)?;
         Self::of_flanks(slices, nominal_force_n)
     }
 

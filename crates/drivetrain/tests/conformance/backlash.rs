@@ -3,7 +3,7 @@
 use crate::mesh_common::*;
 use crate::{DAMPINGS, damped, friction, rates};
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 #[test]
@@ -15,7 +15,7 @@ fn nothing_acts_on_teeth_that_are_apart() {
                 let mut mesh = damped(name, &pair, damping).with_friction(friction());
                 for k in 0..20 {
                     let theta = 0.05 * f64::from(k);
-                    let phi = angles(&pair, FlankSide::Right, theta, 0.5 * backlash);
+                    let phi = angles(&pair, Flank::Right, theta, 0.5 * backlash);
                     let apart = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
                     let closing = moving(&apart, &rates(3));
                     let load = mesh.evaluate(&closing, true).unwrap();
@@ -35,7 +35,7 @@ fn backlash_is_what_the_tooth_thickness_leaves() {
             let mut mesh = mesh(name, &pair, kinematics(&pair));
             for theta in [0.03, 0.12] {
                 let mut moment = |te: f64| {
-                    let phi = angles(&pair, FlankSide::Right, theta, te);
+                    let phi = angles(&pair, Flank::Right, theta, te);
                     let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
                     mesh.evaluate(&at, false).unwrap().load[5]
                 };
@@ -59,7 +59,7 @@ fn transmission_error_is_that_of_the_flanks_in_contact() {
         let backlash = pair.backlash_m() * pair.working_pressure_angle_rad.cos();
         for name in CONFORMING {
             let mut mesh = mesh(name, &pair, kinematics(&pair));
-            for side in [FlankSide::Right, FlankSide::Left] {
+            for side in [Flank::Right, Flank::Left] {
                 for te in [-10e-6, 0.0, 3e-6, 0.4 * backlash, 0.6 * backlash] {
                     let phi = angles(&pair, side, 0.17, te);
                     let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());

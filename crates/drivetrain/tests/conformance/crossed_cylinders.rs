@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_3;
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{AxialSpread, LocalContact, SliceCompliance, SliceLayout};
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_geometry::Flank;
+use gearmesh_model::ReducedGear;
 use nalgebra::Vector3;
 
 use crate::crowned_cylinders::{CrownedCylinder, CrownedCylinders};
@@ -65,7 +65,7 @@ fn reduced() -> ReducedTeeth {
 }
 
 fn mesh_of(teeth: impl TeethModel + 'static) -> GearMesh {
-    GearMesh::of_flanks(Box::new(cylinders()), FlankSide::Right, teeth).unwrap()
+    GearMesh::of_flanks(Box::new(cylinders()), Flank::Right, teeth).unwrap()
 }
 
 fn damped_mesh(name: &str, damping: Damping) -> GearMesh {
@@ -88,7 +88,7 @@ fn poses() -> Vec<Pose> {
         let touching = Pose::at_rest(place, rotation);
         let gap_m = |pose: &Pose| {
             let mut found = FlankContacts::default();
-            let side = FlankSide::Right;
+            let side = Flank::Right;
             cylinders().contacts_at(pose, side, &mut found).unwrap();
             found.lines[0].ideal_gap_m
         };
@@ -108,7 +108,7 @@ fn flanks_of_another_family_conform() {
     let name = "crossed cylinders, hybrid";
     let mut undamped = mesh_of(reduced());
     check_energy(name, &mut undamped, &poses);
-    let (found, forces) = undamped.side(FlankSide::Right).unwrap();
+    let (found, forces) = undamped.side(Flank::Right).unwrap();
     assert_eq!(found.contacts.len(), SLICES);
     assert!(forces[SLICES / 2] > forces[0], "{forces:?}");
     for name in ["impact", "hybrid"] {

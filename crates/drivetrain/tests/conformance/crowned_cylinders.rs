@@ -5,7 +5,7 @@ use gearmesh_drivetrain::flank_contacts::{FlankContacts, Section, TeethLine, Too
 use gearmesh_drivetrain::pose::{Pose, Vector6};
 use gearmesh_drivetrain::slice_plane::Matrix6;
 use gearmesh_drivetrain::{DrivetrainError, FlankKinematics};
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 use crate::mesh_common::moved;
@@ -145,7 +145,7 @@ impl FlankKinematics for CrownedCylinders {
         Ok(())
     }
 
-    fn contacts(&self, pose: &Pose, _side: FlankSide, found: &mut FlankContacts) {
+    fn contacts(&self, pose: &Pose, _side: Flank, found: &mut FlankContacts) {
         found.clear();
         let (_, nearest) = self.last();
         let slices = self.layout.slices;
@@ -187,7 +187,7 @@ impl FlankKinematics for CrownedCylinders {
     fn contacts_at(
         &self,
         pose: &Pose,
-        side: FlankSide,
+        side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         let mut here = Self { at: None, ..*self };
@@ -196,19 +196,19 @@ impl FlankKinematics for CrownedCylinders {
         Ok(())
     }
 
-    fn gap_curvature(&self, _: &FlankContacts, _contact: usize, _side: FlankSide) -> Matrix6 {
+    fn gap_curvature(&self, _: &FlankContacts, _contact: usize, _side: Flank) -> Matrix6 {
         Matrix6::from_columns(&self.change(|nearest| nearest.gradient))
     }
 
-    fn sliding(&self, _: &FlankContacts, _contact: usize, _side: FlankSide) -> Vector6 {
+    fn sliding(&self, _: &FlankContacts, _contact: usize, _side: Flank) -> Vector6 {
         self.last().1.sliding
     }
 
-    fn sliding_gradient(&self, _: &FlankContacts, _contact: usize, _side: FlankSide) -> Matrix6 {
+    fn sliding_gradient(&self, _: &FlankContacts, _contact: usize, _side: Flank) -> Matrix6 {
         Matrix6::from_columns(&self.change(|nearest| nearest.sliding))
     }
 
-    fn nearest_gap_m(&self, _side: FlankSide) -> Option<f64> {
+    fn nearest_gap_m(&self, _side: Flank) -> Option<f64> {
         Some(self.last().1.gap_m)
     }
 

@@ -5,7 +5,7 @@ use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::definition::ToothDefinition;
-use gearmesh_geometry::{FlankSide, GearPair, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, ToothGeometry};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -110,7 +110,7 @@ impl Case {
                 });
                 let local = (LocalContact::WeberBanaschek, displacement);
                 let models = [&models[0], &models[1]];
-                let side = FlankSide::Right;
+                let side = Flank::Right;
                 let teeth = ReducedTeeth::displaced(pair, side, models, local, 4e3).unwrap();
                 layout = *teeth.layout();
                 Box::new(teeth)
@@ -120,7 +120,7 @@ impl Case {
         let none = [Vec::new(), Vec::new()];
         let a = pair.centre_distance_m;
         let kinematics = MeshKinematics::new(gears, none, a, layout, self.ends).unwrap();
-        GearMesh::new(kinematics, FlankSide::Right, model).unwrap()
+        GearMesh::new(kinematics, Flank::Right, model).unwrap()
     }
 
     /// Loads on gear 2 and on gear 1 about gear 1's origin by both orders of the gears, and the stored energies.
@@ -130,7 +130,7 @@ impl Case {
             gear_2: pair.gear_1.clone(),
             ..pair.clone()
         };
-        let [phi_1, phi_2] = angles(pair, FlankSide::Right, self.theta_rad, -self.depth_m);
+        let [phi_1, phi_2] = angles(pair, Flank::Right, self.theta_rad, -self.depth_m);
         let screw = screw_rad(pair, self.displacement_m);
         let shift = Vector3::new(self.offset_m[0], self.offset_m[1], self.displacement_m);
         let tilt = Vector3::new(self.tilt_rad[0], self.tilt_rad[1], 0.0);

@@ -6,7 +6,7 @@ use gearmesh_drivetrain::flank_contacts::FlankContacts;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::{MeshKinematics, PathEnds, Pose};
 use gearmesh_geometry::definition::ToothDefinition;
-use gearmesh_geometry::{FlankSide, GearPair, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, ToothGeometry};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ struct Case {
     theta_rad: f64,
     depth_m: f64,
     ends: PathEnds,
-    side: FlankSide,
+    side: Flank,
 }
 
 fn any_case() -> impl Strategy<Value = Case> {
@@ -39,7 +39,7 @@ fn any_case() -> impl Strategy<Value = Case> {
         -6.0f64..6.0,
         -30e-6f64..30e-6,
         prop_oneof![Just(PathEnds::Extended), Just(PathEnds::LineOfAction)],
-        prop_oneof![Just(FlankSide::Right), Just(FlankSide::Left)],
+        prop_oneof![Just(Flank::Right), Just(Flank::Left)],
     );
     (pair, pose).prop_map(|(pair, pose)| Case {
         teeth: pair.0,
@@ -81,7 +81,7 @@ impl Case {
     }
 
     /// All gaps, in order of teeth and slice.
-    fn gaps(&self, pair: &GearPair, at: &Pose, side: FlankSide) -> Vec<Gap> {
+    fn gaps(&self, pair: &GearPair, at: &Pose, side: Flank) -> Vec<Gap> {
         let gears = [pair.gear_1.clone(), pair.gear_2.clone()];
         let layout = SliceLayout::new([WIDTH; 2], 0.0, SLICES);
         let none = [Vec::new(), Vec::new()];

@@ -18,7 +18,7 @@ mod zone;
 
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use mesh_common::*;
 use nalgebra::Vector3;
 
@@ -26,9 +26,9 @@ use nalgebra::Vector3;
 fn loaded_poses(pair: &GearPair) -> Vec<Pose> {
     let mut poses = Vec::new();
     for (side, theta, te) in [
-        (FlankSide::Right, 0.02, -9e-6),
-        (FlankSide::Right, 0.11, -14e-6),
-        (FlankSide::Left, 0.19, -11e-6),
+        (Flank::Right, 0.02, -9e-6),
+        (Flank::Right, 0.11, -14e-6),
+        (Flank::Left, 0.19, -11e-6),
     ] {
         let phi = angles(pair, side, theta, te);
         let shift = Vector3::new(2e-6, -1e-6, 1e-4);
@@ -64,9 +64,9 @@ fn damped(name: &str, pair: &GearPair, damping: Damping) -> GearMesh {
             _ => Box::new(Damped::new(model(name, pair, side), damping, SLICES).unwrap()),
         }
     };
-    let mesh = GearMesh::new(kinematics(pair), FlankSide::Right, of(FlankSide::Right))
+    let mesh = GearMesh::new(kinematics(pair), Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap();
     with_own_modes(name, pair, mesh)
 }

@@ -2,7 +2,7 @@
 
 use crate::mesh_common::*;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 /// Secant stiffness over a mesh cycle at a deflection of 10 µm: of the same order for all models of one pair. The numbers are stated;
@@ -17,7 +17,7 @@ fn stiffnesses_are_of_one_order() {
         let sum: f64 = (0..steps)
             .map(|k| {
                 let theta = pair.pitch_1_rad() * f64::from(k) / f64::from(steps);
-                let phi = angles(&pair, FlankSide::Right, theta, -depth);
+                let phi = angles(&pair, Flank::Right, theta, -depth);
                 let at = pose(&pair, phi, Vector3::zeros(), Vector3::zeros());
                 mesh.evaluate(&at, false)
                     .unwrap()
@@ -67,7 +67,7 @@ fn one_spring_never_stands_on_a_tip_edge() {
     );
     let pitch_point = pair.working_pressure_angle_rad.tan();
     let spring = MeshSpring::new(3e8, SLICES, pitch_point).unwrap();
-    let mut mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, spring).unwrap();
+    let mut mesh = GearMesh::new(kinematics(&pair), Flank::Right, spring).unwrap();
     let depth = 2e-6;
     let mut beyond = 0;
     for k in 0..40 {
@@ -78,7 +78,7 @@ fn one_spring_never_stands_on_a_tip_edge() {
             (torque / expected - 1.0).abs() < 1e-9,
             "{k} {torque} {expected}"
         );
-        let (found, _) = mesh.side(FlankSide::Right).unwrap();
+        let (found, _) = mesh.side(Flank::Right).unwrap();
         let off = |roll: f64| (roll - pitch_point).abs();
         let nearest = found
             .lines

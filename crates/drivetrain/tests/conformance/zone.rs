@@ -6,7 +6,7 @@ use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use nalgebra::Vector3;
 
 use crate::mesh_common::*;
@@ -35,12 +35,12 @@ fn unequal_mesh(name: &str, pair: &GearPair, displacement_m: f64, ends: PathEnds
                 _ => LocalContact::None,
             };
             let contact = (local, displacement_m);
-            let side = FlankSide::Right;
+            let side = Flank::Right;
             let teeth = ReducedTeeth::displaced(pair, side, [&one, &two], contact, 4000.0).unwrap();
             layout = *teeth.layout();
             Box::new(teeth)
         }
-        _ => model(name, pair, FlankSide::Right),
+        _ => model(name, pair, Flank::Right),
     };
     let led = |i: usize, crowning_m: f64| -> FlankErrors {
         vec![Arc::new(Microgeometry {
@@ -58,12 +58,12 @@ fn unequal_mesh(name: &str, pair: &GearPair, displacement_m: f64, ends: PathEnds
     let own = [pair.gear_1.clone(), pair.gear_2.clone()];
     let a = pair.centre_distance_m;
     let kinematics = MeshKinematics::new(own, errors, a, layout, ends).unwrap();
-    GearMesh::new(kinematics, FlankSide::Right, teeth).unwrap()
+    GearMesh::new(kinematics, Flank::Right, teeth).unwrap()
 }
 
 /// Gears displaced along their axes, tilted, a few micrometres off the reference.
 fn displaced_pose(pair: &GearPair, displacement_m: f64, theta: f64) -> Pose {
-    let phi = angles(pair, FlankSide::Right, theta, -15e-6);
+    let phi = angles(pair, Flank::Right, theta, -15e-6);
     let shift = Vector3::new(2e-6, -1e-6, displacement_m + 40e-6);
     let screwed = [phi[0], phi[1] + screw_rad(pair, shift[2])];
     pose(pair, screwed, shift, Vector3::new(1e-4, -0.5e-4, 0.0))
@@ -114,7 +114,7 @@ fn loads_follow_from_the_energy_on_faces_that_overlap_in_part() {
 #[test]
 fn the_force_stands_in_the_middle_of_the_overlap() {
     let pair = spur_pair();
-    let phi = angles(&pair, FlankSide::Right, 0.02, -10e-6);
+    let phi = angles(&pair, Flank::Right, 0.02, -10e-6);
     let mut whole = None;
     for (displacement, low, high) in [
         (0.0, -7e-3, 7e-3),
@@ -130,7 +130,7 @@ fn the_force_stands_in_the_middle_of_the_overlap() {
         let none = [Vec::new(), Vec::new()];
         let a = pair.centre_distance_m;
         let kinematics = MeshKinematics::new(own, none, a, layout, PathEnds::Extended).unwrap();
-        let mut mesh = GearMesh::new(kinematics, FlankSide::Right, impact()).unwrap();
+        let mut mesh = GearMesh::new(kinematics, Flank::Right, impact()).unwrap();
         let load = mesh.evaluate(&at, false).unwrap().load;
         let force: Vector3<f64> = load.fixed_rows::<3>(0).into();
         let moment: Vector3<f64> = load.fixed_rows::<3>(3).into();
@@ -166,7 +166,7 @@ fn a_revolution_of_tilted_gears_makes_no_energy() {
             let steps = 160 * pair.gear_1.teeth;
             let tilt = Vector3::new(3.5e-4, -2e-4, 0.0);
             let pose_at = |theta: f64| {
-                let phi = angles(&pair, FlankSide::Right, theta, -15e-6);
+                let phi = angles(&pair, Flank::Right, theta, -15e-6);
                 let screwed = [phi[0], phi[1] + screw_rad(&pair, 2e-4)];
                 pose(&pair, screwed, Vector3::new(2e-6, 3e-6, 2e-4), tilt)
             };

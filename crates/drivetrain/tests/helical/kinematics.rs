@@ -7,10 +7,10 @@ use gearmesh_contact::{ContactLine, ContactLines, ContactZone, SliceLayout};
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
-use gearmesh_geometry::{FlankSide, Microgeometry, ToothGeometry};
+use gearmesh_geometry::{Flank, Microgeometry, ToothGeometry};
 use nalgebra::Vector3;
 
-const SIDES: [FlankSide; 2] = [FlankSide::Right, FlankSide::Left];
+const SIDES: [Flank; 2] = [Flank::Right, Flank::Left];
 const ENDS: [PathEnds; 2] = [PathEnds::LineOfAction, PathEnds::Extended];
 
 /// On the rigid path the same slices with the same shares and roll angles as in the static scene, both hands, both sides; the gap is that of
@@ -208,7 +208,7 @@ fn gradients_agree_with_differences() {
 fn the_curvature_is_right_to_first_order_of_the_tilt() {
     let pair = helical_pair(24.0);
     let kinematics = kinematics(&pair);
-    let side = FlankSide::Right;
+    let side = Flank::Right;
     let worst = |tilt_rad: f64| {
         let tilt = Vector3::new(tilt_rad, -0.7 * tilt_rad, 0.0);
         let phi = angles(&pair, side, 0.08, -5e-6);

@@ -12,8 +12,8 @@ use gearmesh_contact::{LocalContact, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Marker;
-use gearmesh_geometry::{FlankSide, GearPair, Material, ToothGeometry, involute};
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_geometry::{Flank, GearPair, Material, ToothGeometry, involute};
+use gearmesh_model::ReducedGear;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 pub const STEEL: Material = Material {
@@ -79,10 +79,7 @@ pub fn made_up_gear(tooth: &ToothGeometry) -> ReducedGear {
 }
 
 pub fn slice_planes() -> Vec<f64> {
-    let width = WIDTH / SLICES as f64;
-    (0..SLICES)
-        .map(|k| (k as f64 + 0.5) * width - 0.5 * WIDTH)
-        .collect()
+    layout(SLICES).centres_m()
 }
 
 /// Slices over equal faces that do not stand displaced.
@@ -162,7 +159,7 @@ pub fn own_curve(pair: &GearPair, torque_nm: f64, points: usize) -> (PairCurve, 
 }
 
 /// The one spring of the mesh as the tangent to the pair's own curve.
-pub fn own_spring(pair: &GearPair, side: FlankSide) -> MeshSpring {
+pub fn own_spring(pair: &GearPair, side: Flank) -> MeshSpring {
     let (curve, _) = own_curve(pair, 200.0, 24);
     let slope = pair.clone().on_flanks(side).roll_slope_1_rad_per_m();
     let ahead = slice_planes().iter().map(|z| slope * z).collect();
@@ -176,14 +173,14 @@ pub fn beam_teeth(pair: &GearPair) -> BeamTeeth {
     BeamTeeth::new(gears, SLICES, [&[], &[]]).unwrap()
 }
 
-pub fn reduced_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+pub fn reduced_teeth(pair: &GearPair, side: Flank) -> ReducedTeeth {
     let models = [&pair.gear_1, &pair.gear_2].map(made_up_gear);
     let local = LocalContact::WeberBanaschek;
     ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
 }
 
 /// Gear 1 with a crack in the tooth that is in mesh at angle 0.
-pub fn cracked_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+pub fn cracked_teeth(pair: &GearPair, side: Flank) -> ReducedTeeth {
     // Gears exchanged, the crack stays with its gear.
     let models = [&pair.gear_1, &pair.gear_2].map(|gear| match gear.teeth {
         30 => cracked_gear::cracked_gear(gear, 0, 0.4),
@@ -194,7 +191,7 @@ pub fn cracked_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
 }
 
 /// Teeth of gears that vibrate.
-pub fn vibrating_teeth(pair: &GearPair, side: FlankSide) -> ReducedTeeth {
+pub fn vibrating_teeth(pair: &GearPair, side: Flank) -> ReducedTeeth {
     let models = [&pair.gear_1, &pair.gear_2].map(|gear| modal_gear::modal_gear("", gear));
     let local = LocalContact::WeberBanaschek;
     ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
@@ -224,7 +221,7 @@ pub const CONFORMING: [&str; 6] = [
     "vibrating hybrid",
 ];
 
-pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
+pub fn model(name: &str, pair: &GearPair, side: Flank) -> Box<dyn TeethModel> {
     match name {
         "impact" => Box::new(impact()),
         "iso6336" => Box::new(mesh_spring(pair)),
@@ -238,17 +235,17 @@ pub fn model(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel
 
 /// A mesh of the test pair with both sides of the teeth.
 pub fn mesh(name: &str, pair: &GearPair, kinematics: MeshKinematics) -> GearMesh {
-    let [right, left] = [FlankSide::Right, FlankSide::Left].map(|side| model(name, pair, side));
-    let mesh = GearMesh::new(kinematics, FlankSide::Right, right)
+    let [right, left] = [Flank::Right, Flank::Left].map(|side| model(name, pair, side));
+    let mesh = GearMesh::new(kinematics, Flank::Right, right)
         .unwrap()
-        .with_side(FlankSide::Left, left)
+        .with_side(Flank::Left, left)
         .unwrap();
     with_own_modes(name, pair, mesh)
 }
 
 /// Gear 1 turned by θ₁ from pair 0 at the pitch point, its flanks of `side` leading, gear 2 behind by the transmission error; parallel
 /// axes at the pair's centre distance, gear 2 on +x of the world.
-pub fn angles(pair: &GearPair, side: FlankSide, theta_1: f64, te_m: f64) -> [f64; 2] {
+pub fn angles(pair: &GearPair, side: Flank, theta_1: f64, te_m: f64) -> [f64; 2] {
     let alpha = pair.working_pressure_angle_rad;
     let inv = involute::involute_function(alpha);
     let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
@@ -277,7 +274,7 @@ pub fn pose(pair: &GearPair, phi: [f64; 2], shift: Vector3<f64>, tilt: Vector3<f
 
 /// Torque on gear 2 by its z at a driver angle and a transmission error.
 pub fn torque_2(mesh: &mut GearMesh, pair: &GearPair, theta: f64, te: f64) -> (f64, f64) {
-    let phi = angles(pair, FlankSide::Right, theta, te);
+    let phi = angles(pair, Flank::Right, theta, te);
     let at = pose(pair, phi, Vector3::zeros(), Vector3::zeros());
     let load = mesh.evaluate(&at, true).unwrap();
     (load.load[5], load.by_position[(5, 5)])
@@ -352,7 +349,7 @@ pub fn two_gears(
 ) -> (gearmesh_dynamics::SystemBuilder, [Marker; 2]) {
     use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind};
     use gearmesh_dynamics::{Joint, JointKind, System, TimeFunction};
-    let phi = angles(pair, FlankSide::Right, 0.0, te_m);
+    let phi = angles(pair, Flank::Right, 0.0, te_m);
     let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
     let a = pair.centre_distance_m;
     let mut builder = System::builder();

@@ -6,8 +6,8 @@ use gearmesh_dynamics::elements::{AppliedLoad, Axes, LinearBearing, LoadKind};
 use gearmesh_dynamics::{Marker, MarkerPair, Params, SystemBuilder, TimeFunction};
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::microgeometry::ProfileCrowning;
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, Misalignment, ToothGeometry};
-use gearmesh_model::{Flank, GaugeRows, NearField, ReducedGear};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, Misalignment, ToothGeometry};
+use gearmesh_model::{GaugeRows, NearField, ReducedGear};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -125,7 +125,7 @@ pub fn calibrated_gear(tooth: &ToothGeometry) -> ReducedGear {
 }
 
 /// The teeth of one side: `hybrid` with damping proportional to stiffness, or `impact`, which has its own and one plane.
-fn teeth(name: &str, pair: &GearPair, side: FlankSide) -> Box<dyn TeethModel> {
+fn teeth(name: &str, pair: &GearPair, side: Flank) -> Box<dyn TeethModel> {
     if name == "impact" {
         let law = PowerStiffness::n_per_mm_e(4e6, 1.5).unwrap();
         return Box::new(Impact::new(law, 2e3, 5e-6, 1).unwrap());
@@ -156,20 +156,16 @@ pub fn running_mesh(name: &str, pair: &GearPair) -> GearMesh {
         PathEnds::Extended,
     )
     .unwrap();
-    GearMesh::new(
-        kinematics,
-        FlankSide::Right,
-        teeth(name, pair, FlankSide::Right),
-    )
-    .unwrap()
-    .with_side(FlankSide::Left, teeth(name, pair, FlankSide::Left))
-    .unwrap()
+    GearMesh::new(kinematics, Flank::Right, teeth(name, pair, Flank::Right))
+        .unwrap()
+        .with_side(Flank::Left, teeth(name, pair, Flank::Left))
+        .unwrap()
 }
 
 /// The system; gear 1 drives with the torque that gear 2 is braked with, over the ratio. So many gauges are read on gear 2.
 pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBuilder {
     let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
-    let phi = angles(pair, FlankSide::Right, 0.0, -12e-6);
+    let phi = angles(pair, Flank::Right, 0.0, -12e-6);
     let mut builder = gearmesh_dynamics::System::builder();
     let bearing = LinearBearing {
         radial_stiffness_n_per_m: 2e8,

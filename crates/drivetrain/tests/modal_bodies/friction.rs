@@ -8,7 +8,7 @@ use gearmesh_contact::ProfileHats;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation};
-use gearmesh_geometry::{FlankSide, GearPair, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, ToothGeometry};
 use gearmesh_model::{ModalBasis, ReducedGear};
 use nalgebra::Vector3;
 
@@ -82,7 +82,7 @@ impl FlankError for Bent {
 /// What friction alone makes of a gear's modes at rest, in closed form from the forces on its slices.
 fn bent_by_friction(mesh: &GearMesh, model: &ReducedGear, gear: usize, modes: usize) -> Vec<f64> {
     let mut eta = vec![0.0; modes];
-    for side in [FlankSide::Right, FlankSide::Left] {
+    for side in [Flank::Right, Flank::Left] {
         let (found, forces) = mesh.side(side).unwrap();
         let coefficients = mesh.friction_coefficients(side);
         for (i, contact) in found.contacts.iter().enumerate() {
@@ -112,9 +112,9 @@ fn modal_gears_with_friction_at_rest_are_bent_reduced_gears() {
                 hybrid(&pair, &models, [0, 0], kinematics(&pair)).with_friction(coulomb());
             // On parallel axes all slices of a spur line have the roll angle that the flanks' shapes are taken at.
             for (side, theta, te) in [
-                (FlankSide::Right, 0.02, -9e-6),
-                (FlankSide::Right, 0.11, -14e-6),
-                (FlankSide::Left, 0.19, -11e-6),
+                (Flank::Right, 0.02, -9e-6),
+                (Flank::Right, 0.11, -14e-6),
+                (Flank::Left, 0.19, -11e-6),
             ] {
                 let phi = angles(&pair, side, theta, te);
                 let shift = Vector3::new(2e-6, -1e-6, 0.0);
@@ -204,9 +204,9 @@ fn friction_on_a_turning_mode_is_its_moment() {
         let new = || hybrid(&pair, &models, [1, 1], kinematics(&pair));
         let (mut smooth, mut rough) = (new(), new().with_friction(coulomb()));
         for (side, theta) in [
-            (FlankSide::Right, 0.02),
-            (FlankSide::Right, 0.11),
-            (FlankSide::Left, 0.19),
+            (Flank::Right, 0.02),
+            (Flank::Right, 0.11),
+            (Flank::Left, 0.19),
         ] {
             let phi = angles(&pair, side, theta, -10e-6);
             let at = turning(&pose(&pair, phi, Vector3::zeros(), Vector3::zeros()));

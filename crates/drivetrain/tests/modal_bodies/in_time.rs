@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::elements::Channel;
 use gearmesh_dynamics::{Joint, JointKind, Marker, Motion, Params, Simulation, TimeFunction};
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use gearmesh_model::ReducedGear;
 
 use crate::mesh_common::modal_gear::MODES;
@@ -229,7 +229,7 @@ fn modes_that_cannot_be_used_are_refused() {
     assert!(message.contains("7 are needed"), "{message}");
     let done = with(new(), 2).unwrap();
     assert!(
-        done.with_side(FlankSide::Left, reduced_teeth(&pair, FlankSide::Left))
+        done.with_side(Flank::Left, reduced_teeth(&pair, Flank::Left))
             .is_err()
     );
     let plain = made_up_gear(&pair.gear_2);

@@ -3,7 +3,7 @@
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use nalgebra::{DMatrix, DVector, SMatrix, Vector3};
 
 use crate::mesh_common::*;
@@ -75,7 +75,7 @@ fn tangents_agree_with_differences(pair: &GearPair, friction: Option<Friction>, 
         full_depth_m: 1e-6,
     };
     let local = LocalContact::WeberBanaschek;
-    for side in [FlankSide::Right, FlankSide::Left] {
+    for side in [Flank::Right, Flank::Left] {
         let of = |side| {
             let teeth =
                 ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap();

@@ -7,7 +7,7 @@ use gearmesh_drivetrain::*;
 use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind};
 use gearmesh_dynamics::{Body, Joint, JointKind, Marker, System, SystemBuilder, TimeFunction};
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, ToothGeometry};
 use gearmesh_model::ReducedGear;
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 use std::f64::consts::TAU;
@@ -35,9 +35,9 @@ pub fn hybrid(
         let local = LocalContact::WeberBanaschek;
         ReducedTeeth::new(pair, side, [&models[0], &models[1]], local, 4000.0).unwrap()
     };
-    let mut mesh = GearMesh::new(kinematics, FlankSide::Right, of(FlankSide::Right))
+    let mut mesh = GearMesh::new(kinematics, Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap();
     for (gear, count) in modes.into_iter().enumerate() {
         if count > 0 {
@@ -49,9 +49,9 @@ pub fn hybrid(
 
 pub fn loaded_poses(pair: &GearPair) -> Vec<Pose> {
     [
-        (FlankSide::Right, 0.02, -9e-6),
-        (FlankSide::Right, 0.11, -14e-6),
-        (FlankSide::Left, 0.19, -11e-6),
+        (Flank::Right, 0.02, -9e-6),
+        (Flank::Right, 0.11, -14e-6),
+        (Flank::Left, 0.19, -11e-6),
     ]
     .map(|(side, theta, te)| {
         let phi = angles(pair, side, theta, te);
@@ -136,7 +136,7 @@ pub fn scene_with_gauges(
 ) -> (SystemBuilder, [Marker; 2]) {
     // Three pitches on: the teeth in mesh lie on no node of any mode.
     let theta = 3.0 * pair.pitch_1_rad();
-    let phi = angles(pair, FlankSide::Right, theta, te_m);
+    let phi = angles(pair, Flank::Right, theta, te_m);
     let ratio = pair.gear_1.base_radius_m / pair.gear_2.base_radius_m;
     let mut builder = System::builder();
     let markers = [0, 1].map(|i| {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::mesh_common::*;
@@ -83,9 +83,9 @@ fn energy_of_a_damped_hybrid_pair_at_full_load() {
         full_depth_m: 1e-6,
     };
     let of = |side| Damped::new(model("hybrid", &pair, side), damping, SLICES).unwrap();
-    let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, of(FlankSide::Right))
+    let mesh = GearMesh::new(kinematics(&pair), Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap();
     let params = Params {
         rho_infinity: 1.0,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
-use gearmesh_geometry::{FlankSide, GearPair, involute};
+use gearmesh_geometry::{Flank, GearPair, involute};
 use nalgebra::Vector3;
 
 use crate::mesh_common::*;
@@ -26,9 +26,9 @@ fn damped_on(
         full_depth_m,
     };
     let of = |side| Damped::new(model(name, pair, side), damping, SLICES).unwrap();
-    GearMesh::new(kinematics, FlankSide::Right, of(FlankSide::Right))
+    GearMesh::new(kinematics, Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap()
 }
 
@@ -40,9 +40,9 @@ fn power_law(pair: &GearPair, stiffness: PowerStiffness) -> GearMesh {
     let a = pair.centre_distance_m;
     let kinematics =
         MeshKinematics::new(gears, none, a, layout(1), PathEnds::LineOfAction).unwrap();
-    GearMesh::new(kinematics, FlankSide::Right, law)
+    GearMesh::new(kinematics, Flank::Right, law)
         .unwrap()
-        .with_side(FlankSide::Left, law)
+        .with_side(Flank::Left, law)
         .unwrap()
 }
 
@@ -391,7 +391,7 @@ fn misalignment_leaves_one_slice() {
             let end = *samples.last().unwrap();
             let mut alone = mesh_of(name, &pair);
             alone.evaluate(&pose_of(run.state()), false).unwrap();
-            let (found, forces) = alone.side(FlankSide::Right).unwrap();
+            let (found, forces) = alone.side(Flank::Right).unwrap();
             let carrying: Vec<usize> = (0..forces.len())
                 .filter(|&i| forces[i] > 0.0)
                 .map(|i| found.contacts[i].slice)
@@ -502,12 +502,12 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
     let depth = 0.02 * std::f64::consts::TAU * pair.gear_1.base_radius_m / 30.0;
     for (side, torque, words) in [
         (
-            FlankSide::Right,
+            Flank::Right,
             -30.0,
             ["left flanks", "clockwise (torques negative"],
         ),
         (
-            FlankSide::Left,
+            Flank::Left,
             30.0,
             ["right flanks", "counter-clockwise (torques positive"],
         ),
@@ -526,7 +526,7 @@ fn teeth_do_not_pass_through_each_other_where_flanks_are_left_out() {
             assert!(message.contains(word), "`{word}` is not in {message}");
         }
         // No more than the load's own work over what is allowed, and over the backlash where it starts on the other side of it.
-        let free = [0.0, backlash_m(&pair)][usize::from(side == FlankSide::Right)];
+        let free = [0.0, backlash_m(&pair)][usize::from(side == Flank::Right)];
         let way = free + 1.05 * depth;
         let work = torque.abs() * way / pair.gear_2.base_radius_m;
         assert!(energy > 0.5 * work && energy < work, "{energy} of {work}");
@@ -548,7 +548,7 @@ fn teeth_are_not_pressed_through_each_other() {
         1e-6,
         SLICES,
     );
-    let mesh = GearMesh::new(kinematics(&pair), FlankSide::Right, law.unwrap()).unwrap();
+    let mesh = GearMesh::new(kinematics(&pair), Flank::Right, law.unwrap()).unwrap();
     let system = Scene::new(&pair)
         .driven_at(0.0)
         .loaded_by(1000.0)

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use gearmesh_drivetrain::FlankContacts;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation};
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 
 use crate::mesh_common::spur_pair;
 use crate::scene::*;
@@ -83,7 +83,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
                 .driven_at(omega / pair.gear_1.teeth as f64)
                 .loaded_by(MEAN * DEPTH * pair.gear_2.base_radius_m)
         };
-        let mesh = GearMesh::new(kinematics.clone(), FlankSide::Right, teeth()).unwrap();
+        let mesh = GearMesh::new(kinematics.clone(), Flank::Right, teeth()).unwrap();
         let params = Params {
             rho_infinity: 1.0,
             newton_tolerance: Some(1e-13),
@@ -94,7 +94,7 @@ fn trace(pair: &GearPair, delta: f64, teeth: &dyn Fn() -> Box<dyn TeethModel>) -
         let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
         let [w1, w2] = speeds(run.state());
         let pose = pose_of(run.state());
-        let mut alone = GearMesh::new(kinematics.clone(), FlankSide::Right, teeth()).unwrap();
+        let mut alone = GearMesh::new(kinematics.clone(), Flank::Right, teeth()).unwrap();
         alone.evaluate(&pose, false).unwrap();
         let te = alone.transmission_error_m().unwrap();
         assert!(te < 0.0);

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::{Params, Simulation, TimeFunction};
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 
 use crate::mesh_common::spur_pair;
 use crate::scene::*;
@@ -151,9 +151,9 @@ impl Oscillator {
             PathEnds::Extended,
         )
         .unwrap();
-        let mesh = GearMesh::new(kinematics, FlankSide::Right, damped.clone())
+        let mesh = GearMesh::new(kinematics, Flank::Right, damped.clone())
             .unwrap()
-            .with_side(FlankSide::Left, damped)
+            .with_side(Flank::Left, damped)
             .unwrap();
         let scene = Scene {
             te_m: -start[0],

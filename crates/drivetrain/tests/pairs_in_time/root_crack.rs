@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Params;
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 
 use crate::mesh_common::cracked_gear::cracked_gear;
 use crate::mesh_common::{SLICES, kinematics, made_up_gear, spur_pair};
@@ -30,9 +30,9 @@ fn mesh(pair: &GearPair, crack: Option<f64>) -> GearMesh {
         };
         Damped::new(teeth, damping, SLICES).unwrap()
     };
-    GearMesh::new(kinematics(pair), FlankSide::Right, of(FlankSide::Right))
+    GearMesh::new(kinematics(pair), Flank::Right, of(Flank::Right))
         .unwrap()
-        .with_side(FlankSide::Left, of(FlankSide::Left))
+        .with_side(Flank::Left, of(Flank::Left))
         .unwrap()
 }
 

@@ -7,7 +7,7 @@ use gearmesh_dynamics::elements::{AppliedLoad, Axes, LoadKind};
 use gearmesh_dynamics::{
     Joint, JointKind, Marker, Motion, Params, RunInfo, Simulation, State, System, TimeFunction,
 };
-use gearmesh_geometry::{FlankSide, GearPair};
+use gearmesh_geometry::{Flank, GearPair};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::mesh_common::{WIDTH, angles, disc};
@@ -74,7 +74,7 @@ impl<'a> Scene<'a> {
     pub fn system(&self, mesh: GearMesh) -> System {
         let pair = self.pair;
         let [r1, r2] = [&pair.gear_1, &pair.gear_2].map(|g| g.base_radius_m);
-        let phi = angles(pair, FlankSide::Right, 0.0, self.te_m);
+        let phi = angles(pair, Flank::Right, 0.0, self.te_m);
         let speed_2 = (r1 * self.speed_rad_per_s + self.te_rate_m_per_s) / r2;
         let mut builder = System::builder();
         let mut gears = Vec::new();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use gearmesh_drivetrain::*;
 use gearmesh_dynamics::Params;
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
-use gearmesh_geometry::{FlankSide, GearPair, Microgeometry, ToothDefinition, ToothGeometry};
+use gearmesh_geometry::{Flank, GearPair, Microgeometry, ToothDefinition, ToothGeometry};
 
 use crate::mesh_common::pair_common;
 use crate::scene::*;
@@ -80,9 +80,9 @@ fn run(case: Case, te_m: f64, periods: f64) -> Vec<Sample> {
         PathEnds::Extended,
     )
     .unwrap();
-    let mesh = GearMesh::new(kinematics, FlankSide::Right, law)
+    let mesh = GearMesh::new(kinematics, Flank::Right, law)
         .unwrap()
-        .with_side(FlankSide::Left, law)
+        .with_side(Flank::Left, law)
         .unwrap();
     let speed = case.speed_deg_per_s.to_radians();
     let scene = Scene {

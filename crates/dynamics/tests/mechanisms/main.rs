@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // test code
 
 mod andrews;
+mod beads;
 mod five_bars;
 mod own_coordinates;
 #[path = "../../../../tests/support/property_cases.rs"]

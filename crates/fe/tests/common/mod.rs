@@ -1,7 +1,7 @@
 //! What the integration tests share: a steel, the element list, a distorted block.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use gearmesh_fe::{Element, FeModel, Material, StructuredMesh, chord_middle};
+use gearmesh_fe::{Element, ElementFormulas, FeModel, Material, StructuredMesh, chord_middle};
 
 pub const ELEMENTS: [Element; 6] = Element::ALL;
 
@@ -14,11 +14,11 @@ pub fn steel() -> Material {
 pub fn distorted_cube(n: usize) -> StructuredMesh {
     let mut mesh = StructuredMesh::block([n; 3], [1.0; 3]);
     let inside = |v: f64| v > 1e-9 && v < 1.0 - 1e-9;
-    for (i, node) in mesh.nodes.iter_mut().enumerate() {
+    let mut random = fastrand::Rng::with_seed(n as u64);
+    for node in &mut mesh.nodes {
         if node.iter().all(|v| inside(*v)) {
-            for (axis, v) in node.iter_mut().enumerate() {
-                *v +=
-                    0.15 / n as f64 * ((12.9898 * (3 * i + axis) as f64).sin() * 43758.5453).sin();
+            for v in node {
+                *v += 0.15 / n as f64 * (2.0 * random.f64() - 1.0);
             }
         }
     }

@@ -1,9 +1,11 @@
 //! `[crack]`: a crack in one tooth's root.
 
+use gearmesh_elements::Element;
+
 use super::gauge_table::root_position;
 use super::{MM, TableKeys};
 use crate::definition::{
-    CrackDefinition, ElementKind, FlankSide, GearDefinition, ReductionSettings, ToothDefinition,
+    CrackDefinition, Flank, GearDefinition, ReductionSettings, ToothDefinition,
 };
 use crate::input::{InputDocument, InputError};
 use crate::profile_curve::ProfileCurve;
@@ -19,7 +21,7 @@ pub(super) struct CrackTable {
     /// Tooth, from 0.
     tooth: usize,
     /// Side on which it opens.
-    side: FlankSide,
+    side: Flank,
     /// Depth.
     depth_mm: f64,
     /// Direction against the tooth's centre line: 0 towards the centre of the gear, 90 straight across; at right angles
@@ -110,7 +112,7 @@ pub(super) fn check_mesh(
     }
     let problem = if gear.blank.meshed.is_some() {
         "a crack is cut into gearmesh's own mesh, blank.kind = \"mesh\" has none; remove [crack]"
-    } else if gear.mesh.element == ElementKind::Tet10 {
+    } else if gear.mesh.element == Element::Tet10 {
         "a crack follows the sides of hexahedra, and this gear is meshed in tetrahedra; set mesh.element to one of hexahedra or remove [crack]"
     } else {
         return Ok(());

@@ -1,7 +1,7 @@
 //! `[[gauge]]`: strain gauges in the tooth roots.
 
 use super::{MM, TableKeys};
-use crate::definition::{FlankSide, GaugeDefinition, RootPosition, ToothDefinition};
+use crate::definition::{Flank, GaugeDefinition, RootPosition, ToothDefinition};
 use crate::input::{InputDocument, InputError};
 use crate::profile_curve::ProfileCurve;
 use crate::tooth::ToothGeometry;
@@ -17,7 +17,7 @@ pub(super) struct GaugeTable {
     /// Tooth, from 0.
     tooth: usize,
     /// Side of the tooth.
-    side: FlankSide,
+    side: Flank,
     /// Place: angle of the profile's tangent with the tooth's centre line. This or radius_mm; 30 where neither is
     /// given.
     tangent_deg: Option<f64>,

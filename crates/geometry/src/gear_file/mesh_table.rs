@@ -2,8 +2,9 @@
 
 use super::{MM, TableKeys};
 use crate::body_outline::beyond_layers;
-use crate::definition::{Blank, ElementKind, MeshSettings, Openings, ToothDefinition};
+use crate::definition::{Blank, MeshSettings, Openings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
+use gearmesh_elements::Element;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,7 +13,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(super) struct MeshTable {
     /// Element; "hex8-incompatible" where not given, "tet10" for contours that need tetrahedra.
-    element: Option<ElementKind>,
+    element: Option<Element>,
     /// Element length along the flank; 0.3 modules where not given, twice that in tetrahedra.
     flank_mm: Option<f64>,
     /// Element length along the root fillet; 0.08 modules where not given, twice that in tetrahedra.
@@ -113,26 +114,26 @@ impl MeshTable {
         keys: &TableKeys,
         tooth: &ToothDefinition,
         blank: &Blank,
-    ) -> Result<(ElementKind, Option<&'static str>), InputError> {
+    ) -> Result<(Element, Option<&'static str>), InputError> {
         let openings_m = blank.openings.as_ref().map(Openings::radii_m);
         let beyond = blank
             .contour
             .as_ref()
             .and_then(|contour| beyond_layers(contour, openings_m, tooth.face_width_m));
         match (self.element, beyond) {
-            (Some(ElementKind::Tet10), _) if self.plane_strain => Err(keys.error(
+            (Some(Element::Tet10), _) if self.plane_strain => Err(keys.error(
                 "plane_strain",
                 "the cross-section is meshed in quadrilaterals; set mesh.element to one of hexahedra or plane_strain = false",
             )),
-            (Some(ElementKind::Tet10), _) => Ok((ElementKind::Tet10, None)),
-            (None, Some(_)) => Ok((ElementKind::Tet10, beyond)),
+            (Some(Element::Tet10), _) => Ok((Element::Tet10, None)),
+            (None, Some(_)) => Ok((Element::Tet10, beyond)),
             (Some(_), Some(reason)) => Err(keys.error(
                 "element",
                 format!(
                     "{reason}, which moved layers of hexahedra cannot follow; remove the key or set it to \"tet10\""
                 ),
             )),
-            (element, None) => Ok((element.unwrap_or(ElementKind::Hex8Incompatible), None)),
+            (element, None) => Ok((element.unwrap_or(Element::Hex8Incompatible), None)),
         }
     }
 }

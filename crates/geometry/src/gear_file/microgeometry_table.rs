@@ -1,138 +1,369 @@
-//! `[microgeometry]`: what is removed from the ideal flanks.
+//! `[microgeometry]` of gear files and scenes: what is removed from the ideal flanks.
 
-use super::{MM, TableKeys, UM};
-use crate::input::{InputDocument, InputError};
+use super::topography_table::TopographyTable;
+use super::{MM, UM};
+use crate::input::{InputDocument, InputError, TableKeys};
 use crate::involute;
-use crate::microgeometry::{Microgeometry, ProfileCrowning, ReliefShape, TipRelief};
+use crate::microgeometry::{
+    EndRelief, FaceEnds, GearMicrogeometry, Microgeometry, ProfileCrowning, ReliefShape,
+    RootRelief, TipRelief,
+};
 use crate::tooth::ToothGeometry;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::path::Path;
 
-/// The keys of `[microgeometry]`.
-#[derive(Deserialize, JsonSchema, Default)]
+/// The keys of `[microgeometry]`. Amounts are removed along the flank normal; negative ones are added.
+#[derive(Debug, Clone, Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
-pub(super) struct MicrogeometryTable {
-    /// Profile crowning at the tip circle, a parabola in roll length from profile_crowning_diameter_mm on.
-    profile_crowning_um: Option<f64>,
-    /// Diameter at which the profile crowning is zero; needed with it.
-    profile_crowning_diameter_mm: Option<f64>,
+pub struct MicrogeometryTable {
     /// Tip relief at the tip circle.
     tip_relief_um: Option<f64>,
     /// Diameter at which the tip relief begins; needed with it.
     tip_relief_start_diameter_mm: Option<f64>,
-    /// "linear" or "parabolic" in roll length; "linear" where not given.
-    tip_relief_shape: Option<TipReliefShape>,
+    /// How it grows with the roll length; "linear" where not given.
+    tip_relief_shape: Option<ReliefWord>,
+    /// Root relief at the form circle, where the involute begins.
+    root_relief_um: Option<f64>,
+    /// Diameter at which the root relief begins; needed with it.
+    root_relief_start_diameter_mm: Option<f64>,
+    /// How it grows with the roll length; "linear" where not given.
+    root_relief_shape: Option<ReliefWord>,
+    /// Profile crowning (barrelling) at the tip circle, a parabola in roll length from profile_crowning_diameter_mm on.
+    profile_crowning_um: Option<f64>,
+    /// Diameter at which the profile crowning is zero; needed with it.
+    profile_crowning_diameter_mm: Option<f64>,
+    /// Slope of the profile over the whole involute: half of it removed at the tip circle, half added at the form
+    /// circle; 0 where not given.
+    profile_angle_um: Option<f64>,
     /// Lead crowning: a parabola over the face, zero at mid-face, this at both ends; 0 where not given.
     lead_crowning_um: Option<f64>,
-    /// Slope of the flank line over the whole face width: removed at +z, added at -z, zero at mid-face; 0 where not
-    /// given.
+    /// Slope of the flank line over the whole face width (helix angle modification): half of it removed at +z, half
+    /// added at -z, zero at mid-face; 0 where not given.
     flank_angle_um: Option<f64>,
+    /// End relief at the faces.
+    end_relief_um: Option<f64>,
+    /// Length along the axis over which the end relief grows; needed with it.
+    end_relief_length_mm: Option<f64>,
+    /// How it grows along the axis; "linear" where not given.
+    end_relief_shape: Option<ReliefWord>,
+    /// The faces that have it; "both" where not given.
+    end_relief_end: Option<FaceEnds>,
+    /// Twist (bias): slope of the profile over the whole involute at the face towards +z less that at the one towards
+    /// -z; 0 where not given.
+    twist_um: Option<f64>,
+    /// Any other form: a table over the flank, added to the rest.
+    topography: Option<TopographyTable>,
+    /// Keys that are others on right flanks.
+    right: Option<Box<MicrogeometryTable>>,
+    /// Keys that are others on left flanks.
+    left: Option<Box<MicrogeometryTable>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
+/// How a relief grows from its start to where its amount is stated.
+#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum TipReliefShape {
+enum ReliefWord {
+    /// With the distance.
+    #[default]
     Linear,
+    /// With its square.
     Parabolic,
+    /// As a circle that touches the unmodified flank at the start.
+    Arc,
 }
+
+/// Largest amount in micrometres.
+const LARGEST_UM: f64 = 1000.0;
 
 impl MicrogeometryTable {
-    /// The microgeometry of both flanks, in SI units.
-    pub(super) fn check(
-        self,
-        document: &InputDocument,
-        profile: &ToothGeometry,
-        face_width_m: f64,
-    ) -> Result<Microgeometry, InputError> {
-        let keys = TableKeys::new(document, "microgeometry");
-        let profile_crowning = self.check_profile_crowning(&keys, profile)?;
-        let tip_relief = self.check_tip_relief(&keys, profile)?;
-        for (key, value) in [
-            ("profile_crowning_um", self.profile_crowning_um),
-            ("tip_relief_um", self.tip_relief_um),
-            ("lead_crowning_um", self.lead_crowning_um),
-            ("flank_angle_um", self.flank_angle_um),
-        ] {
-            if let Some(v) = value {
-                keys.require(key, v, v.abs() <= 1000.0, "-1000 to 1000")?;
+    /// The microgeometry in SI units of a gear with this profile and face width \[m\]. The table stands at the dotted `path`;
+    /// files are relative to `folder`, none where only this document will be kept.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key, or in a file.
+    pub fn check(
+        &self,
+        (document, path): (&InputDocument, &str),
+        (profile, face_width_m): (&ToothGeometry, f64),
+        folder: Option<&Path>,
+    ) -> Result<GearMicrogeometry, InputError> {
+        let of_side = |name: &'static str, own: &Option<Box<Self>>| {
+            let side = own.as_deref().map(|table| table.on_top_of(self));
+            if let Some(table) = own
+                .as_deref()
+                .filter(|t| t.left.is_some() || t.right.is_some())
+            {
+                let word = if table.left.is_some() {
+                    "left"
+                } else {
+                    "right"
+                };
+                let key = format!("{path}.{name}.{word}");
+                return Err(document.error(
+                    &key,
+                    "does not belong into the table of one side; remove it",
+                ));
             }
-        }
-        Ok(Microgeometry {
-            tip_roll_rad: profile.tip_roll_rad,
-            face_width_m,
-            profile_crowning,
-            tip_relief,
-            lead_crowning_m: self.lead_crowning_um.unwrap_or(0.0) * UM,
-            flank_angle_m: self.flank_angle_um.unwrap_or(0.0) * UM,
+            let flank = FlankTable {
+                table: side.as_ref().unwrap_or(self),
+                document,
+                path,
+                side: name,
+                profile,
+                face_width_m,
+            };
+            flank.microgeometry(folder)
+        };
+        Ok(GearMicrogeometry {
+            right: of_side("right", &self.right)?,
+            left: of_side("left", &self.left)?,
         })
     }
 
-    fn check_profile_crowning(
-        &self,
-        keys: &TableKeys,
-        profile: &ToothGeometry,
-    ) -> Result<Option<ProfileCrowning>, InputError> {
-        let diameter_key = "profile_crowning_diameter_mm";
-        match (self.profile_crowning_um, self.profile_crowning_diameter_mm) {
-            (None, None) => Ok(None),
-            (Some(amount), Some(diameter)) => Ok(Some(ProfileCrowning {
-                amount_m: amount * UM,
-                centre_roll_rad: roll_at(keys, diameter_key, diameter, profile)?,
-            })),
-            (Some(_), None) => Err(keys.error(
-                "profile_crowning_um",
-                "needs profile_crowning_diameter_mm, where nothing is removed",
-            )),
-            (None, Some(_)) => {
-                Err(keys.error(diameter_key, "is not used without profile_crowning_um"))
-            }
-        }
-    }
-
-    fn check_tip_relief(
-        &self,
-        keys: &TableKeys,
-        profile: &ToothGeometry,
-    ) -> Result<Option<TipRelief>, InputError> {
-        let start_key = "tip_relief_start_diameter_mm";
-        match (self.tip_relief_um, self.tip_relief_start_diameter_mm) {
-            (Some(amount), Some(diameter)) => Ok(Some(TipRelief {
-                amount_m: amount * UM,
-                start_roll_rad: roll_at(keys, start_key, diameter, profile)?,
-                shape: match self.tip_relief_shape {
-                    Some(TipReliefShape::Linear) | None => ReliefShape::Linear,
-                    Some(TipReliefShape::Parabolic) => ReliefShape::Parabolic,
-                },
-            })),
-            (Some(_), None) => {
-                Err(keys.error("tip_relief_um", "needs tip_relief_start_diameter_mm"))
-            }
-            (None, Some(_)) => Err(keys.error(start_key, "is not used without tip_relief_um")),
-            (None, None) if self.tip_relief_shape.is_some() => {
-                Err(keys.error("tip_relief_shape", "is not used without tip_relief_um"))
-            }
-            (None, None) => Ok(None),
+    /// The keys of one side, those of both sides where it is silent.
+    fn on_top_of(&self, both: &Self) -> Self {
+        let (own, both) = (self.clone(), both.clone());
+        Self {
+            tip_relief_um: own.tip_relief_um.or(both.tip_relief_um),
+            tip_relief_start_diameter_mm: (own.tip_relief_start_diameter_mm)
+                .or(both.tip_relief_start_diameter_mm),
+            tip_relief_shape: own.tip_relief_shape.or(both.tip_relief_shape),
+            root_relief_um: own.root_relief_um.or(both.root_relief_um),
+            root_relief_start_diameter_mm: (own.root_relief_start_diameter_mm)
+                .or(both.root_relief_start_diameter_mm),
+            root_relief_shape: own.root_relief_shape.or(both.root_relief_shape),
+            profile_crowning_um: own.profile_crowning_um.or(both.profile_crowning_um),
+            profile_crowning_diameter_mm: (own.profile_crowning_diameter_mm)
+                .or(both.profile_crowning_diameter_mm),
+            profile_angle_um: own.profile_angle_um.or(both.profile_angle_um),
+            lead_crowning_um: own.lead_crowning_um.or(both.lead_crowning_um),
+            flank_angle_um: own.flank_angle_um.or(both.flank_angle_um),
+            end_relief_um: own.end_relief_um.or(both.end_relief_um),
+            end_relief_length_mm: own.end_relief_length_mm.or(both.end_relief_length_mm),
+            end_relief_shape: own.end_relief_shape.or(both.end_relief_shape),
+            end_relief_end: own.end_relief_end.or(both.end_relief_end),
+            twist_um: own.twist_um.or(both.twist_um),
+            topography: own.topography.or(both.topography),
+            right: None,
+            left: None,
         }
     }
 }
 
-/// Roll angle of the flank at the diameter that `key` gives.
-fn roll_at(
-    keys: &TableKeys,
-    key: &str,
-    diameter_mm: f64,
-    profile: &ToothGeometry,
-) -> Result<f64, InputError> {
-    let low = 2.0 * involute::radius_m(profile.form_roll_rad, profile.base_radius_m) / MM;
-    let high = 2.0 * profile.tip_radius_m / MM;
-    keys.require(
-        key,
-        diameter_mm,
-        diameter_mm >= low && diameter_mm < high,
-        &format!("{low:.3} to below {high:.3}: the involute part of the flank"),
-    )?;
-    Ok(involute::roll_angle_rad(
-        0.5 * diameter_mm * MM,
-        profile.base_radius_m,
-    ))
+/// The keys that act on one side of a gear's teeth.
+struct FlankTable<'a> {
+    table: &'a MicrogeometryTable,
+    document: &'a InputDocument,
+    path: &'a str,
+    side: &'static str,
+    profile: &'a ToothGeometry,
+    face_width_m: f64,
+}
+
+impl FlankTable<'_> {
+    /// Where a key stands: in the table of the side, or in that of both.
+    fn place(&self, key: &str) -> String {
+        let own = format!("{}.{}.{key}", self.path, self.side);
+        if self.document.has(&own) {
+            own
+        } else {
+            format!("{}.{key}", self.path)
+        }
+    }
+
+    fn error(&self, key: &str, problem: impl std::fmt::Display) -> InputError {
+        self.document.error(&self.place(key), problem)
+    }
+
+    fn require(&self, key: &str, value: f64, ok: bool, allowed: &str) -> Result<(), InputError> {
+        let place = self.place(key);
+        TableKeys::new(self.document, &place).require("", value, ok, allowed)
+    }
+
+    /// An amount \[m\], zero where not given.
+    fn amount_m(&self, key: &str, amount_um: Option<f64>) -> Result<f64, InputError> {
+        let amount = amount_um.unwrap_or(0.0);
+        self.require(key, amount, amount.abs() <= LARGEST_UM, "-1000 to 1000")?;
+        Ok(UM * amount)
+    }
+
+    fn microgeometry(&self, folder: Option<&Path>) -> Result<Microgeometry, InputError> {
+        let table = self.table;
+        let topography = table.topography.as_ref();
+        Ok(Microgeometry {
+            form_roll_rad: self.profile.form_roll_rad,
+            tip_roll_rad: self.profile.tip_roll_rad,
+            face_width_m: self.face_width_m,
+            profile_crowning: self.profile_crowning()?,
+            tip_relief: self.tip_relief()?,
+            root_relief: self.root_relief()?,
+            profile_angle_m: self.amount_m("profile_angle_um", table.profile_angle_um)?,
+            lead_crowning_m: self.amount_m("lead_crowning_um", table.lead_crowning_um)?,
+            flank_angle_m: self.amount_m("flank_angle_um", table.flank_angle_um)?,
+            end_relief: self.end_relief()?,
+            twist_m: self.amount_m("twist_um", table.twist_um)?,
+            topography: topography
+                .map(|table| {
+                    let place = self.place("topography");
+                    table.check(&TableKeys::new(self.document, &place), self.profile, folder)
+                })
+                .transpose()?,
+        })
+    }
+
+    fn profile_crowning(&self) -> Result<Option<ProfileCrowning>, InputError> {
+        let amount = ("profile_crowning_um", self.table.profile_crowning_um);
+        let diameter = self.table.profile_crowning_diameter_mm;
+        let diameter = ("profile_crowning_diameter_mm", diameter);
+        let Some((amount_m, diameter_mm)) = self.together(amount, diameter, &[])? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm >= low && diameter_mm < high;
+        self.require_on_involute(diameter.0, diameter_mm, ok)?;
+        Ok(Some(ProfileCrowning {
+            amount_m,
+            centre_roll_rad: self.roll_rad(diameter_mm),
+        }))
+    }
+
+    fn tip_relief(&self) -> Result<Option<TipRelief>, InputError> {
+        let amount = ("tip_relief_um", self.table.tip_relief_um);
+        let start = self.table.tip_relief_start_diameter_mm;
+        let start = ("tip_relief_start_diameter_mm", start);
+        let shape = self.table.tip_relief_shape;
+        let others = [("tip_relief_shape", shape.is_some())];
+        let Some((amount_m, diameter_mm)) = self.together(amount, start, &others)? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm >= low && diameter_mm < high;
+        self.require_on_involute(start.0, diameter_mm, ok)?;
+        let start_roll_rad = self.roll_rad(diameter_mm);
+        let length_m = self.profile.base_radius_m * (self.profile.tip_roll_rad - start_roll_rad);
+        Ok(Some(TipRelief {
+            amount_m,
+            start_roll_rad,
+            shape: self.shape(shape, amount, length_m)?,
+        }))
+    }
+
+    fn root_relief(&self) -> Result<Option<RootRelief>, InputError> {
+        let amount = ("root_relief_um", self.table.root_relief_um);
+        let start = self.table.root_relief_start_diameter_mm;
+        let start = ("root_relief_start_diameter_mm", start);
+        let shape = self.table.root_relief_shape;
+        let others = [("root_relief_shape", shape.is_some())];
+        let Some((amount_m, diameter_mm)) = self.together(amount, start, &others)? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm > low && diameter_mm <= high;
+        self.require_on_involute(start.0, diameter_mm, ok)?;
+        let start_roll_rad = self.roll_rad(diameter_mm);
+        let length_m = self.profile.base_radius_m * (start_roll_rad - self.profile.form_roll_rad);
+        Ok(Some(RootRelief {
+            amount_m,
+            start_roll_rad,
+            shape: self.shape(shape, amount, length_m)?,
+        }))
+    }
+
+    fn end_relief(&self) -> Result<Option<EndRelief>, InputError> {
+        let table = self.table;
+        let amount = ("end_relief_um", table.end_relief_um);
+        let length = ("end_relief_length_mm", table.end_relief_length_mm);
+        let others = [
+            ("end_relief_shape", table.end_relief_shape.is_some()),
+            ("end_relief_end", table.end_relief_end.is_some()),
+        ];
+        let Some((amount_m, length_mm)) = self.together(amount, length, &others)? else {
+            return Ok(None);
+        };
+        let ends = table.end_relief_end.unwrap_or_default();
+        let share = if ends == FaceEnds::Both { 0.5 } else { 1.0 };
+        let most = share * self.face_width_m / MM;
+        let ok = length_mm > 0.0 && length_mm <= most * (1.0 + 1e-12);
+        self.require(
+            length.0,
+            length_mm,
+            ok,
+            &format!("more than 0 to {most:.4}"),
+        )?;
+        Ok(Some(EndRelief {
+            amount_m,
+            length_m: MM * length_mm,
+            shape: self.shape(table.end_relief_shape, amount, MM * length_mm)?,
+            ends,
+        }))
+    }
+
+    /// An amount \[m\] and the length in millimetres that belongs to it; none where neither is given, nor any of `others`.
+    fn together(
+        &self,
+        (amount_key, amount_um): (&str, Option<f64>),
+        (length_key, length_mm): (&str, Option<f64>),
+        others: &[(&str, bool)],
+    ) -> Result<Option<(f64, f64)>, InputError> {
+        let amount_m = self.amount_m(amount_key, amount_um)?;
+        let given = others
+            .iter()
+            .filter(|(_, given)| *given)
+            .map(|(key, _)| *key);
+        match (amount_um, length_mm) {
+            (Some(_), Some(length_mm)) => Ok(Some((amount_m, length_mm))),
+            (Some(_), None) => Err(self.error(amount_key, format!("needs {length_key}"))),
+            (None, _) => match length_mm
+                .map(|_| length_key)
+                .into_iter()
+                .chain(given)
+                .next()
+            {
+                None => Ok(None),
+                Some(key) => Err(self.error(key, format!("is not used without {amount_key}"))),
+            },
+        }
+    }
+
+    fn shape(
+        &self,
+        word: Option<ReliefWord>,
+        (key, amount_um): (&str, Option<f64>),
+        length_m: f64,
+    ) -> Result<ReliefShape, InputError> {
+        Ok(match word.unwrap_or_default() {
+            ReliefWord::Linear => ReliefShape::Linear,
+            ReliefWord::Parabolic => ReliefShape::Parabolic,
+            ReliefWord::Arc => {
+                let (amount, most) = (amount_um.unwrap_or(0.0), length_m / UM);
+                let allowed = format!(
+                    "less than {most:.1} in magnitude: an arc is not deeper than it is long"
+                );
+                self.require(key, amount, amount.abs() < most, &allowed)?;
+                ReliefShape::Arc { length_m }
+            }
+        })
+    }
+
+    /// Diameters of the form circle and of the tip circle \[mm\].
+    fn involute_mm(&self) -> (f64, f64) {
+        let form_m = involute::radius_m(self.profile.form_roll_rad, self.profile.base_radius_m);
+        (2.0 * form_m / MM, 2.0 * self.profile.tip_radius_m / MM)
+    }
+
+    fn require_on_involute(&self, key: &str, value: f64, ok: bool) -> Result<(), InputError> {
+        let (low, high) = self.involute_mm();
+        let allowed = if key.starts_with("root") {
+            format!("above {low:.3} to {high:.3}: the involute part of the flank")
+        } else {
+            format!("{low:.3} to below {high:.3}: the involute part of the flank")
+        };
+        self.require(key, value, ok, &allowed)
+    }
+
+    /// Roll angle of the flank at a diameter in millimetres.
+    fn roll_rad(&self, diameter_mm: f64) -> f64 {
+        involute::roll_angle_rad(0.5 * diameter_mm * MM, self.profile.base_radius_m)
+    }
 }

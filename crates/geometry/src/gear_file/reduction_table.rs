@@ -1,7 +1,7 @@
 //! `[reduction]`: what the offline stage computes.
 
 use super::TableKeys;
-use crate::definition::{FlankSide, ReductionSettings, Symmetry};
+use crate::definition::{Flank, ReductionSettings, Symmetry};
 use crate::input::{InputDocument, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -15,7 +15,7 @@ pub(super) struct ReductionTable {
     /// Slices over the face width; 5 where not given, 1 in plane strain.
     slices: Option<usize>,
     /// Flanks that carry loads; both where not given.
-    flanks: Option<Vec<FlankSide>>,
+    flanks: Option<Vec<Flank>>,
     /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
     #[serde(default)]
     symmetry: Symmetry,
@@ -50,7 +50,7 @@ impl ReductionTable {
         )?;
         let flanks = self
             .flanks
-            .unwrap_or_else(|| vec![FlankSide::Right, FlankSide::Left]);
+            .unwrap_or_else(|| vec![Flank::Right, Flank::Left]);
         if flanks.is_empty() || (flanks.len() == 2 && flanks[0] == flanks[1]) || flanks.len() > 2 {
             return Err(keys.error(
                 "flanks",

@@ -23,7 +23,7 @@ const fn usual(key: &'static str, low: f64, high: f64, hint: &'static str) -> Us
 const MICRO: &str = "the key is in micrometres, 0.012 mm are 12 um";
 const STIFFNESS: &str = "the key is in N/mm, 1e9 N/m are 1e6 N/mm";
 
-const USUAL: [Usual; 25] = [
+const USUAL: [Usual; 29] = [
     usual(
         "young_GPa",
         0.1,
@@ -40,6 +40,10 @@ const USUAL: [Usual; 25] = [
     usual("profile_crowning_um", 0.2, 500.0, MICRO),
     usual("lead_crowning_um", 0.2, 500.0, MICRO),
     usual("flank_angle_um", 0.2, 500.0, MICRO),
+    usual("root_relief_um", 0.2, 500.0, MICRO),
+    usual("end_relief_um", 0.2, 500.0, MICRO),
+    usual("profile_angle_um", 0.2, 500.0, MICRO),
+    usual("twist_um", 0.2, 500.0, MICRO),
     usual("offset_um", 0.1, 2000.0, MICRO),
     usual("depth_um", 0.1, 5000.0, MICRO),
     usual("removed_um", 0.05, 5000.0, MICRO),
@@ -112,7 +116,7 @@ impl InputDocument {
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
         let mut found = Vec::new();
-        if let Ok(table) = self.text.parse::<toml::Table>() {
+        if let Ok(table) = self.glance::<toml::Table>() {
             for (key, value) in &table {
                 self.slips_below(value, (key, key), &mut found);
             }

@@ -11,7 +11,9 @@ pub(super) fn in_plain_words(mut path: Vec<String>, message: &str) -> (String, S
         // serde blames the table; a person looks for the key.
         path.push(field.to_string());
         "missing; it has no default".to_string()
-    } else if message.starts_with("unknown field `") {
+    } else if message.starts_with("unknown field `")
+        || (message.starts_with('`') && message.contains("` belongs to "))
+    {
         // The message names the key already.
         path.pop();
         match unit_hint(message) {
@@ -25,6 +27,23 @@ pub(super) fn in_plain_words(mut path: Vec<String>, message: &str) -> (String, S
         wrong_type(message).unwrap_or_else(|| message.to_string())
     };
     (path.join("."), problem)
+}
+
+/// Lines that increase, in words: "line 3 is", "lines 3 to 5, 8 are".
+pub(super) fn lines(lines: &[usize]) -> String {
+    let runs = lines.chunk_by(|a, b| a + 1 == *b);
+    let runs: Vec<String> = runs
+        .map(|run| match run {
+            [only] => only.to_string(),
+            [first, second] => format!("{first}, {second}"),
+            [first, .., last] => format!("{first} to {last}"),
+            [] => String::new(),
+        })
+        .collect();
+    match lines {
+        [_] => format!("line {} is", runs.join(", ")),
+        _ => format!("lines {} are", runs.join(", ")),
+    }
 }
 
 /// For serde's "invalid type: string "18", expected usize": found and allowed.

@@ -2,6 +2,7 @@
 //! and what holds for gears, pairs and gear files of any numbers.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod microgeometry_tables;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;
 mod random_files;
@@ -12,7 +13,7 @@ mod random_teeth;
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{
-    FlankSide, GearDefinition, GearPair, Misalignment, PairError, ProfileCurve, ToothGeometry,
+    Flank, GearDefinition, GearPair, Misalignment, PairError, ProfileCurve, ToothGeometry,
 };
 use std::path::Path;
 
@@ -76,9 +77,9 @@ fn pair_a_has_the_stated_numbers() {
 fn the_profile_is_continuous_and_smooth_where_it_must_be() {
     let g = model("gear1.toml").profile;
     let fillet_end = g.trochoid.point_m(g.fillet_end_m);
-    let flank_start = g.flank_point_m(FlankSide::Right, g.form_roll_rad);
+    let flank_start = g.flank_point_m(Flank::Right, g.form_roll_rad);
     assert!((fillet_end[0] - flank_start[0]).hypot(fillet_end[1] - flank_start[1]) < 1e-12);
-    let (_, tangent) = g.flank_frame(FlankSide::Right, g.form_roll_rad);
+    let (_, tangent) = g.flank_frame(Flank::Right, g.form_roll_rad);
     let angle = g.trochoid.tangent_angle_rad(g.fillet_end_m);
     assert!((tangent[1].atan2(tangent[0]) - angle).abs() < 1e-12);
     let deepest = g.trochoid.point_m(0.0);
@@ -121,7 +122,7 @@ fn a_pinion_with_few_teeth_is_undercut_and_a_hopeless_one_refused() {
     let cut = pinion(12, 0.0).unwrap().profile;
     assert!(cut.undercut);
     let at = cut.trochoid.point_m(cut.fillet_end_m);
-    let flank = cut.flank_point_m(FlankSide::Right, cut.form_roll_rad);
+    let flank = cut.flank_point_m(Flank::Right, cut.form_roll_rad);
     assert!(
         (at[0] - flank[0]).hypot(at[1] - flank[1]) < 1e-9,
         "the curves cross"

@@ -3,7 +3,7 @@
 use crate::property_cases::cases;
 use crate::random_teeth::ordinary;
 use gearmesh_geometry::definition::ToothDefinition;
-use gearmesh_geometry::{FlankSide, GearPair, Misalignment, ProfileCurve, ToothGeometry, involute};
+use gearmesh_geometry::{Flank, GearPair, Misalignment, ProfileCurve, ToothGeometry, involute};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -126,10 +126,10 @@ proptest! {
         let roll_2 = pair.roll_2_rad(roll_1);
         let [angle_1, angle_2] = angles(&pair, driver);
         let a = pair.centre_distance_m;
-        let p = placed(pair.gear_1.flank_point_m(FlankSide::Right, roll_1), angle_1, 0.0);
-        let q = placed(pair.gear_2.flank_point_m(FlankSide::Right, roll_2), angle_2, a);
+        let p = placed(pair.gear_1.flank_point_m(Flank::Right, roll_1), angle_1, 0.0);
+        let q = placed(pair.gear_2.flank_point_m(Flank::Right, roll_2), angle_2, a);
         prop_assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-12 * a);
-        let normal = |g: &ToothGeometry, roll, angle| placed(g.flank_frame(FlankSide::Right, roll).0, angle, 0.0);
+        let normal = |g: &ToothGeometry, roll, angle| placed(g.flank_frame(Flank::Right, roll).0, angle, 0.0);
         let (n_1, n_2) = (normal(&pair.gear_1, roll_1, angle_1), normal(&pair.gear_2, roll_2, angle_2));
         prop_assert!((n_1[0] + n_2[0]).hypot(n_1[1] + n_2[1]) < 1e-12);
         // From the pitch point along the common normal.
@@ -140,7 +140,7 @@ proptest! {
         // Sliding: difference of the velocities of the two material points, along gear 1's tangent to the root.
         let speeds = [-1.0, gears[0].teeth as f64 / gears[1].teeth as f64];
         let (v_1, v_2) = ([-speeds[0] * p[1], speeds[0] * p[0]], [-speeds[1] * p[1], speeds[1] * (p[0] - a)]);
-        let tangent = placed(pair.gear_1.flank_frame(FlankSide::Right, roll_1).1, angle_1, 0.0);
+        let tangent = placed(pair.gear_1.flank_frame(Flank::Right, roll_1).1, angle_1, 0.0);
         let sliding = -(v_1[0] - v_2[0]) * tangent[0] - (v_1[1] - v_2[1]) * tangent[1];
         prop_assert!((sliding - pair.sliding_velocity_m_per_s(roll_1, 1.0)).abs() < 1e-12 * a);
         let across = (v_1[0] - v_2[0]) * n_1[0] + (v_1[1] - v_2[1]) * n_1[1];
@@ -169,7 +169,7 @@ proptest! {
         // As many pairs touch as the contact ratio says, and no others.
         let touching = pair.pairs_in_contact(driver).count();
         prop_assert!(touching == ratio.floor() as usize || touching == ratio.floor() as usize + 1);
-        let left = pair.clone().on_flanks(FlankSide::Left);
+        let left = pair.clone().on_flanks(Flank::Left);
         let pairs: Vec<_> = pair.pairs_in_contact(driver).collect();
         prop_assert_eq!(left.pairs_in_contact(driver).collect::<Vec<_>>(), pairs.clone());
         for p in pairs {

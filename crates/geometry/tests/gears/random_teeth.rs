@@ -3,7 +3,7 @@
 use crate::property_cases::cases;
 use gearmesh_geometry::definition::ToothDefinition;
 use gearmesh_geometry::{
-    FlankSide, GeometryError, ProfileCurve, RootPosition, ToothGeometry, involute,
+    Flank, GeometryError, ProfileCurve, RootPosition, ToothGeometry, involute,
 };
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -115,7 +115,7 @@ fn check_tooth(d: &ToothDefinition, g: &ToothGeometry) -> Result<(), TestCaseErr
     // Fillet and flank meet, smoothly where nothing is undercut; the fillet begins on the root circle.
     let (end, start) = (
         g.trochoid.point_m(g.fillet_end_m),
-        g.flank_point_m(FlankSide::Right, g.form_roll_rad),
+        g.flank_point_m(Flank::Right, g.form_roll_rad),
     );
     prop_assert!(
         distance(end, start) < 1e-8 * m,
@@ -123,7 +123,7 @@ fn check_tooth(d: &ToothDefinition, g: &ToothGeometry) -> Result<(), TestCaseErr
         distance(end, start)
     );
     if !g.undercut {
-        let (_, tangent) = g.flank_frame(FlankSide::Right, g.form_roll_rad);
+        let (_, tangent) = g.flank_frame(Flank::Right, g.form_roll_rad);
         let corner = g.trochoid.tangent_angle_rad(g.fillet_end_m) - tangent[1].atan2(tangent[0]);
         prop_assert!(corner.abs() < 1e-7, "a corner of {corner} rad");
     }
@@ -224,11 +224,11 @@ proptest! {
         prop_assert_eq!(right.twist_rad_per_m(), -left.twist_rad_per_m());
         prop_assert_eq!(right.overlap_ratio(d.face_width_m), left.overlap_ratio(d.face_width_m));
         let roll = right.form_roll_rad + share * (right.tip_roll_rad - right.form_roll_rad);
-        let [x, y] = right.flank_point_m(FlankSide::Right, roll);
-        prop_assert_eq!(left.flank_point_m(FlankSide::Left, roll), [x, -y]);
-        let [nx, ny, nz] = right.flank_normal(FlankSide::Right, roll);
-        prop_assert_eq!(left.flank_normal(FlankSide::Left, roll), [nx, -ny, nz]);
-        prop_assert_eq!(left.flank_normal(FlankSide::Right, roll), [nx, ny, -nz]);
+        let [x, y] = right.flank_point_m(Flank::Right, roll);
+        prop_assert_eq!(left.flank_point_m(Flank::Left, roll), [x, -y]);
+        let [nx, ny, nz] = right.flank_normal(Flank::Right, roll);
+        prop_assert_eq!(left.flank_normal(Flank::Left, roll), [nx, -ny, nz]);
+        prop_assert_eq!(left.flank_normal(Flank::Right, roll), [nx, ny, -nz]);
     }
 
     /// Places on the outline: by roll angle, by radius, by tangent, and back from the point.
@@ -242,7 +242,7 @@ proptest! {
         let off = 1e-5 * curve.length_m();
         let roll = tooth.form_roll_rad + share * (tooth.flank_end_roll_rad - tooth.form_roll_rad);
         let at_roll = curve.point_at(curve.arc_length_at_roll_m(roll));
-        prop_assert!(distance(at_roll, tooth.flank_point_m(FlankSide::Right, roll)) < off);
+        prop_assert!(distance(at_roll, tooth.flank_point_m(Flank::Right, roll)) < off);
 
         let below_tip = share * curve.tip_start_m();
         let p = curve.point_at(below_tip);

@@ -7,7 +7,7 @@ mod property_cases;
 mod random_gears;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use std::f64::consts::TAU;
@@ -134,7 +134,7 @@ fn flanks_are_helicoids_and_hands_are_mirror_images() {
     let curve = ProfileCurve::new(&gear.profile);
     for (mesh, hand) in [(&right, 1.0), (&left, -1.0)] {
         for tooth in [0, 5] {
-            for face in mesh.outline_faces(tooth, FlankSide::Right, [0.0, curve.length_m()]) {
+            for face in mesh.outline_faces(tooth, Flank::Right, [0.0, curve.length_m()]) {
                 for (&node, &[arc, z]) in face.nodes.iter().zip(&face.places_m) {
                     if arc > curve.length_m() {
                         continue;

@@ -3,7 +3,7 @@
 use crate::property_cases::cases;
 use crate::{section_area, volume};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_mesh::{GearMesh, MeshError};
 use proptest::prelude::*;
@@ -245,7 +245,7 @@ proptest! {
         let sets = mesh.node_sets(&definition);
         let planes = mesh.layers.planes_m.len();
         for tooth in [0, mesh.teeth() - 1] {
-            for side in [FlankSide::Right, FlankSide::Left] {
+            for side in [Flank::Right, Flank::Left] {
                 let flank = &sets[&format!("tooth{tooth}_{}_flank", side.name())];
                 prop_assert!(flank.len() >= 3 * planes);
                 for &n in flank {

@@ -2,7 +2,7 @@
 
 use crate::teeth::{MODULE_M, geometry, standard};
 use gearmesh_geometry::{
-    FlankSide, GearPair, Misalignment, ProfileCurve, ToothDefinition, ToothGeometry, involute,
+    Flank, GearPair, Misalignment, ProfileCurve, ToothDefinition, ToothGeometry, involute,
 };
 use gearmesh_rating::{
     RootConstruction, RootSection, RootSectionError, highest_single_contact_rolls_rad,
@@ -260,8 +260,8 @@ fn the_stress_is_that_of_statics() {
     for construction in [RootConstruction::Parabola, RootConstruction::Tangent30] {
         let roll = 0.9 * tooth.flank_end_roll_rad;
         let section = RootSection::new(&tooth, roll, construction).unwrap();
-        let p = tooth.flank_point_m(FlankSide::Right, roll);
-        let (normal, _) = tooth.flank_frame(FlankSide::Right, roll);
+        let p = tooth.flank_point_m(Flank::Right, roll);
+        let (normal, _) = tooth.flank_frame(Flank::Right, roll);
         let moment = force * ((p[0] - section.distance_from_axis_m) * normal[1] - p[1] * normal[0]);
         let modulus = width * section.thickness_m.powi(2) / 6.0;
         let bending = section.bending_stress_pa(force, width);

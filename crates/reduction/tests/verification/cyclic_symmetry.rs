@@ -5,7 +5,7 @@ use crate::small_gears::{
     difference, reduced, without_symmetry,
 };
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, Symmetry};
+use gearmesh_geometry::{Flank, GearDefinition, Symmetry};
 use gearmesh_model::ReducedGear;
 use gearmesh_reduction::field::{GridForce, fields};
 use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
@@ -69,11 +69,11 @@ fn both_ways_agree(
     };
     let cases = [
         vec![
-            force(17, FlankSide::Right, 3, 100.0, 20.0),
-            force(0, FlankSide::Right, 9, 250.0, -10.0),
-            force(9, FlankSide::Left, 0, 70.0, 0.0),
+            force(17, Flank::Right, 3, 100.0, 20.0),
+            force(0, Flank::Right, 9, 250.0, -10.0),
+            force(9, Flank::Left, 0, 70.0, 0.0),
         ],
-        vec![force(5, FlankSide::Left, 12, 1.0, 0.0)],
+        vec![force(5, Flank::Left, 12, 1.0, 0.0)],
     ];
     let there = fields(&gear, &body, &cases).unwrap();
     let here = fields(&gear, &whole_body, &cases).unwrap();
@@ -188,7 +188,7 @@ fn turned_loads_are_those_of_the_other_tooth() {
 fn turned_loads(gear: &GearDefinition) {
     let body = body(gear);
     let grid = flank_grid(gear);
-    for side in [FlankSide::Right, FlankSide::Left] {
+    for side in [Flank::Right, Flank::Left] {
         let here = flank_loads(gear, &body.mesh, &grid, 0, side);
         let there = flank_loads(gear, &body.mesh, &grid, 11, side);
         for (a, b) in here.iter().zip(&there) {

@@ -3,8 +3,8 @@
 use crate::small_gears::{
     self, COARSE, MESH, QUADRATIC, SOLID, body, difference, without_symmetry,
 };
-use gearmesh_geometry::{FlankSide, GearDefinition};
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_geometry::{Flank, GearDefinition};
+use gearmesh_model::ReducedGear;
 use gearmesh_reduction::flank_loads::{flank_grid, flank_loads};
 
 const DRILLED: &str = "[blank]
@@ -32,7 +32,7 @@ fn unit_loads_push_along_the_helicoids_normal() {
         let body = body(&gear);
         let grid = flank_grid(&gear);
         let base_helix = gear.profile.base_helix_angle_rad();
-        for side in [FlankSide::Right, FlankSide::Left] {
+        for side in [Flank::Right, Flank::Left] {
             for (number, load) in flank_loads(&gear, &body.mesh, &grid, 5, side)
                 .iter()
                 .enumerate()

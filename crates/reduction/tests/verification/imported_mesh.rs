@@ -4,9 +4,9 @@
 use crate::small_gears::{self, MESH, QUADRATIC, SOLID, difference, reduced};
 use gearmesh_fe::{QuadraticMesh, arc_middle, chord_middle};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
+use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_mesh::{ElementShape, GearMesh};
 use gearmesh_model::{CellKind, MeshData, ReducedGear};
 use gearmesh_reduction::{ReductionError, Silent, reduce_imported};
 use std::collections::BTreeMap;
@@ -30,11 +30,7 @@ fn meshed_elsewhere() -> MeshedBody {
 
 /// Our own mesh as another program would hand it over.
 fn exported(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
-    let kind = match mesh.elements.shape() {
-        ElementShape::Hex8 => CellKind::Hex8,
-        ElementShape::Hex20 => CellKind::Hex20,
-        ElementShape::Tet10 => CellKind::Tet10,
-    };
+    let kind = mesh.elements.shape();
     MeshData {
         points: mesh.nodes.clone(),
         cells: BTreeMap::from([(kind, mesh.elements.connectivity().to_vec())]),
@@ -161,7 +157,7 @@ fn in_tetrahedra(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
         set.iter().for_each(|&n| member[n as usize] = true);
         let mut all = set.clone();
         for tet in data.cells[&CellKind::Tet10].chunks_exact(10) {
-            for (k, [a, b]) in gearmesh_fe::TET_EDGE_CORNERS.into_iter().enumerate() {
+            for (k, [a, b]) in CellKind::Tet10.edges().iter().copied().enumerate() {
                 if [a, b].iter().all(|&c| member[tet[c] as usize]) {
                     all.push(tet[4 + k]);
                 }
@@ -363,5 +359,5 @@ fn root_sets_are_not_needed() {
     data.point_sets.retain(|name, _| !name.ends_with("_root"));
     let read = imported(&gear, data).unwrap();
     assert_eq!(read.gauges.len(), 1);
-    assert_eq!(read.flanks.len(), [FlankSide::Right, FlankSide::Left].len());
+    assert_eq!(read.flanks.len(), [Flank::Right, Flank::Left].len());
 }

@@ -7,9 +7,9 @@ use gearmesh_fe::{
     shifted_stiffness,
 };
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, ModeRange};
+use gearmesh_geometry::{Flank, GearDefinition, ModeRange};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_model::ReducedGear;
 use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
 use gearmesh_reduction::{
     GearBody, GearMode, GearModes, ReductionError, ReductionOptions, Silent, reduce,
@@ -73,7 +73,7 @@ fn body(gear: &GearDefinition) -> GearBody {
 
 /// The modes, and NᵀΦ of the normal loads of tooth 0, `[mode][load]`.
 fn modes(gear: &GearDefinition, body: &GearBody, range: ModeRange) -> (GearModes, Vec<Vec<f64>>) {
-    let loads = flank_loads(gear, &body.mesh, &flank_grid(gear), 0, FlankSide::Right);
+    let loads = flank_loads(gear, &body.mesh, &flank_grid(gear), 0, Flank::Right);
     let rigid = body.rigid_mass(7850.0).unwrap();
     let mut readings = Vec::new();
     let modes = body

@@ -3,7 +3,7 @@
 
 use gearmesh_fe::FeModel;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition};
+use gearmesh_geometry::{Flank, GearDefinition};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_reduction::contact_problem::ContactProblem;
@@ -135,7 +135,7 @@ fn the_mesh_part_is_a_compliance() {
     let (mesh, model) = meshed(&gear);
     let grid = flank_grid(&gear);
     let n = grid.roll_angles_rad.len();
-    let [right, left] = [FlankSide::Right, FlankSide::Left]
+    let [right, left] = [Flank::Right, Flank::Left]
         .map(|side| mesh_compliance(&gear, &mesh, &model, &grid, side).unwrap());
     let field = calibrate(&gear, &mesh, &model, &grid).unwrap();
     assert_eq!(&field.mesh_m2_per_n[..n * n], &right);

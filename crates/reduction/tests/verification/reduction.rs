@@ -2,10 +2,9 @@
 
 use crate::small_gears::{MESH, QUADRATIC, SOLID, THIN_RIM, body, gear, reduced};
 use gearmesh_fe::FeModel;
-use gearmesh_geometry::{FlankSide, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::Flank;
 use gearmesh_reduction::Silent;
 use gearmesh_reduction::flank_loads::{dot, flank_grid, flank_loads};
 use gearmesh_reduction::gauge_row::gauge_row;
@@ -23,7 +22,7 @@ fn unit_loads_carry_one_newton_on_the_base_circle() {
 fn unit_loads(gear: &GearDefinition, chords: f64) {
     let (mesh, _) = meshed(gear);
     let grid = flank_grid(gear);
-    for side in [FlankSide::Right, FlankSide::Left] {
+    for side in [Flank::Right, Flank::Left] {
         for (number, load) in flank_loads(gear, &mesh, &grid, 5, side).iter().enumerate() {
             let (mut force, mut first) = ([0.0; 3], [0.0; 3]);
             let mut torque = 0.0;
@@ -133,7 +132,7 @@ fn the_pattern_identity_holds_across_teeth() {
     let gear = gear(MESH, THIN_RIM, 0.0);
     let body = body(&gear);
     let grid = flank_grid(&gear);
-    let side = FlankSide::Right;
+    let side = Flank::Right;
     let n = body.dofs.dof_count();
     let loads: Vec<_> = (0..3)
         .map(|t| flank_loads(&gear, &body.mesh, &grid, t, side))
@@ -256,7 +255,7 @@ fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
 fn adjoint_rows_read_what_the_field_holds() {
     let gear = gear(MESH, THIN_RIM, 0.0);
     let (model, body) = reduced(&gear, false);
-    let loads = flank_loads(&gear, &body.mesh, &model.grid, 3, FlankSide::Right);
+    let loads = flank_loads(&gear, &body.mesh, &model.grid, 3, Flank::Right);
     let row = gauge_row(&gear, &body.mesh, &body.model, &gear.gauges[0], 3).unwrap();
     let n = model.grid.len();
     for load in [0, n / 2, n - 1] {

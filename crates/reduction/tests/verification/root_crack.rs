@@ -9,8 +9,8 @@ use crate::small_gears::{
 };
 use gearmesh_fe::{DofMap, FeModel};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition};
-use gearmesh_model::{Flank, ReducedGear};
+use gearmesh_geometry::{Flank, GearDefinition};
+use gearmesh_model::ReducedGear;
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
 use gearmesh_reduction::gauge_row::gauge_row;
 use gearmesh_reduction::{GearBody, ReductionError};
@@ -81,8 +81,8 @@ fn agrees_with_doubled_nodes(mesh: &str, blank: &str, side: &str) {
     let (split, dofs) = really_doubled(&body);
     let grid = flank_grid(&gear);
     let (flank_side, flank) = match side {
-        "right" => (FlankSide::Right, Flank::Right),
-        _ => (FlankSide::Left, Flank::Left),
+        "right" => (Flank::Right, Flank::Right),
+        _ => (Flank::Left, Flank::Left),
     };
     let teeth = [TOOTH - 1, TOOTH, TOOTH + 1];
     let loads: Vec<SparseVector> = teeth

@@ -130,8 +130,8 @@ fn is_whole(gear: &GearDefinition, openings_m3: f64) {
     // Its outline is covered without gaps.
     let mut covered = HashMap::new();
     for side in [
-        gearmesh_geometry::FlankSide::Right,
-        gearmesh_geometry::FlankSide::Left,
+        gearmesh_geometry::Flank::Right,
+        gearmesh_geometry::Flank::Left,
     ] {
         for face in mesh.outline_faces(2, side, [0.0, f64::INFINITY]) {
             let [a, b, c] = [0, 1, 2].map(|k| face.corners_m()[k]);

@@ -2,9 +2,32 @@
 
 use super::result::SceneResult;
 use super::run::LoadedScene;
-use gearmesh_contact::{ContactError, ContactLine, ContactLines, ContactPatch, StaticContact};
+use super::scene_file::Scene;
+use gearmesh_contact::{
+    ContactError, ContactLine, ContactLines, ContactPatch, SliceLayout, StaticContact,
+};
+use gearmesh_geometry::InputError;
+use gearmesh_model::ReducedGear;
 use gearmesh_recovery::LoadedSlice;
 use std::borrow::Cow;
+
+/// The slices of a scene over the overlap of the faces.
+///
+/// # Errors
+/// [`InputError`] for faces side by side and for slices that the models do not resolve.
+pub(super) fn slice_layout(
+    scene: &Scene,
+    models: &[ReducedGear; 2],
+) -> Result<SliceLayout, InputError> {
+    let models = [&models[0], &models[1]];
+    SliceLayout::resolved(models, scene.axial_offset_m, scene.slices).map_err(|e| {
+        let key = match e {
+            ContactError::Slices { .. } => "mesh.slices",
+            _ => "pair.axial_offset_mm",
+        };
+        scene.document.error(key, e)
+    })
+}
 
 impl LoadedScene {
     /// Whether the contact lines of a result are those of this scene.
@@ -78,11 +101,11 @@ impl LoadedScene {
     /// # Errors
     /// [`ContactError`] when the models do not fit each other.
     pub fn contact(&self) -> Result<StaticContact, ContactError> {
-        let contact = StaticContact::new(
+        let contact = StaticContact::on_slices(
             self.lines.clone(),
-            &self.models[0],
-            &self.models[1],
+            [&self.models[0], &self.models[1]],
             self.scene.contact,
+            self.layout,
         )?
         .with_deviations(self.deviations.clone());
         Ok(match self.runout {

@@ -1,4 +1,4 @@
-//! `mesh.errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` of a pair: the tables are those of gear meshes.
+//! `gear_1.microgeometry` and `gear_2.microgeometry`; `mesh.errors_1`, `errors_2`, `eccentricity_1` and `eccentricity_2` of a pair: the tables are those of gear meshes.
 
 use std::sync::Arc;
 
@@ -8,11 +8,32 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 
 use super::scene_file::Scene;
+use crate::microgeometry_words::microgeometry_words;
 use crate::system::tables::UM;
 use crate::system::tables::gear_mesh::EccentricityTable;
 
 /// Largest tilt of a gear on its body, as of misaligned axes.
 const LARGEST_TILT_MRAD: f64 = 10.0;
+
+impl Scene {
+    /// Puts the scene's microgeometry of a gear (1 or 2) in the place of that of its file; what acts, in words.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key, or in a file.
+    pub(crate) fn modify_flanks(
+        &self,
+        number: usize,
+        gear: &mut GearDefinition,
+    ) -> Result<String, InputError> {
+        let stated = &self.microgeometry[number - 1];
+        if let Some(table) = stated {
+            let path = format!("gear_{number}.microgeometry");
+            let teeth = (&gear.profile, gear.tooth.face_width_m);
+            gear.microgeometry = table.check((&self.document, &path), teeth, Some(&self.folder))?;
+        }
+        Ok(microgeometry_words(gear, stated.is_some()))
+    }
+}
 
 /// Errors and faults of both gears.
 ///

@@ -92,6 +92,9 @@ impl Plan {
                     .map(|crack| format!("fault      gear {number}: {}", crack.description())),
             );
         }
+        for (number, microgeometry) in [1, 2].into_iter().zip(&loaded.microgeometry) {
+            text.push(format!("flanks     gear {number}: {microgeometry}"));
+        }
         for (number, (errors, seat)) in [1, 2]
             .into_iter()
             .zip(scene.errors.iter().zip(&scene.eccentricity))

@@ -41,6 +41,8 @@ pub struct SceneResult {
     pub gears: [StoredGear; 2],
     /// Model files, as absolute paths, so that the result can be used from any folder.
     pub model_files: [String; 2],
+    /// Microgeometry of gear 1 and gear 2 in words; empty in files of older programs.
+    pub microgeometry: [String; 2],
     /// Program version.
     pub version: String,
     /// When, UTC.

@@ -94,6 +94,15 @@ impl SceneResult {
         for (file, name) in self.model_files.iter_mut().zip(["model_1", "model_2"]) {
             f.text(name, file, "file of the model, absolute")?;
         }
+        for (text, name) in self
+            .microgeometry
+            .iter_mut()
+            .zip(["microgeometry_1", "microgeometry_2"])
+        {
+            if f.has(name) {
+                f.text(name, text, "microgeometry of the gear in words")?;
+            }
+        }
         if f.has("proposal") {
             let what = "a run that would see whole periods; empty where this one does";
             f.text("proposal", &mut self.proposal, what)?;

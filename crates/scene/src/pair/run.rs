@@ -1,6 +1,7 @@
 //! Loads the models of a scene, solves all positions, reads the gauges.
 
 use super::contact_places::ContactPlaces;
+use super::contacts;
 use super::flank_effects;
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
@@ -14,8 +15,8 @@ use gearmesh_contact::{
     Runout, SliceLayout, StaticContact,
 };
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, Flank, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
+use gearmesh_geometry::{GearDefinition, GearPair, InputError};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -59,6 +60,8 @@ pub struct LoadedScene {
     pub layout: SliceLayout,
     /// Where their forces sit on gear 1 and gear 2.
     pub spreads: [AxialSpread; 2],
+    /// Microgeometry of gear 1 and gear 2 in words, and where it is stated.
+    pub microgeometry: [String; 2],
     /// Errors and faults of single flanks.
     pub deviations: FlankDeviations,
     /// Gears beside their axes.
@@ -69,14 +72,6 @@ pub struct LoadedScene {
     pub periods: PairPeriods,
     /// What is judged after the run.
     pub ratings: Vec<PairRating>,
-}
-
-/// The model's word for a side.
-fn flank_of(side: FlankSide) -> Flank {
-    match side {
-        FlankSide::Right => Flank::Right,
-        FlankSide::Left => Flank::Left,
-    }
 }
 
 /// Reads the models of a scene and checks that everything it names exists.
@@ -97,8 +92,12 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         let gear = model.input.definition_in(path.display())?.clone();
         Ok((model, gear))
     };
-    let (model_1, gear_1) = read("pair.gear_1", &scene.gear_1)?;
-    let (model_2, gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let (model_1, mut gear_1) = read("pair.gear_1", &scene.gear_1)?;
+    let (model_2, mut gear_2) = read("pair.gear_2", &scene.gear_2)?;
+    let microgeometry = [
+        scene.modify_flanks(1, &mut gear_1)?,
+        scene.modify_flanks(2, &mut gear_2)?,
+    ];
     if let Some(from) = &scene.misalignment_from {
         let keys = TableKeys::new(&scene.document, "pair");
         let pair = ([gear_1.profile.teeth, gear_2.profile.teeth], scene.flank);
@@ -127,7 +126,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
     let models = [model_1, model_2];
     for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
         model
-            .flank_index(flank_of(scene.flank))
+            .flank_index(scene.flank)
             .map_err(|e| scene.document.error(key, e))?;
     }
     let mut gauges = Vec::new();
@@ -159,8 +158,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         gauges: &gauges,
     };
     let ratings = rated.ratings()?;
-    let layout = SliceLayout::of_models([&models[0], &models[1]], scene.axial_offset_m);
-    (layout.check()).map_err(|e| scene.document.error("pair.axial_offset_mm", e))?;
+    let layout = contacts::slice_layout(&scene, &models)?;
     let spreads = [0, 1].map(|i: usize| layout.spread(i + 1, &models[i]));
     let deviations = flank_effects::deviations(&scene, [&gear_1, &gear_2])?;
     let runout = flank_effects::runout(&scene, &pair)?;
@@ -175,8 +173,8 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         pair,
         extension,
         zone: layout.reference,
-        microgeometry_1: gear_1.microgeometry,
-        microgeometry_2: gear_2.microgeometry,
+        microgeometry_1: gear_1.microgeometry.of(scene.flank).clone(),
+        microgeometry_2: gear_2.microgeometry.of(scene.flank).clone(),
     };
     refuse_too_many_forces(&scene, lines.most_pairs() * layout.slices)?;
     Ok(LoadedScene {
@@ -185,6 +183,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
         lines,
         layout,
         spreads,
+        microgeometry,
         deviations,
         runout,
         gauges,
@@ -310,6 +309,7 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         created_utc: utc_now(),
         pitches: scene.pitches,
+        microgeometry: loaded.microgeometry.clone(),
         contact_coverage: loaded.contact_coverage(),
         proposal: loaded.proposal(&loaded.gauges),
         torque_nm: scene.torques_nm.clone(),
@@ -441,7 +441,7 @@ pub fn strain(
     if gauges.is_empty() {
         return Ok(Vec::new());
     }
-    let flank = flank_of(loaded.scene.flank);
+    let flank = loaded.scene.flank;
     let patches_at: Vec<Vec<ContactPatch>> = result
         .angle_rad
         .iter()

@@ -6,8 +6,9 @@ use crate::system::tables::flank_errors::FlankErrorTable;
 use crate::system::tables::friction::FrictionTable;
 use crate::system::tables::gear_mesh::EccentricityTable;
 use gearmesh_contact::{ContactOptions, LocalContact};
+use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use gearmesh_geometry::{Flank, InputError, Misalignment};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,12 @@ pub(crate) struct SceneTable {
     title: String,
     /// The gears and how they stand.
     pair: PairTable,
+    /// What gear 1 has beside its body.
+    #[serde(default)]
+    gear_1: GearTable,
+    /// What gear 2 has beside its body.
+    #[serde(default)]
+    gear_2: GearTable,
     /// Model of the teeth.
     mesh: MeshTable,
     /// Torques and angles.
@@ -42,7 +49,7 @@ struct PairTable {
     centre_distance_mm: f64,
     /// Hand of the flanks in contact; "right" (gear 1 turns clockwise) where not given.
     #[serde(default = "default_flank")]
-    flank: FlankSide,
+    flank: Flank,
     /// Mid-face of gear 2 from that of gear 1 along the axes; 0 where not given.
     #[serde(default)]
     axial_offset_mm: f64,
@@ -54,22 +61,22 @@ struct PairTable {
     misalignment_from: Option<MisalignmentFrom>,
 }
 
-fn default_flank() -> FlankSide {
-    FlankSide::Right
+/// `[gear_1]` and `[gear_2]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+struct GearTable {
+    /// Microgeometry, instead of all that the gear file inside the model states.
+    microgeometry: Option<MicrogeometryTable>,
+}
+
+fn default_flank() -> Flank {
+    Flank::Right
 }
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MeshModel {
     Hybrid,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-enum LocalTable {
-    None,
-    WeberBanaschek,
-    Calibrated,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -86,12 +93,14 @@ struct MeshTable {
     #[allow(dead_code)]
     model: MeshModel,
     /// Local contact; "calibrated" where not given.
-    local: Option<LocalTable>,
+    local: Option<LocalContact>,
     /// Ends of the path of contact; "extended" where not given, "line-of-action" for helical teeth, whose tip edges are
     /// not modelled at rest.
     path: Option<PathTable>,
     /// With path = "extended": radius of the tip edges; 100 where not given.
     edge_radius_um: Option<f64>,
+    /// Slices over the overlap of the faces; those of the models where not given.
+    slices: Option<usize>,
     /// Tooth friction; none where not given.
     friction: Option<FrictionTable>,
     /// Errors and faults of gear 1.
@@ -149,11 +158,15 @@ pub struct Scene {
     /// Mid-face of gear 2 from that of gear 1 along the axes \[m\].
     pub axial_offset_m: f64,
     /// Hand of the flanks in contact, on both gears.
-    pub flank: FlankSide,
+    pub flank: Flank,
     /// Axis errors that the scene states.
     pub misalignment: Misalignment,
     /// Result from which they are taken instead.
     pub misalignment_from: Option<MisalignmentFrom>,
+    /// Microgeometry of gear 1 and gear 2; that of the gear files inside the models where none is given.
+    pub microgeometry: [Option<MicrogeometryTable>; 2],
+    /// Slices over the overlap of the faces; those of the models where none are given.
+    pub slices: Option<usize>,
     /// Errors and faults of gear 1 and gear 2.
     pub errors: [Vec<FlankErrorTable>; 2],
     /// Places of gear 1 and gear 2 on their bodies.
@@ -312,15 +325,12 @@ impl Scene {
                 deviation_rad: pair.deviation_mrad.unwrap_or(0.0) * 1e-3,
             },
             misalignment_from: pair.misalignment_from.clone(),
+            microgeometry: [table.gear_1.microgeometry, table.gear_2.microgeometry],
+            slices: table.mesh.slices,
             errors: [table.mesh.errors_1, table.mesh.errors_2],
             eccentricity: [table.mesh.eccentricity_1, table.mesh.eccentricity_2],
             contact: ContactOptions {
-                local: match table.mesh.local {
-                    Some(LocalTable::None) => LocalContact::None,
-                    Some(LocalTable::WeberBanaschek) => LocalContact::WeberBanaschek,
-                    Some(LocalTable::Calibrated) => LocalContact::Calibrated,
-                    None => LocalContact::default(),
-                },
+                local: table.mesh.local.unwrap_or_default(),
                 friction,
             },
             edge_radius_m,
@@ -352,6 +362,7 @@ impl Scene {
     pub fn with_known_forces(self) -> Self {
         Self {
             misalignment_from: None,
+            microgeometry: [None, None],
             errors: [Vec::new(), Vec::new()],
             ..self
         }

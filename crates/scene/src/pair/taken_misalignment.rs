@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, InputError, Misalignment};
+use gearmesh_geometry::{Flank, InputError, Misalignment};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,7 +33,7 @@ impl MisalignmentFrom {
         &self,
         keys: &TableKeys<'_>,
         folder: &Path,
-        (teeth, flank): ([usize; 2], FlankSide),
+        (teeth, flank): ([usize; 2], Flank),
     ) -> Result<(Misalignment, String), InputError> {
         let at =
             |key: &str, problem: String| keys.error(&format!("misalignment_from.{key}"), problem);

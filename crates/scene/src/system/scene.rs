@@ -7,8 +7,9 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::tables::bearing::BearingTable;
 use super::tables::body::BodyTable;
-use super::tables::connection::{BearingTable, BushingTable, SpringTable, TorsionSpringTable};
+use super::tables::connection::{BushingTable, SpringTable, TorsionSpringTable};
 use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
@@ -16,6 +17,7 @@ use super::tables::output::{Output, OutputTable};
 use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
 use super::tables::solver::{Solver, SolverTable};
+use crate::former_forms::SYSTEM;
 use crate::rating::RatingTable;
 
 /// The keys of the file.
@@ -94,6 +96,8 @@ pub struct SystemScene {
     pub output: Output,
     /// The tables of the file.
     pub tables: SystemTables,
+    /// What to tell about the file beside its sense: tables in a former form.
+    pub notes: Vec<String>,
     /// The file, for later complaints and provenance.
     pub document: InputDocument,
     /// The file's folder.
@@ -115,6 +119,7 @@ impl SystemScene {
     /// # Errors
     /// As [`SystemScene::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
+        let document = document.with_former(SYSTEM);
         let tables: SystemTables = document.parse()?;
         super::names::check_names(&document)?;
         if tables.body.is_empty() {
@@ -137,8 +142,10 @@ impl SystemScene {
                 return Err(keys.error("motion", problem));
             }
         }
+        let notes = document.former_notes()?;
         Ok(Self {
             title: tables.title.clone(),
+            notes: notes.iter().map(ToString::to_string).collect(),
             run,
             solver,
             output,

@@ -1,6 +1,6 @@
 //! How the axes of two gears in mesh stand to each other in a result, as bending shafts and bearings leave them.
 
-use gearmesh_geometry::{FlankSide, Misalignment};
+use gearmesh_geometry::{Flank, Misalignment};
 use gearmesh_model::FileError;
 use nalgebra::{Rotation3, Vector3};
 
@@ -35,7 +35,7 @@ impl MeshAxes {
     /// Inclination and deviation of a pair in contact on these flanks: the axis that moves away across the line of
     /// centres opens the right flanks where it moves backwards, the left ones where it moves forwards.
     #[must_use]
-    pub fn misalignment(&self, flank: FlankSide) -> Misalignment {
+    pub fn misalignment(&self, flank: Flank) -> Misalignment {
         Misalignment {
             inclination_rad: self.slopes_rad[0],
             deviation_rad: -flank.mirror() * self.slopes_rad[1],
@@ -93,7 +93,7 @@ impl SystemResult {
     ///
     /// # Errors
     /// [`FileError`] when the file cannot be read.
-    pub fn loaded_flank(&self, mesh: &str, row: usize) -> Result<Option<FlankSide>, FileError> {
+    pub fn loaded_flank(&self, mesh: &str, row: usize) -> Result<Option<Flank>, FileError> {
         let force = |side: &str| -> Result<f64, FileError> {
             let column = format!("elements/{mesh}/normal_force_{side}_N");
             if !self.rows.columns().iter().any(|c| c.name == column) {
@@ -103,8 +103,8 @@ impl SystemResult {
         };
         let (right, left) = (force("right")?, force("left")?);
         Ok(match right.total_cmp(&left) {
-            std::cmp::Ordering::Greater => Some(FlankSide::Right),
-            std::cmp::Ordering::Less => Some(FlankSide::Left),
+            std::cmp::Ordering::Greater => Some(Flank::Right),
+            std::cmp::Ordering::Less => Some(Flank::Left),
             std::cmp::Ordering::Equal => None,
         })
     }
@@ -129,9 +129,9 @@ mod tests {
         assert!((found.slopes_rad[0] - 2e-4).abs() < 1e-15);
         assert!((found.slopes_rad[1] + 5e-4).abs() < 1e-15);
         // Gear 2 leans to −y: right flanks, on which gear 1 drives clockwise and pushes gear 2 to −y, are opened.
-        let right = found.misalignment(FlankSide::Right);
+        let right = found.misalignment(Flank::Right);
         assert!((right.deviation_rad - 5e-4).abs() < 1e-15);
-        let left = found.misalignment(FlankSide::Left);
+        let left = found.misalignment(Flank::Left);
         assert!((left.deviation_rad + 5e-4).abs() < 1e-15);
         assert_eq!(right.inclination_rad, left.inclination_rad);
     }

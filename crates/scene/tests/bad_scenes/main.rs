@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod files;
+mod former_forms;
 mod joints;
 mod keys;
 mod parts;

@@ -333,16 +333,17 @@ fn meshes_that_cannot_be_are_refused() {
 fn rigid_supports_are_refused_by_their_stiffness() {
     let pendulum = text("scene_pendulum.toml");
     let with = |table: &str| format!("{pendulum}\n{table}");
-    let bearing = "[[bearing]]\nname = \"b\"\nkind = \"linear\"\nbody_2 = \"rod\"\n";
+    let bearing =
+        "[[bearing]]\nname = \"b\"\nbody_2 = \"rod\"\n[bearing.model]\nkind = \"linear\"\n";
     for (table, key, parts) in [
         (
             format!("{bearing}radial_stiffness_N_per_mm = 1e14\n"),
-            "bearing.0.radial_stiffness_N_per_mm",
+            "bearing.0.model.radial_stiffness_N_per_mm",
             ["found 1e14", "up to 1e12", "kind = \"revolute\""],
         ),
         (
             format!("{bearing}radial_stiffness_N_per_mm = 1e6\ntilt_stiffness_Nm_per_rad = 1e20\n"),
-            "bearing.0.tilt_stiffness_Nm_per_rad",
+            "bearing.0.model.tilt_stiffness_Nm_per_rad",
             ["found", "1e15", "[[joint]]"],
         ),
         (

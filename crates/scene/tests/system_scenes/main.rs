@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod epicyclic;
+mod flanks_of_scenes;
 mod gearbox;
 mod lost_meshes;
 #[path = "../made_up_gears/mod.rs"]

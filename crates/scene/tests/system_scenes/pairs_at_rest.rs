@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use gearmesh_contact::LocalContact;
-use gearmesh_geometry::FlankSide;
+use gearmesh_geometry::Flank;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{Scene, SceneResult, load as load_pair, run};
@@ -20,7 +20,7 @@ const PITCHES: usize = 5;
 
 /// Gear 1 turns clockwise on right flanks, counter-clockwise on left ones.
 struct Twin {
-    flank: FlankSide,
+    flank: Flank,
     torque_nm: f64,
     /// Keys that both kinds of scene have.
     effects: &'static str,
@@ -139,7 +139,7 @@ fn pitch(side: &str, teeth: usize, seed: usize) -> String {
 /// Tooth by tooth, on both gears and on either flank.
 #[test]
 fn pitch_errors_are_those_of_the_bodies() {
-    for flank in [FlankSide::Right, FlankSide::Left] {
+    for flank in [Flank::Right, Flank::Left] {
         let side = flank.name();
         let errors = format!(
             "errors_1 = [{}]\nerrors_2 = [{}]",
@@ -183,7 +183,7 @@ fn faults_are_those_of_the_bodies() {
             (100.0, 1e-8, least_effects_m[1]),
         ] {
             Twin {
-                flank: FlankSide::Right,
+                flank: Flank::Right,
                 torque_nm,
                 effects,
             }
@@ -195,7 +195,7 @@ fn faults_are_those_of_the_bodies() {
 /// Exact for offsets; what is left of tilts is of second order.
 #[test]
 fn eccentricity_is_that_of_the_bodies() {
-    for flank in [FlankSide::Right, FlankSide::Left] {
+    for flank in [Flank::Right, Flank::Left] {
         let twin = |effects| Twin {
             flank,
             torque_nm: 2.0,
@@ -246,7 +246,7 @@ fn misalignment_is_taken_from_a_gearbox() {
          [[body]]\nname = \"pinion\"\ngear = \"gear_30.h5\"\ncardan_deg = [0.0, 0.0, 0.0]\n\
          [[body]]\nname = \"wheel\"\ngear = \"gear_41.h5\"\nposition_mm = [106.8, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, {wheel_deg:?}]\n\
          [[joint]]\nname = \"axle 1\"\nkind = \"fixed\"\nbody_2 = \"pinion\"\n\
-         [[bearing]]\nname = \"bearing\"\nkind = \"linear\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n\
+         [[bearing]]\nname = \"bearing\"\nbody_2 = \"wheel\"\nat_mm = [106.8, 0.0, 15.0]\n[bearing.model]\nkind = \"linear\"\n\
          radial_stiffness_N_per_mm = 1e7\naxial_stiffness_N_per_mm = 1e7\ntilt_stiffness_Nm_per_rad = 4e4\n\
          [[load]]\nbody = \"wheel\"\ntorque_Nm = {:?}\n\
          [[gear_mesh]]\nname = \"stage\"\ngear_1 = \"pinion\"\ngear_2 = \"wheel\"\nmodel = \"hybrid\"\nlocal = \"weber-banaschek\"\n\

@@ -63,15 +63,12 @@ station = 2
 body = "c"
 [[bearing]]
 name = "left"
-kind = "linear"
 body_2 = "lay/0"
-radial_stiffness_N_per_mm = 1e5
-axial_stiffness_N_per_mm = 1e5
+model = { kind = "linear", radial_stiffness_N_per_mm = 1e5, axial_stiffness_N_per_mm = 1e5 }
 [[bearing]]
 name = "right"
-kind = "linear"
 body_2 = "lay/3"
-radial_stiffness_N_per_mm = 1e5
+model = { kind = "linear", radial_stiffness_N_per_mm = 1e5 }
 [[gear_mesh]]
 name = "first"
 gear_1 = "a"

@@ -95,9 +95,8 @@ fn every_table_is_read() {
         stiffness_matrix_SI = [[2.0, 0.0, 0.0, 0.0, 1.0, 0.0], [0.0, 2.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 2.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0, 2.0, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 2.0]]
         [[bearing]]
         name = "ring"
-        kind = "linear"
         body_2 = "c"
-        radial_stiffness_N_per_mm = 1.0
+        model = { kind = "linear", radial_stiffness_N_per_mm = 1.0 }
     "#;
     let refused = build_in(scene, folder.path()).err().unwrap().to_string();
     assert!(

@@ -17,7 +17,7 @@ use super::bodies::Bodies;
 use super::joints::PlacedJoint;
 use super::shafts::PlacedShaft;
 use crate::system::tables::MM;
-use crate::system::tables::connection::BearingTable;
+use crate::system::tables::bearing::BearingTable;
 
 /// Two bodies that are held to each other, none for the ground, and a point of the axis they may turn about.
 struct Hold {

@@ -1,25 +1,26 @@
-//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[bearing]]` to force elements.
+//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]` to force elements; `bearings/` has those of `[[bearing]]`.
 
 use std::path::Path;
 
 use gearmesh_dynamics::elements::{
-    AppliedLoad, Axes, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper, TorsionSpring,
+    AppliedLoad, Axes, Bushing, ForceElement, LoadKind, SpringDamper, TorsionSpring,
 };
 use gearmesh_dynamics::{DynamicsError, MarkerPair, SystemBuilder, TimeFunction};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix6, Vector3};
 
+use super::bearings;
 use super::bodies::{Bodies, Frame, direction, vector};
 use super::parts::Parts;
 use super::stiffness::refuse_rigid;
 use crate::system::scene::SystemTables;
 use crate::system::tables::MM;
-use crate::system::tables::connection::{BearingKind, BearingTable, BushingTable, SpringTable};
+use crate::system::tables::connection::{BushingTable, SpringTable};
 use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// N/mm in N/m, N·s/mm in N·s/m.
-const PER_MM: f64 = 1e3;
+pub(super) const PER_MM: f64 = 1e3;
 
 /// Adds all of them; loads are multiplied by `load_factor`.
 pub(super) fn add(
@@ -80,36 +81,13 @@ pub(super) fn add(
             Ok(bushing(table, keys)?.between(&table.name, pair(bodies, ends, &frame)))
         })?;
     }
-    for (i, table) in tables.bearing.iter().enumerate() {
-        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
-        connections.add(("bearing", i), "linear bearing", named, |keys, ends| {
-            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
-            let (radial, axial) = (
-                table.radial_stiffness_N_per_mm,
-                table.axial_stiffness_N_per_mm,
-            );
-            refuse_rigid(
-                keys,
-                &[
-                    ("radial_stiffness_N_per_mm", radial, PER_MM),
-                    ("axial_stiffness_N_per_mm", axial, PER_MM),
-                    (
-                        "tilt_stiffness_Nm_per_rad",
-                        table.tilt_stiffness_Nm_per_rad,
-                        1.0,
-                    ),
-                ],
-            )?;
-            Ok(bearing(table).between(&table.name, pair(bodies, ends, &frame)))
-        })?;
-    }
-    Ok(())
+    bearings::add(&tables.bearing, &mut connections)
 }
 
 /// Where elements between two bodies are added.
-struct Connections<'a> {
+pub(super) struct Connections<'a> {
     document: &'a InputDocument,
-    bodies: &'a Bodies,
+    pub bodies: &'a Bodies,
     builder: &'a mut SystemBuilder,
     parts: &'a mut Parts,
 }
@@ -117,7 +95,7 @@ struct Connections<'a> {
 impl Connections<'_> {
     /// Adds the element that `make` gives for a table: finds its bodies, points at the table in complaints, notes the
     /// part. `named` holds the names of the element and of its bodies.
-    fn add<E: ForceElement + 'static>(
+    pub(super) fn add<E: ForceElement + 'static>(
         &mut self,
         (list, number): (&str, usize),
         kind: &'static str,
@@ -137,7 +115,7 @@ impl Connections<'_> {
     }
 }
 
-fn pair(bodies: &Bodies, ends: [Option<usize>; 2], frame: &Frame) -> MarkerPair {
+pub(super) fn pair(bodies: &Bodies, ends: [Option<usize>; 2], frame: &Frame) -> MarkerPair {
     let [a, b] = ends.map(|end| bodies.marker(end, frame));
     MarkerPair { a, b }
 }
@@ -227,18 +205,6 @@ fn spring(
         b: marker(ends[1], second),
     };
     Ok((spring, pair))
-}
-
-fn bearing(table: &BearingTable) -> LinearBearing {
-    let BearingKind::Linear = table.kind;
-    LinearBearing {
-        radial_stiffness_n_per_m: PER_MM * table.radial_stiffness_N_per_mm,
-        axial_stiffness_n_per_m: PER_MM * table.axial_stiffness_N_per_mm,
-        tilt_stiffness_nm_per_rad: table.tilt_stiffness_Nm_per_rad,
-        radial_damping_n_s_per_m: PER_MM * table.radial_damping_N_s_per_mm,
-        axial_damping_n_s_per_m: PER_MM * table.axial_damping_N_s_per_mm,
-        tilt_damping_nm_s_per_rad: table.tilt_damping_Nm_s_per_rad,
-    }
 }
 
 fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {

@@ -7,14 +7,14 @@ use gearmesh_drivetrain::errors::eccentricity::Eccentricity;
 use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, kinematic_mesh};
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, GearPair, InputError, Misalignment};
+use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 
 use super::bodies::Bodies;
 use super::gears::Gear;
 use super::mesh_model::{SceneMesh, refuse_unused};
 use super::parts::Parts;
 use crate::system::built::BuiltGauge;
-use crate::system::tables::gear_mesh::{EccentricityTable, FlanksWord, GearMeshTable, MeshModel};
+use crate::system::tables::gear_mesh::{EccentricityTable, GearMeshTable, MeshModel};
 use crate::system::tables::{MM, UM};
 
 /// A mesh of two bodies, ready but for its place in the system.
@@ -31,7 +31,7 @@ pub(super) struct PreparedMesh {
     /// None for `kinematic`.
     pub mesh: Option<GearMesh>,
     /// The sides that can touch.
-    pub sides: Vec<FlankSide>,
+    pub sides: Vec<Flank>,
     /// Width of a slice \[m\]; zero for `kinematic`.
     slice_width_m: f64,
 }
@@ -88,11 +88,7 @@ impl PreparedMesh {
             base_radii_m: [pair.gear_1.base_radius_m, pair.gear_2.base_radius_m],
             seats,
             mesh: None,
-            sides: match table.flanks.unwrap_or_default() {
-                FlanksWord::Both => vec![FlankSide::Right, FlankSide::Left],
-                FlanksWord::Right => vec![FlankSide::Right],
-                FlanksWord::Left => vec![FlankSide::Left],
-            },
+            sides: table.flanks.unwrap_or_default().flanks().to_vec(),
             slice_width_m: 0.0,
             key: key.clone(),
         };
@@ -118,6 +114,7 @@ impl PreparedMesh {
         }
         scene.effects(parts);
         parts.notes.extend(scene.stiffness_note()?);
+        parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)
     }
 

@@ -6,10 +6,14 @@ use std::sync::Arc;
 
 use gearmesh_drivetrain::{DrivetrainError, GearInertia, gear_body};
 use gearmesh_dynamics::Body;
+use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 use nalgebra::{Matrix3, Vector3};
+
+use crate::microgeometry_words::microgeometry_words;
+use crate::system::scene::SystemScene;
 
 /// A gear from a gear file or a model.
 #[derive(Debug)]
@@ -17,6 +21,8 @@ pub(super) struct Gear {
     pub file: PathBuf,
     pub definition: GearDefinition,
     pub model: Option<Arc<ReducedGear>>,
+    /// Whether the scene states the microgeometry of the definition, not the gear's file.
+    pub microgeometry_of_scene: bool,
 }
 
 /// Gears by file, so that each is read once.
@@ -51,6 +57,7 @@ impl Gear {
                     file: path.to_path_buf(),
                     definition: GearDefinition::read(path)?,
                     model: None,
+                    microgeometry_of_scene: false,
                 })
             }
             Some("h5") => {
@@ -65,6 +72,7 @@ impl Gear {
                     file: path.to_path_buf(),
                     definition: model.input.definition_in(shown)?.clone(),
                     model: Some(Arc::new(model)),
+                    microgeometry_of_scene: false,
                 })
             }
             _ => Err(keys.error(
@@ -109,13 +117,31 @@ impl Gear {
         })
     }
 
-    /// Whether the gear file states any microgeometry.
+    /// The gear with the microgeometry that a body's table states; `at`: the table's document, path and folder.
+    pub(super) fn with_microgeometry(
+        &self,
+        table: &MicrogeometryTable,
+        (document, path, folder): (&InputDocument, &str, &Path),
+    ) -> Result<Self, InputError> {
+        let mut definition = self.definition.clone();
+        let teeth = (&definition.profile, definition.tooth.face_width_m);
+        definition.microgeometry = table.check((document, path), teeth, Some(folder))?;
+        Ok(Self {
+            file: self.file.clone(),
+            definition,
+            model: self.model.clone(),
+            microgeometry_of_scene: true,
+        })
+    }
+
+    /// Whether any flank has microgeometry.
     pub(super) fn has_microgeometry(&self) -> bool {
-        let m = &self.definition.microgeometry;
-        m.profile_crowning.is_some()
-            || m.tip_relief.is_some()
-            || m.lead_crowning_m != 0.0
-            || m.flank_angle_m != 0.0
+        !self.definition.microgeometry.is_none()
+    }
+
+    /// Its microgeometry in words, and where it is stated.
+    pub(super) fn microgeometry_in_words(&self) -> String {
+        microgeometry_words(&self.definition, self.microgeometry_of_scene)
     }
 
     /// Numbers of its gear file that look like those of another unit; those of a model were told when it was reduced.
@@ -140,4 +166,36 @@ impl Gear {
             self.definition.profile.teeth
         )
     }
+}
+
+/// The gear of a body, with the microgeometry that the body states where it does.
+///
+/// # Errors
+/// [`InputError`] at the key, in a file, and where nothing would feel it.
+pub(super) fn with_own_microgeometry(
+    gear: Option<Arc<Gear>>,
+    scene: &SystemScene,
+    body: usize,
+) -> Result<Option<Arc<Gear>>, InputError> {
+    let Some(table) = &scene.tables.body[body].microgeometry else {
+        return Ok(gear);
+    };
+    let path = format!("body.{body}.microgeometry");
+    let name = &scene.tables.body[body].name;
+    let own =
+        (scene.tables.gear_mesh.iter()).filter(|mesh| mesh.gear_1 == *name || mesh.gear_2 == *name);
+    let problem = match gear {
+        None => "is not used by a body without gear; remove it, or name its `gear`",
+        Some(_) if own.clone().count() == 0 => {
+            "is not used: the body is in no gear_mesh; remove it"
+        }
+        Some(gear) if own.clone().any(|mesh| mesh.microgeometry.unwrap_or(true)) => {
+            let at = (&scene.document, &path[..], scene.folder.as_path());
+            return Ok(Some(Arc::new(gear.with_microgeometry(table, at)?)));
+        }
+        Some(_) => {
+            "is not used: microgeometry = false in all gear meshes of the body; remove one of the two"
+        }
+    };
+    Err(scene.document.error(&path, problem))
 }

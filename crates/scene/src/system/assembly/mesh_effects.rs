@@ -3,7 +3,7 @@
 use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::tables::UM;
-use crate::system::tables::gear_mesh::{DampingTable, FlanksWord, MeshModel};
+use crate::system::tables::gear_mesh::{DampingTable, MeshModel, TouchingFlanks};
 
 impl SceneMesh<'_> {
     /// Lists the effects of this mesh.
@@ -14,11 +14,11 @@ impl SceneMesh<'_> {
             return;
         }
         let flanks = match table.flanks.unwrap_or_default() {
-            FlanksWord::Both => Some(format!(
+            TouchingFlanks::Both => Some(format!(
                 "both sides, {:.1} um of backlash",
                 self.pair.backlash_m() / UM
             )),
-            FlanksWord::Right | FlanksWord::Left => None,
+            TouchingFlanks::Right | TouchingFlanks::Left => None,
         };
         parts.effect(name("backlash"), flanks);
         let damping = match (&table.damping, table.damping_N_s_per_mm) {
@@ -37,15 +37,7 @@ impl SceneMesh<'_> {
                 .as_ref()
                 .map(|_| "`coulomb`, regularised".to_string()),
         );
-        let on = table.microgeometry.unwrap_or(true)
-            && self.gears.iter().any(|gear| gear.has_microgeometry());
-        let from_curve = table.model == MeshModel::Iso6336 && self.curve.is_some();
-        let microgeometry = match (on, from_curve) {
-            (true, true) => Some("in the pair's static curve".to_string()),
-            (true, false) => Some("of the gear files".to_string()),
-            (false, _) => None,
-        };
-        parts.effect(name("microgeometry"), microgeometry);
+        parts.effect(name("microgeometry"), self.acting_microgeometry());
         let kinds: Vec<&str> = table
             .errors_1
             .iter()
@@ -70,5 +62,25 @@ impl SceneMesh<'_> {
             name("eccentricity"),
             eccentric.then(|| "runout and wobble of the gear on its body".to_string()),
         );
+    }
+
+    /// The microgeometry of both gears in words; none where none acts.
+    fn acting_microgeometry(&self) -> Option<String> {
+        let on = self.table.microgeometry.unwrap_or(true)
+            && self.gears.iter().any(|gear| gear.has_microgeometry());
+        let from_curve = self.table.model == MeshModel::Iso6336 && self.curve.is_some();
+        let of_curve = if from_curve {
+            ", in the pair's static curve"
+        } else {
+            ""
+        };
+        let [first, second] = self.gears.map(|gear| gear.microgeometry_in_words());
+        on.then(|| format!("gear 1 {first}; gear 2 {second}{of_curve}"))
+    }
+
+    /// The same for plan and result.
+    pub(super) fn microgeometry_note(&self) -> Option<String> {
+        let words = self.acting_microgeometry()?;
+        Some(format!("mesh `{}`: flanks of {words}", self.table.name))
     }
 }

@@ -4,18 +4,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use gearmesh_contact::SliceLayout;
+use gearmesh_contact::{ContactError, SliceLayout};
 use gearmesh_drivetrain::flank_contacts::FlankErrors;
 use gearmesh_drivetrain::{
     BeamTeeth, BeamTooth, Damped, DrivetrainError, FlankError, Friction, GearMesh, MeshKinematics,
     PairCurve, PathEnds, ReducedTeeth, TeethModel,
 };
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, GearPair, InputError};
+use gearmesh_geometry::{Flank, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 
 use super::gears::Gear;
-use crate::system::tables::gear_mesh::{FlanksWord, GearMeshTable, MeshModel, PathWord};
+use crate::system::tables::gear_mesh::{GearMeshTable, MeshModel, PathWord, TouchingFlanks};
 
 /// Line load at which ISO 6336-1 takes the stiffness of teeth as constant; here the reference for loads that a scene
 /// does not state.
@@ -30,11 +30,7 @@ pub(super) fn refuse_unused(table: &GearMeshTable, keys: &TableKeys<'_>) -> Resu
         &[
             ("flanks", table.flanks.is_some(), touching),
             ("path", table.path.is_some(), touching),
-            (
-                "slices",
-                table.slices.is_some(),
-                &["impact", "iso6336", "analytic"],
-            ),
+            ("slices", table.slices.is_some(), touching),
             (
                 "stiffness_N_per_mm_e",
                 table.stiffness_N_per_mm_e.is_some(),
@@ -134,7 +130,7 @@ impl SceneMesh<'_> {
         Ok([model(0)?, model(1)?])
     }
 
-    /// The microgeometry of the gear files that acts.
+    /// The microgeometry that acts.
     pub(super) fn microgeometry(&self) -> Result<[FlankErrors; 2], InputError> {
         let on = self.table.microgeometry.unwrap_or(true);
         let blind = matches!(self.table.model, MeshModel::Kinematic | MeshModel::Iso6336);
@@ -203,8 +199,16 @@ impl SceneMesh<'_> {
         Ok(errors)
     }
 
-    /// The slices of models that do not state them.
+    /// The slices: one where models state none.
     fn stated_layout(&self) -> Result<SliceLayout, InputError> {
+        if self.table.model == MeshModel::Hybrid {
+            let resolved =
+                SliceLayout::resolved(self.models()?, self.displacement_m, self.table.slices);
+            return resolved.map_err(|error| match error {
+                ContactError::Slices { .. } => self.keys.error("slices", error),
+                _ => self.keys.error("", error),
+            });
+        }
         let count = self.table.slices.unwrap_or(1);
         self.keys.require(
             "slices",
@@ -215,9 +219,9 @@ impl SceneMesh<'_> {
         Ok(self.layout(count))
     }
 
-    pub(super) fn mesh(&self, sides: &[FlankSide]) -> Result<GearMesh, InputError> {
-        let mut teeth: Vec<(FlankSide, Box<dyn TeethModel>)> = Vec::new();
-        let mut layout = self.stated_layout()?;
+    pub(super) fn mesh(&self, sides: &[Flank]) -> Result<GearMesh, InputError> {
+        let mut teeth: Vec<(Flank, Box<dyn TeethModel>)> = Vec::new();
+        let layout = self.stated_layout()?;
         let slices = layout.slices;
         match self.table.model {
             MeshModel::Kinematic | MeshModel::Impact => {
@@ -242,9 +246,8 @@ impl SceneMesh<'_> {
             }
             MeshModel::Hybrid => {
                 for side in sides {
-                    let reduced = self.reduced(*side)?;
-                    layout = *reduced.layout();
-                    teeth.push((*side, self.damped(reduced, layout.slices)?));
+                    let reduced = self.reduced(*side, layout)?;
+                    teeth.push((*side, self.damped(reduced, slices)?));
                 }
             }
         }
@@ -313,19 +316,16 @@ impl SceneMesh<'_> {
         BeamTeeth::new([tooth(0), tooth(1)], slices, [&first, &second]).map_err(self.fault())
     }
 
-    fn reduced(&self, side: FlankSide) -> Result<ReducedTeeth, InputError> {
+    fn reduced(&self, side: Flank, layout: SliceLayout) -> Result<ReducedTeeth, InputError> {
         let models = self.models()?;
         let reference = REFERENCE_LINE_LOAD_N_PER_M * self.zone_width_m();
         let nominal = self.table.nominal_force_N.unwrap_or(reference);
         self.keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (
-            self.table.local.unwrap_or_default().local_contact(),
-            self.displacement_m,
-        );
-        ReducedTeeth::displaced(self.pair, side, models, contact, nominal).map_err(|error| {
+        let local = self.table.local.unwrap_or_default();
+        ReducedTeeth::on_slices(self.pair, side, models, (local, layout), nominal).map_err(|error| {
             let hint = match self.table.flanks.unwrap_or_default() {
-                FlanksWord::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
+                TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh says flanks = \"right\" or \"left\"",
                 _ => "",
             };
             self.keys.error("", format!("{} flanks: {error}{hint}", side.name()))

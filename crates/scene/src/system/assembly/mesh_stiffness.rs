@@ -6,7 +6,7 @@ use std::path::Path;
 use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
-use gearmesh_geometry::{FlankSide, InputError};
+use gearmesh_geometry::{Flank, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
 use crate::system::tables::gear_mesh::MeshModel;
@@ -95,7 +95,7 @@ impl SceneMesh<'_> {
     /// The spring of `iso6336` on one side of the teeth.
     pub(super) fn spring(
         &self,
-        side: FlankSide,
+        side: Flank,
         layout: &SliceLayout,
     ) -> Result<MeshSpring, InputError> {
         let (table, slices) = (self.table, layout.slices);

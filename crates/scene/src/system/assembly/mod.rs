@@ -13,6 +13,7 @@
 //! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
+mod bearings;
 mod bodies;
 mod carriers;
 mod elements;
@@ -92,10 +93,9 @@ impl SystemScene {
         for (i, table) in self.tables.body.iter().enumerate() {
             let key = format!("body.{i}");
             let keys = TableKeys::new(&self.document, &key);
-            gears.push(match &table.gear {
-                None => None,
-                Some(path) => Some(files.get(&self.folder.join(path), &keys)?),
-            });
+            let read = |path| files.get(&self.folder.join(path), &keys);
+            let gear = table.gear.as_ref().map(read).transpose()?;
+            gears.push(gears::with_own_microgeometry(gear, &self, i)?);
         }
         Ok(LoadedSystem { scene: self, gears })
     }

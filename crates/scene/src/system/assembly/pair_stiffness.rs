@@ -10,7 +10,7 @@ use gearmesh_contact::{
 };
 use gearmesh_drivetrain::{PairCurve, PairSamples};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{FlankSide, GearDefinition, InputError};
+use gearmesh_geometry::{Flank, GearDefinition, InputError};
 
 use super::mesh_model::SceneMesh;
 use crate::pair::{Scene, SceneResult};
@@ -40,7 +40,7 @@ struct Curves {
 
 impl SceneMesh<'_> {
     /// The curve that `stiffness` names; none where the table has no such key.
-    pub(super) fn static_curve(&self, side: FlankSide) -> Result<Option<PairCurve>, InputError> {
+    pub(super) fn static_curve(&self, side: Flank) -> Result<Option<PairCurve>, InputError> {
         let Some(table) = &self.table.stiffness else {
             return Ok(None);
         };
@@ -91,8 +91,9 @@ impl SceneMesh<'_> {
             InputDocument::new(format!("scene inside {shown}"), result.scene_toml.clone());
         let scene = Scene::from_document(document, self.folder)?;
         for (i, gear) in self.gears.iter().enumerate() {
-            let of_result = result.gears[i].definition_in(&shown)?;
-            if let Some(what) = difference(of_result, &gear.definition) {
+            let mut of_result = result.gears[i].definition_in(&shown)?.clone();
+            scene.modify_flanks(i + 1, &mut of_result)?;
+            if let Some(what) = difference(&of_result, &gear.definition) {
                 let problem = format!(
                     "gear {} of the pair in {shown} is another one than the gear of {}: {what}",
                     i + 1,
@@ -129,7 +130,7 @@ impl SceneMesh<'_> {
     }
 
     /// Computes the curves over one pitch, as a `[pair]` scene of the bodies' reduced gears would.
-    fn computed(&self, table: &PairStiffnessTable, side: FlankSide) -> Result<Curves, InputError> {
+    fn computed(&self, table: &PairStiffnessTable, side: Flank) -> Result<Curves, InputError> {
         let keys = &self.keys;
         let model = |i: usize| {
             self.gears[i].model.as_deref().ok_or_else(|| {
@@ -147,7 +148,7 @@ impl SceneMesh<'_> {
             (extended && !pair.is_helical()).then(|| PathExtension::new(&pair, EDGE_RADIUS_M));
         let on = self.table.microgeometry.unwrap_or(true);
         let microgeometry = |i: usize| {
-            let own = &self.gears[i].definition.microgeometry;
+            let own = self.gears[i].definition.microgeometry.of(side);
             if on { own.clone() } else { Default::default() }
         };
         let base_2 = pair.gear_2.base_radius_m;
@@ -159,7 +160,7 @@ impl SceneMesh<'_> {
             pair,
         };
         let options = ContactOptions {
-            local: table.local.unwrap_or_default().local_contact(),
+            local: table.local.unwrap_or_default(),
             friction: None,
         };
         let fault = |e: gearmesh_contact::ContactError| keys.error("stiffness", e);

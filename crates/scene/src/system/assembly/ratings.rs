@@ -1,7 +1,7 @@
 //! `[[rating]]` to what is made of which columns of the result.
 
 use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, InputError};
+use gearmesh_geometry::{Flank, InputError};
 use gearmesh_rating::{LoadPoint, NominalRating};
 
 use super::bodies::Bodies;
@@ -155,10 +155,10 @@ fn fatigue(
 }
 
 fn normal_forces(mesh: &PreparedMesh) -> Vec<String> {
-    let of_side = |side: &FlankSide| {
+    let of_side = |side: &Flank| {
         let channel = match side {
-            FlankSide::Right => "normal_force_right_N",
-            FlankSide::Left => "normal_force_left_N",
+            Flank::Right => "normal_force_right_N",
+            Flank::Left => "normal_force_left_N",
         };
         element_column(&mesh.name, channel)
     };

@@ -3,7 +3,7 @@
 use gearmesh_drivetrain::FlankContacts;
 use gearmesh_drivetrain::tooth_overlap::{BEHIND, THROUGH};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{FlankSide, InputError};
+use gearmesh_geometry::{Flank, InputError};
 
 use super::bodies::Bodies;
 use super::gear_mesh::PreparedMesh;
@@ -32,7 +32,7 @@ pub(super) fn settle_phases(
         let turned = [1, 0].into_iter().find(|&i| free(i));
         let side = driven_side(mesh, bodies);
         let keys = TableKeys::new(document, &mesh.key);
-        let gap = |bodies: &Bodies, side: FlankSide| {
+        let gap = |bodies: &Bodies, side: Flank| {
             let mut found = FlankContacts::default();
             let pose = mesh.pose(bodies);
             teeth
@@ -88,7 +88,7 @@ pub(super) fn settle_phases(
                 stand.join(", ")
             ));
         }
-        for side in [FlankSide::Right, FlankSide::Left] {
+        for side in [Flank::Right, Flank::Left] {
             let share = if mesh.sides.contains(&side) {
                 THROUGH
             } else {
@@ -114,15 +114,15 @@ pub(super) fn settle_phases(
 }
 
 /// The side that touches at the start: right where gear 1 turns clockwise or stands.
-fn driven_side(mesh: &PreparedMesh, bodies: &Bodies) -> FlankSide {
+fn driven_side(mesh: &PreparedMesh, bodies: &Bodies) -> Flank {
     let spin = bodies.list[mesh.bodies[0]]
         .body
         .angular_velocity_rad_per_s
         .z;
     let wanted = if spin > 0.0 {
-        FlankSide::Left
+        Flank::Left
     } else {
-        FlankSide::Right
+        Flank::Right
     };
     let known = mesh.sides.iter().find(|side| **side == wanted);
     known.or(mesh.sides.first()).copied().unwrap_or(wanted)

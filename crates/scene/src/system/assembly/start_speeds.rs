@@ -17,7 +17,7 @@ use super::gear_mesh::PreparedMesh;
 use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
 use super::shafts::PlacedShaft;
-use crate::system::tables::connection::BearingTable;
+use crate::system::tables::bearing::BearingTable;
 use crate::system::tables::gear_mesh::MeshModel;
 use crate::system::tables::joint::JointWord;
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use gearmesh_geometry::gear_file::MicrogeometryTable;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,6 +15,8 @@ pub struct BodyTable {
     /// A gear file (.toml) or a reduced gear (.h5), relative to the scene: mass, inertia and teeth. The body's frame is
     /// the gear's: z along the axis, origin at mid-face, tooth 0 on +x.
     pub gear: Option<PathBuf>,
+    /// Microgeometry of the gear in all its meshes, instead of all that the gear file states.
+    pub microgeometry: Option<MicrogeometryTable>,
     /// Mass; from the gear where not given.
     pub mass_kg: Option<f64>,
     /// Inertia about the centre of mass, body axes: [Jxx, Jyy, Jzz] or [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz], off-diagonal

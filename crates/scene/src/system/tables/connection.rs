@@ -1,5 +1,5 @@
-//! `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[bearing]]`: forces between two bodies. Places and axes are
-//! those of the world at the start.
+//! `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]`: forces between two bodies. Places and axes are those of the world
+//! at the start.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -79,48 +79,4 @@ pub struct BushingTable {
     pub stiffness_matrix_SI: Option<[[f64; 6]; 6]>,
     /// Symmetric damping matrix in N·s/m, N·s/rad and N·m·s/rad, with the stiffness matrix.
     pub damping_matrix_SI: Option<[[f64; 6]; 6]>,
-}
-
-/// `[[bearing]]`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[allow(non_snake_case)]
-pub struct BearingTable {
-    /// Name.
-    pub name: String,
-    /// Model.
-    pub kind: BearingKind,
-    /// Housing; "ground" where not given.
-    pub body_1: Option<String>,
-    /// Shaft.
-    pub body_2: String,
-    /// Where; the origin of `body_2` where not given.
-    pub at_mm: Option<[f64; 3]>,
-    /// Axis; the z axis of `body_2` where not given.
-    pub axis: Option<[f64; 3]>,
-    /// Stiffness across the axis.
-    pub radial_stiffness_N_per_mm: f64,
-    /// Stiffness along the axis; none where not given.
-    #[serde(default)]
-    pub axial_stiffness_N_per_mm: f64,
-    /// Stiffness against tilting; none where not given.
-    #[serde(default)]
-    pub tilt_stiffness_Nm_per_rad: f64,
-    /// Damping across the axis; none where not given.
-    #[serde(default)]
-    pub radial_damping_N_s_per_mm: f64,
-    /// Damping along the axis; none where not given.
-    #[serde(default)]
-    pub axial_damping_N_s_per_mm: f64,
-    /// Damping of tilting; none where not given.
-    #[serde(default)]
-    pub tilt_damping_Nm_s_per_rad: f64,
-}
-
-/// `bearing.kind`. A bearing without elasticity is a revolute joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BearingKind {
-    /// Constant stiffness and damping, turns freely.
-    Linear,
 }

@@ -9,32 +9,12 @@ use gearmesh_drivetrain::errors::pitch::PitchErrors;
 use gearmesh_drivetrain::errors::spall::{Spall, SpallPatch};
 use gearmesh_drivetrain::errors::tip_chip::{FaceEnd, TipChip};
 use gearmesh_drivetrain::{FlankError, RootCrack};
-use gearmesh_geometry::input::TableKeys;
-use gearmesh_geometry::{FlankSide, InputError, ToothGeometry};
+use gearmesh_geometry::input::{NumberTable, TableKeys};
+use gearmesh_geometry::{Flank, InputError, ToothGeometry};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::number_table::NumberTable;
 use super::{MM, UM};
-
-/// A side of the teeth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SideWord {
-    /// Faces clockwise.
-    Right,
-    /// Faces counter-clockwise.
-    Left,
-}
-
-impl From<SideWord> for FlankSide {
-    fn from(word: SideWord) -> Self {
-        match word {
-            SideWord::Right => Self::Right,
-            SideWord::Left => Self::Left,
-        }
-    }
-}
 
 /// End of the face width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -54,7 +34,7 @@ pub enum FlankErrorTable {
     /// Each flank of one side stands back by an amount.
     Pitch {
         /// Side.
-        side: SideWord,
+        side: Flank,
         /// Material removed along the normal, one value a tooth, tooth 0 first.
         removed_um: Vec<f64>,
     },
@@ -90,7 +70,7 @@ pub enum FlankErrorTable {
         /// The tooth.
         tooth: usize,
         /// Side.
-        side: SideWord,
+        side: Flank,
         /// Lower and upper radius.
         radii_mm: [f64; 2],
         /// Lower and upper axial position from mid-face.
@@ -287,7 +267,7 @@ pub struct CrackTable {
     /// The tooth.
     pub tooth: usize,
     /// Side on which it opens.
-    pub side: SideWord,
+    pub side: Flank,
     /// Radius at which it starts, on the root fillet.
     pub start_radius_mm: f64,
     /// Depth.
@@ -301,7 +281,7 @@ impl CrackTable {
     #[must_use]
     pub fn crack(&self) -> (usize, RootCrack) {
         let crack = RootCrack {
-            side: self.side.into(),
+            side: self.side,
             start_radius_m: MM * self.start_radius_mm,
             depth_m: MM * self.depth_mm,
             angle_rad: self.angle_deg.to_radians(),

@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 
 use gearmesh_dynamics::{Interpolation, Table, TimeFunction};
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{NumberTable, TableKeys};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
-
-use super::number_table::NumberTable;
 
 /// A function of time; its unit is that of its key.
 #[derive(Debug, Clone, JsonSchema)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use gearmesh_contact::LocalContact;
 use gearmesh_drivetrain::Damping;
-use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{Flank, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -28,12 +28,11 @@ pub struct GearMeshTable {
     pub model: MeshModel,
     /// Flanks that can touch: "both" (backlash is what the tooth thickness leaves), or "right" or "left" alone. Right
     /// flanks touch where gear 1 drives clockwise. "both" where not given. Not with `kinematic`.
-    pub flanks: Option<FlanksWord>,
+    pub flanks: Option<TouchingFlanks>,
     /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
     /// "extended" where not given. Not with `kinematic`.
     pub path: Option<PathWord>,
-    /// Slices across the face width, 1 where not given. Not with `kinematic`, nor with `hybrid`, whose models state
-    /// them.
+    /// Slices over the overlap of the faces; 1 where not given, with `hybrid` those of the models. Not with `kinematic`.
     pub slices: Option<usize>,
     /// `impact`: K of F = K (δ/mm)^e; its unit is N/mm^e with the exponent below.
     pub stiffness_N_per_mm_e: Option<f64>,
@@ -55,7 +54,7 @@ pub struct GearMeshTable {
     /// `iso6336`: amplitude of the stiffness over the mesh cycle, over its mean, below 1; constant where not given.
     pub stiffness_amplitude: Option<f64>,
     /// `hybrid`: local contact; "calibrated" where not given.
-    pub local: Option<LocalWord>,
+    pub local: Option<LocalContact>,
     /// `hybrid`: normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice
     /// force); 100 N/mm times the face width where not given.
     pub nominal_force_N: Option<f64>,
@@ -63,7 +62,7 @@ pub struct GearMeshTable {
     pub damping: Option<DampingTable>,
     /// Friction; none where not given. Not with `kinematic`.
     pub friction: Option<FrictionTable>,
-    /// Whether the microgeometry of the gear files acts, as it does where nothing is said. `kinematic` and `iso6336`
+    /// Whether the microgeometry of the bodies or gear files acts, as it does where nothing is said. `kinematic` and `iso6336`
     /// know no flanks: with them it must be set to false for gears that have microgeometry, but for `iso6336` with
     /// `stiffness`, whose curve holds it.
     pub microgeometry: Option<bool>,
@@ -99,7 +98,7 @@ pub struct PairStiffnessTable {
     /// `iso6336`: harmonics of the mesh cycle, 20 where not given; 0 for the means alone.
     pub harmonics: Option<usize>,
     /// Without `from`: local contact of the curve; "calibrated" where not given.
-    pub local: Option<LocalWord>,
+    pub local: Option<LocalContact>,
 }
 
 /// `gear_mesh.model`, cheapest first.
@@ -135,7 +134,7 @@ impl MeshModel {
 /// Flanks that can touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum FlanksWord {
+pub enum TouchingFlanks {
     /// Both sides of the teeth.
     #[default]
     Both,
@@ -143,6 +142,17 @@ pub enum FlanksWord {
     Right,
     /// Left flanks.
     Left,
+}
+
+impl TouchingFlanks {
+    /// The flanks that it names.
+    pub(crate) fn flanks(self) -> &'static [Flank] {
+        match self {
+            Self::Both => &Flank::ALL,
+            Self::Right => &[Flank::Right],
+            Self::Left => &[Flank::Left],
+        }
+    }
 }
 
 /// Ends of the path of contact.
@@ -154,30 +164,6 @@ pub enum PathWord {
     /// Tip edges go on touching.
     #[default]
     Extended,
-}
-
-/// Local contact of reduced gears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LocalWord {
-    /// None.
-    None,
-    /// As in seed 004.
-    WeberBanaschek,
-    /// By the model's plane-strain calibration.
-    #[default]
-    Calibrated,
-}
-
-impl LocalWord {
-    /// The local contact that it names.
-    pub(crate) fn local_contact(self) -> LocalContact {
-        match self {
-            Self::None => LocalContact::None,
-            Self::WeberBanaschek => LocalContact::WeberBanaschek,
-            Self::Calibrated => LocalContact::Calibrated,
-        }
-    }
 }
 
 /// `damping`.

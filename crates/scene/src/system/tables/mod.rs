@@ -1,5 +1,6 @@
 //! The tables of a scene file: keys as they stand in the file, and their checks. One file per table.
 
+pub mod bearing;
 pub mod body;
 pub mod connection;
 pub mod flank_errors;
@@ -8,7 +9,6 @@ pub mod function;
 pub mod gear_mesh;
 pub mod joint;
 pub mod load;
-pub mod number_table;
 pub mod output;
 pub mod run;
 pub mod shaft;

@@ -4,12 +4,11 @@
 
 use std::path::Path;
 
-use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::{CsvRows, InputDocument, NumberRange, shown_field};
+use super::{CsvRows, InputDocument, InputError, NumberRange, shown_field};
 
 /// Columns of a file.
 #[derive(Debug, Clone)]
-pub(crate) struct NumberTable {
+pub struct NumberTable {
     file: String,
     /// Line of each row, from 1.
     lines: Vec<usize>,
@@ -18,8 +17,25 @@ pub(crate) struct NumberTable {
 }
 
 impl NumberTable {
+    /// The first of `heads` that the file has as a column; the first of them where it has none.
+    ///
+    /// # Errors
+    /// [`InputError`] for a file that cannot be read.
+    pub fn head_among<'a>(path: &Path, heads: [&'a str; 2]) -> Result<&'a str, InputError> {
+        let document = InputDocument::read(path)?;
+        let first_line = CsvRows::new(&document.text).next();
+        let has = |wanted: &&str| {
+            let found = first_line.as_ref();
+            found.is_some_and(|(_, fields)| fields.iter().any(|head| head == *wanted))
+        };
+        Ok(heads.into_iter().find(has).unwrap_or(heads[0]))
+    }
+
     /// Reads the columns with the given heads.
-    pub(crate) fn read(path: &Path, heads: &[&str]) -> Result<Self, InputError> {
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and head.
+    pub fn read(path: &Path, heads: &[&str]) -> Result<Self, InputError> {
         let document = InputDocument::read(path)?;
         let complaint = |line: Option<usize>, key: &str, problem: String| InputError {
             file: document.file.clone(),
@@ -102,13 +118,31 @@ impl NumberTable {
         Ok(table)
     }
 
-    /// A column.
-    pub(crate) fn column(&self, number: usize) -> &[f64] {
+    /// A column, by its number among the heads that were asked for.
+    ///
+    /// # Panics
+    /// If so many were not asked for.
+    #[must_use]
+    pub fn column(&self, number: usize) -> &[f64] {
         &self.columns[number]
     }
 
+    /// A complaint about the file as a whole.
+    #[must_use]
+    pub fn error(&self, problem: impl std::fmt::Display) -> InputError {
+        InputError {
+            file: self.file.clone(),
+            line: None,
+            key: String::new(),
+            problem: problem.to_string(),
+        }
+    }
+
     /// Complains unless a column increases from row to row.
-    pub(crate) fn require_increasing(&self, number: usize) -> Result<(), InputError> {
+    ///
+    /// # Errors
+    /// [`InputError`] at the first row that does not.
+    pub fn require_increasing(&self, number: usize) -> Result<(), InputError> {
         let column = &self.columns[number];
         let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
             return Ok(());

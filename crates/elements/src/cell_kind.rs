@@ -1,5 +1,37 @@
 //! The volume elements that a mesh can have, by their nodes.
 
+/// The corners at the ends of each edge of a hexahedron; edge k carries node 8 + k of one with twenty nodes.
+pub const HEX_EDGES: [[usize; 2]; 12] = [
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+/// The corners at the ends of each edge of a tetrahedron; edge k carries node 4 + k of one with ten nodes.
+pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+
+/// The corners at the ends of each edge of a wedge; edge k carries node 6 + k of one with fifteen nodes.
+pub const WEDGE_EDGES: [[usize; 2]; 9] = [
+    [0, 1],
+    [1, 2],
+    [2, 0],
+    [3, 4],
+    [4, 5],
+    [5, 3],
+    [0, 3],
+    [1, 4],
+    [2, 5],
+];
+
 /// Kind of a volume element. Node order as in VTK, except that wedges number their lower triangle counter-clockwise
 /// seen from the upper one, as Abaqus and gmsh do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,6 +82,33 @@ impl CellKind {
             Self::Tet10 => 10,
             Self::Wedge6 => 6,
             Self::Wedge15 => 15,
+        }
+    }
+
+    /// Number of corners.
+    pub const fn corner_count(self) -> usize {
+        match self {
+            Self::Hex8 | Self::Hex20 => 8,
+            Self::Tet10 => 4,
+            Self::Wedge6 | Self::Wedge15 => 6,
+        }
+    }
+
+    /// Name of such elements in prints.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Hex8 | Self::Hex20 => "hexahedra",
+            Self::Tet10 => "tetrahedra",
+            Self::Wedge6 | Self::Wedge15 => "wedges",
+        }
+    }
+
+    /// The corners at the ends of each edge, whether it carries a node or not.
+    pub const fn edges(self) -> &'static [[usize; 2]] {
+        match self {
+            Self::Hex8 | Self::Hex20 => &HEX_EDGES,
+            Self::Tet10 => &TET_EDGES,
+            Self::Wedge6 | Self::Wedge15 => &WEDGE_EDGES,
         }
     }
 

@@ -1,0 +1,222 @@
+//! Where the inner ring of a bearing comes to rest under a load.
+
+use nalgebra::Vector5;
+
+use crate::error::BearingError;
+use crate::operation::Operation;
+use crate::quasi_static::QuasiStaticBearing;
+use crate::ring_load::RingLoad;
+use crate::ring_pose::RingPose;
+
+/// What is stated of the ring's tilt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TiltCondition {
+    /// Moments about x and y \[N·m\].
+    Moments([f64; 2]),
+    /// Tilt θx, θy \[rad\].
+    Held([f64; 2]),
+}
+
+/// A load on the inner ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AppliedBearingLoad {
+    /// Force x, y, z \[N\].
+    pub force_n: [f64; 3],
+    /// Moments, or the tilt itself.
+    pub tilt: TiltCondition,
+}
+
+/// Most steps of Newton's method for the ring.
+const MOST_STEPS: usize = 200;
+
+impl QuasiStaticBearing {
+    /// Where the inner ring comes to rest under a load.
+    ///
+    /// Newton's method with the exact tangent; steps that do not lessen the unbalanced load are turned towards it (Levenberg and
+    /// Marquardt). At speed the loads of the rest position are the start.
+    ///
+    /// # Errors
+    /// [`BearingError`] where there is none, or a cylindrical roller bearing is loaded along its axis.
+    pub fn equilibrium(
+        &self,
+        load: &AppliedBearingLoad,
+        operation: &Operation,
+    ) -> Result<RingPose, BearingError> {
+        if !self.locates && load.force_n[2] != 0.0 {
+            return Err(BearingError::NotCarried(
+                "the load has an axial part, which cylindrical rollers do not bear in this model; set it to 0, another bearing bears it",
+            ));
+        }
+        let resting = Operation {
+            inner_rad_per_s: 0.0,
+            outer_rad_per_s: 0.0,
+            ..*operation
+        };
+        let start = self.first_guess(load);
+        let mut pose = self.iterate(start, load, &resting)?;
+        if operation.is_turning() {
+            pose = self.speed_up(pose, load, operation)?;
+        }
+        Ok(pose)
+    }
+
+    /// From rest to speed, in shorter steps of the square of the speed where a step fails.
+    fn speed_up(
+        &self,
+        mut pose: RingPose,
+        load: &AppliedBearingLoad,
+        operation: &Operation,
+    ) -> Result<RingPose, BearingError> {
+        let (mut done, mut step) = (0.0_f64, 1.0_f64);
+        loop {
+            let next = (done + step).min(1.0);
+            let part = Operation {
+                inner_rad_per_s: operation.inner_rad_per_s * next.sqrt(),
+                outer_rad_per_s: operation.outer_rad_per_s * next.sqrt(),
+                ..*operation
+            };
+            match self.iterate(pose, load, &part) {
+                Ok(found) => {
+                    (pose, done) = (found, next);
+                    if done >= 1.0 {
+                        return Ok(pose);
+                    }
+                    step *= 2.0;
+                }
+                Err(error) => {
+                    step *= 0.25;
+                    if step < 1e-4 {
+                        return Err(error);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Moved towards the load, through the clearance.
+    fn first_guess(&self, load: &AppliedBearingLoad) -> RingPose {
+        let [x, y, z] = load.force_n;
+        let mut q = Vector5::zeros();
+        if let TiltCondition::Held(tilt) = load.tilt {
+            (q[3], q[4]) = (tilt[0], tilt[1]);
+        }
+        let operation = Operation::default();
+        // As far along the load as it takes to meet it.
+        let across = x.hypot(y);
+        let size = across.hypot(z);
+        if size == 0.0 {
+            return RingPose::from_five(&q);
+        }
+        let direction = Vector5::new(x / size, y / size, z / size, 0.0, 0.0);
+        let mut reach = 1e-6;
+        while reach < 1e-3 {
+            let pose = RingPose::from_five(&(q + direction * reach));
+            let Ok(ring) = self.evaluate(&pose, &operation) else {
+                break;
+            };
+            if -ring.five().dot(&direction) >= size {
+                break;
+            }
+            reach *= 1.5;
+        }
+        RingPose::from_five(&(q + direction * reach))
+    }
+
+    fn iterate(
+        &self,
+        start: RingPose,
+        load: &AppliedBearingLoad,
+        operation: &Operation,
+    ) -> Result<RingPose, BearingError> {
+        let arm = self.rows[0].pitch_radius_m();
+        let scale = Vector5::new(1.0, 1.0, 1.0, arm, arm);
+        let [x, y, z] = load.force_n;
+        let (moments, held) = match load.tilt {
+            TiltCondition::Moments(m) => (m, false),
+            TiltCondition::Held(_) => ([0.0; 2], true),
+        };
+        let applied = Vector5::new(x, y, z, moments[0], moments[1]);
+        let mut free = [true; 5];
+        free[2] = self.locates;
+        (free[3], free[4]) = (!held, !held);
+        // Forces, with moments over the pitch radius.
+        let residual = |ring: &RingLoad| {
+            let mut r = (ring.five() + applied).component_div(&scale);
+            for (entry, free) in r.iter_mut().zip(free) {
+                if !free {
+                    *entry = 0.0;
+                }
+            }
+            r
+        };
+        let mut pose = start;
+        let mut ring = self.evaluate(&pose, operation)?;
+        let mut r = residual(&ring);
+        let mut lift = 0.0_f64;
+        let bearing_size = applied.component_div(&scale).norm().max(1e-9);
+        for iteration in 0..MOST_STEPS {
+            let size = r.norm();
+            let within = ring.five().component_div(&scale).norm().max(bearing_size);
+            if size <= 1e-13 * within {
+                return Ok(pose);
+            }
+            let mut matrix = -ring.tangent.fixed_view::<5, 5>(0, 0).into_owned();
+            for i in 0..5 {
+                for j in 0..5 {
+                    matrix[(i, j)] /= scale[i] * scale[j];
+                }
+            }
+            let mut stiffest = 1e3_f64;
+            for i in 0..5 {
+                stiffest = stiffest.max(matrix[(i, i)].abs());
+            }
+            for (i, is_free) in free.iter().enumerate() {
+                if !is_free {
+                    for j in 0..5 {
+                        matrix[(i, j)] = 0.0;
+                        matrix[(j, i)] = 0.0;
+                    }
+                    matrix[(i, i)] = stiffest;
+                }
+                matrix[(i, i)] += (lift + 1e-14) * stiffest;
+            }
+            let Some(step) = matrix.lu().solve(&r) else {
+                lift = (10.0 * lift).max(1e-6);
+                continue;
+            };
+            let length = step.norm();
+            if length <= 1e-16 * arm {
+                return Ok(pose);
+            }
+            let factor = (100e-6 / length).min(1.0);
+            let next = pose.moved(&(step * factor).component_div(&scale));
+            let found = self.evaluate(&next, operation);
+            match found {
+                Ok(found) if residual(&found).norm() < size => {
+                    (pose, ring) = (next, found);
+                    r = residual(&ring);
+                    lift = if lift < 1e-9 { 0.0 } else { 0.1 * lift };
+                }
+                _ => {
+                    if size <= 1e-9 * within && lift > 1e-4 {
+                        return Ok(pose);
+                    }
+                    lift = (10.0 * lift).max(1e-8);
+                    if lift > 1e12 || iteration + 1 == MOST_STEPS {
+                        break;
+                    }
+                }
+            }
+        }
+        let within = ring.five().component_div(&scale).norm().max(bearing_size);
+        if r.norm() <= 1e-9 * within {
+            return Ok(pose);
+        }
+        Err(BearingError::NoEquilibrium {
+            unbalanced_n: r.norm(),
+            iterations: MOST_STEPS,
+            hint: "A single row that bears axial loads one way needs an axial load towards +z, a preload or a second row; a moment needs \
+                   something that resists it.",
+        })
+    }
+}

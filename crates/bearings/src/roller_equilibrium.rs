@@ -1,0 +1,406 @@
+//! The equilibrium of one roller between two races, lamina by lamina, and what it does to the inner ring.
+//!
+//! A roller moves in its axial plane: centre (r, z) and tilt φ about the circumferential direction; it does not skew. Each lamina
+//! touches a race along the race's normal, its contact being that of a circle about the roller's axis: a tilt of the roller against
+//! the race moves the line of the force by less than (D/2) φ along the axis, which is left out. Cylindrical rollers are led by the ribs of
+//! one ring: they do not move along z. Tapered ones lean on the inner ring's rib with a spherical end.
+//! Formula (8) and what follows it in docs/theory/rolling_bearings.md.
+
+use nalgebra::{Matrix3, Matrix3x6, Vector2, Vector3};
+
+use crate::element_load::ElementLoad;
+use crate::element_place::ElementPlace;
+use crate::error::BearingError;
+use crate::ring_load::RingLoad;
+use crate::ring_pose::{RingPose, cross};
+use crate::roller_row::{Lamina, RollerRow};
+
+/// Forces that count as none \[N\].
+const NO_FORCE_N: f64 = 1e-9;
+
+/// Newton's iterations of one roller before it is given up.
+const MOST_ITERATIONS: usize = 100;
+
+/// One roller at its angle.
+pub(crate) struct Roller<'a> {
+    pub row: &'a RollerRow,
+    pub pose: &'a RingPose,
+    /// Radial unit vector at its angle.
+    pub e_r: Vector3<f64>,
+    pub number: usize,
+    /// Speed of the cage \[rad/s\].
+    pub orbit: f64,
+    /// Speed about its own axis \[rad/s\].
+    pub spin: f64,
+}
+
+/// A point of the roller that the inner ring presses: its place, the force on the ring and how that changes.
+struct InnerPoint {
+    w: Vector3<f64>,
+    force: Vector3<f64>,
+    by_point: Matrix3<f64>,
+    /// ∂(r, z)/∂φ of the point.
+    by_tilt: Vector2<f64>,
+}
+
+/// Force on the roller (r, z, about the circumferential direction) and −∂force/∂place.
+struct State {
+    residual: Vector3<f64>,
+    tangent: Matrix3<f64>,
+    /// Sum of the sizes of all forces.
+    scale: f64,
+    inner_load: f64,
+    outer_load: f64,
+    rib_load: f64,
+}
+
+impl Roller<'_> {
+    /// Equilibrium, then load and tangent.
+    pub fn add(
+        &self,
+        found: &mut ElementPlace,
+        ring: &mut RingLoad,
+        each_lamina: &mut impl FnMut(f64, f64),
+    ) -> Result<ElementLoad, BearingError> {
+        let (place, state) = self.equilibrium(found.take())?;
+        if state.scale > NO_FORCE_N {
+            *found = Some(place);
+        }
+        self.add_to_ring(&place, &state, ring);
+        Ok(self.report(&place, &state, each_lamina))
+    }
+
+    /// Direction along the roller and across it (its derivative by φ).
+    fn axes(&self, tilt: f64) -> (Vector2<f64>, Vector2<f64>) {
+        let (sine, cosine) = tilt.sin_cos();
+        let (r, z) = self.row.axis;
+        let along = Vector2::new(r * cosine + z * sine, z * cosine - r * sine);
+        (along, Vector2::new(along[1], -along[0]))
+    }
+
+    fn inner_point(
+        &self,
+        place: &Vector3<f64>,
+        at_m: f64,
+        normal: (f64, f64),
+        law: impl Fn(f64) -> (f64, f64),
+    ) -> (InnerPoint, f64) {
+        let (along, across) = self.axes(place[2]);
+        let p = Vector2::new(place[0], place[1]) + along * at_m;
+        let a = &self.pose.axis;
+        let w = self.e_r * p[0] + Vector3::z() * p[1] - self.pose.centre_m;
+        let height = w.dot(a);
+        let radial = w - a * height;
+        let radius = radial.norm();
+        let e = radial / radius;
+        let t = a.cross(&e);
+        // Away from the axis of the ring; the ring is pushed the other way.
+        let n = e * normal.0 + a * normal.1;
+        let (load, slope) = law(normal.0 * radius + normal.1 * height);
+        let point = InnerPoint {
+            w,
+            force: -n * load,
+            // The load falls as the point moves along n.
+            by_point: n * (n * slope).transpose()
+                - t * (t * (load * normal.0 / radius)).transpose(),
+            by_tilt: across * at_m,
+        };
+        (point, load)
+    }
+
+    /// Calls `each` with every contact with the inner ring: the point, its load, and the lamina's number where it is one.
+    fn inner_points(
+        &self,
+        place: &Vector3<f64>,
+        mut each: impl FnMut(InnerPoint, f64, Option<usize>),
+    ) {
+        let race = &self.row.inner;
+        for (number, lamina) in self.row.laminae.iter().enumerate() {
+            let (point, load) = self.inner_point(place, lamina.place_m, race.normal, |distance| {
+                let approach = lamina.reach_m - (distance - race.offset_m);
+                let (load, slope) = race.contact.line_load(approach);
+                (load * lamina.length_m, slope * lamina.length_m)
+            });
+            each(point, load, Some(number));
+        }
+        if let Some(rib) = &self.row.rib {
+            // The rib's normal points into the rib: the other sense of a race's.
+            let outward = (-rib.normal.0, -rib.normal.1);
+            let (point, load) = self.inner_point(place, rib.centre_m, outward, |distance| {
+                let approach = (-distance - rib.offset_m).max(0.0);
+                let slope = rib.stiffness_n_per_m15 * approach.sqrt();
+                (slope * approach, 1.5 * slope)
+            });
+            each(point, load, None);
+        }
+    }
+
+    /// Load of a lamina at the outer race.
+    fn outer_load(&self, place: &Vector3<f64>, lamina: &Lamina) -> (f64, f64) {
+        let race = &self.row.outer;
+        let (along, _) = self.axes(place[2]);
+        let p = Vector2::new(place[0], place[1]) + along * lamina.place_m;
+        let distance = race.offset_m - (race.normal.0 * p[0] + race.normal.1 * p[1]);
+        let (load, slope) = race.contact.line_load(lamina.reach_m - distance);
+        (load * lamina.length_m, slope * lamina.length_m)
+    }
+
+    fn state(&self, place: &Vector3<f64>) -> State {
+        let row = self.row;
+        let (_, across) = self.axes(place[2]);
+        let centrifugal = row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit;
+        let mut state = State {
+            residual: Vector3::new(centrifugal, 0.0, -self.gyroscopic_nm()),
+            tangent: Matrix3::zeros(),
+            scale: centrifugal,
+            inner_load: 0.0,
+            outer_load: 0.0,
+            rib_load: 0.0,
+        };
+        self.inner_points(place, |point, load, lamina| {
+            if load == 0.0 {
+                return;
+            }
+            let force = -self.in_plane(&point.force);
+            let stiffness = self.plane_block(&point.by_point);
+            add_point(&mut state, &force, &stiffness, &point.by_tilt);
+            match lamina {
+                Some(_) => state.inner_load += load,
+                None => state.rib_load += load,
+            }
+        });
+        let (c, s) = row.outer.normal;
+        let n = Vector2::new(c, s);
+        for lamina in &row.laminae {
+            let (load, slope) = self.outer_load(place, lamina);
+            if load > 0.0 {
+                let stiffness = n * (n * slope).transpose();
+                add_point(
+                    &mut state,
+                    &(-n * load),
+                    &stiffness,
+                    &(across * lamina.place_m),
+                );
+                state.outer_load += load;
+            }
+        }
+        state.scale += state.inner_load + state.outer_load + state.rib_load;
+        if row.rib.is_none() {
+            // Led along z by the ribs.
+            state.residual[1] = 0.0;
+            state.tangent.set_row(1, &nalgebra::RowVector3::zeros());
+            state.tangent.set_column(1, &Vector3::zeros());
+            state.tangent[(1, 1)] = 1.0;
+        }
+        state
+    }
+
+    /// ω_m × H about the circumferential direction, H of a body that spins about an inclined axis.
+    fn gyroscopic_nm(&self) -> f64 {
+        let (sine, cosine) = self.row.axis;
+        let (own, across) = self.row.inertia_kg_m2;
+        // Angular velocity: spin along the axis, in the sense of rolling, and the orbit along z.
+        let sense = -cosine.signum();
+        let along = sense * self.spin + self.orbit * cosine;
+        let radial = own * along * sine - across * self.orbit * cosine * sine;
+        self.orbit * radial
+    }
+
+    fn in_plane(&self, v: &Vector3<f64>) -> Vector2<f64> {
+        Vector2::new(self.e_r.dot(v), v.z)
+    }
+
+    fn plane_block(&self, m: &Matrix3<f64>) -> nalgebra::Matrix2<f64> {
+        let r = m * self.e_r;
+        let z = m.column(2);
+        nalgebra::Matrix2::new(self.e_r.dot(&r), self.e_r.dot(&z), r.z, z.z)
+    }
+
+    /// Halfway between the races.
+    fn start(&self) -> Vector3<f64> {
+        let row = self.row;
+        let a = &self.pose.axis;
+        let tilt = 0.5 * self.e_r.dot(a).asin();
+        let middle = Vector3::new(0.0, 0.0, row.middle_z_m) + self.e_r * row.pitch_radius_m;
+        let turned =
+            a * row.middle_z_m + (self.e_r - a * self.e_r.dot(a)).normalize() * row.pitch_radius_m;
+        let shift = self.in_plane(&(turned + self.pose.centre_m - middle)) * 0.5;
+        if row.rib.is_none() {
+            Vector3::new(row.pitch_radius_m + shift[0], row.middle_z_m, tilt)
+        } else {
+            // With the ring along its rib, halfway between the races across the roller's axis.
+            let (_, across) = self.axes(0.0);
+            let place = across * (2.0 * across.dot(&shift)) * 0.5;
+            let along = Vector2::new(row.axis.0, row.axis.1);
+            let place = place + along * (2.0 * along.dot(&shift));
+            Vector3::new(
+                row.pitch_radius_m + place[0],
+                row.middle_z_m + place[1],
+                tilt,
+            )
+        }
+    }
+
+    /// Newton's method; each step is shortened, then turned towards the force, until the unbalanced force falls.
+    fn equilibrium(&self, start: ElementPlace) -> Result<(Vector3<f64>, State), BearingError> {
+        let row = self.row;
+        let arm = 0.25 * row.laminae.len() as f64 * row.laminae[0].length_m;
+        let size_of = |r: &Vector3<f64>| Vector3::new(r[0], r[1], r[2] / arm).norm();
+        let mut place = start.unwrap_or_else(|| self.start());
+        let mut state = self.state(&place);
+        let mut lift = 0.0_f64;
+        for _ in 0..MOST_ITERATIONS {
+            let size = size_of(&state.residual);
+            if size <= 1e-13 * state.scale || state.scale <= NO_FORCE_N {
+                return Ok((place, state));
+            }
+            let stiffest = state.tangent[(0, 0)]
+                .max(state.tangent[(2, 2)] / (arm * arm))
+                .max(1e3);
+            let mut raised = state.tangent;
+            let extra = (lift + 1e-13) * stiffest;
+            raised[(0, 0)] += extra;
+            raised[(1, 1)] += extra;
+            raised[(2, 2)] += extra * arm * arm;
+            let step = raised
+                .lu()
+                .solve(&state.residual)
+                .ok_or_else(|| self.no_equilibrium(size))?;
+            let moved = Vector3::new(step[0], step[1], step[2] * arm).norm();
+            if moved <= 4e-16 * row.pitch_radius_m {
+                return Ok((place, state));
+            }
+            let factor = (50e-6 / moved).min(1.0);
+            let next = place + step * factor;
+            let found = self.state(&next);
+            if size_of(&found.residual) < size {
+                (place, state) = (next, found);
+                lift = if lift < 1e-8 { 0.0 } else { 0.1 * lift };
+            } else {
+                if size <= 1e-9 * state.scale {
+                    return Ok((place, state));
+                }
+                lift = (10.0 * lift).max(1e-6);
+            }
+        }
+        Err(self.no_equilibrium(size_of(&state.residual)))
+    }
+
+    fn no_equilibrium(&self, unbalanced_n: f64) -> BearingError {
+        BearingError::NoRollerEquilibrium {
+            roller: self.number + 1,
+            angle_deg: self.e_r.y.atan2(self.e_r.x).to_degrees(),
+            unbalanced_n,
+        }
+    }
+
+    fn add_to_ring(&self, place: &Vector3<f64>, state: &State, ring: &mut RingLoad) {
+        if state.inner_load + state.rib_load == 0.0 || state.scale <= NO_FORCE_N {
+            return;
+        }
+        // ∂(force on the roller)/∂ring, and ∂(load on the ring)/∂place.
+        let mut roller_by_ring = Matrix3x6::zeros();
+        let mut force_by_place = Matrix3::zeros();
+        let mut moment_by_place = Matrix3::zeros();
+        self.inner_points(place, |point, load, _| {
+            if load == 0.0 {
+                return;
+            }
+            ring.add_at_fixed_point(&point.w, &point.force, &point.by_point);
+            let mut by_ring = Matrix3x6::zeros();
+            by_ring
+                .fixed_view_mut::<3, 3>(0, 0)
+                .copy_from(&-point.by_point);
+            let turn = cross(&point.force);
+            by_ring
+                .fixed_view_mut::<3, 3>(0, 3)
+                .copy_from(&(point.by_point * cross(&point.w) - turn));
+            let tilt = self.e_r * point.by_tilt[0] + Vector3::z() * point.by_tilt[1];
+            let moves = Matrix3::from_columns(&[self.e_r, Vector3::z(), tilt]);
+            // Force on the roller is minus that on the ring; as a moment by the way its point goes with φ.
+            roller_by_ring -= moves.tr_mul(&by_ring);
+            let by_place = point.by_point * moves;
+            force_by_place += by_place;
+            moment_by_place += cross(&point.w) * by_place - turn * moves;
+        });
+        if self.row.rib.is_none() {
+            roller_by_ring.set_row(1, &nalgebra::RowVector6::zeros());
+        }
+        let mut tangent = state.tangent;
+        let stiffest = tangent[(0, 0)];
+        for place in 0..3 {
+            if tangent[(place, place)] == 0.0 {
+                tangent[(place, place)] = stiffest;
+            }
+        }
+        let Some(follows) = tangent.lu().solve(&roller_by_ring) else {
+            return;
+        };
+        let mut block = ring.tangent.fixed_view_mut::<3, 6>(0, 0);
+        block += force_by_place * follows;
+        let mut block = ring.tangent.fixed_view_mut::<3, 6>(3, 0);
+        block += moment_by_place * follows;
+    }
+
+    fn report(
+        &self,
+        place: &Vector3<f64>,
+        state: &State,
+        each_lamina: &mut impl FnMut(f64, f64),
+    ) -> ElementLoad {
+        let row = self.row;
+        let mut largest = [0.0_f64; 2];
+        let mut inner_loads = vec![0.0; row.laminae.len()];
+        self.inner_points(place, |_, load, lamina| {
+            if let Some(number) = lamina {
+                inner_loads[number] = load;
+            }
+        });
+        for (lamina, inner) in row.laminae.iter().zip(inner_loads) {
+            let (outer, _) = self.outer_load(place, lamina);
+            each_lamina(inner, outer);
+            for (most, load) in largest.iter_mut().zip([inner, outer]) {
+                *most = most.max(load / lamina.length_m);
+            }
+        }
+        ElementLoad {
+            inner_load_n: state.inner_load,
+            outer_load_n: state.outer_load,
+            inner_contact_angle_rad: row.inner.normal.1.atan2(row.inner.normal.0),
+            outer_contact_angle_rad: row.outer.normal.1.atan2(row.outer.normal.0),
+            radial_m: place[0] - row.pitch_radius_m,
+            axial_m: place[1] - row.middle_z_m,
+            tilt_rad: place[2],
+            rib_load_n: state.rib_load,
+            inner_line_load_n_per_m: largest[0],
+            outer_line_load_n_per_m: largest[1],
+            centrifugal_n: row.mass_kg * row.pitch_radius_m * self.orbit * self.orbit,
+            gyroscopic_nm: self.gyroscopic_nm(),
+            orbit_rad_per_s: self.orbit,
+            spin_rad_per_s: self.spin,
+            ..ElementLoad::default()
+        }
+    }
+}
+
+/// Adds a force at a point of the roller: the point moves with (r, z) and with φ by `by_tilt`.
+fn add_point(
+    state: &mut State,
+    force: &Vector2<f64>,
+    stiffness: &nalgebra::Matrix2<f64>,
+    by_tilt: &Vector2<f64>,
+) {
+    state.residual[0] += force[0];
+    state.residual[1] += force[1];
+    state.residual[2] += by_tilt.dot(force);
+    let by_tilt_force = stiffness * by_tilt;
+    let mut block = state.tangent.fixed_view_mut::<2, 2>(0, 0);
+    block += stiffness;
+    for axis in 0..2 {
+        state.tangent[(axis, 2)] += by_tilt_force[axis];
+        state.tangent[(2, axis)] += by_tilt_force[axis];
+    }
+    // ∂by_tilt/∂φ is minus the point's place along the roller, turned twice.
+    let second = Vector2::new(by_tilt[1], -by_tilt[0]);
+    state.tangent[(2, 2)] += by_tilt.dot(&by_tilt_force) - second.dot(force);
+}

@@ -1,0 +1,118 @@
+//! A ball thrown at the outer race: Hertz' impact, energy, restitution.
+
+use std::ops::ControlFlow;
+
+use gearmesh_bearings::RingPose;
+use gearmesh_bearings::dynamic::{DynamicEffects, Rebound};
+use gearmesh_bearings::quasi_static::{QuasiStaticBearing, Row};
+use gearmesh_dynamics::{Params, Simulation};
+
+use crate::common::{B6205, bearing, close};
+use crate::rig::{Held, row, system};
+
+/// One ball between rings that are far apart, just before it meets the outer race.
+fn one_ball() -> QuasiStaticBearing {
+    let mut bearing = bearing(&format!("{B6205}radial_clearance_um = 200.0\n"));
+    if let Row::Ball(row) = &mut bearing.rows[0] {
+        row.balls = 1;
+    }
+    bearing
+}
+
+struct Blow {
+    contact_time_s: f64,
+    peak_n: f64,
+    speed_after_m_per_s: f64,
+    energy_error_j: f64,
+}
+
+/// A ball that flies outwards with this speed; step in shares of the contact's time.
+fn throw(rebound: Rebound, speed: f64, step_s: f64, end_s: f64) -> Blow {
+    let bearing = one_ball();
+    let effects = DynamicEffects {
+        rebound,
+        ..DynamicEffects::default()
+    };
+    let system = system(&bearing, effects, &RingPose::default(), 0.0, &Held::Fast);
+    let mut state = system.start().clone();
+    let outer = &row(&bearing).outer;
+    // It touches where its centre is at R + arm.
+    let touching = outer.centre_radius_m + outer.arm_m;
+    state.unknowns.copy_from_slice(&[touching - 1e-7, 0.0, 0.0]);
+    let first = system.layout().first_unknown();
+    state.velocity[first] = speed;
+    let params = Params {
+        rho_infinity: 1.0,
+        ..Params::fixed(step_s)
+    };
+    let mut run = Simulation::from_state(system, state, params).unwrap();
+    let (mut since, mut until, mut peak) = (None, 0.0, 0.0_f64);
+    let (mut before, mut time_before) = (-1e-7, 0.0);
+    run.run(end_s, |step| {
+        let depth = step.to.unknowns[0] - touching;
+        let (force, _) = outer.contact.load(depth);
+        peak = peak.max(force);
+        // Where the surface is crossed, along a line within the step.
+        let crossing = time_before + (step.to.time_s - time_before) * before / (before - depth);
+        if before <= 0.0 && depth > 0.0 {
+            since = since.or(Some(crossing));
+        }
+        if before > 0.0 && depth <= 0.0 {
+            until = crossing;
+        }
+        (before, time_before) = (depth, step.to.time_s);
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    Blow {
+        contact_time_s: until - since.unwrap(),
+        peak_n: peak,
+        speed_after_m_per_s: -run.state().velocity[first],
+        energy_error_j: run.info().energy.largest_error_j,
+    }
+}
+
+/// T = 2.943275184 δ/v and F = k δ^1.5 with δ = (5mv²/4k)^0.4 (REFERENCES §2; H. Hertz 1882).
+#[test]
+fn a_blow_is_hertzs() {
+    let bearing = one_ball();
+    let row = row(&bearing);
+    let (mass, k) = (row.ball_mass_kg, row.outer.contact.stiffness_n_per_m15);
+    let speed: f64 = 0.1;
+    let depth = (1.25 * mass * speed * speed / k).powf(0.4);
+    let time = 2.943275184 * depth / speed;
+    let blow = throw(Rebound::default(), speed, time / 400.0, 2.0 * time);
+    close(blow.contact_time_s, time, 1e-3);
+    close(blow.peak_n, k * depth.powf(1.5), 1e-3);
+    // Nothing is lost.
+    close(blow.speed_after_m_per_s, speed, 1e-5);
+    let energy = 0.5 * mass * speed * speed;
+    assert!(
+        blow.energy_error_j < 1e-4 * energy,
+        "{}",
+        blow.energy_error_j
+    );
+}
+
+/// The stated coefficient is the ratio of the speeds, at its own speed to 0.1 %; slower blows lose less.
+#[test]
+fn restitution_is_the_ratio_of_speeds() {
+    for (e, v) in [
+        (0.9, 0.1),
+        (0.5, 0.1),
+        (0.8, 0.02),
+        (0.999, 0.05),
+        (1.0, 0.1),
+    ] {
+        let rebound = Rebound::from_restitution(e, v).unwrap();
+        let blow = throw(rebound, v, 1e-7, 1e-6 / v + 1.5e-4);
+        close(blow.speed_after_m_per_s, e * v, 1e-3);
+        if e < 0.95 {
+            let slower = throw(rebound, 0.5 * v, 1e-7, 2e-6 / v + 2e-4);
+            assert!(slower.speed_after_m_per_s > 1.02 * e * 0.5 * v);
+        }
+    }
+    for (e, v) in [(0.0, 0.1), (1.1, 0.1), (f64::NAN, 0.1), (0.5, 0.0)] {
+        assert!(Rebound::from_restitution(e, v).is_err(), "{e} {v}");
+    }
+}

@@ -1,0 +1,78 @@
+//! What can go wrong.
+
+/// A bevel gear that cannot be made or meshed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BevelError {
+    /// A value of the blank that is not allowed.
+    #[error("{key}: {problem}")]
+    Blank {
+        /// Key of the pair file.
+        key: &'static str,
+        /// What was found and what is allowed.
+        problem: String,
+    },
+    /// The tool leaves no surface at a place of the flank.
+    #[error(
+        "the tool leaves no surface on the {flank} flank at cone distance {cone_mm:.3} mm, {height_mm:+.3} mm from the pitch cone: \
+         the settings do not fit the blank"
+    )]
+    NoFlankPoint {
+        /// Member and side.
+        flank: String,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Height above the pitch cone.
+        height_mm: f64,
+    },
+    /// The envelope is singular: undercut.
+    #[error(
+        "the {flank} flank is undercut at cone distance {cone_mm:.3} mm, {height_mm:+.3} mm from the pitch cone (the envelope of the tool turns back \
+         there): take more teeth, a larger pressure angle or less dedendum"
+    )]
+    Undercut {
+        /// Member and side.
+        flank: String,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Height above the pitch cone.
+        height_mm: f64,
+    },
+    /// Teeth end in a point.
+    #[error(
+        "the {member}'s teeth are pointed: at cone distance {cone_mm:.3} mm their top is {thickness_mm:.4} mm thick, allowed is {least_mm:.4} mm and more"
+    )]
+    Pointed {
+        /// Member.
+        member: &'static str,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Top land.
+        thickness_mm: f64,
+        /// Least top land.
+        least_mm: f64,
+    },
+    /// The blade does not fit into the slot.
+    #[error(
+        "the {member}'s blade does not fit: at cone distance {cone_mm:.3} mm the slot's bottom is {slot_mm:.4} mm wide, the blade's point {blade_mm:.4} mm"
+    )]
+    BladeTooWide {
+        /// Member.
+        member: &'static str,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Width of the slot normal to the tooth.
+        slot_mm: f64,
+        /// Width of the blade.
+        blade_mm: f64,
+    },
+    /// No blade angle gives the pressure angle.
+    #[error(
+        "no blade angle between 0 and 45 degrees gives the {flank} flank the pressure angle {pressure_deg:.3} degrees: the dedendum angle is too large"
+    )]
+    NoBladeAngle {
+        /// Member and side.
+        flank: String,
+        /// What is asked.
+        pressure_deg: f64,
+    },
+}

@@ -1,0 +1,209 @@
+//! Both flanks of a member's tooth, and what must not happen to them: undercut, points, blades that do not fit.
+
+use crate::blank::MemberBlank;
+use crate::error::BevelError;
+use crate::flank::{Flank, Located};
+use crate::hand::FlankSide;
+use crate::settings::MachineSettings;
+
+/// A tooth: its concave and its convex flank, as far apart at the mean point as the blank says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tooth {
+    /// Blank.
+    pub blank: MemberBlank,
+    /// Concave and convex flank, each with its own mean point on +x.
+    pub flanks: [Flank; 2],
+}
+
+/// What the checks of a tooth found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothCheck {
+    /// Thinnest top land along the circle [m].
+    pub least_top_m: f64,
+    /// Narrowest bottom of the slot, normal to the tooth [m].
+    pub least_slot_m: f64,
+}
+
+/// Places of the checks along the face and up the flank.
+const ALONG: usize = 9;
+const UP: usize = 9;
+
+impl Tooth {
+    /// A tooth from the settings of its concave and convex flank.
+    ///
+    /// # Errors
+    /// [`BevelError::NoFlankPoint`].
+    pub fn cut(blank: &MemberBlank, settings: &[MachineSettings; 2]) -> Result<Self, BevelError> {
+        Ok(Self {
+            blank: blank.clone(),
+            flanks: [
+                Flank::cut(blank, FlankSide::Concave, &settings[0])?,
+                Flank::cut(blank, FlankSide::Convex, &settings[1])?,
+            ],
+        })
+    }
+
+    /// A flank.
+    pub fn flank(&self, side: FlankSide) -> &Flank {
+        match side {
+            FlankSide::Concave => &self.flanks[0],
+            FlankSide::Convex => &self.flanks[1],
+        }
+    }
+
+    /// Angle from the tooth's middle to a flank's mean point, counter-clockwise about the axis [rad].
+    pub fn half_angle_rad(&self, side: FlankSide) -> f64 {
+        let radius = self.blank.mean_cone_m * self.blank.pitch_angle_rad.sin();
+        side.facing(self.blank.hand) * 0.5 * self.blank.mean_thickness_m / radius
+    }
+
+    /// Angle that the tooth covers at a place [rad].
+    ///
+    /// # Errors
+    /// [`BevelError::NoFlankPoint`].
+    pub fn angle_rad(&self, cone_m: f64, height_m: f64) -> Result<f64, BevelError> {
+        let mut angle = 0.0;
+        for flank in &self.flanks {
+            let r = flank.locate(cone_m, height_m)?.point.r;
+            let azimuth = r.y.atan2(r.x) + self.half_angle_rad(flank.side);
+            angle += flank.side.facing(self.blank.hand) * azimuth;
+        }
+        Ok(angle)
+    }
+
+    /// Looks for undercut, pointed teeth, and a blade of that point width that does not fit into the slot.
+    ///
+    /// # Errors
+    /// [`BevelError`] with the place.
+    pub fn check(&self, least_top_m: f64, point_width_m: f64) -> Result<ToothCheck, BevelError> {
+        for flank in &self.flanks {
+            check_envelope(flank)?;
+        }
+        let blank = &self.blank;
+        let mut found = ToothCheck {
+            least_top_m: f64::INFINITY,
+            least_slot_m: f64::INFINITY,
+        };
+        for i in 0..ALONG {
+            let cone = along(blank, i);
+            let radius = |height: f64| {
+                cone * blank.pitch_angle_rad.sin() + height * blank.pitch_angle_rad.cos()
+            };
+            let tip = blank.addendum_m(cone);
+            let top = self.angle_rad(cone, tip)? * radius(tip);
+            if top < least_top_m {
+                return Err(BevelError::Pointed {
+                    member: blank.name,
+                    cone_mm: 1e3 * cone,
+                    thickness_mm: 1e3 * top,
+                    least_mm: 1e3 * least_top_m,
+                });
+            }
+            let width = self.slot_width_m(cone)?;
+            if width < point_width_m - 1e-9 * blank.mean_cone_m || width <= 0.0 {
+                return Err(BevelError::BladeTooWide {
+                    member: blank.name,
+                    cone_mm: 1e3 * cone,
+                    slot_mm: 1e3 * width,
+                    blade_mm: 1e3 * point_width_m,
+                });
+            }
+            found.least_top_m = found.least_top_m.min(top);
+            found.least_slot_m = found.least_slot_m.min(width);
+        }
+        Ok(found)
+    }
+
+    /// Width of the blade's point that leaves the slot's bottom as it is [m]: its width normal to the tooth between the points of blades without edge
+    /// radius, seen in the plane of the crown gear that cuts it.
+    ///
+    /// # Errors
+    /// [`BevelError::NoFlankPoint`].
+    pub fn slot_width_m(&self, cone_m: f64) -> Result<f64, BevelError> {
+        let mut angle = std::f64::consts::TAU / self.blank.teeth as f64;
+        let (mut radius, mut cosine, mut edges, mut slip) = (0.0, 0.0, 0.0, 0.0);
+        for flank in &self.flanks {
+            let root = flank.root(cone_m)?;
+            let r = root.point.r;
+            let settings = flank.surface().settings;
+            // A generated root is slower than the pitch cone that rolls: the slot is narrower there than the blade.
+            slip += 0.5
+                * settings
+                    .roll
+                    .map_or(1.0, |roll| roll.ratio * settings.root_angle_rad.sin());
+            angle -= flank.side.facing(self.blank.hand)
+                * (r.y.atan2(r.x) + self.half_angle_rad(flank.side));
+            radius += 0.5 * r.x.hypot(r.y);
+            match settings.face_mill() {
+                None => cosine += 0.5,
+                Some(mill) => {
+                    // The root is cut on the machine's x axis, where the cutter's circle has this direction.
+                    cosine += 0.5 * root.at[0].sin().abs();
+                    let (sin, cos) = mill.blade_angle_rad.sin_cos();
+                    edges += mill.edge_radius_m * (1.0 - sin) / cos;
+                }
+            }
+        }
+        Ok(angle * radius * cosine / slip + edges)
+    }
+}
+
+fn along(blank: &MemberBlank, i: usize) -> f64 {
+    blank.inner_cone_m() + blank.face_width_m * i as f64 / (ALONG - 1) as f64
+}
+
+/// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive for a right hand [rad].
+pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
+    let [generator, up] = directions(flank, located);
+    let n = located.point.n;
+    let trace = n.cross(&up);
+    let around = generator.cross(&up);
+    let trace = trace * trace.dot(&generator).signum();
+    trace.dot(&around).atan2(trace.dot(&generator))
+}
+
+/// Normal pressure angle at a point: of the normal against the cone through it [rad].
+pub fn pressure_angle_rad(flank: &Flank, located: &Located) -> f64 {
+    let [_, up] = directions(flank, located);
+    (-located.point.n.dot(&up)).clamp(-1.0, 1.0).asin()
+}
+
+/// Unit vectors at a point along the pitch cone's generator, towards the heel, and away from the cone.
+fn directions(flank: &Flank, located: &Located) -> [nalgebra::Vector3<f64>; 2] {
+    let r = located.point.r;
+    let radial = nalgebra::Vector3::new(r.x, r.y, 0.0).normalize();
+    let (sin, cos) = flank.blank.pitch_angle_rad.sin_cos();
+    let z = nalgebra::Vector3::z();
+    [radial * sin + z * cos, radial * cos - z * sin]
+}
+
+fn check_envelope(flank: &Flank) -> Result<(), BevelError> {
+    let blank = &flank.blank;
+    let sign = flank.mean().point.area().signum();
+    for i in 0..ALONG {
+        let cone = along(blank, i);
+        // From the pitch cone outwards: beyond a singular place the surface turns back.
+        let look = |height: f64, found: Result<Located, BevelError>| match found {
+            Ok(found) if found.point.area() * sign > 0.0 => Ok(found),
+            _ => Err(BevelError::Undercut {
+                flank: flank.name(),
+                cone_mm: 1e3 * cone,
+                height_mm: 1e3 * height,
+            }),
+        };
+        let pitch = look(0.0, flank.locate(cone, 0.0))?;
+        let bottom = flank.bottom(cone);
+        let low = bottom
+            .as_ref()
+            .map_or(-blank.dedendum_m(cone), |b| flank.place(&b.point.r)[1]);
+        look(low, bottom)?;
+        for end in [low, blank.addendum_m(cone)] {
+            let mut from = pitch;
+            for k in 1..=UP {
+                let height = end * k as f64 / UP as f64;
+                from = look(height, flank.locate_from(cone, height, &from))?;
+            }
+        }
+    }
+    Ok(())
+}

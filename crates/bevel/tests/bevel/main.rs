@@ -1,0 +1,6 @@
+//! Bevel gears: blank, flanks, contact.
+#![allow(clippy::unwrap_used, clippy::expect_used)] // test code
+
+mod blanks;
+mod common;
+mod flanks;

@@ -1,0 +1,43 @@
+//! The words of files as values of arguments: sides of the teeth, local contact terms.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use gearmesh_contact::LocalContact;
+use gearmesh_geometry::Flank;
+
+/// `right` and `left`.
+pub fn flank_words() -> impl TypedValueParser<Value = Flank> {
+    words(&Flank::ALL, Flank::name, |flank| match flank {
+        Flank::Right => "Faces clockwise",
+        Flank::Left => "Faces counter-clockwise",
+    })
+}
+
+/// The local contact terms.
+pub fn local_words() -> impl TypedValueParser<Value = LocalContact> {
+    words(
+        &LocalContact::ALL,
+        LocalContact::name,
+        |local| match local {
+            LocalContact::None => "The mesh's own near field",
+            LocalContact::WeberBanaschek => "Weber and Banaschek's logarithm on the patterns",
+            LocalContact::Calibrated => {
+                "The mesh's near field corrected by the model's plane-strain calibration"
+            }
+        },
+    )
+}
+
+/// A parser of the names of these values, with a line of help for each.
+fn words<T: Copy + Send + Sync + 'static>(
+    values: &'static [T],
+    name: fn(T) -> &'static str,
+    help: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let possible = values
+        .iter()
+        .map(|&value| PossibleValue::new(name(value)).help(help(value)));
+    PossibleValuesParser::new(possible).try_map(move |word| {
+        let found = values.iter().copied().find(|&value| name(value) == word);
+        found.ok_or("no such word")
+    })
+}

@@ -1,0 +1,148 @@
+//! What a file of the project must not contain, and what it must.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::assert_no_faults;
+use crate::files::{all_files, read, relative, root, rust_files};
+use crate::packages::{packages, text};
+
+/// No source file is longer than this; most are far shorter.
+const MOST_LINES: usize = 800;
+
+/// The only files with code that the compiler cannot check; each with its reason.
+const UNCHECKED: [&str; 2] = [
+    "crates/fe/src/ordering.rs",           // the C interface of METIS
+    "tests/support/counting_allocator.rs", // the trait's methods are unsafe
+];
+
+#[test]
+fn source_files_stay_short() {
+    let faults: Vec<String> = rust_files("")
+        .iter()
+        .map(|file| (relative(file), read(file).lines().count()))
+        .filter(|(_, lines)| *lines > MOST_LINES)
+        .map(|(file, lines)| {
+            format!(
+                "{file} has {lines} lines, more than {MOST_LINES}: split it, one concept a file"
+            )
+        })
+        .collect();
+    assert_no_faults(&faults);
+}
+
+/// A target with `test = false` is not compiled for tests; those in it would never run.
+#[test]
+fn targets_without_tests_have_none() {
+    let mut faults = Vec::new();
+    for package in packages() {
+        let targets = package["targets"].as_array().expect("a list of targets");
+        for target in targets.iter().filter(|target| target["test"] == false) {
+            let main = PathBuf::from(text(target, "src_path"));
+            let folder = relative(main.parent().expect("a source file is in a folder"));
+            if !folder.ends_with("src") {
+                continue;
+            }
+            let attribute = concat!("#[", "test]");
+            let with_tests = rust_files(&folder).into_iter();
+            faults.extend(
+                with_tests
+                    .filter(|file| read(file).contains(attribute))
+                    .map(|file| format!("{}: its target has test = false", relative(&file))),
+            );
+        }
+    }
+    assert_no_faults(&faults);
+}
+
+#[test]
+fn unchecked_code_stays_where_it_is_listed() {
+    let keyword = concat!("un", "safe");
+    let users: Vec<String> = rust_files("")
+        .iter()
+        .filter(|file| {
+            read(file)
+                .lines()
+                .any(|line| words(before_comment(line)).any(|word| word == keyword))
+        })
+        .map(|file| relative(file))
+        .collect();
+    let expected: Vec<String> = UNCHECKED.iter().map(|file| (*file).to_owned()).collect();
+    assert_eq!(
+        users, expected,
+        "only the files on the right may contain code that the compiler cannot check: write the others without it, or \
+         list the file in UNCHECKED with its reason"
+    );
+}
+
+#[test]
+fn no_file_names_a_private_path_or_a_registry_host() {
+    // Written in two parts, so that this file does not contain them.
+    let paths = [
+        concat!("/ho", "me/"),
+        concat!("/wo", "rk/"),
+        concat!("/ro", "ot/"),
+        concat!("/Us", "ers/"),
+    ];
+    let hosts = [
+        concat!("pypi", ".org"),
+        concat!("pythonhosted", ".org"),
+        concat!("crates", ".io"),
+        concat!("npmjs", ".org"),
+        concat!("npmjs", ".com"),
+        concat!("deb.debian", ".org"),
+    ];
+    let mut faults = Vec::new();
+    // cargo itself writes the registry's name into its lock.
+    for file in all_files()
+        .iter()
+        .filter(|file| relative(file) != "Cargo.lock")
+    {
+        // Pictures and HDF5 files are not text.
+        let Ok(content) = fs::read_to_string(file) else {
+            continue;
+        };
+        for (index, line) in content.lines().enumerate() {
+            let place = format!("{}:{}", relative(file), index + 1);
+            for path in paths.iter().filter(|path| names_absolute_path(line, path)) {
+                faults.push(format!("{place} names a directory of one machine ({path}): use a path inside the project"));
+            }
+            for host in hosts.iter().filter(|host| line.contains(*host)) {
+                faults.push(format!(
+                    "{place} names the registry host {host}: name the package only"
+                ));
+            }
+        }
+    }
+    assert_no_faults(&faults);
+}
+
+/// What README's tutorial prints of a file is the file.
+#[test]
+fn the_tutorial_shows_the_files_that_are_shipped() {
+    let readme = read(&root().join("README.md"));
+    for name in ["pinion.toml", "pair.toml"] {
+        let file = read(&root().join("fe_models/first_pair").join(name));
+        assert!(
+            readme.contains(&format!("```toml\n{file}```")),
+            "{name} is not what README.md shows"
+        );
+    }
+}
+
+/// A place like `/tmp/x` in prose or code, not the middle of `docs/tmp/x`.
+fn names_absolute_path(line: &str, path: &str) -> bool {
+    line.match_indices(path).any(|(at, _)| {
+        let before = line[..at].chars().next_back();
+        !before.is_some_and(|c| c.is_alphanumeric() || "._-*)}".contains(c))
+    })
+}
+
+pub fn before_comment(line: &str) -> &str {
+    line.split("//").next().unwrap_or_default()
+}
+
+/// The identifiers of a line. A hyphen joins, so that a word like `x-inline` in a string is not the identifier `x`.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    line.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '-'))
+}
