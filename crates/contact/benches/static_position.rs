@@ -6,7 +6,7 @@ use gearmesh_contact::Drive;
 use gearmesh_contact::{ContactLines, ContactOptions, LocalContact, StaticContact};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, GearPair, Misalignment, ToothDefinition, ToothGeometry};
-use gearmesh_model::{Flank, FlankGrid, ReducedGear};
+use gearmesh_model::{Flank, FlankGrid, ReducedGear, StoredGear};
 
 fn main() {
     divan::main();
@@ -55,7 +55,7 @@ fn model(gear: &GearDefinition, profile: &ToothGeometry, slices: usize) -> Reduc
     }
     ReducedGear {
         name: gear.name.clone(),
-        input_toml: gear.source.clone(),
+        input: StoredGear::new(gear.clone()),
         teeth,
         sectors: teeth,
         base_radius_m: profile.base_radius_m,

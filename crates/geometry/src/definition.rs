@@ -1,4 +1,4 @@
-//! What a gear is: the validated definition, in SI units.
+//! What a gear is: the validated definition, in SI units. The defaults of its parts are empty records to be filled, no gears.
 
 use gearmesh_elements::Element;
 
@@ -21,10 +21,12 @@ use std::path::PathBuf;
     serde::Serialize,
     serde::Deserialize,
     schemars::JsonSchema,
+    Default,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Flank {
     /// Faces clockwise; a load on it turns the gear counter-clockwise.
+    #[default]
     Right,
     /// Faces counter-clockwise, the mirror image; a load on it turns the gear clockwise.
     Left,
@@ -66,7 +68,7 @@ impl Flank {
 }
 
 /// External involute teeth, spur or helical, cut by a rack. Lengths in metres, coefficients in multiples of the module.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ToothDefinition {
     /// Number of teeth.
     pub teeth: usize,
@@ -96,7 +98,7 @@ pub struct ToothDefinition {
 }
 
 /// The body below the teeth. Held at the bore.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Blank {
     /// Bore radius \[m\].
     pub bore_radius_m: f64,
@@ -111,7 +113,7 @@ pub struct Blank {
 }
 
 /// Axial contour of hub and web.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contour {
     /// Back and front of the hub \[m\].
     pub hub_z_m: [f64; 2],
@@ -120,7 +122,7 @@ pub struct Contour {
 }
 
 /// Back and front of the web at one radius.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContourPoint {
     /// Radius \[m\].
     pub radius_m: f64,
@@ -131,7 +133,7 @@ pub struct ContourPoint {
 }
 
 /// A gear that was meshed elsewhere.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MeshedBody {
     /// The mesh file, any format that meshio reads.
     pub file: PathBuf,
@@ -153,12 +155,13 @@ impl MeshedBody {
 }
 
 /// Unit of the coordinates in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema, Default)]
 pub enum LengthUnit {
     /// Metres.
     #[serde(rename = "m")]
     Metre,
     /// Millimetres.
+    #[default]
     #[serde(rename = "mm")]
     Millimetre,
 }
@@ -174,7 +177,7 @@ impl LengthUnit {
 }
 
 /// Hub and web of a thin-rimmed blank.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Web {
     /// Outer radius of the hub \[m\].
     pub hub_radius_m: f64,
@@ -230,7 +233,7 @@ impl Openings {
 }
 
 /// Annular slots with radial flanks and rounded corners.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Slots {
     /// Number of slots.
     pub count: usize,
@@ -247,7 +250,7 @@ pub struct Slots {
 }
 
 /// Round holes on a pitch circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Holes {
     /// Number of holes.
     pub count: usize,
@@ -260,7 +263,7 @@ pub struct Holes {
 }
 
 /// Linear elastic, isotropic.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Material {
     /// Young's modulus \[Pa\].
     pub young_pa: f64,
@@ -279,6 +282,13 @@ pub enum ModeRange {
     UpToHz(f64),
 }
 
+/// None, for a record that is still to be filled.
+impl Default for ModeRange {
+    fn default() -> Self {
+        Self::Count(0)
+    }
+}
+
 /// How the bore is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -291,7 +301,7 @@ pub enum HubSupport {
 }
 
 /// Element sizes and the quality that the mesh must reach.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MeshSettings {
     /// Element.
     pub element: Element,
@@ -341,7 +351,7 @@ pub enum Symmetry {
 }
 
 /// What the reduction computes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReductionSettings {
     /// Whether the repetition of the gear is used.
     pub symmetry: Symmetry,
@@ -362,8 +372,15 @@ pub enum RootPosition {
     Radius(f64),
 }
 
+/// The fillet's 30° tangent, where roots are strained most.
+impl Default for RootPosition {
+    fn default() -> Self {
+        Self::TangentAngle(std::f64::consts::FRAC_PI_6)
+    }
+}
+
 /// A strain gauge on the surface of a tooth root, reading along the profile.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GaugeDefinition {
     /// Name in prints and files.
     pub name: String,
@@ -382,7 +399,7 @@ pub struct GaugeDefinition {
 }
 
 /// A crack from the root fillet into one tooth, over the whole face width.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrackDefinition {
     /// Tooth.
     pub tooth: usize,

@@ -32,7 +32,7 @@ pub mod tooth;
 pub use definition::{
     Blank, Contour, ContourPoint, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Holes,
     HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
-    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition,
+    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, Web,
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;

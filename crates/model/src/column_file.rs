@@ -117,6 +117,7 @@ fn fill_columns(path: &Path, datasets: &[Dataset], log: &mut RowLog) -> Result<(
 pub struct ColumnFile {
     path: PathBuf,
     file: File,
+    version: u32,
     columns: Vec<Column>,
     rows: usize,
 }
@@ -127,13 +128,14 @@ impl ColumnFile {
     /// # Errors
     /// As [`DataTree::read`].
     pub fn open(path: &Path, format: &FileFormat) -> Result<(Self, DataTree), FileError> {
-        let file = open_tree(path, format)?;
+        let (file, version) = open_tree(path, format)?;
         let reader = Reader { path };
         let mut tree = reader.tree(&file, Some(GROUP))?;
         let order = tree.texts.remove(ORDER).unwrap_or_default();
         let mut opened = Self {
             path: path.to_owned(),
             file,
+            version,
             columns: Vec::new(),
             rows: 0,
         };
@@ -158,6 +160,11 @@ impl ColumnFile {
             });
         }
         Ok((opened, tree))
+    }
+
+    /// Version of the format that the file has.
+    pub fn version(&self) -> u32 {
+        self.version
     }
 
     /// The columns, in the order of the rows they came from.

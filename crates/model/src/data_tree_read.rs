@@ -17,8 +17,16 @@ impl DataTree {
     /// # Errors
     /// Every kind of [`FileError`] except those about the contents of reduced gears and meshes.
     pub fn read(path: &Path, format: &FileFormat) -> Result<Self, FileError> {
-        let file = open_tree(path, format)?;
-        Reader { path }.tree(&file, None)
+        Self::read_with_version(path, format).map(|(tree, _)| tree)
+    }
+
+    /// The same with the version of the format that the file has.
+    ///
+    /// # Errors
+    /// As [`DataTree::read`].
+    pub fn read_with_version(path: &Path, format: &FileFormat) -> Result<(Self, u32), FileError> {
+        let (file, version) = open_tree(path, format)?;
+        Ok((Reader { path }.tree(&file, None)?, version))
     }
 }
 
@@ -41,8 +49,8 @@ fn open_sealed_tree(path: &Path) -> Result<(File, u64), FileError> {
     Ok((file, file_bytes))
 }
 
-/// Checks seal, format, version and where the arrays are; returns the open file.
-pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileError> {
+/// Checks seal, format, version and where the arrays are; returns the open file and its version.
+pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<(File, u32), FileError> {
     let (file, file_bytes) = open_sealed_tree(path)?;
     let reader = Reader { path };
     let found = reader.text_attribute(&file, "format")?;
@@ -63,7 +71,7 @@ pub(crate) fn open_tree(path: &Path, format: &FileFormat) -> Result<File, FileEr
         });
     }
     check_own_storage(path, &file, file_bytes)?;
-    Ok(file)
+    Ok((file, version))
 }
 
 /// Most axes of an array, HDF5's own limit: memory for their labels is asked for before they are read.

@@ -81,20 +81,23 @@ impl DataTree {
     /// # Errors
     /// [`FileError::Missing`]; [`FileError::WrongShape`] when it has not `N` axes.
     pub fn shape<const N: usize>(&self, path: &Path, name: &str) -> Result<[usize; N], FileError> {
-        let array = self
-            .arrays
-            .get(name)
-            .ok_or_else(|| missing(path, "array", name))?;
-        array
-            .shape
-            .clone()
-            .try_into()
-            .map_err(|found| FileError::WrongShape {
-                path: path.to_owned(),
-                item: format!("array \"{name}\""),
-                found,
-                expected: vec![0; N],
-            })
+        let found = self.shape_of(path, name)?.to_vec();
+        found.try_into().map_err(|found| FileError::WrongShape {
+            path: path.to_owned(),
+            item: format!("array \"{name}\""),
+            found,
+            expected: vec![0; N],
+        })
+    }
+
+    /// The shape of an array that is still in the tree, whatever its axes are.
+    ///
+    /// # Errors
+    /// [`FileError::Missing`].
+    pub(crate) fn shape_of(&self, path: &Path, name: &str) -> Result<&[usize], FileError> {
+        let array = self.arrays.get(name);
+        let array = array.ok_or_else(|| missing(path, "array", name))?;
+        Ok(&array.shape)
     }
 
     fn take(&mut self, path: &Path, name: &str, shape: &[usize]) -> Result<Values, FileError> {

@@ -126,6 +126,29 @@ pub enum FileError {
         /// The needed type.
         expected: &'static str,
     },
+    /// A text is none of the names that may stand there.
+    #[error("\"{item}\" of {} is \"{found}\"; known are {known}: use the program that wrote it, or make the file again",
+        path.display())]
+    UnknownName {
+        /// The file.
+        path: PathBuf,
+        /// The text.
+        item: String,
+        /// What it says.
+        found: String,
+        /// The names that are known.
+        known: String,
+    },
+    /// Parts of a file that do not go together.
+    #[error("\"{item}\" of {}: {problem}; make the file again", path.display())]
+    Contradiction {
+        /// The file.
+        path: PathBuf,
+        /// The part.
+        item: String,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// An array has other dimensions than it must have.
     #[error("{item} of {} has shape {found:?}, but {expected:?} is needed", path.display())]
     WrongShape {

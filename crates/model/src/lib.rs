@@ -17,19 +17,24 @@
 
 mod atomic_file;
 mod column_file;
-mod crack_file;
 mod data_tree;
 mod data_tree_file;
 mod data_tree_read;
 mod data_tree_take;
 mod data_tree_write;
-mod dynamics_file;
+mod definition_record;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod definition_tests;
 mod file_error;
 mod mesh_data;
 mod mesh_file;
+mod microgeometry_record;
 mod modal_basis;
 mod near_field;
 mod own_storage;
+mod record;
+mod record_axes;
 mod reduced_gear;
 mod reduced_gear_check;
 mod reduced_gear_error;
@@ -38,6 +43,7 @@ mod rigid_body;
 mod root_crack;
 mod row_log;
 mod seal;
+mod stored_gear;
 #[doc(hidden)]
 pub mod synthetic;
 mod text_heap;
@@ -54,6 +60,9 @@ pub use mesh_data::{EXPORT_ENDINGS, Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;
 pub use near_field::{ContactCurve, NearField};
+pub use record::{
+    Fields, ListedField, Named, OPEN, Record, list_record, read_record, write_record,
+};
 pub use reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
@@ -61,4 +70,5 @@ pub use rigid_body::{ReferencePoint, RigidBody};
 pub use root_crack::RootCrack;
 pub use row_log::RowLog;
 pub use seal::{bytes_digest, file_digest};
+pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

@@ -15,7 +15,7 @@ use crate::reduced_gear_error::ReducedGearError;
 use gearmesh_geometry::Flank;
 
 /// Natural modes with the bore held, modal mass 1, lowest first.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModalBasis {
     /// ω² of each mode (rad²/s²).
     pub omega_squared: Vec<f64>,

@@ -8,7 +8,7 @@
 /// ```text
 /// δ = q [ c₀(ξ) − w_h(ξ) − k ln(a/a₀) ],     k = 2(1 − ν²)/(πE),     w_h(ξ) = Φ(ξ)ᵀ W Φ(ξ)
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct NearField {
     /// Half width a₀ of the Hertz pressure in metres.
     pub half_width_m: f64,

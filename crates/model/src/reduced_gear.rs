@@ -9,10 +9,11 @@ use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use crate::stored_gear::StoredGear;
 
 /// The points of a flank at which unit loads act. Loads are numbered roll-major: load = roll station · `z_m.len()` +
 /// axial station. Between the points a load is spread by hat functions in roll angle and z.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlankGrid {
     /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²).
     pub roll_angles_rad: Vec<f64>,
@@ -40,7 +41,7 @@ impl FlankGrid {
 }
 
 /// What a strain gauge reads per unit load.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GaugeRows {
     /// Name by which results list it.
     pub name: String,
@@ -122,12 +123,12 @@ impl ReductionChecks {
 /// A reduced gear body: linear compliance of all flanks, gauges, and where they come from.
 ///
 /// With f = `flanks.len()` hands that carry loads, L = `grid.len()` loads a flank, z = `teeth` and N = `sectors`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReducedGear {
     /// Name of the gear.
     pub name: String,
-    /// The gear definition it was made from, word for word.
-    pub input_toml: String,
+    /// The gear file it was made from, and what that file says.
+    pub input: StoredGear,
     /// Number of teeth z.
     pub teeth: usize,
     /// The body repeats N times around; a divisor of z.

@@ -14,6 +14,7 @@ impl ReducedGear {
     pub fn validate(&self) -> Result<(), ReducedGearError> {
         self.check_counts()?;
         self.check_quantities()?;
+        self.check_definition()?;
         let (teeth, flanks, loads) = (self.teeth, self.flanks.len(), self.grid.len());
         let own = self.teeth_per_sector();
         let expected = own * flanks * teeth * flanks * loads * loads;
@@ -101,6 +102,39 @@ impl ReducedGear {
             f64::is_finite,
             "finite",
         )
+    }
+
+    /// The gear's definition, where it is known, is that of this body and holds quantities that there can be.
+    fn check_definition(&self) -> Result<(), ReducedGearError> {
+        let Some(gear) = self.input.definition() else {
+            return Ok(());
+        };
+        if gear.tooth.teeth != self.teeth {
+            let found = gear.tooth.teeth;
+            return Err(out_of_range("definition.tooth.teeth", found, "gear.teeth"));
+        }
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        let (tooth, material) = (&gear.tooth, &gear.material);
+        for (item, value) in [
+            ("definition.tooth.module", tooth.module_m),
+            ("definition.tooth.face_width", tooth.face_width_m),
+            ("definition.blank.bore_radius", gear.blank.bore_radius_m),
+            ("definition.material.young", material.young_pa),
+            (
+                "definition.material.density",
+                material.density_kg_per_m3.unwrap_or(1.0),
+            ),
+        ] {
+            in_range(item, value, positive, "above 0")?;
+        }
+        let poisson = |value: f64| (0.0..0.5).contains(&value);
+        let (item, value) = ("definition.material.poisson", material.poisson);
+        in_range(item, value, poisson, "at least 0, less than 0.5")?;
+        for flanks in [&gear.microgeometry.right, &gear.microgeometry.left] {
+            let (item, value) = ("definition.microgeometry", flanks.most_added_m());
+            in_range(item, value, f64::is_finite, "finite")?;
+        }
+        Ok(())
     }
 
     fn check_crack(&self) -> Result<(), ReducedGearError> {

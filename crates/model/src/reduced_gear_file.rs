@@ -2,59 +2,40 @@
 
 use std::path::Path;
 
-use crate::crack_file::{put_crack, take_crack};
-use crate::data_tree::{DataArray, DataTree, FileFormat, Values};
-use crate::dynamics_file::{
-    Sizes, put_dynamics, take_modes, take_reference_point, take_rigid_body,
-};
+use crate::data_tree::{DataTree, FileFormat};
 use crate::file_error::FileError;
+use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
-use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
+use crate::record::{Fields, OPEN, Record, read_record, write_record};
+use crate::reduced_gear::{GaugeRows, Provenance, ReducedGear};
+use crate::rigid_body::{ReferencePoint, RigidBody};
+use crate::root_crack::RootCrack;
 use gearmesh_geometry::Flank;
 
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes; 4: crack
-    version: 4,
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear
+    version: 5,
 };
 
-pub(crate) const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
-pub(crate) const NORMAL: &str =
-    "inward normal of the flank at each point, positive into the material";
-pub(crate) const FLANK_COMPONENTS: &str =
-    "flank: inward normal, profile tangential towards the tip, axial +z";
+/// The first version that holds what the gear file says, besides its text.
+const TYPED_DEFINITION: u32 = 5;
+
+const GEAR_FRAME: &str = "gear: right-handed, z the axis, zero at mid-face, tooth 0 centred on +x, teeth counter-clockwise";
+const NORMAL: &str = "inward normal of the flank at each point, positive into the material";
+const FLANK_COMPONENTS: &str = "flank: inward normal, profile tangential towards the tip, axial +z";
+const LOAD: &str = "load: roll station, axial station";
+const MOTION: &str = "motion: x, y, z, rotations about x, y, z";
 
 /// Writes a reduced gear, atomically.
 ///
 /// # Errors
 /// [`FileError::ReducedGear`] for a gear that contradicts itself, otherwise as [`DataTree::write`].
 pub fn write_reduced_gear(path: &Path, gear: &ReducedGear) -> Result<(), FileError> {
-    gear.validate().map_err(|source| FileError::ReducedGear {
-        path: path.to_owned(),
-        source,
-    })?;
+    check(path, gear)?;
     let mut tree = DataTree::default();
-    put_gear(&mut tree, gear);
-    put_compliance(&mut tree, gear);
-    if let Some(near_field) = &gear.near_field {
-        put_near_field(&mut tree, gear, near_field);
-    }
-    for (index, gauge) in gear.gauges.iter().enumerate() {
-        put_gauge(&mut tree, gear, index, gauge);
-    }
-    put_dynamics(&mut tree, gear);
-    if let Some(crack) = &gear.crack {
-        put_crack(&mut tree, crack, gear.teeth, gear.grid.len());
-    }
-    put_provenance(&mut tree, &gear.provenance);
-    put_named_numbers(
-        &mut tree,
-        "checks",
-        "1",
-        "relative error of an identity",
-        &named_checks(&gear.checks),
-    );
+    write_record(&mut gear.clone(), &mut tree);
     tree.write(path, &REDUCED_GEAR_FORMAT)
 }
 
@@ -63,431 +44,393 @@ pub fn write_reduced_gear(path: &Path, gear: &ReducedGear) -> Result<(), FileErr
 /// # Errors
 /// Every kind of [`FileError`] except those about meshes; each names the file and the item.
 pub fn read_reduced_gear(path: &Path) -> Result<ReducedGear, FileError> {
-    let mut tree = DataTree::read(path, &REDUCED_GEAR_FORMAT)?;
-    let (teeth, sectors) = (
-        tree.take_count(path, "gear/teeth")?,
-        tree.take_count(path, "gear/sectors")?,
-    );
-    let [stations] = tree.shape(path, "grid/roll_angles")?;
-    let [axial_stations] = tree.shape(path, "grid/z")?;
-    let [hands] = tree.shape(path, "grid/flanks")?;
-    let grid = FlankGrid {
-        roll_angles_rad: tree.take_f64(path, "grid/roll_angles", &[stations])?,
-        z_m: tree.take_f64(path, "grid/z", &[axial_stations])?,
-        slices: tree.take_count(path, "grid/slices")?,
-    };
-    let flanks = tree.take_u32(path, "grid/flanks", &[hands])?;
-    let flanks = flanks
-        .into_iter()
-        .map(|code| flank_of(path, "grid/flanks", code))
-        .collect::<Result<_, _>>()?;
-    let loads = grid.len();
-    // `sectors` may be zero in a faulty file; the division is repeated by `validate`, which says so.
-    let own = teeth.checked_div(sectors).unwrap_or_default();
-    let gauges = tree.children("gauges").len();
-    let gauges = (0..gauges).map(|index| take_gauge(&mut tree, path, index, [teeth, hands, loads]));
-    let gauges: Vec<GaugeRows> = gauges.collect::<Result<_, _>>()?;
-    let sizes = Sizes {
-        teeth,
-        hands,
-        loads,
-        gauges: gauges.len(),
-    };
-    let gear = ReducedGear {
-        name: tree.take_text(path, "gear/name")?,
-        input_toml: tree.take_text(path, "gear/input_toml")?,
-        teeth,
-        sectors,
-        base_radius_m: tree.take_scalar(path, "gear/base_radius")?,
-        face_width_m: tree.take_scalar(path, "gear/face_width")?,
-        young_pa: tree.take_scalar(path, "gear/young")?,
-        poisson: tree.take_scalar(path, "gear/poisson")?,
-        grid,
-        flanks,
-        c_hub: tree.take_f64(
-            path,
-            "compliance/c_hub",
-            &[own, hands, teeth, hands, loads, loads],
-        )?,
-        c_tooth: tree.take_f64(path, "compliance/c_tooth", &[hands, loads, loads])?,
-        opposite_distance_m: tree.take_f64(
-            path,
-            "compliance/opposite_distance",
-            &[hands, stations],
-        )?,
-        near_field: take_near_field(&mut tree, path, hands, stations)?,
-        gauges,
-        rigid_body: take_rigid_body(&mut tree, path)?,
-        reference_point: take_reference_point(&mut tree, path, sizes)?,
-        modes: take_modes(&mut tree, path, sizes)?,
-        crack: take_crack(&mut tree, path, teeth, loads)?,
-        provenance: take_provenance(&mut tree, path)?,
-        checks: take_checks(&mut tree, path)?,
-    };
-    gear.validate().map_err(|source| FileError::ReducedGear {
-        path: path.to_owned(),
-        source,
-    })?;
+    let (mut tree, version) = DataTree::read_with_version(path, &REDUCED_GEAR_FORMAT)?;
+    let gear: ReducedGear = read_record(&mut tree, path, version)?;
+    check(path, &gear)?;
     Ok(gear)
 }
 
-fn put_gear(tree: &mut DataTree, gear: &ReducedGear) {
-    tree.put_text("gear/name", &gear.name);
-    tree.put_text("gear/input_toml", &gear.input_toml);
-    tree.put("gear/teeth", count(gear.teeth, "number of teeth"));
-    tree.put(
-        "gear/sectors",
-        count(gear.sectors, "number of equal sectors of the body"),
-    );
-    tree.put(
-        "gear/base_radius",
-        DataArray::scalar(gear.base_radius_m, "m", "base circle radius"),
-    );
-    tree.put(
-        "gear/face_width",
-        DataArray::scalar(gear.face_width_m, "m", "face width"),
-    );
-    tree.put(
-        "gear/young",
-        DataArray::scalar(gear.young_pa, "Pa", "Young's modulus"),
-    );
-    tree.put(
-        "gear/poisson",
-        DataArray::scalar(gear.poisson, "1", "Poisson's ratio"),
-    );
-    let grid = &gear.grid;
-    let axes = [("roll station", grid.roll_angles_rad.len())];
-    let array = DataArray::new(
-        Values::F64(grid.roll_angles_rad.clone()),
-        &axes,
-        "rad",
-        "roll angles tan(alpha)",
-    );
-    tree.put("grid/roll_angles", array);
-    let array = DataArray::new(
-        Values::F64(grid.z_m.clone()),
-        &[("axial station", grid.z_m.len())],
-        "m",
-        "axial positions",
-    );
-    tree.put("grid/z", array.in_frame(GEAR_FRAME));
-    tree.put(
-        "grid/slices",
-        count(grid.slices, "slices across the face width"),
-    );
-    let codes = gear.flanks.iter().map(|&flank| code_of(flank)).collect();
-    let description = "hands that carry loads: 0 right (faces clockwise), 1 left";
-    tree.put(
-        "grid/flanks",
-        DataArray::new(
-            Values::U32(codes),
-            &[("flank", gear.flanks.len())],
-            "1",
-            description,
-        ),
-    );
+fn check(path: &Path, gear: &ReducedGear) -> Result<(), FileError> {
+    gear.validate().map_err(|source| FileError::ReducedGear {
+        path: path.to_owned(),
+        source,
+    })
 }
 
-fn put_compliance(tree: &mut DataTree, gear: &ReducedGear) {
-    let (hands, loads) = (gear.flanks.len(), gear.grid.len());
-    let axes = [
-        ("load tooth in sector", gear.teeth_per_sector()),
-        ("load flank", hands),
-        ("response tooth", gear.teeth),
-        ("response flank", hands),
-        ("load: roll station, axial station", loads),
-        ("response: roll station, axial station", loads),
-    ];
-    let description = "deflection at the response point per force at the load point, hub held";
-    let array = DataArray::new(Values::F64(gear.c_hub.clone()), &axes, "m/N", description);
-    tree.put("compliance/c_hub", array.in_frame(NORMAL));
-    let axes = [("flank", hands), axes[4], axes[5]];
-    let description = "the same on the tooth-only submodel, equal for all teeth";
-    let array = DataArray::new(Values::F64(gear.c_tooth.clone()), &axes, "m/N", description);
-    tree.put("compliance/c_tooth", array.in_frame(NORMAL));
-    let axes = [
-        ("flank", hands),
-        ("roll station", gear.grid.roll_angles_rad.len()),
-    ];
-    let description = "distance along the normal to the opposite side of the tooth";
-    let array = DataArray::new(
-        Values::F64(gear.opposite_distance_m.clone()),
-        &axes,
-        "m",
-        description,
-    );
-    tree.put("compliance/opposite_distance", array.in_frame(NORMAL));
-}
-
-fn put_near_field(tree: &mut DataTree, gear: &ReducedGear, near_field: &NearField) {
-    let at = |item: &str| format!("near_field/{item}");
-    let mut scalar = |item: &str, value: f64, unit: &str, description: &str| {
-        tree.put(at(item), DataArray::scalar(value, unit, description));
-    };
-    scalar(
-        "half_width",
-        near_field.half_width_m,
-        "m",
-        "half width of the calibrating Hertz pressure",
-    );
-    scalar(
-        "element",
-        near_field.element_m,
-        "m",
-        "element length at the load of the finer mesh behind the contact compliance",
-    );
-    scalar(
-        "residual",
-        near_field.residual,
-        "1",
-        "largest relative step from that mesh to the extrapolated contact compliance",
-    );
-    let places = [("place", near_field.roll_angles_rad.len())];
-    let array = DataArray::new(
-        Values::F64(near_field.roll_angles_rad.clone()),
-        &places,
-        "rad",
-        "roll angles tan(alpha) of the places",
-    );
-    tree.put(at("roll_angles"), array);
-    let description = "deflection of the contact centre per line load, tooth-only submodel, plane strain, fine mesh";
-    let array = DataArray::new(
-        Values::F64(near_field.contact_m2_per_n.clone()),
-        &places,
-        "m^2/N",
-        description,
-    );
-    tree.put(at("contact"), array.in_frame(NORMAL));
-    let stations = gear.grid.roll_angles_rad.len();
-    let axes = [
-        ("flank", gear.flanks.len()),
-        ("load: roll station", stations),
-        ("response: roll station", stations),
-    ];
-    let description = "the same per line load of a hat, the gear's own mesh and hats";
-    let array = DataArray::new(
-        Values::F64(near_field.mesh_m2_per_n.clone()),
-        &axes,
-        "m^2/N",
-        description,
-    );
-    tree.put(at("mesh"), array.in_frame(NORMAL));
-}
-
-/// Files of version 1 have no such group.
-fn take_near_field(
-    tree: &mut DataTree,
-    path: &Path,
+/// Lengths that the arrays have in common.
+#[derive(Clone, Copy)]
+struct Sizes {
+    teeth: usize,
     hands: usize,
     stations: usize,
-) -> Result<Option<NearField>, FileError> {
-    let at = |item: &str| format!("near_field/{item}");
-    if tree.children("near_field").is_empty() {
-        return Ok(None);
-    }
-    let [places] = tree.shape(path, &at("roll_angles"))?;
-    Ok(Some(NearField {
-        half_width_m: tree.take_scalar(path, &at("half_width"))?,
-        roll_angles_rad: tree.take_f64(path, &at("roll_angles"), &[places])?,
-        contact_m2_per_n: tree.take_f64(path, &at("contact"), &[places])?,
-        mesh_m2_per_n: tree.take_f64(path, &at("mesh"), &[hands, stations, stations])?,
-        element_m: tree.take_scalar(path, &at("element"))?,
-        residual: tree.take_scalar(path, &at("residual"))?,
-    }))
+    loads: usize,
+    gauges: usize,
 }
 
-fn put_gauge(tree: &mut DataTree, gear: &ReducedGear, index: usize, gauge: &GaugeRows) {
-    let at = |item: &str| format!("gauges/{index}/{item}");
-    tree.put_text(at("name"), &gauge.name);
-    tree.put_text(at("description"), &gauge.description);
-    tree.put(at("tooth"), count(gauge.tooth, "tooth the gauge sits on"));
-    tree.put(
-        at("side"),
-        DataArray::count(code_of(gauge.side), "side of the tooth: 0 right, 1 left"),
-    );
-    let error = DataArray::scalar(
-        gauge.error_estimate_relative,
-        "1",
-        "estimated relative discretisation error",
-    );
-    tree.put(at("error_estimate"), error);
-    let (hands, loads) = (gear.flanks.len(), gear.grid.len());
-    let load = ("load: roll station, axial station", loads);
+impl Record for ReducedGear {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("gear/name", &mut self.name, "name of the gear")?;
+        let typed = f.version() >= TYPED_DEFINITION;
+        (self.input).fields(f, ("gear/input_toml", "definition"), typed)?;
+        f.count("gear/teeth", &mut self.teeth, "number of teeth")?;
+        let what = "number of equal sectors of the body";
+        f.count("gear/sectors", &mut self.sectors, what)?;
+        let what = "base circle radius";
+        f.number("gear/base_radius", &mut self.base_radius_m, "m", what)?;
+        f.number("gear/face_width", &mut self.face_width_m, "m", "face width")?;
+        f.number("gear/young", &mut self.young_pa, "Pa", "Young's modulus")?;
+        f.number("gear/poisson", &mut self.poisson, "1", "Poisson's ratio")?;
+        self.grid_fields(f)?;
+        let sizes = Sizes {
+            teeth: self.teeth,
+            hands: self.flanks.len(),
+            stations: self.grid.roll_angles_rad.len(),
+            loads: self.grid.len(),
+            gauges: 0,
+        };
+        self.compliance_fields(f, sizes)?;
+        f.optional("near_field", &mut self.near_field, |it, f| {
+            near_field_fields(it, f, sizes)
+        })?;
+        f.list("gauges", &mut self.gauges, |it, f| {
+            gauge_fields(it, f, sizes)
+        })?;
+        let sizes = Sizes {
+            gauges: self.gauges.len(),
+            ..sizes
+        };
+        f.optional("rigid_body", &mut self.rigid_body, RigidBody::fields)?;
+        f.optional("reference_point", &mut self.reference_point, |it, f| {
+            reference_point_fields(it, f, sizes)
+        })?;
+        f.optional("modes", &mut self.modes, |it, f| mode_fields(it, f, sizes))?;
+        f.optional("crack", &mut self.crack, |it, f| crack_fields(it, f, sizes))?;
+        f.group("provenance", |f| self.provenance.fields(f))?;
+        self.check_fields(f)
+    }
+}
+
+impl ReducedGear {
+    fn grid_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let grid = &mut self.grid;
+        let (rolls, axes) = (&mut grid.roll_angles_rad, [("roll station", OPEN)]);
+        f.numbers(
+            "grid/roll_angles",
+            rolls,
+            &axes,
+            "rad",
+            "roll angles tan(alpha)",
+        )?;
+        let axes = [("axial station", OPEN)];
+        f.in_frame(GEAR_FRAME)
+            .numbers("grid/z", &mut grid.z_m, &axes, "m", "axial positions")?;
+        f.count(
+            "grid/slices",
+            &mut grid.slices,
+            "slices across the face width",
+        )?;
+        let mut codes = self.flanks.iter().map(|flank| code_of(*flank)).collect();
+        let what = "hands that carry loads: 0 right (faces clockwise), 1 left";
+        f.counts("grid/flanks", &mut codes, &[("flank", OPEN)], what)?;
+        if f.is_reading() {
+            let flanks = codes
+                .into_iter()
+                .map(|code| flank_of(f, "grid/flanks", code));
+            self.flanks = flanks.collect::<Result<_, _>>()?;
+        }
+        Ok(())
+    }
+
+    fn compliance_fields(&mut self, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
+        let Sizes {
+            teeth,
+            hands,
+            loads,
+            ..
+        } = sizes;
+        // `sectors` may be zero in a faulty file; `validate` divides again and says so.
+        let own = teeth.checked_div(self.sectors).unwrap_or_default();
+        let response = ("response: roll station, axial station", loads);
+        let axes = [
+            ("load tooth in sector", own),
+            ("load flank", hands),
+            ("response tooth", teeth),
+            ("response flank", hands),
+            (LOAD, loads),
+            response,
+        ];
+        let what = "deflection at the response point per force at the load point, hub held";
+        f.in_frame(NORMAL)
+            .bulk("compliance/c_hub", &mut self.c_hub, &axes, "m/N", what)?;
+        let axes = [("flank", hands), (LOAD, loads), response];
+        let what = "the same on the tooth-only submodel, equal for all teeth";
+        f.in_frame(NORMAL)
+            .bulk("compliance/c_tooth", &mut self.c_tooth, &axes, "m/N", what)?;
+        let axes = [("flank", hands), ("roll station", sizes.stations)];
+        let what = "distance along the normal to the opposite side of the tooth";
+        let (name, distances) = (
+            "compliance/opposite_distance",
+            &mut self.opposite_distance_m,
+        );
+        f.in_frame(NORMAL)
+            .numbers(name, distances, &axes, "m", what)
+    }
+
+    /// The two checks that every reduction makes come first, by name, then further ones.
+    fn check_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let checks = &mut self.checks;
+        let first = [
+            ("symmetry", checks.symmetry),
+            ("pattern_identity", checks.pattern_identity),
+        ];
+        let mut named: Vec<_> = first.map(|(name, value)| (name.to_owned(), value)).into();
+        named.append(&mut checks.further);
+        named_numbers(
+            f,
+            "checks",
+            &mut named,
+            ("1", "relative error of an identity"),
+        )?;
+        if f.is_reading() {
+            for (k, (name, _)) in first.into_iter().enumerate() {
+                if named.get(k).is_none_or(|(found, _)| found != name) {
+                    return Err(f.missing(&format!("check \"{name}\"")));
+                }
+            }
+            (checks.symmetry, checks.pattern_identity) = (named[0].1, named[1].1);
+            checks.further = named.split_off(2);
+        }
+        Ok(())
+    }
+}
+
+fn near_field_fields(
+    it: &mut NearField,
+    f: &mut Fields<'_>,
+    sizes: Sizes,
+) -> Result<(), FileError> {
+    let what = "half width of the calibrating Hertz pressure";
+    f.number("half_width", &mut it.half_width_m, "m", what)?;
+    let what = "element length at the load of the finer mesh behind the contact compliance";
+    f.number("element", &mut it.element_m, "m", what)?;
+    let what = "largest relative step from that mesh to the extrapolated contact compliance";
+    f.number("residual", &mut it.residual, "1", what)?;
+    let rolls = &mut it.roll_angles_rad;
+    let what = "roll angles tan(alpha) of the places";
+    f.numbers("roll_angles", rolls, &[("place", OPEN)], "rad", what)?;
+    let places = [("place", rolls.len())];
+    let what = "deflection of the contact centre per line load, tooth-only submodel, plane strain, fine mesh";
+    f.in_frame(NORMAL)
+        .numbers("contact", &mut it.contact_m2_per_n, &places, "m^2/N", what)?;
     let axes = [
-        ("tooth", gear.teeth),
-        ("flank", hands),
-        load,
-        ("component", 3),
+        ("flank", sizes.hands),
+        ("load: roll station", sizes.stations),
+        ("response: roll station", sizes.stations),
     ];
-    let array = DataArray::new(
-        Values::F64(gauge.adjoint.clone()),
+    let what = "the same per line load of a hat, the gear's own mesh and hats";
+    f.in_frame(NORMAL)
+        .numbers("mesh", &mut it.mesh_m2_per_n, &axes, "m^2/N", what)
+}
+
+fn gauge_fields(it: &mut GaugeRows, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
+    f.text("name", &mut it.name, "name of the gauge")?;
+    f.text(
+        "description",
+        &mut it.description,
+        "position and size in words",
+    )?;
+    f.count("tooth", &mut it.tooth, "tooth the gauge sits on")?;
+    flank(
+        f,
+        "side",
+        &mut it.side,
+        "side of the tooth: 0 right, 1 left",
+    )?;
+    let what = "estimated relative discretisation error";
+    f.number("error_estimate", &mut it.error_estimate_relative, "1", what)?;
+    let (hands, load) = (("flank", sizes.hands), (LOAD, sizes.loads));
+    let axes = [("tooth", sizes.teeth), hands, load, ("component", 3)];
+    f.in_frame(FLANK_COMPONENTS).bulk(
+        "adjoint",
+        &mut it.adjoint,
         &axes,
         "1/N",
         "strain per force, method 2",
-    );
-    tree.put(at("adjoint"), array.in_frame(FLANK_COMPONENTS));
-    let axes = [("flank", hands), load];
-    let description = "strain per force on the own tooth that method 1 leaves out";
-    let array = DataArray::new(
-        Values::F64(gauge.own_tooth.clone()),
-        &axes,
-        "1/N",
-        description,
-    );
-    tree.put(at("own_tooth"), array.in_frame(NORMAL));
+    )?;
+    let what = "strain per force on the own tooth that method 1 leaves out";
+    f.in_frame(NORMAL)
+        .bulk("own_tooth", &mut it.own_tooth, &[hands, load], "1/N", what)
 }
 
-fn take_gauge(
-    tree: &mut DataTree,
-    path: &Path,
-    index: usize,
-    sizes: [usize; 3],
-) -> Result<GaugeRows, FileError> {
-    let [teeth, hands, loads] = sizes;
-    let at = |item: &str| format!("gauges/{index}/{item}");
-    let side = tree.take_count(path, &at("side"))? as u32;
-    Ok(GaugeRows {
-        name: tree.take_text(path, &at("name"))?,
-        tooth: tree.take_count(path, &at("tooth"))?,
-        side: flank_of(path, &at("side"), side)?,
-        description: tree.take_text(path, &at("description"))?,
-        error_estimate_relative: tree.take_scalar(path, &at("error_estimate"))?,
-        adjoint: tree.take_f64(path, &at("adjoint"), &[teeth, hands, loads, 3])?,
-        own_tooth: tree.take_f64(path, &at("own_tooth"), &[hands, loads])?,
-    })
-}
-
-fn put_provenance(tree: &mut DataTree, provenance: &Provenance) {
-    let at = |item: &str| format!("provenance/{item}");
-    tree.put_text(at("program"), &provenance.program);
-    tree.put_text(at("version"), &provenance.version);
-    tree.put_text(at("created_utc"), &provenance.created_utc);
-    tree.put_text(at("element"), &provenance.element);
-    tree.put(at("threads"), count(provenance.threads, "threads used"));
-    tree.put(
-        at("nodes"),
-        count(provenance.nodes, "nodes of the finite element model"),
-    );
-    tree.put(
-        at("elements"),
-        count(provenance.elements, "elements of the model"),
-    );
-    tree.put(
-        at("dofs"),
-        count(provenance.dofs, "free degrees of freedom of the model"),
-    );
-    put_named_numbers(
-        tree,
-        "provenance/stage",
-        "s",
-        "wall-clock time of a stage",
-        &provenance.stage_seconds,
-    );
-    put_named_numbers(
-        tree,
-        "provenance/effort",
-        "1",
-        "a count of what was done",
-        &provenance.effort,
-    );
-}
-
-fn take_provenance(tree: &mut DataTree, path: &Path) -> Result<Provenance, FileError> {
-    let at = |item: &str| format!("provenance/{item}");
-    Ok(Provenance {
-        program: tree.take_text(path, &at("program"))?,
-        version: tree.take_text(path, &at("version"))?,
-        created_utc: tree.take_text(path, &at("created_utc"))?,
-        threads: tree.take_count(path, &at("threads"))?,
-        element: tree.take_text(path, &at("element"))?,
-        nodes: tree.take_count(path, &at("nodes"))?,
-        elements: tree.take_count(path, &at("elements"))?,
-        dofs: tree.take_count(path, &at("dofs"))?,
-        stage_seconds: take_named_numbers(tree, path, "provenance/stage")?,
-        effort: take_named_numbers(tree, path, "provenance/effort")?,
-    })
-}
-
-fn named_checks(checks: &ReductionChecks) -> Vec<(String, f64)> {
-    let mut named = vec![
-        ("symmetry".to_owned(), checks.symmetry),
-        ("pattern_identity".to_owned(), checks.pattern_identity),
-    ];
-    named.extend(checks.further.iter().cloned());
-    named
-}
-
-fn take_checks(tree: &mut DataTree, path: &Path) -> Result<ReductionChecks, FileError> {
-    let mut named = take_named_numbers(tree, path, "checks")?.into_iter();
-    let mut next = |name: &str| match named.next() {
-        Some((found, value)) if found == name => Ok(value),
-        _ => Err(FileError::Missing {
-            path: path.to_owned(),
-            item: format!("check \"{name}\""),
-        }),
-    };
-    let (symmetry, pattern_identity) = (next("symmetry")?, next("pattern_identity")?);
-    Ok(ReductionChecks {
-        symmetry,
-        pattern_identity,
-        further: named.collect(),
-    })
-}
-
-/// An ordered list of named numbers as `group/index/{name, value}`: the names are free text.
-fn put_named_numbers(
-    tree: &mut DataTree,
-    group: &str,
-    unit: &str,
-    description: &str,
-    numbers: &[(String, f64)],
-) {
-    for (index, (name, value)) in numbers.iter().enumerate() {
-        tree.put_text(format!("{group}/{index}/name"), name);
-        tree.put(
-            format!("{group}/{index}/value"),
-            DataArray::scalar(*value, unit, description),
-        );
+impl Record for RigidBody {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.number("mass", &mut self.mass_kg, "kg", "mass of the meshed body")?;
+        let axes = [("axis", 3), ("axis", 3)];
+        let what = "point that the inertia tensor is about";
+        f.in_frame(GEAR_FRAME)
+            .fixed("reference", &mut self.reference_m, &axes[..1], "m", what)?;
+        let what = "centre of mass";
+        f.in_frame(GEAR_FRAME)
+            .fixed("centre", &mut self.centre_m, &axes[..1], "m", what)?;
+        let inertia = self.inertia_kg_m2.as_flattened_mut();
+        let what = "inertia tensor about the reference point";
+        f.in_frame(GEAR_FRAME)
+            .fixed("inertia", inertia, &axes, "kg*m^2", what)
     }
 }
 
-fn take_named_numbers(
-    tree: &mut DataTree,
-    path: &Path,
+fn reference_point_fields(
+    it: &mut ReferencePoint,
+    f: &mut Fields<'_>,
+    sizes: Sizes,
+) -> Result<(), FileError> {
+    let what = "place of the hub's reference point";
+    f.in_frame(GEAR_FRAME)
+        .fixed("place", &mut it.place_m, &[("axis", 3)], "m", what)?;
+    let axes = [
+        ("tooth", sizes.teeth),
+        ("flank", sizes.hands),
+        (LOAD, sizes.loads),
+        ("component", 3),
+        (MOTION, 6),
+    ];
+    let what = "displacement at the flank per motion of the hub's reference point (m per rad for rotations)";
+    f.in_frame(FLANK_COMPONENTS)
+        .bulk("flank", &mut it.flank, &axes, "1", what)
+}
+
+fn mode_fields(it: &mut ModalBasis, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
+    let what = "every mode up to this frequency is in the basis";
+    f.number("complete_to", &mut it.complete_to_hz, "Hz", what)?;
+    let what = "squares of the natural angular frequencies, bore held";
+    let squares = &mut it.omega_squared;
+    f.numbers(
+        "omega_squared",
+        squares,
+        &[("mode", OPEN)],
+        "rad^2/s^2",
+        what,
+    )?;
+    let modes = ("mode", squares.len());
+    let mut diameters = it.nodal_diameters.iter().map(|&n| n as u32).collect();
+    let what = "nodal diameters: the strongest harmonic round the teeth";
+    f.counts("nodal_diameters", &mut diameters, &[modes], what)?;
+    it.nodal_diameters = diameters.into_iter().map(|n| n as usize).collect();
+    let axes = [
+        modes,
+        ("tooth", sizes.teeth),
+        ("flank", sizes.hands),
+        (LOAD, sizes.loads),
+        ("component", 3),
+    ];
+    let what = "mode shapes of modal mass 1 at the flank grid";
+    f.in_frame(FLANK_COMPONENTS)
+        .bulk("flank", &mut it.flank, &axes, "kg^-1/2", what)?;
+    let axes = [modes, ("gauge", sizes.gauges)];
+    let what = "strain of the gauges in the mode shapes";
+    f.numbers("gauges", &mut it.gauges, &axes, "m^-1*kg^-1/2", what)?;
+    let axes = [modes, (MOTION, 6)];
+    let what = "mode shapes times mass matrix times rigid motions about the origin (kg^1/2 m for rotations)";
+    f.in_frame(GEAR_FRAME)
+        .numbers("coupling", &mut it.coupling, &axes, "kg^1/2", what)
+}
+
+fn crack_fields(it: &mut RootCrack, f: &mut Fields<'_>, sizes: Sizes) -> Result<(), FileError> {
+    f.count("tooth", &mut it.tooth, "cracked tooth")?;
+    flank(
+        f,
+        "side",
+        &mut it.side,
+        "side on which it opens: 0 right, 1 left",
+    )?;
+    f.number(
+        "mouth_radius",
+        &mut it.mouth_radius_m,
+        "m",
+        "radius of its mouth",
+    )?;
+    f.number("depth", &mut it.depth_m, "m", "depth")?;
+    let what = "angle to the tooth's centre line, 0 towards the gear's centre";
+    f.number("angle", &mut it.angle_rad, "rad", what)?;
+    let what = "bound of the compliance that further rows would add, relative to the largest added";
+    f.number("left_out", &mut it.left_out, "1", what)?;
+    let axes = [("row", OPEN), ("tooth", sizes.teeth), (LOAD, sizes.loads)];
+    let what = "rows whose products are the compliance added by the crack, for loads on its side of the teeth";
+    f.in_frame(NORMAL)
+        .bulk("rows", &mut it.rows, &axes, "(m/N)^0.5", what)
+}
+
+impl Record for Provenance {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text(
+            "program",
+            &mut self.program,
+            "program that reduced the gear",
+        )?;
+        f.text("version", &mut self.version, "its version")?;
+        f.text("created_utc", &mut self.created_utc, "when, UTC")?;
+        f.text("element", &mut self.element, "finite elements")?;
+        f.count("threads", &mut self.threads, "threads used")?;
+        f.count(
+            "nodes",
+            &mut self.nodes,
+            "nodes of the finite element model",
+        )?;
+        f.count("elements", &mut self.elements, "elements of the model")?;
+        f.count(
+            "dofs",
+            &mut self.dofs,
+            "free degrees of freedom of the model",
+        )?;
+        named_numbers(
+            f,
+            "stage",
+            &mut self.stage_seconds,
+            ("s", "wall-clock time of a stage"),
+        )?;
+        named_numbers(
+            f,
+            "effort",
+            &mut self.effort,
+            ("1", "a count of what was done"),
+        )
+    }
+}
+
+/// An ordered list of named numbers as `group/index/{name, value}`: the names are free text.
+fn named_numbers(
+    f: &mut Fields<'_>,
     group: &str,
-) -> Result<Vec<(String, f64)>, FileError> {
-    let count = tree.children(group).len();
-    let mut take = |index| {
-        let name = tree.take_text(path, &format!("{group}/{index}/name"))?;
-        Ok((
-            name,
-            tree.take_scalar(path, &format!("{group}/{index}/value"))?,
-        ))
-    };
-    (0..count).map(&mut take).collect()
+    numbers: &mut Vec<(String, f64)>,
+    (unit, what): (&str, &str),
+) -> Result<(), FileError> {
+    f.list(group, numbers, |(name, value), f| {
+        f.text("name", name, "its name")?;
+        f.number("value", value, unit, what)
+    })
 }
 
-/// Counts beyond 32 bits saturate; only nodes and degrees of freedom could ever come near.
-fn count(value: usize, description: &str) -> DataArray {
-    DataArray::count(u32::try_from(value).unwrap_or(u32::MAX), description)
+fn flank(f: &mut Fields<'_>, name: &str, flank: &mut Flank, what: &str) -> Result<(), FileError> {
+    let mut code = code_of(*flank) as usize;
+    f.count(name, &mut code, what)?;
+    *flank = flank_of(f, name, code as u32)?;
+    Ok(())
 }
 
-pub(crate) fn code_of(flank: Flank) -> u32 {
+fn code_of(flank: Flank) -> u32 {
     match flank {
         Flank::Right => 0,
         Flank::Left => 1,
     }
 }
 
-pub(crate) fn flank_of(path: &Path, item: &str, code: u32) -> Result<Flank, FileError> {
+fn flank_of(f: &Fields<'_>, item: &str, code: u32) -> Result<Flank, FileError> {
     match code {
         0 => Ok(Flank::Right),
         1 => Ok(Flank::Left),
-        _ => Err(FileError::WrongType {
-            path: path.to_owned(),
-            item: format!("\"{item}\""),
-            found: format!("the code {code}"),
-            expected: "0 (right) or 1 (left)",
-        }),
+        _ => {
+            let found = format!("the code {code}");
+            Err(f.wrong_type(item, &found, "0 (right) or 1 (left)"))
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A gear as a rigid body that hangs on the reference point of its hub, and what its flanks do under rigid motions.
 
 /// Mass and inertia of the meshed body, in the frame of the gear.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RigidBody {
     /// The reference point (m): rigid motions and `inertia_kg_m2` are about it.
     pub reference_m: [f64; 3],
@@ -58,7 +58,7 @@ impl RigidBody {
 ///
 /// The compliance at a held reference point is that of the held bore: a rigid bore whose six motions are zero is a
 /// held bore. A body that sits on a shaft needs these rows beside it, nothing else.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReferencePoint {
     /// Where it is, in the frame of the gear (m).
     pub place_m: [f64; 3],

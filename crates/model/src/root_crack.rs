@@ -10,7 +10,7 @@ use crate::reduced_gear::ReducedGear;
 use gearmesh_geometry::Flank;
 
 /// A crack and its rows φ.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RootCrack {
     /// Cracked tooth.
     pub tooth: usize,

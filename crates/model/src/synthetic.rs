@@ -8,8 +8,44 @@ use crate::near_field::NearField;
 use crate::reduced_gear::{FlankGrid, GaugeRows, Provenance, ReducedGear, ReductionChecks};
 use crate::rigid_body::{ReferencePoint, RigidBody};
 use crate::root_crack::RootCrack;
+use crate::stored_gear::StoredGear;
 use gearmesh_elements::CellKind;
 use gearmesh_geometry::Flank;
+
+/// The gear file of [`small_reduced_gear`].
+const SYNTHETIC_TEXT: &str = r#"# made up
+name = "synthetic" # α = 20°
+[tooth]
+teeth = 6
+module_mm = 20.0
+profile_shift = 0.4
+addendum = 0.8
+face_width_mm = 20.0
+[blank]
+kind = "thin-rim"
+bore_diameter_mm = 16.0
+hub_diameter_mm = 24.0
+rim_inner_diameter_mm = 60.0
+web_thickness_mm = 6.0
+[blank.holes]
+count = 3
+pitch_circle_diameter_mm = 42.0
+diameter_mm = 8.0
+phase_deg = 0.0
+[material]
+young_GPa = 210.0
+poisson = 0.3
+density_kg_per_m3 = 7850.0
+[microgeometry]
+lead_crowning_um = 5.0
+[[gauge]]
+name = "root"
+tooth = 0
+side = "right"
+tangent_deg = 30.0
+length_mm = 1.0
+width_mm = 2.0
+"#;
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
 pub fn small_reduced_gear() -> ReducedGear {
@@ -66,7 +102,7 @@ pub fn small_reduced_gear() -> ReducedGear {
     };
     ReducedGear {
         name: "synthetic".to_owned(),
-        input_toml: "# made up\nname = \"synthetic\"\nnote = \"α = 20°\"\n".to_owned(),
+        input: StoredGear::of_older_file(SYNTHETIC_TEXT.to_owned()),
         teeth,
         sectors,
         base_radius_m: 0.07,

@@ -12,8 +12,8 @@ use std::time::Duration;
 
 use gearmesh_model::synthetic::small_reduced_gear;
 use gearmesh_model::{
-    Column, ColumnFile, DataTree, FileError, FileFormat, ReducedGear, RowLog, read_reduced_gear,
-    write_columns, write_reduced_gear,
+    Column, ColumnFile, DataTree, FileError, FileFormat, ReducedGear, RowLog, StoredGear,
+    read_reduced_gear, write_columns, write_reduced_gear,
 };
 
 const CHILD_PATH: &str = "GEARMESH_TEST_CHILD_PATH";
@@ -21,7 +21,7 @@ const CHILD_PATH: &str = "GEARMESH_TEST_CHILD_PATH";
 /// The synthetic gear with a long input text: large enough that each limit strikes at another stage of writing.
 fn large_gear() -> ReducedGear {
     let mut gear = small_reduced_gear();
-    gear.input_toml = "# a long comment\n".repeat(20_000);
+    gear.input = StoredGear::without_definition("# a long comment\n".repeat(20_000));
     gear
 }
 

@@ -32,7 +32,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         .collect::<PyResult<Vec<_>>>()?;
     result.set_item("gauges", PyList::new(py, gauges)?)?;
     result.set_item("name", gear.name)?;
-    result.set_item("input_toml", gear.input_toml)?;
+    result.set_item("input_toml", gear.input.text)?;
     result.set_item("teeth", teeth)?;
     result.set_item("sectors", gear.sectors)?;
     result.set_item("base_radius_m", gear.base_radius_m)?;

@@ -13,7 +13,7 @@ use faer::Mat;
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{
-    FlankGrid, GaugeRows, NearField, Provenance, ReducedGear, ReductionChecks, utc_now,
+    FlankGrid, GaugeRows, NearField, Provenance, ReducedGear, ReductionChecks, StoredGear, utc_now,
 };
 use std::time::Instant;
 
@@ -210,7 +210,7 @@ pub(crate) fn assembled(
         .collect();
     ReducedGear {
         name: gear.name.clone(),
-        input_toml: gear.source.clone(),
+        input: StoredGear::new(gear.clone()),
         teeth: gear.tooth.teeth,
         sectors: gear.sectors(),
         base_radius_m: gear.profile.base_radius_m,

@@ -1,7 +1,5 @@
 //! What the flank of gear 1 feels over a whole passage: the largest pressure and line load at every place that touches.
 
-use gearmesh_geometry::GearDefinition;
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::{ContactPlaces, SceneResult};
 
 use crate::page::{FieldPicture, FieldValues, Section, Text};
@@ -15,8 +13,7 @@ const STRIPS_PER_POSITION: f64 = 0.7;
 /// Fields on the flank; `None` where an older program has not stored where the slices touch.
 pub(crate) fn section(r: &SceneResult) -> Option<Section> {
     let places = r.places.as_ref()?;
-    let document = InputDocument::new("gear in result", r.gear_toml[0].clone());
-    let gear = GearDefinition::from_document(&document).ok()?;
+    let gear = r.gears[0].definition()?;
     let flank = Flank::new(r, places, gear.profile.base_radius_m)?;
     let last = r.torque_nm.len() - 1;
     let block = r.force_n.len() / r.torque_nm.len();

@@ -1,7 +1,6 @@
 //! The orders that a pair's numbers of teeth and openings give, on either of its shafts.
 
-use gearmesh_geometry::GearDefinition;
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_model::StoredGear;
 use gearmesh_scene::SceneResult;
 use gearmesh_signal::OrderFilter;
 
@@ -43,17 +42,15 @@ pub struct PairOrders {
 }
 
 impl PairOrders {
-    /// Those of a result's gears; none where the gear files in it cannot be read.
+    /// Those of a result's gears; none where they are not known.
     pub fn of(result: &SceneResult) -> Option<Self> {
-        let gear = |text: &String| {
-            GearDefinition::from_document(&InputDocument::new("gear in result", text.clone())).ok()
-        };
-        let [Some(gear_1), Some(gear_2)] = result.gear_toml.each_ref().map(gear) else {
+        let [Some(gear_1), Some(gear_2)] = result.gears.each_ref().map(StoredGear::definition)
+        else {
             return None;
         };
         let gears = [gear_1, gear_2];
         Some(Self {
-            teeth: gears.each_ref().map(|gear| gear.tooth.teeth),
+            teeth: gears.map(|gear| gear.tooth.teeth),
             openings: gears.map(|gear| gear.blank.openings.map_or(0, |o| o.count())),
         })
     }

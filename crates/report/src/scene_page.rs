@@ -475,6 +475,6 @@ fn provenance(r: &SceneResult) -> Section {
             r.torque_balance.iter().copied().fold(0.0, f64::max)
         )))
         .push(Text::preformatted(r.scene_toml.clone()))
-        .push(Text::preformatted(r.gear_toml[0].clone()))
-        .push(Text::preformatted(r.gear_toml[1].clone()))
+        .push(Text::preformatted(r.gears[0].text.clone()))
+        .push(Text::preformatted(r.gears[1].text.clone()))
 }

@@ -17,6 +17,7 @@ use std::fmt;
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::definition::greatest_common_divisor;
+use gearmesh_model::Named;
 
 /// Pitches that neighbouring teeth are in mesh longer than the tooth itself, at each end: what loads them is felt in
 /// its root.
@@ -142,15 +143,12 @@ pub enum Extent {
     Part,
 }
 
-impl Extent {
-    /// Word in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Whole => "whole",
-            Self::Passage => "passage",
-            Self::Part => "part",
-        }
-    }
+impl Named for Extent {
+    const NAMES: &'static [(Self, &'static str)] = &[
+        (Self::Whole, "whole"),
+        (Self::Passage, "passage"),
+        (Self::Part, "part"),
+    ];
 }
 
 /// Period of a quantity beside the run.

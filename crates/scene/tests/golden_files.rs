@@ -11,7 +11,8 @@ use std::time::Duration;
 
 use gearmesh_model::synthetic::{small_crack, small_reduced_gear};
 use gearmesh_model::{
-    DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, read_reduced_gear, write_reduced_gear,
+    DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, StoredGear, read_reduced_gear,
+    write_reduced_gear,
 };
 use gearmesh_scene::periods::Coverage;
 use gearmesh_scene::system_run::{
@@ -30,6 +31,10 @@ fn file(kind: &str, version: u32) -> PathBuf {
 fn model(version: u32) -> ReducedGear {
     let mut gear = small_reduced_gear();
     gear.crack = Some(small_crack());
+    if version < 5 {
+        let text = "# made up\nname = \"synthetic\"\nnote = \"α = 20°\"\n";
+        gear.input = StoredGear::of_older_file(text.to_owned());
+    }
     if version < 4 {
         gear.crack = None;
     }
@@ -73,7 +78,7 @@ fn pair_result(version: u32) -> SceneResult {
     SceneResult {
         title: text("golden"),
         scene_toml: text("# the scene\ntitle = \"golden\"\n"),
-        gear_toml: [gear_toml(24), gear_toml(36)],
+        gears: [24, 36].map(|teeth| StoredGear::of_older_file(gear_toml(teeth))),
         model_files: [text("/a/gear_1.h5"), text("/a/gear_2.h5")],
         // Texts of newer programs: empty in files without them.
         microgeometry: Default::default(),

@@ -118,7 +118,7 @@ fn mates_of_unequal_width_touch_where_their_faces_overlap() {
             &format!("face_width_mm = {:?}", 1e3 * width_m),
         );
         let model = gearmesh_model::ReducedGear {
-            input_toml: toml,
+            input: gearmesh_model::StoredGear::of_older_file(toml),
             near_field: None,
             ..made_up_gears::mesh_common::pair_common::made_up_gear(profile, width_m, slices)
         };

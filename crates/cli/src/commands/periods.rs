@@ -1,5 +1,6 @@
 //! What a run of a pair has seen of each period, as marks, lines and JSON.
 
+use gearmesh_model::Named;
 use gearmesh_scene::SceneResult;
 use gearmesh_scene::periods::Coverage;
 use serde_json::{Value, json};
@@ -30,7 +31,7 @@ pub fn lines(result: &SceneResult) -> Vec<String> {
 /// "part".
 pub fn json(result: &SceneResult) -> Value {
     let quantities = result.coverages().into_iter().map(|(name, c)| {
-        json!({"quantity": name, "period_pitches": c.period_pitches, "run_pitches": c.run_pitches, "extent": c.extent.name()})
+        json!({"quantity": name, "period_pitches": c.period_pitches, "run_pitches": c.run_pitches, "extent": c.extent.name_in_files()})
     });
     let proposal = (!result.proposal.is_empty()).then_some(&result.proposal);
     json!({"quantities": quantities.collect::<Value>(), "proposal": proposal})

@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::length_unit::LengthUnit;
 use crate::offline::{self, FieldCase};
 use crate::{console, console::StageBar, output_name, overwriting};
-use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_reduction::GearBody;
 use gearmesh_scene::{LoadedScene, Scene, SceneResult, load, run as scene_run};
@@ -69,7 +68,7 @@ pub fn scene_of(result: &SceneResult, path: &Path) -> Result<LoadedScene, Failur
         )));
     }
     for (k, model) in loaded.models.iter().enumerate() {
-        if model.input_toml != result.gear_toml[k] {
+        if model.input != result.gears[k] {
             return Err(Failure::input(format!(
                 "{} has been made again from another gear file since {} was computed; run the scene again",
                 result.model_files[k],
@@ -190,14 +189,13 @@ fn field(
     result: &SceneResult,
 ) -> Result<(), Failure> {
     let FieldRequest { case, output } = request;
-    let source = result.gear_toml[case.gear - 1].clone();
-    let definition = GearDefinition::from_document(&InputDocument::new("gear in result", source))?;
+    let definition = result.gears[case.gear - 1].definition_in("the result")?;
     let bar = StageBar::new(&definition.name);
-    let body = GearBody::new(&definition, &offline::python()?, &bar)?;
+    let body = GearBody::new(definition, &offline::python()?, &bar)?;
     bar.finish();
-    let field = offline::field_of(loaded, result, &definition, &body, *case)?;
+    let field = offline::field_of(loaded, result, definition, &body, *case)?;
     offline::export_mesh(
-        &definition,
+        definition,
         &body.mesh,
         (&field).into(),
         LengthUnit::M,

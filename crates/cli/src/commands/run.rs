@@ -121,16 +121,14 @@ fn table(result: &SceneResult) -> Result<Vec<String>, Failure> {
 
 /// Width over which the faces overlap \[m\].
 fn zone_width_m(result: &SceneResult) -> Result<f64, Failure> {
-    use gearmesh_geometry::{GearDefinition, input::InputDocument};
-    let document = |name: &str, text: &str| InputDocument::new(name, text);
-    let width_m = |text: &String| -> Result<f64, Failure> {
-        let gear = GearDefinition::from_document(&document("gear in result", text))?;
-        Ok(gear.tooth.face_width_m)
+    use gearmesh_geometry::input::InputDocument;
+    let width_m = |gear: usize| -> Result<f64, Failure> {
+        let definition = result.gears[gear].definition_in("the result")?;
+        Ok(definition.tooth.face_width_m)
     };
-    let [gear_1, gear_2] = &result.gear_toml;
-    let scene = document("scene in result", &result.scene_toml);
+    let scene = InputDocument::new("scene in result", &result.scene_toml);
     let offset_m = Scene::from_document(scene, Path::new("."))?.axial_offset_m;
-    Ok(ContactZone::new([width_m(gear_1)?, width_m(gear_2)?], offset_m).width_m)
+    Ok(ContactZone::new([width_m(0)?, width_m(1)?], offset_m).width_m)
 }
 
 fn figures(result: &SceneResult) -> Result<serde_json::Value, Failure> {

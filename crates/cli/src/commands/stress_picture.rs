@@ -3,7 +3,6 @@
 use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::offline::{self, FieldCase};
-use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Element, GearDefinition};
 use gearmesh_reduction::GearBody;
 use gearmesh_report::scene_page::GearPicture;
@@ -17,9 +16,7 @@ pub fn pictures(
 ) -> Result<(Vec<GearPicture>, Vec<String>), Failure> {
     let (mut pictures, mut left_out) = (Vec::new(), Vec::new());
     for gear in [1, 2] {
-        let source = result.gear_toml[gear - 1].clone();
-        let document = InputDocument::new("gear in result", source);
-        let definition = GearDefinition::from_document(&document)?;
+        let definition = result.gears[gear - 1].definition_in("the result")?;
         if definition.blank.meshed.is_some() || definition.mesh.element == Element::Tet10 {
             left_out.push(format!(
                 "{}: its mesh has no cross-section of quadrilaterals; `gearmesh recover --field-gear {gear}` writes the whole field",
@@ -28,9 +25,9 @@ pub fn pictures(
             continue;
         }
         let bar = StageBar::new(&definition.name);
-        let body = GearBody::new(&definition, &offline::python()?, &bar)?;
+        let body = GearBody::new(definition, &offline::python()?, &bar)?;
         bar.finish();
-        pictures.push(picture(loaded, result, (gear, &definition, &body))?);
+        pictures.push(picture(loaded, result, (gear, definition, &body))?);
     }
     Ok((pictures, left_out))
 }

@@ -18,7 +18,7 @@ pub enum FaceEnds {
 }
 
 /// End relief: zero up to `length_m` before a face, `amount_m` at the face.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EndRelief {
     /// Material removed at the face \[m\].
     pub amount_m: f64,

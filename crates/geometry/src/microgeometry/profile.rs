@@ -1,9 +1,10 @@
 //! Laws along the profile: reliefs at tip and root, profile crowning.
 
 /// How a relief grows from its start, s = 0, to the place where its amount is stated, s = 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ReliefShape {
     /// s.
+    #[default]
     Linear,
     /// s².
     Parabolic,
@@ -53,7 +54,7 @@ impl ReliefShape {
 }
 
 /// Profile crowning: a parabola in roll length, zero at `centre_roll_rad`, `amount_m` at the tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ProfileCrowning {
     /// Material removed at the tip circle \[m\].
     pub amount_m: f64,
@@ -62,7 +63,7 @@ pub struct ProfileCrowning {
 }
 
 /// Tip relief: zero up to `start_roll_rad`, `amount_m` at the tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TipRelief {
     /// Material removed at the tip circle \[m\].
     pub amount_m: f64,
@@ -73,7 +74,7 @@ pub struct TipRelief {
 }
 
 /// Root relief: zero down to `start_roll_rad`, `amount_m` at the form circle, where the involute ends, and below it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RootRelief {
     /// Material removed at the form circle \[m\].
     pub amount_m: f64,

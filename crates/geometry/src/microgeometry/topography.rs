@@ -86,6 +86,12 @@ impl Topography {
         })
     }
 
+    /// Roll angles \[rad\], axial places \[m\] and values \[m\], as [`Topography::new`] takes them.
+    #[must_use]
+    pub fn parts(&self) -> [&[f64]; 3] {
+        [&self.rolls_rad, &self.heights_m, &self.removed_m]
+    }
+
     /// Places along the profile and along the axis.
     #[must_use]
     pub fn size(&self) -> [usize; 2] {

@@ -1,5 +1,6 @@
 //! 23 teeth drive 47, the wheel with six holes: results and records of made-up orders, on either shaft.
 
+use gearmesh_model::StoredGear;
 use gearmesh_report::scene_comparison::{SceneComparisonError, compare_scene};
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_report::{ReferenceRecord, SeriesComparison, comparison_table};
@@ -48,7 +49,8 @@ fn result(pitches: usize) -> SceneResult {
     let points = pitches * POINTS;
     SceneResult {
         title: "23 and 47".into(),
-        gear_toml: [gear_file(23, "kind = \"solid\"\n"), gear_file(47, holes)],
+        gears: [gear_file(23, "kind = \"solid\"\n"), gear_file(47, holes)]
+            .map(StoredGear::of_older_file),
         pitches,
         contact_coverage: Coverage::of_contact(47, pitches),
         proposal: if pitches < 47 {

@@ -1,9 +1,5 @@
 //! Where the slices of a static pair touch: what line load and pressure are drawn and exported over.
 
-use std::path::Path;
-
-use gearmesh_model::{DataArray, DataTree, FileError, Values};
-
 use super::run::LoadedScene;
 
 /// Places of all slices, `[angle][line slot][slice]`; zeros where a slice does not touch.
@@ -36,48 +32,5 @@ impl ContactPlaces {
             }
         }
         places
-    }
-
-    /// Adds the places to a result file.
-    pub(super) fn put(&self, tree: &mut DataTree, axes: &[(&str, usize)]) {
-        for (name, values, unit, text) in [
-            (
-                "roll_1_rad",
-                &self.roll_1_rad,
-                "rad",
-                "roll angle of the contact on gear 1",
-            ),
-            (
-                "z_m",
-                &self.z_m,
-                "m",
-                "axial place of the contact from mid-face of gear 1",
-            ),
-            (
-                "width_m",
-                &self.width_m,
-                "m",
-                "touching width of the slice, zero where it does not touch",
-            ),
-        ] {
-            let array = DataArray::new(Values::F64(values.clone()), axes, unit, text);
-            tree.put(format!("contact/{name}"), array);
-        }
-    }
-
-    /// Takes them from a file; none from one of an older program.
-    pub(super) fn take(
-        tree: &mut DataTree,
-        path: &Path,
-        shape: &[usize],
-    ) -> Result<Option<Self>, FileError> {
-        if !tree.arrays.contains_key("contact/width_m") {
-            return Ok(None);
-        }
-        Ok(Some(Self {
-            roll_1_rad: tree.take_f64(path, "contact/roll_1_rad", shape)?,
-            z_m: tree.take_f64(path, "contact/z_m", shape)?,
-            width_m: tree.take_f64(path, "contact/width_m", shape)?,
-        }))
     }
 }

@@ -1,14 +1,8 @@
-//! What a run of a pair sees of each period: of the mesh, of each gauged tooth; in memory, in words, in files.
-
-use std::path::Path;
-
-use gearmesh_geometry::GearDefinition;
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_model::{DataArray, DataTree, FileError};
+//! What a run of a pair sees of each period: of the mesh, of each gauged tooth; in memory and in words.
 
 use super::result::StrainSeries;
 use super::run::LoadedScene;
-use crate::periods::{Coverage, Extent, PairPeriods, Passage, RunStretch, passage_run, whole_run};
+use crate::periods::{Coverage, Passage, RunStretch, passage_run, whole_run};
 
 /// What has the period of the mesh, in words.
 const CONTACT: &str = "transmission error, stiffness, forces and pressure";
@@ -113,53 +107,4 @@ pub(super) fn named(contact: Coverage, strain: &[StrainSeries]) -> Vec<(String, 
             .map(|s| (gauge_name(&s.name, s.gear), s.coverage)),
     );
     all
-}
-
-/// Puts what is known of a quantity's period beside it.
-pub(super) fn put_coverage(tree: &mut DataTree, group: &str, coverage: &Coverage) {
-    tree.put(
-        format!("{group}/period_pitches"),
-        DataArray::count(
-            coverage.period_pitches as u32,
-            "pitches after which it repeats",
-        ),
-    );
-    tree.put_text(format!("{group}/extent"), coverage.extent.name());
-}
-
-/// Takes it out again. Files before version 3 do not have it: it follows from the gears kept in them.
-///
-/// # Errors
-/// [`FileError`] for a part that is missing or of another kind.
-pub(super) fn take_coverage(
-    tree: &mut DataTree,
-    (path, group): (&Path, &str),
-    run_pitches: usize,
-    period_of_old_file: Option<usize>,
-) -> Result<Coverage, FileError> {
-    let name = format!("{group}/period_pitches");
-    if let (Some(period), false) = (period_of_old_file, tree.arrays.contains_key(&name)) {
-        return Ok(Coverage::of_contact(period, run_pitches));
-    }
-    let period_pitches = tree.take_count(path, &name)?;
-    let of_contact = Coverage::of_contact(period_pitches, run_pitches);
-    let is_passage = tree.take_text(path, &format!("{group}/extent"))? == Extent::Passage.name();
-    Ok(match of_contact.extent {
-        Extent::Part if is_passage => Coverage {
-            extent: Extent::Passage,
-            ..of_contact
-        },
-        _ => of_contact,
-    })
-}
-
-/// The periods of the gears whose files are kept in a result; none where they cannot be read.
-pub(super) fn periods_of(gear_toml: &[String; 2]) -> Option<PairPeriods> {
-    let gear = |text: &String| {
-        GearDefinition::from_document(&InputDocument::new("gear in result", text.clone())).ok()
-    };
-    let [Some(gear_1), Some(gear_2)] = gear_toml.each_ref().map(gear) else {
-        return None;
-    };
-    Some(PairPeriods::of([&gear_1, &gear_2]))
 }

@@ -1,7 +1,7 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
 //! `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
-//! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps and stores, `rating.rs` judges,
+//! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges,
 //! `warnings.rs` tells where the model's assumptions are strained.
 
 mod contact_places;
@@ -11,6 +11,7 @@ mod flank_effects;
 pub mod plan;
 pub mod rating;
 pub mod result;
+mod result_record;
 pub mod run;
 pub mod scene_file;
 pub mod taken_misalignment;
@@ -18,6 +19,7 @@ pub mod warnings;
 
 pub use contact_places::ContactPlaces;
 pub use plan::Plan;
-pub use result::{RESULT_FORMAT, SceneResult, StrainSeries};
+pub use result::{SceneResult, StrainSeries};
+pub use result_record::RESULT_FORMAT;
 pub use run::{LoadedScene, RunError, load, run};
 pub use scene_file::Scene;

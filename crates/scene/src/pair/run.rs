@@ -14,7 +14,7 @@ use gearmesh_contact::{
     AxialSpread, ContactError, ContactLines, ContactPatch, Drive, FlankDeviations, PathExtension,
     Runout, SliceLayout, StaticContact,
 };
-use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
 use gearmesh_recovery::GaugeReader;
@@ -89,9 +89,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
             return Err(scene.document.error(key, problem).into());
         }
         let model = read_reduced_gear(path)?;
-        let source = format!("gear file inside {}", path.display());
-        let gear =
-            GearDefinition::from_document(&InputDocument::new(source, model.input_toml.clone()))?;
+        let gear = model.input.definition_in(path.display())?.clone();
         Ok((model, gear))
     };
     let (model_1, mut gear_1) = read("pair.gear_1", &scene.gear_1)?;
@@ -195,18 +193,10 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
 }
 
 impl LoadedScene {
-    /// Numbers of the scene and of the gear files inside its models that look like those of another unit.
+    /// Numbers of the scene that look like those of another unit.
     #[must_use]
     pub fn unit_slips(&self) -> Vec<InputError> {
-        let files = [&self.scene.gear_1, &self.scene.gear_2];
-        let mut slips = self.scene.document.unit_slips();
-        for (k, (file, model)) in files.into_iter().zip(&self.models).enumerate() {
-            if k == 0 || file != files[0] {
-                let name = format!("gear file inside {}", file.display());
-                slips.extend(InputDocument::new(name, model.input_toml.clone()).unit_slips());
-            }
-        }
-        slips
+        self.scene.document.unit_slips()
     }
 
     /// What will be computed.
@@ -309,10 +299,7 @@ pub fn run(
     let mut result = SceneResult {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
-        gear_toml: [
-            loaded.models[0].input_toml.clone(),
-            loaded.models[1].input_toml.clone(),
-        ],
+        gears: loaded.models.each_ref().map(|model| model.input.clone()),
         model_files: [&scene.gear_1, &scene.gear_2].map(|file| {
             std::path::absolute(file)
                 .unwrap_or_else(|_| file.clone())

@@ -1,8 +1,6 @@
 //! What ratings have given, and how it is kept in result files.
 
-use std::path::Path;
-
-use gearmesh_model::{DataArray, DataTree, FileError};
+use gearmesh_model::{Fields, FileError, Record};
 
 /// A figure of a rating.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +16,7 @@ pub struct RatingFigure {
 }
 
 /// What a rating has given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RatingResult {
     /// What is rated.
     pub name: String,
@@ -131,49 +129,47 @@ pub(super) fn figures(values: &[(&str, f64)]) -> Vec<RatingFigure> {
     kinds.collect()
 }
 
-/// Puts ratings into a result file.
-pub fn put_ratings(tree: &mut DataTree, ratings: &[RatingResult]) {
-    for (i, rating) in ratings.iter().enumerate() {
-        let name = |part: &str| format!("ratings/{i}/{part}");
-        tree.put_text(name("name"), rating.name.clone());
-        tree.put_text(name("method"), rating.method.clone());
-        for (part, text) in [
-            ("problem", &rating.problem),
-            ("incomplete", &rating.incomplete),
-        ] {
-            tree.put_text(name(part), text.clone().unwrap_or_default());
-        }
-        for f in &rating.figures {
-            let value = DataArray::scalar(f.value, f.unit, f.description);
-            tree.put(name(f.name), value);
-        }
+/// The ratings of a result file; none in a file without.
+#[derive(Debug, Default)]
+pub struct Ratings(pub Vec<RatingResult>);
+
+impl Record for Ratings {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.list("ratings", &mut self.0, RatingResult::fields)
     }
 }
 
-/// Takes them out again; none from a file without.
-///
-/// # Errors
-/// [`FileError`] for a part that is missing or of another kind.
-pub fn take_ratings(tree: &mut DataTree, path: &Path) -> Result<Vec<RatingResult>, FileError> {
-    let count = tree.children("ratings").len();
-    let mut rating = |i: usize| {
-        let name = |part: &str| format!("ratings/{i}/{part}");
-        let problem = Some(tree.take_text(path, &name("problem"))?).filter(|p| !p.is_empty());
+impl Record for RatingResult {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("name", &mut self.name, "what is rated")?;
+        f.text("method", &mut self.method, "how")?;
+        let problem = "why there are no figures; empty otherwise";
+        text_or_empty(f, "problem", &mut self.problem, problem)?;
         // Files of older programs do not say.
-        let incomplete = tree.texts.remove(&name("incomplete"));
-        let mut values = Vec::new();
-        for (figure, _, _) in KINDS {
-            if tree.arrays.contains_key(&name(figure)) {
-                values.push((figure, tree.take_scalar(path, &name(figure))?));
-            }
+        if f.has("incomplete") {
+            let what = "what the run has not seen of the quantity's period; empty where nothing is missing";
+            text_or_empty(f, "incomplete", &mut self.incomplete, what)?;
         }
-        Ok(RatingResult {
-            name: tree.take_text(path, &name("name"))?,
-            method: tree.take_text(path, &name("method"))?,
-            problem,
-            incomplete: incomplete.filter(|text| !text.is_empty()),
-            figures: figures(&values),
-        })
-    };
-    (0..count).map(&mut rating).collect()
+        let mut values = Vec::new();
+        for (name, unit, description) in KINDS {
+            let mut value = self.figure(name);
+            f.number_if_there(name, &mut value, unit, description)?;
+            values.extend(value.map(|value| (name, value)));
+        }
+        self.figures = figures(&values);
+        Ok(())
+    }
+}
+
+/// A text that may be missing in memory and is empty in the file then.
+fn text_or_empty(
+    f: &mut Fields<'_>,
+    name: &str,
+    value: &mut Option<String>,
+    what: &str,
+) -> Result<(), FileError> {
+    let mut text = value.take().unwrap_or_default();
+    f.text(name, &mut text, what)?;
+    *value = Some(text).filter(|text| !text.is_empty());
+    Ok(())
 }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use gearmesh_dynamics::{
     Accepted, EnergyBalance, OutputGrid, Simulation, StaticParams, System, equilibrium,
 };
-use gearmesh_model::{Column, DataTree, FileError, RowLog};
+use gearmesh_model::{Column, DataTree, FileError, RowLog, write_record};
 
 use super::column_statistics::ColumnStatistics;
 use super::error::SystemRunError;
@@ -23,7 +23,7 @@ use super::recorder::{Course, Moment, Recorder, Selection};
 use super::result;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
-use crate::rating::put_ratings;
+use crate::rating::Ratings;
 use crate::system::tables::output::MOST_ROWS;
 use crate::system::{RatingJob, Start};
 
@@ -305,13 +305,14 @@ pub(super) fn run_in_time(
     let mut tree = result::base(&head, kind, Some(&record));
     if run.windows.is_empty() {
         result::put_statistics(&mut tree, &tape.statistics.figures());
-        put_ratings(&mut tree, &rating::of_rows(ratings, &columns, part.log())?);
+        let rated = rating::of_rows(ratings, &columns, part.log())?;
+        write_record(&mut Ratings(rated), &mut tree);
         let rows = ("time", &columns[..], part.log());
         result::write_rows(options.output, &tree, rows)?;
     } else {
         result::put_sweep(&mut tree, &columns, &run.windows, &tape.figures);
         let rated = rating::of_windows(ratings, &columns, &tape.figures);
-        put_ratings(&mut tree, &rated);
+        write_record(&mut Ratings(rated), &mut tree);
         result::write(options.output, &tree)?;
     }
     part.finish()?;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use gearmesh_dynamics::NaturalMode;
 use gearmesh_model::{
-    Column, ColumnFile, DataArray, DataTree, FileError, FileFormat, RowLog, Values, utc_now,
-    write_columns,
+    Column, ColumnFile, DataArray, DataTree, FileError, FileFormat, RowLog, Values, read_record,
+    utc_now, write_columns,
 };
 
 use super::column_names::varying;
@@ -13,7 +13,7 @@ use super::column_statistics::Figures;
 use super::job::{EigenPoint, MeshRecord, RunHead};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
-use crate::rating::{RatingResult, take_ratings};
+use crate::rating::{RatingResult, Ratings};
 
 /// Name and version of the result file.
 pub const SYSTEM_RESULT_FORMAT: FileFormat = FileFormat {
@@ -327,7 +327,7 @@ impl SystemResult {
         let sweep = (kind == "speed-sweep")
             .then(|| take_sweep(tree, path))
             .transpose()?;
-        let ratings = take_ratings(tree, path)?;
+        let Ratings(ratings) = read_record(tree, path, rows.version())?;
         let ([bodies, elements], eigen) = if kind == "eigen" {
             take_eigen(tree, path)?
         } else {

@@ -60,10 +60,10 @@ fn gauge(model: &ReducedGear, tooth: usize) -> GaugeRows {
 /// A reduced gear with gauges on teeth 0 and 5; with `holes`, teeth over a hole are softer than those between two.
 pub fn model(teeth: usize, holes: Option<usize>) -> ReducedGear {
     let text = gear_file(teeth, if holes.is_some() { DRILLED } else { SOLID });
-    let gear = GearDefinition::from_document(&InputDocument::new("made up", text.clone())).unwrap();
+    let gear = GearDefinition::from_document(&InputDocument::new("made up", text)).unwrap();
     let mut model = ReducedGear {
         name: format!("made up {teeth}"),
-        input_toml: text,
+        input: gearmesh_model::StoredGear::new(gear.clone()),
         near_field: None,
         ..made_up_gear(&gear.profile, WIDTH_M, 1)
     };

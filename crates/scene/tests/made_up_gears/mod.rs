@@ -12,7 +12,7 @@ pub use mesh_common::pair_common;
 use std::path::Path;
 
 use gearmesh_geometry::GearPair;
-use gearmesh_model::{ReducedGear, write_reduced_gear};
+use gearmesh_model::{ReducedGear, StoredGear, write_reduced_gear};
 use mesh_common::modal_gear::modal_gear;
 
 /// Young's modulus of the models [Pa].
@@ -37,7 +37,7 @@ pub fn write_models(folder: &Path) {
     let pair = pair();
     for (teeth, shift, profile) in [(30, 0.2, &pair.gear_1), (41, -0.1, &pair.gear_2)] {
         let model = ReducedGear {
-            input_toml: gear_file(teeth, shift),
+            input: StoredGear::of_older_file(gear_file(teeth, shift)),
             near_field: None,
             ..modal_gear(&format!("made up {teeth}"), profile)
         };

@@ -204,7 +204,7 @@ fn write_modified_model(folder: &Path) {
     let model = gearmesh_model::read_reduced_gear(&folder.join("gear_30.h5")).unwrap();
     let input_toml = format!("{}[microgeometry]\n{FLANKS}", gear_file(30, 0.2));
     let model = gearmesh_model::ReducedGear {
-        input_toml,
+        input: gearmesh_model::StoredGear::of_older_file(input_toml),
         ..model
     };
     write_reduced_gear(&folder.join("modified.h5"), &model).unwrap();
@@ -390,7 +390,7 @@ fn transmission_error_converges_with_the_slices() {
     let pair = pair();
     for (teeth, shift, profile) in [(30, 0.2, &pair.gear_1), (41, -0.1, &pair.gear_2)] {
         let model = gearmesh_model::ReducedGear {
-            input_toml: gear_file(teeth, shift),
+            input: gearmesh_model::StoredGear::of_older_file(gear_file(teeth, shift)),
             near_field: None,
             ..made_up_gear(profile, FACE_MM * 1e-3, 12)
         };

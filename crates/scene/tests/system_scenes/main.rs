@@ -11,6 +11,7 @@ mod lost_meshes;
 mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
+mod provenance;
 mod shafts;
 mod shipped;
 mod start;

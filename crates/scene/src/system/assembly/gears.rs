@@ -68,14 +68,9 @@ impl Gear {
                     return Err(keys.error("gear", problem));
                 }
                 let model = read_reduced_gear(path).map_err(|e| keys.error("gear", e))?;
-                let source = format!("gear file inside {shown}");
-                let definition = GearDefinition::from_document(&InputDocument::new(
-                    source,
-                    model.input_toml.clone(),
-                ))?;
                 Ok(Self {
                     file: path.to_path_buf(),
-                    definition,
+                    definition: model.input.definition_in(shown)?.clone(),
                     model: Some(Arc::new(model)),
                     microgeometry_of_scene: false,
                 })
@@ -149,13 +144,12 @@ impl Gear {
         microgeometry_words(&self.definition, self.microgeometry_of_scene)
     }
 
-    /// Numbers of its gear file that look like those of another unit.
+    /// Numbers of its gear file that look like those of another unit; those of a model were told when it was reduced.
     pub(super) fn unit_slips(&self) -> Vec<InputError> {
-        let shown = self.file.display();
-        let file = match self.model {
-            Some(_) => format!("gear file inside {shown}"),
-            None => shown.to_string(),
-        };
+        if self.model.is_some() {
+            return Vec::new();
+        }
+        let file = self.file.display().to_string();
         InputDocument::new(file, self.definition.source.clone()).unit_slips()
     }
 

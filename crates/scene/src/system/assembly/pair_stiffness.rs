@@ -92,9 +92,7 @@ impl SceneMesh<'_> {
             InputDocument::new(format!("scene inside {shown}"), result.scene_toml.clone());
         let scene = Scene::from_document(document, self.folder)?;
         for (i, gear) in self.gears.iter().enumerate() {
-            let source = format!("gear {} inside {shown}", i + 1);
-            let document = InputDocument::new(source, result.gear_toml[i].clone());
-            let mut of_result = GearDefinition::from_document(&document)?;
+            let mut of_result = result.gears[i].definition_in(&shown)?.clone();
             scene.modify_flanks(i + 1, &mut of_result)?;
             if let Some(what) = difference(&of_result, &gear.definition) {
                 let problem = format!(

@@ -1,0 +1,281 @@
+//! The parts of a pair's result in its file, declared once for writing, reading and docs/files.md.
+
+use std::path::Path;
+
+use gearmesh_model::{
+    DataTree, Fields, FileError, FileFormat, OPEN, Record, StoredGear, read_record, write_record,
+};
+
+use super::contact_places::ContactPlaces;
+use super::result::{SceneResult, StrainSeries};
+use crate::periods::{Coverage, Extent, PairPeriods};
+use crate::rating::RatingResult;
+
+/// Name and version of the result file.
+pub const RESULT_FORMAT: FileFormat = FileFormat {
+    name: "gearmesh-result",
+    // 2: axial force; 3: periods, places of contact; 4: definitions of the gears
+    version: 4,
+};
+
+/// The first version that holds what the gear files say, besides their texts.
+const TYPED_DEFINITION: u32 = 4;
+
+impl SceneResult {
+    /// Writes the result, atomically.
+    ///
+    /// # Errors
+    /// [`FileError`] when the file cannot be written; an older file is then untouched.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let mut tree = DataTree::default();
+        write_record(&mut self.clone(), &mut tree);
+        tree.write(path, &RESULT_FORMAT)
+    }
+
+    /// Reads a result.
+    ///
+    /// # Errors
+    /// [`FileError`] when the file is missing, cut, altered, of another kind, or an array does not fit the others.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let (mut tree, version) = DataTree::read_with_version(path, &RESULT_FORMAT)?;
+        read_record(&mut tree, path, version)
+    }
+}
+
+impl Record for SceneResult {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        self.head_fields(f)?;
+        self.curve_fields(f)?;
+        self.contact_fields(f)?;
+        let (t, a) = (
+            ("torque", self.torque_nm.len()),
+            ("driver angle", self.angle_rad.len()),
+        );
+        // Of files before version 3 the periods follow from the gears.
+        let periods = periods_of(&self.gears);
+        let of_mesh = periods.map(|periods| periods.contact());
+        let (coverage, pitches) = (&mut self.contact_coverage, self.pitches);
+        f.group("contact", |f| {
+            coverage_fields(coverage, f, (pitches, of_mesh))
+        })?;
+        let mut gauges = self.strain.len();
+        f.count("gauge_count", &mut gauges, "gauges")?;
+        f.list("gauges", &mut self.strain, |series, f| {
+            f.count("gear", &mut series.gear, "gear of the gauge, 1 or 2")?;
+            let of_gear = periods.filter(|_| (1..=2).contains(&series.gear));
+            let of_tooth = of_gear.map(|periods| periods.of_tooth(series.gear));
+            coverage_fields(&mut series.coverage, f, (pitches, of_tooth))?;
+            strain_fields(series, f, [t, a])
+        })?;
+        if gauges != self.strain.len() {
+            let problem = format!("it says {gauges}, there are {}", self.strain.len());
+            return Err(f.contradiction("gauge_count", &problem));
+        }
+        f.list("ratings", &mut self.ratings, RatingResult::fields)
+    }
+}
+
+impl SceneResult {
+    fn head_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("title", &mut self.title, "title of the scene")?;
+        f.text(
+            "scene_toml",
+            &mut self.scene_toml,
+            "the scene, word for word",
+        )?;
+        let typed = f.version() >= TYPED_DEFINITION;
+        for (gear, names) in self
+            .gears
+            .iter_mut()
+            .zip([("gear_1_toml", "gear_1"), ("gear_2_toml", "gear_2")])
+        {
+            gear.fields(f, names, typed)?;
+        }
+        for (file, name) in self.model_files.iter_mut().zip(["model_1", "model_2"]) {
+            f.text(name, file, "file of the model, absolute")?;
+        }
+        for (text, name) in self
+            .microgeometry
+            .iter_mut()
+            .zip(["microgeometry_1", "microgeometry_2"])
+        {
+            if f.has(name) {
+                f.text(name, text, "microgeometry of the gear in words")?;
+            }
+        }
+        if f.has("proposal") {
+            let what = "a run that would see whole periods; empty where this one does";
+            f.text("proposal", &mut self.proposal, what)?;
+        }
+        f.text("version", &mut self.version, "version of the program")?;
+        f.text("created_utc", &mut self.created_utc, "when, UTC")?;
+        f.lines("warnings", &mut self.warnings, "warnings about assumptions")?;
+        f.count(
+            "pitches",
+            &mut self.pitches,
+            "pitches of gear 1 run through",
+        )?;
+        self.pitches = self.pitches.max(1);
+        let what = "wall time of contact and of strain";
+        f.fixed("seconds", &mut self.seconds, &[("stage", 2)], "s", what)
+    }
+
+    fn curve_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let angles = &mut self.angle_rad;
+        let what = "driver angle, zero where pair 0 touches at the pitch point";
+        f.numbers("angle_rad", angles, &[("driver angle", OPEN)], "rad", what)?;
+        let torques = &mut self.torque_nm;
+        f.numbers(
+            "torque_Nm",
+            torques,
+            &[("torque", OPEN)],
+            "N m",
+            "torque on gear 2",
+        )?;
+        let (t, a) = (("torque", torques.len()), ("driver angle", angles.len()));
+        let what = "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load";
+        f.numbers("te_m", &mut self.te_m, &[t, a], "m", what)?;
+        let what = "transmission error at first touch";
+        f.numbers("te_unloaded_m", &mut self.unloaded_m, &[a], "m", what)?;
+        f.numbers(
+            "torque_1_Nm",
+            &mut self.torque_1_nm,
+            &[t, a],
+            "N m",
+            "torque on gear 1",
+        )?;
+        if f.has("axial_force_1_N") {
+            let what = "axial force on gear 1, positive along +z; gear 2 feels the opposite";
+            f.numbers(
+                "axial_force_1_N",
+                &mut self.axial_force_1_n,
+                &[t, a],
+                "N",
+                what,
+            )?;
+        } else {
+            // Version 1 knew spur gears only.
+            self.axial_force_1_n = vec![0.0; t.1 * a.1];
+        }
+        let (name, values) = ("stiffness_secant_N_per_m", &mut self.secant_n_per_m);
+        f.numbers(name, values, &[t, a], "N/m", "secant mesh stiffness")?;
+        let (name, values) = ("stiffness_tangent_N_per_m", &mut self.tangent_n_per_m);
+        f.numbers(name, values, &[t, a], "N/m", "tangent mesh stiffness")?;
+        let what = "face load factor of the most loaded line, worst position";
+        f.numbers("k_h_beta", &mut self.k_h_beta, &[t], "1", what)?;
+        let what = "Newton iterations, sum over all positions";
+        f.counts("iterations", &mut self.iterations, &[t], what)?;
+        let what = "largest relative residual of the contact problem";
+        f.numbers("residual", &mut self.residual, &[t], "1", what)?;
+        let what = "largest relative error of the torque balance";
+        f.numbers("torque_balance", &mut self.torque_balance, &[t], "1", what)
+    }
+
+    fn contact_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let (t, a) = (
+            ("torque", self.torque_nm.len()),
+            ("driver angle", self.angle_rad.len()),
+        );
+        let what = "pair number of each contact line";
+        f.numbers(
+            "pair",
+            &mut self.pair,
+            &[a, ("contact line", OPEN)],
+            "1",
+            what,
+        )?;
+        if f.is_reading() {
+            self.slots = self.pair.len() / a.1.max(1);
+        }
+        let l = ("contact line", self.slots);
+        let what = "contact lines looked at; a tip edge that stays apart has no force";
+        f.counts("pair_count", &mut self.pair_count, &[a], what)?;
+        let axes = [t, a, l, ("slice", OPEN)];
+        let what = "normal force of each slice, positive in compression";
+        f.numbers("force_N", &mut self.force_n, &axes, "N", what)?;
+        if f.is_reading() {
+            self.slices = self.force_n.len() / (t.1 * a.1 * l.1).max(1);
+        }
+        let s = ("slice", self.slices);
+        let what = "peak Hertz pressure of each slice";
+        f.bulk(
+            "pressure_Pa",
+            &mut self.pressure_pa,
+            &[t, a, l, s],
+            "Pa",
+            what,
+        )?;
+        // Older programs did not store the places.
+        if f.has("contact/width_m") && (f.is_reading() || f.is_listing() || self.places.is_some()) {
+            place_fields(self.places.get_or_insert_default(), f, &[a, l, s])?;
+        }
+        Ok(())
+    }
+}
+
+fn place_fields(
+    it: &mut ContactPlaces,
+    f: &mut Fields<'_>,
+    axes: &[(&str, usize)],
+) -> Result<(), FileError> {
+    let what = "roll angle tan(alpha) of the contact on gear 1";
+    f.bulk("contact/roll_1_rad", &mut it.roll_1_rad, axes, "rad", what)?;
+    let what = "axial place of the contact from mid-face of gear 1";
+    f.bulk("contact/z_m", &mut it.z_m, axes, "m", what)?;
+    let what = "touching width of the slice, zero where it does not touch";
+    f.bulk("contact/width_m", &mut it.width_m, axes, "m", what)
+}
+
+fn strain_fields(
+    it: &mut StrainSeries,
+    f: &mut Fields<'_>,
+    axes: [(&str, usize); 2],
+) -> Result<(), FileError> {
+    f.text("name", &mut it.name, "name of the gauge")?;
+    let (error, what) = (
+        &mut it.error_estimate_relative,
+        "estimated relative mesh error",
+    );
+    f.number("error", error, "1", what)?;
+    let what = "strain along the profile by method 1, positive in tension";
+    f.bulk("method_1", &mut it.method_1, &axes, "1", what)?;
+    let what = "the same by method 2";
+    f.bulk("method_2", &mut it.method_2, &axes, "1", what)
+}
+
+/// What is known of a quantity's period. Files before version 3 do not have it: it follows from the gears.
+fn coverage_fields(
+    it: &mut Coverage,
+    f: &mut Fields<'_>,
+    (run_pitches, period_of_old_file): (usize, Option<usize>),
+) -> Result<(), FileError> {
+    if let (Some(period), false) = (period_of_old_file, f.has("period_pitches")) {
+        *it = Coverage::of_contact(period, run_pitches);
+        return Ok(());
+    }
+    let what = "pitches after which it repeats";
+    f.count("period_pitches", &mut it.period_pitches, what)?;
+    f.choice("extent", &mut it.extent, "how much of it the run has seen")?;
+    if f.is_reading() {
+        let of_contact = Coverage::of_contact(it.period_pitches, run_pitches);
+        let is_passage = it.extent == Extent::Passage && of_contact.extent == Extent::Part;
+        let extent = if is_passage {
+            Extent::Passage
+        } else {
+            of_contact.extent
+        };
+        *it = Coverage {
+            extent,
+            ..of_contact
+        };
+    }
+    Ok(())
+}
+
+/// The periods of the gears of a result; none where they are not known.
+fn periods_of(gears: &[StoredGear; 2]) -> Option<PairPeriods> {
+    let [Some(gear_1), Some(gear_2)] = gears.each_ref().map(StoredGear::definition) else {
+        return None;
+    };
+    Some(PairPeriods::of([gear_1, gear_2]))
+}
