@@ -77,7 +77,7 @@ fn two_studies_in_one_folder_end_clean() {
     let desk = Desk::new();
     desk.file(
         "scene.toml",
-        &changed(SCENE, "step_s = 1e-2", "step_s = 1e-4"),
+        changed(SCENE, "step_s = 1e-2", "step_s = 1e-4"),
     );
     // 2 N m is the scene as it is.
     let values: Vec<String> = (3..=14).map(|k| format!("{k}.0")).collect();

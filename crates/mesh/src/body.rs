@@ -202,7 +202,7 @@ pub fn body_problem(
             let radii = graded(
                 levels[i].0,
                 levels[i + 1].0,
-                &size,
+                size,
                 Pieces {
                     least: 2,
                     even: true,

@@ -65,13 +65,12 @@ pub fn hold(builder: &mut SystemBuilder, shaft: BodyId, pose: &RingPose, speed: 
     let force = LoadKind::Force { point_m: [0.0; 3] };
     match held {
         Held::Loaded(force_n, moment_nm) => {
-            for load in [
+            let loads = [
                 load("force", force, *force_n),
                 load("moment", LoadKind::Torque, *moment_nm),
-            ] {
-                if let Some(load) = load {
-                    builder.element(load);
-                }
+            ];
+            for load in loads.into_iter().flatten() {
+                builder.element(load);
             }
         }
         Held::Thrust(force_n) => {

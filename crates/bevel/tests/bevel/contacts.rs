@@ -303,13 +303,9 @@ fn flanks_touch_and_do_not_cut_into_each_other() {
         for p in &found.path {
             let [a, b] = &p.touch.points;
             near((a.r - b.r).norm(), 0.0, 1e-11);
-            if p.ellipse.is_some() {
+            if let Some(ellipse) = &p.ellipse {
                 near((a.n + b.n).norm(), 0.0, 1e-9);
-                near(
-                    p.ellipse.unwrap().half_lengths_m(6.35e-6)[0].log10(),
-                    -2.3,
-                    0.3,
-                );
+                near(ellipse.half_lengths_m(6.35e-6)[0].log10(), -2.3, 0.3);
             } else {
                 edges += 1;
             }
@@ -348,10 +344,10 @@ fn edges_touch_at_tip_toe_and_heel() {
     let kinds = |found: &ToothContact| -> Vec<EdgeKind> {
         let mut list = Vec::new();
         for p in &found.path {
-            if let (ContactKind::Edge { edge, .. }, true) = (p.kind, p.leading) {
-                if !list.contains(&edge) {
-                    list.push(edge);
-                }
+            if let (ContactKind::Edge { edge, .. }, true) = (p.kind, p.leading)
+                && !list.contains(&edge)
+            {
+                list.push(edge);
             }
         }
         list

@@ -16,7 +16,7 @@ fn printed_settings_are_read_back() {
         let printed = succeeds(&["bevel", &file]).stdout;
         let text = std::fs::read_to_string(&file).unwrap();
         let head = text.split("[gear]").next().unwrap();
-        let again = desk.file(name, &format!("{head}\n{printed}"));
+        let again = desk.file(name, format!("{head}\n{printed}"));
         let [first, second] = [file.as_str(), argument(&again)].map(|f| {
             let json = succeeds(&["tca", f, "--json"]).json();
             ["peak_to_peak_urad", "contact_ratio"].map(|key| json[key].as_f64().unwrap())

@@ -117,6 +117,9 @@ fn half_space(slices: usize, width_m: f64) -> ReducedGear {
 
 /// Where gear 2 stands when gear 1 has turned and it has turned back as much: the cylinders face each other at zero,
 /// just touching.
+/// Pose of a driver angle.
+type PoseAt = fn(f64) -> Pose;
+
 fn at_zero(_driver_angle_rad: f64) -> Pose {
     Pose::at_rest(Vector3::new(DISTANCE, 0.0, 0.0), Matrix3::identity())
 }
@@ -124,8 +127,8 @@ fn at_zero(_driver_angle_rad: f64) -> Pose {
 fn at_rest(
     flanks: CrownedCylinders,
     slices: SliceContact,
-) -> StaticContact<PosedFlanks<CrownedCylinders, fn(f64) -> Pose>> {
-    let pose_at: fn(f64) -> Pose = at_zero;
+) -> StaticContact<PosedFlanks<CrownedCylinders, PoseAt>> {
+    let pose_at: PoseAt = at_zero;
     StaticContact::of_flanks(PosedFlanks::new(flanks, SIDE, LEVER, pose_at), slices)
 }
 
@@ -165,11 +168,6 @@ fn sliced_against_hertz(radii_m: [f64; 2], force_n: f64) -> ([f64; 2], f64) {
 fn slices_of_crossed_cylinders_converge_to_hertz_with_the_slenderness() {
     for (ratio, force_n) in [(3.0, 100.0), (10.0, 1000.0), (40.0, 50.0), (200.0, 100.0)] {
         let ([approach, line_load], aspect) = sliced_against_hertz([20e-3 * ratio, 20e-3], force_n);
-        println!(
-            "aspect {aspect:.2}: approach {:+.2} %, line load {:+.2} %",
-            100.0 * approach,
-            100.0 * line_load
-        );
         let slender = aspect.powi(-2);
         assert!(approach.abs() < 0.5 * slender, "{aspect}: {approach}");
         assert!(line_load.abs() < slender, "{aspect}: {line_load}");
@@ -198,7 +196,6 @@ fn crossed_cylinders_rest_where_they_balance_in_motion() {
         (load[5].abs() / torque_nm - 1.0).abs()
     };
     let [full, hundredth] = [20.0, 0.2].map(&mut off);
-    println!("{full:e} {hundredth:e}");
     assert!(full < 5e-3, "{full:e}");
     assert!(hundredth < 0.1 * full, "{full:e} {hundredth:e}");
 }

@@ -197,7 +197,7 @@ impl FlankErrorTable {
         Ok(match self {
             Self::Pitch { side, removed_um } => {
                 let removed = removed_um.iter().map(|value| UM * value).collect();
-                Arc::new(PitchErrors::new((*side).into(), removed, gear.teeth).map_err(fault)?)
+                Arc::new(PitchErrors::new(*side, removed, gear.teeth).map_err(fault)?)
             }
             Self::Deviation {
                 tooth,
@@ -251,7 +251,7 @@ impl FlankErrorTable {
             } => {
                 let patch = SpallPatch {
                     tooth: *tooth,
-                    side: (*side).into(),
+                    side: *side,
                     radii_m: radii_mm.map(|r| MM * r),
                     z_m: z_mm.map(|z| MM * z),
                     depth_m: UM * depth_um,
