@@ -8,13 +8,13 @@ use crate::cut_surface::SurfacePoint;
 /// Errors of assembly; all zero for the pair as designed. Frame: docs/theory/bevel_gears.md, "Frames".
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct AssemblyError {
-    /// Offset V: the pinion is moved by it along +y of the fixed frame, that is along k₁ × (the way to the gear) [m].
+    /// Offset V: the pinion is moved by it along +y of the fixed frame, that is along k₁ × (the way to the gear) \[m\].
     pub offset_m: f64,
-    /// The pinion is moved by it along its axis, away from the apex [m].
+    /// The pinion is moved by it along its axis, away from the apex \[m\].
     pub pinion_axial_m: f64,
-    /// The gear is moved by it along its axis, away from the apex [m].
+    /// The gear is moved by it along its axis, away from the apex \[m\].
     pub gear_axial_m: f64,
-    /// The shaft angle is larger by it [rad].
+    /// The shaft angle is larger by it \[rad\].
     pub shaft_angle_rad: f64,
 }
 
@@ -35,7 +35,7 @@ impl AssemblyError {
 pub struct Placement {
     /// Columns: x, y, z of the member.
     pub axes: Matrix3<f64>,
-    /// Its apex [m].
+    /// Its apex \[m\].
     pub apex_m: Vector3<f64>,
 }
 

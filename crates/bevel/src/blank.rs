@@ -52,26 +52,26 @@ pub struct PairData {
     pub form: ToothForm,
     /// Numbers of teeth.
     pub teeth: [usize; 2],
-    /// Transverse module at the outer cone distance [m].
+    /// Transverse module at the outer cone distance \[m\].
     pub outer_module_m: f64,
-    /// Face widths, both from the same outer cone distance inwards [m].
+    /// Face widths, both from the same outer cone distance inwards \[m\].
     pub face_width_m: [f64; 2],
-    /// Mean spiral angle ≥ 0 [rad].
+    /// Mean spiral angle ≥ 0 \[rad\].
     pub spiral_angle_rad: f64,
-    /// Normal pressure angle [rad].
+    /// Normal pressure angle \[rad\].
     pub pressure_angle_rad: f64,
-    /// Angle between the axes, from apex to heel [rad].
+    /// Angle between the axes, from apex to heel \[rad\].
     pub shaft_angle_rad: f64,
     /// Hand of the pinion; that of the gear is the other.
     pub pinion_hand: Hand,
     /// Depth along the face.
     pub taper: Taper,
-    /// Nominal radius of the cutter [m]; 0 for straight teeth.
+    /// Nominal radius of the cutter \[m\]; 0 for straight teeth.
     pub cutter_radius_m: f64,
     /// By how much of an outer module the pinion's outer transverse tooth is thicker than by the balance of addenda,
     /// the gear's thinner.
     pub thickness_shift: f64,
-    /// Normal backlash at the mean point, half of it from each member [m].
+    /// Normal backlash at the mean point, half of it from each member \[m\].
     pub backlash_m: f64,
 }
 
@@ -84,69 +84,69 @@ pub struct MemberBlank {
     pub teeth: usize,
     /// Hand of spiral.
     pub hand: Hand,
-    /// Pitch angle γ [rad].
+    /// Pitch angle γ \[rad\].
     pub pitch_angle_rad: f64,
-    /// Face (tip cone) angle [rad].
+    /// Face (tip cone) angle \[rad\].
     pub face_angle_rad: f64,
-    /// Root angle [rad].
+    /// Root angle \[rad\].
     pub root_angle_rad: f64,
-    /// Addendum at the outer cone distance [m].
+    /// Addendum at the outer cone distance \[m\].
     pub outer_addendum_m: f64,
-    /// Dedendum at the outer cone distance [m].
+    /// Dedendum at the outer cone distance \[m\].
     pub outer_dedendum_m: f64,
-    /// Face width [m].
+    /// Face width \[m\].
     pub face_width_m: f64,
-    /// Outer cone distance [m].
+    /// Outer cone distance \[m\].
     pub outer_cone_m: f64,
-    /// Mean cone distance of the pair [m].
+    /// Mean cone distance of the pair \[m\].
     pub mean_cone_m: f64,
-    /// Tooth thickness on the pitch cone at the mean cone distance, along the circle, backlash taken off [m].
+    /// Tooth thickness on the pitch cone at the mean cone distance, along the circle, backlash taken off \[m\].
     pub mean_thickness_m: f64,
 }
 
 impl MemberBlank {
-    /// Addendum angle, face angle minus pitch angle [rad].
+    /// Addendum angle, face angle minus pitch angle \[rad\].
     pub fn addendum_angle_rad(&self) -> f64 {
         self.face_angle_rad - self.pitch_angle_rad
     }
 
-    /// Dedendum angle δ_f, pitch angle minus root angle [rad].
+    /// Dedendum angle δ_f, pitch angle minus root angle \[rad\].
     pub fn dedendum_angle_rad(&self) -> f64 {
         self.pitch_angle_rad - self.root_angle_rad
     }
 
-    /// Cone distance of the toe [m].
+    /// Cone distance of the toe \[m\].
     pub fn inner_cone_m(&self) -> f64 {
         self.outer_cone_m - self.face_width_m
     }
 
-    /// Addendum at a cone distance [m].
+    /// Addendum at a cone distance \[m\].
     pub fn addendum_m(&self, cone_m: f64) -> f64 {
         self.outer_addendum_m - (self.outer_cone_m - cone_m) * self.addendum_angle_rad().tan()
     }
 
-    /// Dedendum at a cone distance [m].
+    /// Dedendum at a cone distance \[m\].
     pub fn dedendum_m(&self, cone_m: f64) -> f64 {
         self.outer_dedendum_m - (self.outer_cone_m - cone_m) * self.dedendum_angle_rad().tan()
     }
 
-    /// Outer pitch diameter [m].
+    /// Outer pitch diameter \[m\].
     pub fn outer_diameter_m(&self) -> f64 {
         2.0 * self.outer_cone_m * self.pitch_angle_rad.sin()
     }
 
-    /// Diameter of the tip circle at the heel [m].
+    /// Diameter of the tip circle at the heel \[m\].
     pub fn tip_diameter_m(&self) -> f64 {
         self.outer_diameter_m() + 2.0 * self.outer_addendum_m * self.pitch_angle_rad.cos()
     }
 
-    /// Distance from the apex of the pitch cone to the plane of the heel's tip circle, along the axis [m].
+    /// Distance from the apex of the pitch cone to the plane of the heel's tip circle, along the axis \[m\].
     pub fn crown_distance_m(&self) -> f64 {
         self.outer_cone_m * self.pitch_angle_rad.cos()
             - self.outer_addendum_m * self.pitch_angle_rad.sin()
     }
 
-    /// Place along the pitch cone L and height above it h of a point at z along the axis and radius r from it [m].
+    /// Place along the pitch cone L and height above it h of a point at z along the axis and radius r from it \[m\].
     pub fn cone_place(&self, z_m: f64, r_m: f64) -> [f64; 2] {
         let (sin, cos) = self.pitch_angle_rad.sin_cos();
         [z_m * cos + r_m * sin, -z_m * sin + r_m * cos]
@@ -160,15 +160,15 @@ pub struct PairBlank {
     pub data: PairData,
     /// Pinion and gear.
     pub members: [MemberBlank; 2],
-    /// Outer cone distance R_e [m].
+    /// Outer cone distance R_e \[m\].
     pub outer_cone_m: f64,
-    /// Mean cone distance R_m, in the middle of the smaller face width [m].
+    /// Mean cone distance R_m, in the middle of the smaller face width \[m\].
     pub mean_cone_m: f64,
-    /// Working depth at the heel [m].
+    /// Working depth at the heel \[m\].
     pub working_depth_m: f64,
-    /// Whole depth at the heel [m].
+    /// Whole depth at the heel \[m\].
     pub whole_depth_m: f64,
-    /// Mean normal module [m].
+    /// Mean normal module \[m\].
     pub mean_normal_module_m: f64,
     /// Face contact ratio b sin β/(π m_mn).
     pub face_contact_ratio: f64,
@@ -179,7 +179,7 @@ fn refuse(key: &'static str, problem: String) -> BevelError {
 }
 
 /// Proportions by the form of the teeth: working depth and clearance in modules, addendum a₀ + a₁/m₉₀² of the gear in
-/// modules, constant clearance [m].
+/// modules, constant clearance \[m\].
 fn proportions(form: ToothForm) -> ([f64; 4], f64) {
     match form {
         ToothForm::Spiral => ([1.7, 0.188, 0.46, 0.39], 0.0),

@@ -7,7 +7,7 @@ use crate::contact_point::Touch;
 /// Relative curvature at a contact and the ellipse on which the flanks are nearer than a marking thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactEllipse {
-    /// Least and largest relative curvature [1/m]; a negative one means that the flanks cut into each other beside the
+    /// Least and largest relative curvature \[1/m\]; a negative one means that the flanks cut into each other beside the
     /// point.
     pub curvatures_per_m: [f64; 2],
     /// Unit vectors in those directions, in the fixed frame: the first is the long axis.
@@ -34,7 +34,7 @@ impl ContactEllipse {
         }
     }
 
-    /// Half lengths, long and short, where the gap reaches a marking thickness: √(2t/κ) [m]; infinite where κ ≤ 0.
+    /// Half lengths, long and short, where the gap reaches a marking thickness: √(2t/κ) \[m\]; infinite where κ ≤ 0.
     pub fn half_lengths_m(&self, marking_m: f64) -> [f64; 2] {
         self.curvatures_per_m.map(|k| {
             if k > 0.0 {

@@ -24,11 +24,11 @@ pub enum ContactKind {
 /// Contacts of one tooth pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairContacts {
-    /// Turn of the pinion between two samples [rad].
+    /// Turn of the pinion between two samples \[rad\].
     pub step_rad: f64,
     /// Number of sample, pinion turn in steps, and contact. Of a number there may be several.
     pub contacts: Vec<(i64, ContactKind, Touch)>,
-    /// Turns of the pinion between which the flanks themselves touch; none where only edges do [rad].
+    /// Turns of the pinion between which the flanks themselves touch; none where only edges do \[rad\].
     pub flank_span_rad: Option<[f64; 2]>,
 }
 
@@ -89,7 +89,7 @@ impl Mesh<'_> {
         ])
     }
 
-    /// How far the gear is ahead of constant ratio in the sense in which the pinion drives it [rad].
+    /// How far the gear is ahead of constant ratio in the sense in which the pinion drives it \[rad\].
     pub fn lead_rad(&self, touch: &Touch) -> f64 {
         let sense = self.flanks[0].side.facing(self.flanks[0].blank.hand);
         -sense * (touch.gear_turn_rad + self.assembly.ratio * touch.pinion_turn_rad)

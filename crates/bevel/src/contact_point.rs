@@ -20,9 +20,9 @@ pub struct Mesh<'a> {
 pub struct Touch {
     /// Parameters on the pinion's and the gear's flank.
     pub at: [[f64; 2]; 2],
-    /// Turn of the pinion [rad].
+    /// Turn of the pinion \[rad\].
     pub pinion_turn_rad: f64,
-    /// Turn of the gear [rad].
+    /// Turn of the gear \[rad\].
     pub gear_turn_rad: f64,
     /// Both flanks' points in the fixed frame.
     pub points: [SurfacePoint; 2],

@@ -9,7 +9,7 @@ use crate::settings::{MachineSettings, Tool};
 /// A point of a surface with parameters a, b in the member's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Place [m].
+    /// Place \[m\].
     pub r: Vector3<f64>,
     /// ∂r/∂a, ∂r/∂b.
     pub dr: [Vector3<f64>; 2],
@@ -20,15 +20,15 @@ pub struct SurfacePoint {
     /// ∂n/∂a, ∂n/∂b.
     pub dn: [Vector3<f64>; 2],
     /// Flank: how far up the straight side of the blade the point was cut, from where the blade's edge radius begins
-    /// [m].
-    /// Fillet: angle left on the edge from there to the blade's tip [rad]. 0 is where the next surface begins.
+    /// \[m\].
+    /// Fillet: angle left on the edge from there to the blade's tip \[rad\]. 0 is where the next surface begins.
     pub above_end: f64,
     /// ∂/∂a, ∂/∂b of it.
     pub above_end_slopes: [f64; 2],
 }
 
 impl SurfacePoint {
-    /// (∂r/∂a × ∂r/∂b)·n [m²]: vanishes where the envelope is singular.
+    /// (∂r/∂a × ∂r/∂b)·n \[m²\]: vanishes where the envelope is singular.
     pub fn area(&self) -> f64 {
         self.dr[0].cross(&self.dr[1]).dot(&self.n)
     }
@@ -39,7 +39,7 @@ impl SurfacePoint {
         [first, self.n.cross(&first)]
     }
 
-    /// Curvature tensor of the surface in the member's frame [1/m]: dn = −curvature · dr for steps dr in the tangent
+    /// Curvature tensor of the surface in the member's frame \[1/m\]: dn = −curvature · dr for steps dr in the tangent
     /// plane. As n points into the
     /// material, convex bodies have positive curvatures.
     pub fn curvature(&self) -> Matrix3<f64> {
@@ -130,7 +130,7 @@ impl CutSurface {
 
     /// Point of the flank. Generated members: a is the azimuth of the blade about the cutter's axis (plane tool:
     /// distance from the machine centre
-    /// \[m\]), b the turn of the cradle. Formate members: b is the distance up the blade [m]. None where the tool has
+    /// \[m\]), b the turn of the cradle. Formate members: b is the distance up the blade \[m\]. None where the tool has
     /// no meshing point.
     pub fn flank(&self, a: f64, b: f64) -> Option<SurfacePoint> {
         let (ja, jb) = (Jet::parameter(a, 0), Jet::parameter(b, 1));
@@ -218,7 +218,7 @@ impl CutSurface {
 
     /// Point of the fillet that the blade's edge radius cuts. Parameters as of [`Self::flank`]; formate members: b is
     /// the angle of the normal
-    /// against the machine plane [rad]. None without a face mill. Places where
+    /// against the machine plane \[rad\]. None without a face mill. Places where
     /// `above_end` is not between 0 and 90° less the blade angle are not on the edge.
     pub fn fillet(&self, a: f64, b: f64) -> Option<SurfacePoint> {
         let mill = self.settings.face_mill()?;

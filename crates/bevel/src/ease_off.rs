@@ -10,9 +10,9 @@ use crate::error::BevelError;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EaseOff {
     /// Distance of the pinion's point from the gear's flank, along its normal, where it passes nearest; positive apart
-    /// [m].
+    /// \[m\].
     pub gap_m: f64,
-    /// Turn of the pinion at which it passes [rad].
+    /// Turn of the pinion at which it passes \[rad\].
     pub pinion_turn_rad: f64,
     /// Parameters on the gear's flank.
     pub gear_at: [f64; 2],

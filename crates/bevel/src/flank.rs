@@ -100,7 +100,7 @@ impl Flank {
         &self.mean
     }
 
-    /// The turn about z that brings the mean point from the machine's start onto +x [rad].
+    /// The turn about z that brings the mean point from the machine's start onto +x \[rad\].
     pub fn turn_rad(&self) -> f64 {
         self.turn[0].atan2(self.turn[1])
     }
@@ -138,7 +138,7 @@ impl Flank {
         self.surface.fillet(at[0], at[1]).map(|p| self.turned(p))
     }
 
-    /// Cone distance L and height h above the pitch cone of a point [m].
+    /// Cone distance L and height h above the pitch cone of a point \[m\].
     pub fn place(&self, r: &Vector3<f64>) -> [f64; 2] {
         self.blank.cone_place(r.z, r.x.hypot(r.y))
     }

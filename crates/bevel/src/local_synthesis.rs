@@ -12,13 +12,13 @@ use crate::flank::Flank;
 /// What is asked of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Synthesis {
-    /// Mean contact point on the gear: L less the mean cone distance, and h [m].
+    /// Mean contact point on the gear: L less the mean cone distance, and h \[m\].
     pub mean_point_m: [f64; 2],
-    /// Direction of the path on the gear's flank: from along the tooth towards the heel to up the profile [rad].
+    /// Direction of the path on the gear's flank: from along the tooth towards the heel to up the profile \[rad\].
     pub path_angle_rad: f64,
-    /// Half length of the contact ellipse along its long axis [m].
+    /// Half length of the contact ellipse along its long axis \[m\].
     pub ellipse_half_length_m: f64,
-    /// Marking thickness of that ellipse [m].
+    /// Marking thickness of that ellipse \[m\].
     pub marking_m: f64,
     /// Second derivative of the gear's lead by the pinion's turn; negative where the gear stays behind to both sides.
     pub transmission_curvature: f64,
@@ -28,13 +28,13 @@ pub struct Synthesis {
 /// the place is in the x-z plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SynthesisTarget {
-    /// L and h [m].
+    /// L and h \[m\].
     pub place_m: [f64; 2],
     /// Normal into the material.
     pub normal: Vector3<f64>,
-    /// Curvature tensor [1/m].
+    /// Curvature tensor \[1/m\].
     pub curvature: Matrix3<f64>,
-    /// Least and largest relative curvature [1/m].
+    /// Least and largest relative curvature \[1/m\].
     pub relative_per_m: [f64; 2],
 }
 

@@ -32,7 +32,7 @@ pub struct PairDesign {
     pub settings: [[MachineSettings; 2]; 2],
     /// Pinion and gear.
     pub teeth: [Tooth; 2],
-    /// Root mean square of what a fit to an ease-off left, concave and convex flank of the pinion [m].
+    /// Root mean square of what a fit to an ease-off left, concave and convex flank of the pinion \[m\].
     pub fit_rms_m: Option<[f64; 2]>,
 }
 

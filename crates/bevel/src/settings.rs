@@ -8,13 +8,13 @@ use crate::hand::Hand;
 pub struct MachineSettings {
     /// Tool.
     pub tool: Tool,
-    /// Machine root angle γ_m between the work's axis and the machine plane [rad].
+    /// Machine root angle γ_m between the work's axis and the machine plane \[rad\].
     pub root_angle_rad: f64,
-    /// Sliding base X_B: the work is moved by it along the cradle axis, away from the cradle [m].
+    /// Sliding base X_B: the work is moved by it along the cradle axis, away from the cradle \[m\].
     pub sliding_base_m: f64,
-    /// Offset E_m: the work is moved by it along +y of the machine [m].
+    /// Offset E_m: the work is moved by it along +y of the machine \[m\].
     pub offset_m: f64,
-    /// Machine centre to back X_D: the work is moved by it along its own axis towards its heel [m].
+    /// Machine centre to back X_D: the work is moved by it along its own axis towards its heel \[m\].
     pub work_offset_m: f64,
     /// How the work turns with the cradle; none for a formate member.
     pub roll: Option<Roll>,
@@ -27,9 +27,9 @@ pub enum Tool {
     FaceMill(FaceMill),
     /// A flat tool through the machine centre: straight bevel gears.
     Plane {
-        /// Blade angle α_b [rad].
+        /// Blade angle α_b \[rad\].
         blade_angle_rad: f64,
-        /// How far below the machine plane, seen from the machine centre, the tool ends [rad].
+        /// How far below the machine plane, seen from the machine centre, the tool ends \[rad\].
         end_angle_rad: f64,
         /// Hand by which the sides of the tooth have their names.
         hand: Hand,
@@ -39,15 +39,15 @@ pub enum Tool {
 /// A face mill's edge and its place on the cradle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceMill {
-    /// Radius of the blade's point, where its straight side would meet the machine plane [m].
+    /// Radius of the blade's point, where its straight side would meet the machine plane \[m\].
     pub point_radius_m: f64,
-    /// Blade angle α_b ≥ 0 of the side that cuts [rad].
+    /// Blade angle α_b ≥ 0 of the side that cuts \[rad\].
     pub blade_angle_rad: f64,
-    /// Radius of the blade's edge, which cuts the fillet [m].
+    /// Radius of the blade's edge, which cuts the fillet \[m\].
     pub edge_radius_m: f64,
-    /// Radial distance S of the cutter's centre from the cradle's axis [m].
+    /// Radial distance S of the cutter's centre from the cradle's axis \[m\].
     pub radial_m: f64,
-    /// Cradle angle q of the cutter's centre at cradle turn 0, from +x of the machine; positive for a right hand [rad].
+    /// Cradle angle q of the cutter's centre at cradle turn 0, from +x of the machine; positive for a right hand \[rad\].
     pub cradle_angle_rad: f64,
 }
 
@@ -90,7 +90,7 @@ impl MachineSettings {
         }
     }
 
-    /// Blade angle [rad].
+    /// Blade angle \[rad\].
     pub fn blade_angle_rad(&self) -> f64 {
         match self.tool {
             Tool::FaceMill(mill) => mill.blade_angle_rad,

@@ -143,7 +143,7 @@ pub fn settings_for(
     }
 }
 
-/// An ease-off asked for: amounts at the ends of the flank [m].
+/// An ease-off asked for: amounts at the ends of the flank \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AskedEaseOff {
     /// At toe and heel.
@@ -170,7 +170,7 @@ impl AskedEaseOff {
 const FIT: [usize; 2] = [7, 5];
 
 /// Settings of a pinion's flank whose ease-off is nearest to an asked one (least squares over the flank), and the root
-/// mean square of what is left [m]. Free are
+/// mean square of what is left \[m\]. Free are
 /// radial distance, cradle angle, offset, work offset, ratio, point radius and modified roll c₂ and c₃.
 ///
 /// # Errors

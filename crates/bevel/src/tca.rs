@@ -15,7 +15,7 @@ use crate::flank::Flank;
 pub struct TcaRequest {
     /// Where the members stand.
     pub error: AssemblyError,
-    /// Marking thickness of the ellipses [m].
+    /// Marking thickness of the ellipses \[m\].
     pub marking_m: f64,
     /// Positions a pitch.
     pub per_pitch: usize,
@@ -38,16 +38,16 @@ impl Default for TcaRequest {
 /// A contact of one tooth pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
-    /// Turn of the pinion [rad].
+    /// Turn of the pinion \[rad\].
     pub pinion_turn_rad: f64,
     /// Transmission error: turn of the gear ahead of constant ratio in the driven sense, less the largest of all
-    /// positions [rad].
+    /// positions \[rad\].
     pub error_rad: f64,
     /// What touches.
     pub kind: ContactKind,
     /// Whether no other tooth pair touches before this one.
     pub leading: bool,
-    /// L and h on the pinion and on the gear [m].
+    /// L and h on the pinion and on the gear \[m\].
     pub places_m: [[f64; 2]; 2],
     /// Ellipse of both surfaces; none at edges.
     pub ellipse: Option<ContactEllipse>,
@@ -60,9 +60,9 @@ pub struct PathPoint {
 pub struct ToothContact {
     /// Contacts of one pair in the order of the pinion's turn. At each turn only that in which the pair touches first.
     pub path: Vec<PathPoint>,
-    /// Transmission error of the pair of gears over one pitch, at equal steps from turn 0 [rad].
+    /// Transmission error of the pair of gears over one pitch, at equal steps from turn 0 \[rad\].
     pub error_rad: Vec<f64>,
-    /// Largest less smallest transmission error [rad].
+    /// Largest less smallest transmission error \[rad\].
     pub peak_to_peak_rad: f64,
     /// Pitches during which a pair's flanks touch at the path inside their limits; 0 where only edges touch.
     pub contact_ratio: f64,
@@ -227,7 +227,7 @@ pub struct Sensitivity {
     pub pinion_axial: [f64; 2],
     /// By the gear's axial place.
     pub gear_axial: [f64; 2],
-    /// By the shaft angle [m/rad].
+    /// By the shaft angle \[m/rad\].
     pub shaft_angle: [f64; 2],
 }
 

@@ -87,11 +87,11 @@ impl SettingsWord {
 pub struct MemberRequest {
     /// How it is cut.
     pub cutting: Cutting,
-    /// Radius of the blade's edge [m].
+    /// Radius of the blade's edge \[m\].
     pub edge_radius_m: f64,
-    /// Width of the blade's point to check, 0 for none [m].
+    /// Width of the blade's point to check, 0 for none \[m\].
     pub point_width_m: f64,
-    /// Least top land [m].
+    /// Least top land \[m\].
     pub least_top_land_m: f64,
 }
 
