@@ -10,6 +10,7 @@ mod lost_meshes;
 mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
+mod rolling_bearings;
 mod shafts;
 mod shipped;
 mod start;
