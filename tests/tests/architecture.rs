@@ -57,6 +57,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     (
         "scene",
         &[
+            "bearings",
             "geometry",
             "model",
             "contact",

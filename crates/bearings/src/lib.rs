@@ -7,6 +7,7 @@
 //! | one row of balls or rollers | [`BallRow`], [`RollerRow`] | `ball_row.rs`, `roller_row.rs` |
 //! | how balls orbit and spin | | `ball_kinematics.rs` |
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
+//! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
@@ -35,6 +36,7 @@ pub mod line_contact;
 pub mod operation;
 pub mod point_contact;
 pub mod quasi_static;
+pub mod quasi_static_element;
 pub mod ratings;
 pub mod ring_equilibrium;
 pub mod ring_load;
@@ -56,6 +58,7 @@ pub use line_contact::LineContact;
 pub use operation::{Control, Operation};
 pub use point_contact::PointContact;
 pub use quasi_static::QuasiStaticBearing;
+pub use quasi_static_element::{QuasiStaticElement, RingDamping};
 pub use ratings::Ratings;
 pub use ring_equilibrium::{AppliedBearingLoad, TiltCondition};
 pub use ring_load::RingLoad;

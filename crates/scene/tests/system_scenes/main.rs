@@ -12,6 +12,7 @@ mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod provenance;
+mod rolling_bearings;
 mod shafts;
 mod shipped;
 mod start;

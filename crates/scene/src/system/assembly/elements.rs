@@ -40,6 +40,7 @@ pub(super) fn add(
     }
     let mut connections = Connections {
         document,
+        folder,
         bodies,
         builder,
         parts,
@@ -87,6 +88,8 @@ pub(super) fn add(
 /// Where elements between two bodies are added.
 pub(super) struct Connections<'a> {
     document: &'a InputDocument,
+    /// Where the files that the scene names are looked for.
+    pub folder: &'a Path,
     pub bodies: &'a Bodies,
     builder: &'a mut SystemBuilder,
     parts: &'a mut Parts,

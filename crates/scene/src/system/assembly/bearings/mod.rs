@@ -1,6 +1,7 @@
 //! `[[bearing]]` to parts of the system; one file for each kind of model.
 
 mod linear;
+mod quasi_static;
 
 use gearmesh_geometry::InputError;
 
@@ -15,6 +16,9 @@ pub(super) fn add(
     for (number, table) in tables.iter().enumerate() {
         match &table.model {
             BearingModel::Linear(model) => linear::add(number, table, model, connections)?,
+            BearingModel::QuasiStatic(model) => {
+                quasi_static::add(number, table, model, connections)?;
+            }
         }
     }
     Ok(())

@@ -1,8 +1,10 @@
 //! `[[bearing]]`: where it is, and its model; one file for each kind of model. Places and axes are those of the world at the start.
 
 mod linear;
+mod quasi_static;
 
 pub use linear::LinearBearingTable;
+pub use quasi_static::{ControlWord, QuasiStaticBearingTable};
 
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
@@ -33,6 +35,8 @@ pub struct BearingTable {
 pub enum BearingModel {
     /// Constant stiffness and damping, turns freely.
     Linear(LinearBearingTable),
+    /// Every ball or roller in equilibrium, from a bearing file.
+    QuasiStatic(QuasiStaticBearingTable),
 }
 
 kinds!(BearingModel, "kind");

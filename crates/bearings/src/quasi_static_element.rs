@@ -1,0 +1,279 @@
+//! A bearing whose balls or rollers are in equilibrium at every moment, between two bodies of a system.
+//!
+//! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of [`QuasiStaticBearing`] at the place of B in A, with linear
+//! damping beside it. The speeds that balls feel (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on
+//! at its speed of rolling, (ω_i(1 − γ) + ω_o(1 + γ))/2, so that elements pass.
+
+use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
+use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use crate::definition::BearingDefinition;
+use crate::element_place::ElementPlaces;
+use crate::error::BearingError;
+use crate::frequencies::RollingSizes;
+use crate::operation::{Control, Operation};
+use crate::quasi_static::QuasiStaticBearing;
+use crate::ring_pose::RingPose;
+
+/// Damping beside the elastic bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RingDamping {
+    /// Across the axis \[N·s/m\].
+    pub radial_n_s_per_m: f64,
+    /// Along the axis \[N·s/m\].
+    pub axial_n_s_per_m: f64,
+    /// Of tilting \[N·m·s/rad\].
+    pub tilt_nm_s_per_rad: f64,
+}
+
+/// The bearing as a force element.
+///
+/// Channels: force and moment on the inner ring (A axes; `force_shaft_x_N` and so on), the force in world axes and across the axis; with
+/// [`Self::with_element_loads`] the load of every ball or roller at both races.
+pub struct QuasiStaticElement {
+    name: String,
+    pair: MarkerPair,
+    bodies: [BodyId; 2],
+    bearing: QuasiStaticBearing,
+    sizes: RollingSizes,
+    damping: RingDamping,
+    control: Control,
+    element_loads: bool,
+    /// Time, cage's angle and speeds of the rings at the last accepted step.
+    kept: Kept,
+    places: ElementPlaces,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Kept {
+    time_s: f64,
+    cage_angle_rad: f64,
+    inner_rad_per_s: f64,
+    outer_rad_per_s: f64,
+}
+
+impl QuasiStaticElement {
+    /// Puts a bearing between its outer ring (marker A) and its inner ring (marker B).
+    ///
+    /// # Errors
+    /// [`BearingError`] where a damping is negative or the bearing cannot be preloaded.
+    pub fn new(
+        name: &str,
+        pair: MarkerPair,
+        definition: &BearingDefinition,
+        control: Control,
+        damping: RingDamping,
+    ) -> Result<Self, BearingError> {
+        for (what, found) in [
+            ("the radial damping in N s/m", damping.radial_n_s_per_m),
+            ("the axial damping in N s/m", damping.axial_n_s_per_m),
+            ("the tilt damping in N m s/rad", damping.tilt_nm_s_per_rad),
+        ] {
+            if !(found >= 0.0 && found.is_finite()) {
+                return Err(BearingError::Parameter {
+                    what,
+                    found,
+                    allowed: "zero or positive, and finite",
+                });
+            }
+        }
+        let bearing = QuasiStaticBearing::new(definition)?;
+        Ok(Self {
+            name: name.to_owned(),
+            pair,
+            bodies: [pair.a.body, pair.b.body],
+            places: ElementPlaces::unknown(&bearing.rows),
+            bearing,
+            sizes: definition.rolling_sizes(),
+            damping,
+            control,
+            element_loads: false,
+            kept: Kept::default(),
+        })
+    }
+
+    /// Adds the load of every ball or roller to the channels: `element_<number>_inner_N`, `element_<number>_outer_N`, counted from one, row after row.
+    #[must_use]
+    pub fn with_element_loads(mut self) -> Self {
+        self.element_loads = true;
+        self
+    }
+
+    fn motion(&self, view: &View<'_>) -> RelativeMotion {
+        self.pair
+            .motion(view.body(self.bodies[0]), view.body(self.bodies[1]))
+    }
+
+    /// Speeds of the rings about their own axes: inner, outer.
+    fn speeds(&self, view: &View<'_>) -> [f64; 2] {
+        [
+            (self.bodies[1], &self.pair.b),
+            (self.bodies[0], &self.pair.a),
+        ]
+        .map(|(body, marker)| {
+            let axis = marker.orientation() * Vector3::z();
+            view.body(body).angular_velocity_rad_per_s.dot(&axis)
+        })
+    }
+
+    /// The operation at a time, from what was kept.
+    fn operation(&self, time_s: f64) -> Operation {
+        let kept = &self.kept;
+        // Linear in the speeds, whatever their unit.
+        let rolling = self
+            .sizes
+            .frequencies(kept.inner_rad_per_s, kept.outer_rad_per_s);
+        Operation {
+            inner_rad_per_s: kept.inner_rad_per_s,
+            outer_rad_per_s: kept.outer_rad_per_s,
+            cage_angle_rad: kept.cage_angle_rad + rolling.cage_hz * (time_s - kept.time_s),
+            control: self.control,
+        }
+    }
+
+    fn damping_matrix(&self) -> Matrix6<f64> {
+        let d = &self.damping;
+        let (radial, tilt) = (d.radial_n_s_per_m, d.tilt_nm_s_per_rad);
+        Matrix6::from_diagonal(&Vector6::new(
+            radial,
+            radial,
+            d.axial_n_s_per_m,
+            tilt,
+            tilt,
+            0.0,
+        ))
+    }
+
+    fn keep(&mut self, view: &View<'_>, cage_angle_rad: f64) {
+        let [inner_rad_per_s, outer_rad_per_s] = self.speeds(view);
+        self.kept = Kept {
+            time_s: view.time_s,
+            cage_angle_rad,
+            inner_rad_per_s,
+            outer_rad_per_s,
+        };
+    }
+}
+
+fn pose(motion: &RelativeMotion) -> RingPose {
+    RingPose {
+        centre_m: motion.displacement_m,
+        axis: motion.rotation.column(2).into(),
+    }
+}
+
+fn rates(motion: &RelativeMotion) -> Vector6<f64> {
+    let (v, w) = (motion.velocity_m_per_s, motion.angular_velocity_rad_per_s);
+    Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2])
+}
+
+impl ForceElement for QuasiStaticElement {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.bodies
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let motion = self.motion(view);
+        let operation = self.operation(view.time_s);
+        // The result does not depend on where the search begins, but for rounding; what is remembered is not.
+        self.places.forget();
+        let ring = self
+            .bearing
+            .evaluate_from(&pose(&motion), &operation, &mut self.places)?;
+        let (damping, rates) = (self.damping_matrix(), rates(&motion));
+        let viscous = damping * rates;
+        let load = ring.load - viscous;
+        // The balls' energy is not told: what the bearing does is work from outside.
+        loads.power = Power {
+            stored_j: 0.0,
+            dissipated_w: rates.dot(&viscous),
+            supplied_w: rates.dot(&ring.load),
+        };
+        let places = [loads.starts()[0], loads.starts()[1]];
+        loads.add_pair_force(places, &motion.generalised_force(&load));
+        if loads.wants_tangents() {
+            let jacobian = motion.jacobian();
+            let along = ring.tangent * jacobian - damping * motion.rate_jacobian(&jacobian);
+            let by_position = jacobian.tr_mul(&along) + motion.geometric_tangent(&jacobian, &load);
+            let by_velocity = -jacobian.tr_mul(&(damping * jacobian));
+            loads.add_pair_tangents(places, &by_position, &by_velocity);
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, view: &View<'_>) {
+        self.keep(view, 0.0);
+    }
+
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let angle = self.operation(view.time_s).cage_angle_rad;
+        self.keep(view, angle);
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        let kept = &self.kept;
+        out.extend([
+            kept.time_s,
+            kept.cage_angle_rad,
+            kept.inner_rad_per_s,
+            kept.outer_rad_per_s,
+        ]);
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        if let [time_s, cage_angle_rad, inner_rad_per_s, outer_rad_per_s] = *numbers {
+            self.kept = Kept {
+                time_s,
+                cage_angle_rad,
+                inner_rad_per_s,
+                outer_rad_per_s,
+            };
+        }
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        let three =
+            |head: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{head}_{axis}_{unit}"));
+        let mut names = [
+            three("force_shaft", "N"),
+            three("moment_shaft", "Nm"),
+            three("force_world", "N"),
+        ]
+        .concat();
+        names.push("force_radial_N".to_owned());
+        if self.element_loads {
+            let count: usize = self.bearing.rows.iter().map(|row| row.elements()).sum();
+            for element in 1..=count {
+                names.extend(["inner", "outer"].map(|race| format!("element_{element}_{race}_N")));
+            }
+        }
+        names.into_iter().map(|name| Channel { name }).collect()
+    }
+
+    fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
+        let motion = self.motion(view);
+        let operation = self.operation(view.time_s);
+        let Ok((ring, elements)) = self.bearing.loads(&pose(&motion), &operation) else {
+            out.fill(f64::NAN);
+            return;
+        };
+        let load = ring.load - self.damping_matrix() * rates(&motion);
+        out[..6].copy_from_slice(load.as_slice());
+        let force = load.fixed_rows::<3>(0).into_owned();
+        out[6..9].copy_from_slice(motion.to_world(&force).as_slice());
+        out[9] = force[0].hypot(force[1]);
+        if self.element_loads {
+            let pairs = out[10..].chunks_exact_mut(2);
+            for (pair, element) in pairs.zip(elements.elements.iter().flatten()) {
+                pair[0] = element.inner_load_n;
+                pair[1] = element.outer_load_n;
+            }
+        }
+    }
+}
