@@ -181,6 +181,7 @@ impl QuasiStaticBearing {
         for (row, places) in self.rows.iter().zip(places.rows()) {
             row.add(pose, operation, places, &mut ring, |_| {}, |_, _| {})?;
         }
+        ring.turn_freely(&pose.axis);
         Ok(ring)
     }
 
@@ -204,6 +205,7 @@ impl QuasiStaticBearing {
             all.elements.push(elements);
             all.laminae.push(laminae);
         }
+        ring.turn_freely(&pose.axis);
         Ok((ring, all))
     }
 }

@@ -31,6 +31,13 @@ impl RingLoad {
         self.load.fixed_rows::<5>(0).into_owned()
     }
 
+    /// Takes the moment about the ring's own axis away: it is rounding, because races are surfaces of revolution and friction has no arm about the
+    /// axis. A shaft that turns freely in its bearings would otherwise find no rest.
+    pub(crate) fn turn_freely(&mut self, axis: &Vector3<f64>) {
+        let mut moment = self.load.fixed_rows_mut::<3>(3);
+        moment -= axis * axis.dot(&moment);
+    }
+
     /// Adds a force f at the place w from the ring's middle, of a point that does not move with the ring, whose change is
     /// δf = `by_point` (δb + B δq) + δφ × f with B δq = −δu + w × δφ; of δb nothing is added here.
     pub(crate) fn add_at_fixed_point(

@@ -41,7 +41,7 @@ stiffness_Nm_per_rad = 100.0
 name = "push"
 body = "shaft"
 force_N = 500.0
-direction = [0.6, 0.0, 0.8]
+along = [0.6, 0.0, 0.8]
 [run]
 kind = "static"
 "#;
