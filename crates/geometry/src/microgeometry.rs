@@ -274,7 +274,7 @@ mod tests {
         // (roll, z, removed): at the form circle half the profile slope is added.
         for (roll, z, expected) in [
             (0.1, 0.0, 8e-6 - 3e-6),
-            (0.15, 0.0, 4e-6 - 1.5e-6),
+            (0.15, 0.0, 4e-6 - 2.25e-6),
             (0.3, 0.0, 0.0),
             (0.5, 0.0, 3e-6),
             (0.5, 0.01, 3e-6 + 10e-6 + 1e-6),
