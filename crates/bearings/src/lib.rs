@@ -38,6 +38,7 @@ pub mod point_contact;
 pub mod quasi_static;
 pub mod quasi_static_element;
 pub mod ratings;
+mod ring_channels;
 pub mod ring_equilibrium;
 pub mod ring_load;
 pub mod ring_pose;

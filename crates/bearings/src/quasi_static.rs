@@ -177,9 +177,23 @@ impl QuasiStaticBearing {
         operation: &Operation,
         places: &mut ElementPlaces,
     ) -> Result<RingLoad, BearingError> {
+        self.evaluate_each(pose, operation, places, |_| {})
+    }
+
+    /// As [`Self::evaluate_from`]; hands the load of every element to `each`, row after row.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate_from`].
+    pub fn evaluate_each(
+        &self,
+        pose: &RingPose,
+        operation: &Operation,
+        places: &mut ElementPlaces,
+        mut each: impl FnMut(ElementLoad),
+    ) -> Result<RingLoad, BearingError> {
         let mut ring = RingLoad::default();
         for (row, places) in self.rows.iter().zip(places.rows()) {
-            row.add(pose, operation, places, &mut ring, |_| {}, |_, _| {})?;
+            row.add(pose, operation, places, &mut ring, &mut each, |_, _| {})?;
         }
         ring.turn_freely(&pose.axis);
         Ok(ring)

@@ -14,6 +14,7 @@ use crate::error::BearingError;
 use crate::frequencies::RollingSizes;
 use crate::operation::{Control, Operation};
 use crate::quasi_static::QuasiStaticBearing;
+use crate::ring_channels::{RING_CHANNELS, ring_channels, sample_ring};
 use crate::ring_pose::RingPose;
 
 /// Damping beside the elastic bearing.
@@ -42,6 +43,7 @@ pub struct QuasiStaticElement {
     element_loads: bool,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
     kept: Kept,
+    /// Room for the search; nothing of it is kept between evaluations, so that a resumed run is the same to the last bit.
     places: ElementPlaces,
 }
 
@@ -180,7 +182,6 @@ impl ForceElement for QuasiStaticElement {
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
-        // The result does not depend on where the search begins, but for rounding; what is remembered is not.
         self.places.forget();
         let ring = self
             .bearing
@@ -238,15 +239,7 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let three =
-            |head: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{head}_{axis}_{unit}"));
-        let mut names = [
-            three("force_shaft", "N"),
-            three("moment_shaft", "Nm"),
-            three("force_world", "N"),
-        ]
-        .concat();
-        names.push("force_radial_N".to_owned());
+        let mut names = ring_channels();
         if self.element_loads {
             let count: usize = self.bearing.rows.iter().map(|row| row.elements()).sum();
             for element in 1..=count {
@@ -259,21 +252,24 @@ impl ForceElement for QuasiStaticElement {
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
-        let Ok((ring, elements)) = self.bearing.loads(&pose(&motion), &operation) else {
+        self.places.forget();
+        let (elements, mut number) = (self.element_loads, 0);
+        let found =
+            self.bearing
+                .evaluate_each(&pose(&motion), &operation, &mut self.places, |element| {
+                    if elements {
+                        let at = RING_CHANNELS + 2 * number;
+                        out[at] = element.inner_load_n;
+                        out[at + 1] = element.outer_load_n;
+                        number += 1;
+                    }
+                });
+        let Ok(ring) = found else {
             out.fill(f64::NAN);
             return;
         };
         let load = ring.load - self.damping_matrix() * rates(&motion);
-        out[..6].copy_from_slice(load.as_slice());
-        let force = load.fixed_rows::<3>(0).into_owned();
-        out[6..9].copy_from_slice(motion.to_world(&force).as_slice());
-        out[9] = force[0].hypot(force[1]);
-        if self.element_loads {
-            let pairs = out[10..].chunks_exact_mut(2);
-            for (pair, element) in pairs.zip(elements.elements.iter().flatten()) {
-                pair[0] = element.inner_load_n;
-                pair[1] = element.outer_load_n;
-            }
-        }
+        let force = motion.to_world(&load.fixed_rows::<3>(0).into_owned());
+        sample_ring(&load, &force, out);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::{BodyId, BodyMotion, ElementFailure, Marker, MarkerPair, Power, Unknown};
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 use super::ball_on_body::{Ball, BallPlaces, Carrier};
 use super::ball_start::start_of_row;
@@ -19,6 +19,7 @@ use crate::ball_row::{BallRow, Groove};
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, Row};
+use crate::ring_channels::{RING_CHANNELS, ring_channels, sample_ring};
 use crate::ring_pose::RingPose;
 
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
@@ -366,18 +367,10 @@ impl ForceElement for DynamicBearing {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let three =
-            |head: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{head}_{axis}_{unit}"));
-        let mut names = [
-            three("force_shaft", "N"),
-            three("moment_shaft", "Nm"),
-            three("force_world", "N"),
-        ]
-        .concat();
-        names.push("force_radial_N".to_owned());
+        let mut names = ring_channels();
         names.push("orbit_speed_rad_per_s".to_owned());
-        for cage in 0..self.effects.cages.len() {
-            names.extend(three(&format!("cage_{}_force", cage + 1), "N"));
+        for cage in 1..=self.effects.cages.len() {
+            names.extend(["x", "y", "z"].map(|axis| format!("cage_{cage}_force_{axis}_N")));
         }
         if self.ball_loads {
             for ball in 1..=self.balls() {
@@ -393,7 +386,8 @@ impl ForceElement for DynamicBearing {
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut orbit = 0.0;
         let cages = self.effects.cages.len();
-        let first_load = 11 + 3 * cages;
+        let first_cage = RING_CHANNELS + 1;
+        let first_load = first_cage + 3 * cages;
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, number);
             let [outer, inner] = [(&rings[0], &row.outer), (&rings[1], &row.inner)]
@@ -412,7 +406,7 @@ impl ForceElement for DynamicBearing {
                 let which = (row, place, ball_of_row);
                 if let Some(found) = self.in_pocket(which, &cage, &ball, false) {
                     for axis in 0..3 {
-                        out[11 + 3 * place + axis] -= found.force[axis];
+                        out[first_cage + 3 * place + axis] -= found.force[axis];
                     }
                 }
             }
@@ -425,10 +419,8 @@ impl ForceElement for DynamicBearing {
         let a = view.body(self.pair.a.body);
         let axes = a.rotation * self.pair.a.orientation().matrix();
         let (seen, turning) = (axes.tr_mul(&force), axes.tr_mul(&moment));
-        out[..3].copy_from_slice(seen.as_slice());
-        out[3..6].copy_from_slice(turning.as_slice());
-        out[6..9].copy_from_slice(force.as_slice());
-        out[9] = seen.x.hypot(seen.y);
-        out[10] = orbit / self.balls() as f64;
+        let load = Vector6::new(seen.x, seen.y, seen.z, turning.x, turning.y, turning.z);
+        sample_ring(&load, &force, out);
+        out[RING_CHANNELS] = orbit / self.balls() as f64;
     }
 }
