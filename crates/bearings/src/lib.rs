@@ -9,6 +9,7 @@
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
 //! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
+//! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
@@ -30,6 +31,7 @@ pub mod element_place;
 pub mod elliptic;
 mod error;
 pub mod estimate;
+pub mod faults;
 pub mod frequencies;
 pub mod life;
 pub mod line_contact;
