@@ -17,7 +17,7 @@ use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
 use crate::flank_kinematics::FlankKinematics;
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::Matrix6;
+use crate::slice_plane::{Matrix6, on_turn};
 
 /// Pitches of the pinion to either side of the plane of the axes within which teeth are looked at.
 const REACH: f64 = 3.5;
@@ -238,7 +238,47 @@ impl BevelMesh {
                 found.contacts[number].section = number;
             }
         }
+        if list.is_empty() {
+            self.push_apart(pose, flank, found);
+        }
         list.is_empty()
+    }
+
+    /// Flanks that no sphere brings together, by their mean points: for gears that are still to be turned until they touch.
+    fn push_apart(&self, pose: &Pose, flank: Flank, found: &mut FlankContacts) {
+        let side = &self.sides[flank as usize];
+        let Some(nearest) = self.candidates(pose, flank).next() else {
+            return;
+        };
+        let lever = flank.mirror() * side.levers_m[1];
+        let gradient = on_turn(lever * pose.axis_2());
+        let up = [0, 1].map(|m: usize| side.patches[m].mean[1]);
+        found.lines.push(TeethLine {
+            teeth: nearest.teeth,
+            section: 0,
+            ideal_gap_m: nearest.mean_gap_m,
+            contacts: (0, 1),
+        });
+        found.sections.push(Section {
+            roll_rad: up,
+            touching_roll_rad: up,
+            roll_gradient: [Vector6::zeros(); 2],
+            share: 1.0,
+            share_gradient: Vector6::zeros(),
+            length_m: self.layout.width_m(),
+            radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
+            radius_growth: [0.0; 2],
+            contacts: (0, 1),
+        });
+        found.contacts.push(ToothContact {
+            line: 0,
+            slice: 0,
+            section: 0,
+            heights_m: [0.0; 2],
+            gap_m: nearest.mean_gap_m,
+            gap_rate_m_per_s: gradient.dot(&pose.rates()),
+            gradient,
+        });
     }
 
     fn push(
