@@ -20,6 +20,6 @@ pub mod table;
 
 pub use fatigue_job::{FatigueJob, PassageLength};
 pub use nominal_figures::{nominal_error, nominal_figures, nominal_method};
-pub use result::{RatingFigure, RatingResult, Ratings};
+pub use result::{RatingFigure, RatingResult};
 pub use sn_table_file::sn_curve;
 pub use table::{FatigueRule, FatigueTable, NominalTable, RatingTable};

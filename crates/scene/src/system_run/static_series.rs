@@ -10,7 +10,8 @@ use super::error::SystemRunError;
 use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
 use super::part_folder::PartFolder;
 use super::recorder::{Course, Moment, Recorder, Selection};
-use super::result;
+use super::result_kind::ResultKind;
+use super::result_record::Contents;
 
 /// Runs a series. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_static(
@@ -90,9 +91,9 @@ pub(super) fn run_static(
             return Ok(Outcome::Stopped);
         }
     }
-    let tree = result::base(&head, "static", None);
     let rows = ("equilibrium", &columns[..], part.log());
-    result::write_rows(options.output, &tree, rows)?;
+    let mut contents = Contents::of_run(ResultKind::Static, head);
+    contents.write_with_rows(options.output, rows)?;
     part.finish()?;
     Ok(Outcome::Finished)
 }
