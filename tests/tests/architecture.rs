@@ -50,7 +50,9 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ("recovery", &["model", "contact"]),
     (
         "drivetrain",
-        &["geometry", "model", "contact", "dynamics", "recovery"],
+        &[
+            "bevel", "geometry", "model", "contact", "dynamics", "recovery",
+        ],
     ),
     ("signal", &[]),
     ("rating", &["geometry", "contact"]),
@@ -58,6 +60,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
         "scene",
         &[
             "bearings",
+            "bevel",
             "geometry",
             "model",
             "contact",

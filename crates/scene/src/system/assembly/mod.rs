@@ -5,7 +5,7 @@
 //! | read the gears that bodies name | `gears.rs` |
 //! | bodies in their places, markers on them | `bodies.rs`, `lump.rs` |
 //! | shafts | `shafts.rs` |
-//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs` |
+//! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
@@ -14,6 +14,7 @@
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
+mod bevel_mesh;
 mod bodies;
 mod carriers;
 mod elements;
