@@ -9,6 +9,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::ball_on_body::{Ball, BallPlaces, Carrier};
 use super::ball_start::start_of_row;
+use super::contact_damping::StatedContact;
 use super::effort::{BearingEffort, count};
 use super::groove_touch::{groove_touch, hertz_load};
 use super::pockets::Pockets;
@@ -25,7 +26,9 @@ use crate::ring_pose::RingPose;
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
 #[derive(Debug, Clone, Default)]
 pub struct DynamicEffects {
-    /// Damping of the contacts at the races.
+    /// Load and damping of the contacts at the races by a stated law; none: Hertz with `rebound`. Balls start at Hertz' places all the same.
+    pub contact: Option<StatedContact>,
+    /// Damping of Hertz' contacts at the races.
     pub rebound: Rebound,
     /// Friction at the races; without it balls do not turn.
     pub traction: Option<Traction>,
@@ -199,8 +202,13 @@ impl DynamicBearing {
         }
         Some(surface_force(
             &touch,
-            &hertz_load(groove, touch.approach_m),
-            &self.effects.rebound,
+            |rate| match &self.effects.contact {
+                None => {
+                    let elastic = hertz_load(groove, touch.approach_m);
+                    self.effects.rebound.damped(&elastic, rate)
+                }
+                Some(stated) => stated.damped(touch.approach_m, rate),
+            },
             &ring.carrier.against(ball),
             law,
             tangents,
@@ -235,8 +243,7 @@ impl DynamicBearing {
         });
         Some(surface_force(
             &touch,
-            &elastic,
-            &pockets.rebound,
+            |rate| pockets.rebound.damped(&elastic, rate),
             &cage.against(ball),
             law,
             tangents,

@@ -5,6 +5,7 @@
 //! | force between a ball and a surface, with all derivatives | | `surface_contact.rs` |
 //! | the same on a ball and a body of the system | | `ball_on_body.rs` |
 //! | where a ball meets a groove, as a torus | | `groove_touch.rs` |
+//! | load and damping of a contact, or a stated law for both | [`StatedContact`] | `contact_damping.rs` |
 //! | energy lost in a blow | [`Rebound`] | `rebound.rs` |
 //! | friction or film against slip | [`Traction`] | `traction.rs` |
 //! | pockets of a cage | [`Pockets`] | `pockets.rs` |
@@ -18,6 +19,7 @@
 
 mod ball_on_body;
 mod ball_start;
+pub mod contact_damping;
 pub mod dynamic_bearing;
 pub mod effort;
 mod groove_touch;
@@ -27,6 +29,7 @@ pub mod rebound;
 mod surface_contact;
 pub mod traction;
 
+pub use contact_damping::StatedContact;
 pub use dynamic_bearing::{DynamicBearing, DynamicEffects};
 pub use effort::BearingEffort;
 pub use land_guide::{LandContact, LandFilm, LandGuide, LandSide};

@@ -10,7 +10,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::rebound::Rebound;
+use super::contact_damping::DampedLoad;
 use super::traction::Slip;
 use crate::ring_pose::cross;
 
@@ -73,33 +73,31 @@ pub(crate) struct SurfaceForce {
     pub moment_by: ByMotion,
 }
 
-/// The force at a touch. `traction` gives κ of a load and a slip; none: no friction.
+/// The force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction.
 pub(crate) fn surface_force(
     touch: &Touch,
-    elastic: &ElasticLoad,
-    rebound: &Rebound,
+    damped: impl Fn(f64) -> DampedLoad,
     against: &Against,
     traction: Option<impl Fn(f64, f64) -> Slip>,
     tangents: bool,
 ) -> SurfaceForce {
     let (n, u) = (touch.normal, against.velocity);
     let rate = n.dot(&u);
-    let (factor, chi) = rebound.factor(rate);
-    let load = elastic.load_n * factor;
+    let damped = damped(rate);
+    let load = damped.load_n;
     let mut found = SurfaceForce {
         load_n: load,
         force: -n * load,
         moment: Vector3::zeros(),
-        stored_j: elastic.stored_j,
-        dissipated_w: (load - elastic.load_n) * rate,
+        stored_j: damped.stored_j,
+        dissipated_w: (load - damped.elastic_n) * rate,
         force_by: ByMotion::ZERO,
         moment_by: ByMotion::ZERO,
     };
     // ∂F by w and by u.
     let rate_by_place = touch.turning * u;
-    let load_by_place =
-        n * (elastic.slope_n_per_m * factor) + rate_by_place * (elastic.load_n * chi);
-    let load_by_velocity = n * (elastic.load_n * chi);
+    let load_by_place = n * damped.by_depth + rate_by_place * damped.by_rate;
+    let load_by_velocity = n * damped.by_rate;
     if tangents {
         found.force_by.place = -n * load_by_place.transpose() - touch.turning * load;
         found.force_by.velocity = -n * load_by_velocity.transpose();

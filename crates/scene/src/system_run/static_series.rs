@@ -3,20 +3,23 @@
 use gearmesh_dynamics::{
     EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium,
 };
-use gearmesh_model::Column;
+use gearmesh_model::{Column, write_record};
 use std::sync::atomic::Ordering;
 
 use super::error::SystemRunError;
 use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
 use super::part_folder::PartFolder;
+use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
 use super::result;
+use crate::rating::Ratings;
+use crate::system::RatingJob;
 
 /// Runs a series. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_static(
     mut head: RunHead,
     nominal: &System,
-    selection: &Selection,
+    (selection, ratings): (&Selection, &[RatingJob]),
     job: &StaticJob,
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
@@ -90,7 +93,9 @@ pub(super) fn run_static(
             return Ok(Outcome::Stopped);
         }
     }
-    let tree = result::base(&head, "static", None);
+    let mut tree = result::base(&head, "static", None);
+    let rated = rating::of_rows(ratings, &columns, part.log())?;
+    write_record(&mut Ratings(rated), &mut tree);
     let rows = ("equilibrium", &columns[..], part.log());
     result::write_rows(options.output, &tree, rows)?;
     part.finish()?;

@@ -1,8 +1,10 @@
 //! Multibody scene files become the systems that they describe.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
+mod bearing_kinds;
 #[path = "../common/mod.rs"]
 mod common;
+mod dynamic_bearings;
 mod epicyclic;
 mod flanks_of_scenes;
 mod gearbox;
