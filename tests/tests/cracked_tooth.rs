@@ -64,7 +64,7 @@ fn section_loss_and_doubled_nodes_are_of_one_order() {
             tooth: profile,
             material: gear.material,
             face_width_m: WIDTH,
-            bore_radius_m: gear.blank.bore_radius_m,
+            bore_radius_m: gear.blank.bore_radius_m(),
         };
         let fillet = ProfileCurve::new(profile)
             .arc_length_at(gear.crack.unwrap().start)

@@ -14,7 +14,7 @@ use crate::error::BearingError;
 use crate::frequencies::RollingSizes;
 use crate::operation::{Control, Operation};
 use crate::quasi_static::QuasiStaticBearing;
-use crate::ring_channels::{RING_CHANNELS, ring_channels, sample_ring};
+use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
 use crate::ring_pose::RingPose;
 
 /// Damping beside the elastic bearing.
@@ -239,14 +239,14 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let mut names = ring_channels();
+        let mut channels = ring_channels();
         if self.element_loads {
             let count: usize = self.bearing.rows.iter().map(|row| row.elements()).sum();
             for element in 1..=count {
-                names.extend(["inner", "outer"].map(|race| format!("element_{element}_{race}_N")));
+                channels.extend(race_loads("element", element));
             }
         }
-        names.into_iter().map(|name| Channel { name }).collect()
+        channels
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {

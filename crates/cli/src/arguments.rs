@@ -238,6 +238,12 @@ pub enum SchemaKind {
     Bearing,
     /// Bevel pairs
     Bevel,
+    /// Reduced gear bodies: data sets of the HDF5 file
+    Model,
+    /// Results of gear pairs: data sets of the HDF5 file
+    PairResult,
+    /// Results of multibody scenes: data sets of the HDF5 file
+    SystemResult,
 }
 
 /// `gearmesh demo`.

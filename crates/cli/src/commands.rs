@@ -6,6 +6,7 @@ pub mod bevel;
 pub mod check;
 pub mod compare;
 pub mod compliance;
+mod data_set_page;
 pub mod demo;
 pub mod export;
 pub mod mesh;

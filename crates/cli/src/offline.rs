@@ -34,7 +34,7 @@ pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
 /// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like
 /// those of another unit.
 pub fn judge_gear(gear: &GearDefinition, document: &InputDocument) -> Result<(), Failure> {
-    if let Some(body) = &gear.blank.meshed {
+    if let Some(body) = gear.blank.meshed() {
         let shown = body.file.display();
         if !body.file.exists() {
             let problem = format!("the mesh file {shown} does not exist");

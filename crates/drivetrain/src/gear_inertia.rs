@@ -54,7 +54,7 @@ impl GearInertia {
         face_width_m: f64,
         density_kg_per_m3: f64,
     ) -> Result<Self, DrivetrainError> {
-        if blank.contour.is_some() || blank.meshed.is_some() {
+        if blank.contour().is_some() || blank.meshed().is_some() {
             return Err(DrivetrainError::BodyWithoutClosedForm);
         }
         positive("gear body", "the density in kg/m3", density_kg_per_m3)?;
@@ -62,7 +62,7 @@ impl GearInertia {
         let (area, polar) = outline(tooth);
         let mut inertia = Self::default();
         let mut add = |prism: Prism, sign: f64| inertia.add(prism, sign * density_kg_per_m3);
-        let (web_width, web_z) = match blank.web {
+        let (web_width, web_z) = match blank.web() {
             None => (face_width_m, 0.0),
             Some(Web {
                 thickness_m,
@@ -77,13 +77,13 @@ impl GearInertia {
             z_m: 0.0,
         };
         add(whole, 1.0);
-        add(ring(0.0, blank.bore_radius_m, face_width_m, 0.0), -1.0);
-        if let Some(web) = blank.web {
+        add(ring(0.0, blank.bore_radius_m(), face_width_m, 0.0), -1.0);
+        if let Some(web) = blank.web() {
             let (low, high) = (web.hub_radius_m, web.rim_inner_radius_m);
             add(ring(low, high, face_width_m, 0.0), -1.0);
             add(ring(low, high, web.thickness_m, web.offset_m), 1.0);
         }
-        if let Some(openings) = blank.openings {
+        if let Some(openings) = blank.openings() {
             let (one, distance) = opening(&openings);
             let count = openings.count() as f64;
             let prism = Prism {

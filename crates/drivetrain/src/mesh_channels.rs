@@ -10,17 +10,56 @@
 //!
 //! all of them on gear 1; gear 2 feels the opposite force.
 
+use gearmesh_dynamics::elements::Channel;
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 use crate::gear_mesh::GearMesh;
 
-/// Names of the channels of the force on gear 1.
-pub(crate) const FORCE_CHANNELS: [&str; 3] = [
-    "tangential_force_1_N",
-    "radial_force_1_N",
-    "axial_force_1_N",
-];
+/// Sum of the normal forces on the flanks of a side.
+pub(crate) fn normal_force(flank: Flank) -> Channel {
+    let side = flank.name();
+    let what = format!("sum of the normal forces on the {side} flanks");
+    Channel::new(format!("normal_force_{side}_N"), "N", what)
+}
+
+/// Transmission error, pairs of teeth that carry, and whether the gears are apart.
+pub(crate) fn state() -> [Channel; 3] {
+    let te = "transmission error of the flanks in contact, zero at first touch, negative under load; where none touch that of the nearest";
+    [
+        Channel::new("transmission_error_m", "m", te),
+        Channel::new("loaded_pairs", "1", "pairs of teeth that carry"),
+        Channel::new("apart", "1", "1 where no tooth reaches the mate, else 0"),
+    ]
+}
+
+/// Root strain at a gauge of gear 1 or 2 by method 1 or 2.
+pub(crate) fn strain(gear: usize, gauge: &str, method: usize) -> Channel {
+    let what = format!(
+        "root strain at gauge {gauge} of gear {gear} by method {method}, positive in tension"
+    );
+    Channel::new(
+        format!("strain_gear{gear}_{gauge}_method{method}_ustrain"),
+        "µε",
+        what,
+    )
+}
+
+/// Number of the channels of the force on gear 1.
+pub(crate) const FORCES: usize = 3;
+
+/// The force on gear 1.
+pub(crate) fn forces() -> [Channel; FORCES] {
+    let channel = |name, what| Channel::new(name, "N", what);
+    [
+        channel(
+            "tangential_force_1_N",
+            "tangential force on gear 1, counter-clockwise about its z",
+        ),
+        channel("radial_force_1_N", "radial force on gear 1, positive apart"),
+        channel("axial_force_1_N", "axial force on gear 1 along its z"),
+    ]
+}
 
 /// F_t, F_r and F_a \[N\] on gear 1 at the last pose; `displacement_m`: gear 2's origin in gear 1's axes.
 pub(crate) fn force_on_gear_1(mesh: &GearMesh, displacement_m: &Vector3<f64>) -> [f64; 3] {
@@ -42,9 +81,11 @@ pub(crate) struct SliceLineLoads {
 }
 
 impl SliceLineLoads {
-    /// Channel names of so many slices, counted along gear 1's z.
-    pub(crate) fn names(slices: usize) -> impl Iterator<Item = String> {
-        (1..=slices).map(|slice| format!("line_load_slice_{slice}_N_per_m"))
+    /// Channels of so many slices, counted along gear 1's z.
+    pub(crate) fn channels(slices: usize) -> impl Iterator<Item = Channel> {
+        let what = "line load of the slice, counted along gear 1's z: the largest among the pairs of teeth that touch there";
+        (1..=slices)
+            .map(move |slice| Channel::new(format!("line_load_slice_{slice}_N_per_m"), "N/m", what))
     }
 
     /// Writes q \[N/m\] of each slice.

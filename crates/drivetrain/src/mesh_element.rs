@@ -3,13 +3,12 @@
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
 use gearmesh_dynamics::relative_motion::PairTangent;
 use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMotion};
-use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
-use crate::mesh_channels::{FORCE_CHANNELS, SliceLineLoads, force_on_gear_1};
+use crate::mesh_channels::{self, FORCES, SliceLineLoads, force_on_gear_1};
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
 
@@ -234,28 +233,21 @@ impl ForceElement for MeshElement {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let sides = self.mesh.flanks().map(|flank| match flank {
-            Flank::Right => "normal_force_right_N",
-            Flank::Left => "normal_force_left_N",
-        });
+        let sides = self.mesh.flanks().map(mesh_channels::normal_force);
         let slices = self
             .line_loads
             .map(|_| self.mesh.kinematics().layout().slices);
         let strain = self.gauges.iter().flat_map(|gauges| {
             let names = gauges.names().iter();
             names.flat_map(|name| {
-                [1, 2].map(|method| {
-                    format!("strain_gear{}_{name}_method{method}_ustrain", gauges.gear())
-                })
+                [1, 2].map(|method| mesh_channels::strain(gauges.gear(), name, method))
             })
         });
         sides
-            .chain(["transmission_error_m", "loaded_pairs", "apart"])
-            .map(str::to_owned)
+            .chain(mesh_channels::state())
             .chain(strain)
-            .chain(FORCE_CHANNELS.map(str::to_owned))
-            .chain(slices.map(SliceLineLoads::names).into_iter().flatten())
-            .map(|name| Channel { name })
+            .chain(mesh_channels::forces())
+            .chain(slices.map(SliceLineLoads::channels).into_iter().flatten())
             .collect()
     }
 
@@ -299,7 +291,7 @@ impl ForceElement for MeshElement {
             }
         }
         let rest = places.into_slice();
-        let (forces, slices) = rest.split_at_mut(FORCE_CHANNELS.len());
+        let (forces, slices) = rest.split_at_mut(FORCES);
         forces.copy_from_slice(&force_on_gear_1(&self.mesh, &motion.displacement_m));
         if let Some(line_loads) = &self.line_loads {
             line_loads.write(&self.mesh, slices);

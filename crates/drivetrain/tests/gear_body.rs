@@ -16,13 +16,7 @@ const STEEL_DENSITY: f64 = 7850.0;
 fn bodies_have_the_mass_of_their_parts() {
     let pair = spur_pair();
     let gear = &pair.gear_1;
-    let solid = Blank {
-        bore_radius_m: 8e-3,
-        web: None,
-        openings: None,
-        contour: None,
-        meshed: None,
-    };
+    let solid = Blank::solid(8e-3);
     let of = |blank: &Blank| GearInertia::new(gear, blank, WIDTH, STEEL_DENSITY).unwrap();
     let disc = |r: f64| STEEL_DENSITY * PI * r * r * WIDTH;
     let whole = of(&solid);
@@ -43,10 +37,13 @@ fn bodies_have_the_mass_of_their_parts() {
         thickness_m: 5e-3,
         offset_m: 2e-3,
     };
-    let webbed = of(&Blank {
-        web: Some(web),
-        ..solid.clone()
-    });
+    let with_web = |openings| Blank::Webbed {
+        bore_radius_m: 8e-3,
+        web,
+        contour: None,
+        openings,
+    };
+    let webbed = of(&with_web(None));
     let ring = PI * (35e-3f64.powi(2) - 15e-3f64.powi(2));
     let lost = STEEL_DENSITY * ring * (WIDTH - 5e-3);
     assert!((whole.mass_kg - webbed.mass_kg - lost).abs() < 1e-12);
@@ -59,11 +56,7 @@ fn bodies_have_the_mass_of_their_parts() {
         pitch_radius_m: 25e-3,
         phase_rad: 0.3,
     };
-    let holed = of(&Blank {
-        web: Some(web),
-        openings: Some(Openings::Holes(holes)),
-        ..solid.clone()
-    });
+    let holed = of(&with_web(Some(Openings::Holes(holes))));
     let one = STEEL_DENSITY * PI * 25e-6 * 5e-3;
     assert!((webbed.mass_kg - holed.mass_kg - 4.0 * one).abs() < 1e-12);
     let spin = 4.0 * one * (25e-3f64.powi(2) + 0.5 * 25e-6);
@@ -78,11 +71,7 @@ fn bodies_have_the_mass_of_their_parts() {
         phase_rad: 0.0,
         corner_radius_m: 1e-3,
     };
-    let slotted = of(&Blank {
-        web: Some(web),
-        openings: Some(Openings::Slots(single)),
-        ..solid
-    });
+    let slotted = of(&with_web(Some(Openings::Slots(single))));
     assert!(slotted.centre_xy_m[0] < 0.0 && slotted.centre_xy_m[1].abs() < 1e-15);
 }
 

@@ -28,7 +28,7 @@ pub use beam::BeamSection;
 pub use bushing::Bushing;
 pub use gravity::Gravity;
 pub use linear_bearing::{AxialSupport, LinearBearing};
-pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad};
+pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad, load_channels};
 pub use matrix_bearing::MatrixBearing;
 pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;
@@ -245,6 +245,26 @@ impl Loads {
 pub struct Channel {
     /// Name with unit, as in a column head: `force_x_N`.
     pub name: String,
+    /// Unit: `N`; `1` for plain numbers. Nothing reads it off the name.
+    pub unit: &'static str,
+    /// What it is, with axes and sign.
+    pub description: String,
+}
+
+impl Channel {
+    /// A channel.
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        unit: &'static str,
+        description: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            unit,
+            description: description.into(),
+        }
+    }
 }
 
 /// A force that acts on some bodies, with coordinates of its own where it has any (docs/extending.md).

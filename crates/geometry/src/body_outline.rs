@@ -121,9 +121,9 @@ fn side_corners(blank: &Blank, half_m: f64, side: usize, outer_m: f64) -> Vec<Co
         at_m: [r, z],
         fillet: None,
     };
-    let bore = blank.bore_radius_m;
+    let bore = blank.bore_radius_m();
     let mut corners = vec![sharp(outer_m, face)];
-    match (&blank.contour, blank.web) {
+    match (blank.contour(), blank.web()) {
         (Some(contour), _) => {
             let points = contour.web.iter().enumerate().rev();
             if let Some(rim) = contour.web.last() {
@@ -316,9 +316,14 @@ mod tests {
             z_m,
             fillet_radius_m,
         };
-        Blank {
+        Blank::Webbed {
             bore_radius_m: 0.010,
-            web: None,
+            web: Web {
+                hub_radius_m: 0.016,
+                rim_inner_radius_m: 0.030,
+                thickness_m: 0.006,
+                offset_m: 0.001,
+            },
             contour: Some(Contour {
                 hub_z_m: [-0.014, 0.012],
                 web: vec![
@@ -328,7 +333,6 @@ mod tests {
                 ],
             }),
             openings: None,
-            meshed: None,
         }
     }
 
@@ -444,7 +448,11 @@ mod tests {
     #[test]
     fn a_fillet_without_a_corner_is_refused() {
         let mut straight = blank([0.0, 0.001, 0.0]);
-        if let Some(contour) = &mut straight.contour {
+        if let Blank::Webbed {
+            contour: Some(contour),
+            ..
+        } = &mut straight
+        {
             contour.web[1].radius_m = 0.023;
             contour.web[1].z_m = [-0.0035, 0.004];
         }

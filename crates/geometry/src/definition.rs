@@ -98,18 +98,96 @@ pub struct ToothDefinition {
 }
 
 /// The body below the teeth. Held at the bore.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Blank {
+#[derive(Debug, Clone, PartialEq)]
+pub enum Blank {
+    /// A disc of full width, perhaps with openings through it.
+    Solid {
+        /// Bore radius \[m\].
+        bore_radius_m: f64,
+        /// Openings.
+        openings: Option<Openings>,
+    },
+    /// Hub, web and rim, perhaps with openings through the web.
+    Webbed {
+        /// Bore radius \[m\].
+        bore_radius_m: f64,
+        /// Hub, web and rim.
+        web: Web,
+        /// Faces of hub and web where they are no planes; `web` then describes the web at the rim.
+        contour: Option<Contour>,
+        /// Openings.
+        openings: Option<Openings>,
+    },
+    /// The whole gear, teeth included, was meshed elsewhere; web and openings are not known.
+    Meshed {
+        /// Bore radius \[m\].
+        bore_radius_m: f64,
+        /// Where the mesh is.
+        body: MeshedBody,
+    },
+}
+
+impl Default for Blank {
+    fn default() -> Self {
+        Self::solid(0.0)
+    }
+}
+
+impl Blank {
+    /// A solid disc without openings.
+    #[must_use]
+    pub fn solid(bore_radius_m: f64) -> Self {
+        Self::Solid {
+            bore_radius_m,
+            openings: None,
+        }
+    }
+
     /// Bore radius \[m\].
-    pub bore_radius_m: f64,
-    /// Hub, web and rim; `None` for a solid disc of full width.
-    pub web: Option<Web>,
-    /// Faces of hub and web where they are no planes; `web` then describes the web at the rim.
-    pub contour: Option<Contour>,
-    /// Openings through the web (or through the whole solid disc).
-    pub openings: Option<Openings>,
-    /// Where the whole gear, teeth included, was meshed elsewhere; web and openings are not known then.
-    pub meshed: Option<MeshedBody>,
+    #[must_use]
+    pub fn bore_radius_m(&self) -> f64 {
+        match self {
+            Self::Solid { bore_radius_m, .. }
+            | Self::Webbed { bore_radius_m, .. }
+            | Self::Meshed { bore_radius_m, .. } => *bore_radius_m,
+        }
+    }
+
+    /// Hub, web and rim; none of a solid disc of full width.
+    #[must_use]
+    pub fn web(&self) -> Option<Web> {
+        match self {
+            Self::Webbed { web, .. } => Some(*web),
+            Self::Solid { .. } | Self::Meshed { .. } => None,
+        }
+    }
+
+    /// Faces of hub and web where they are no planes.
+    #[must_use]
+    pub fn contour(&self) -> Option<&Contour> {
+        match self {
+            Self::Webbed { contour, .. } => contour.as_ref(),
+            Self::Solid { .. } | Self::Meshed { .. } => None,
+        }
+    }
+
+    /// Openings through the web, or through the solid disc.
+    #[must_use]
+    pub fn openings(&self) -> Option<Openings> {
+        match self {
+            Self::Solid { openings, .. } | Self::Webbed { openings, .. } => *openings,
+            Self::Meshed { .. } => None,
+        }
+    }
+
+    /// Where the whole gear was meshed elsewhere.
+    #[must_use]
+    pub fn meshed(&self) -> Option<&MeshedBody> {
+        match self {
+            Self::Meshed { body, .. } => Some(body),
+            Self::Solid { .. } | Self::Webbed { .. } => None,
+        }
+    }
 }
 
 /// Axial contour of hub and web.
@@ -450,11 +528,11 @@ impl GearDefinition {
     pub fn sectors(&self) -> usize {
         let z = self.tooth.teeth;
         // Nothing is known of how a mesh from elsewhere repeats.
-        if self.blank.meshed.is_some() {
+        if self.blank.meshed().is_some() {
             return 1;
         }
         self.blank
-            .openings
+            .openings()
             .map_or(z, |o| greatest_common_divisor(z, o.count()))
     }
 }

@@ -97,7 +97,7 @@ impl GearDefinition {
         let mesh = file.mesh.check(document, &tooth, &blank)?;
         let reduction = file.reduction.check(document, mesh.plane_strain)?;
         let hub_support = file.hub.support();
-        if blank.meshed.is_some() {
+        if blank.meshed().is_some() {
             for (key, given) in [
                 (
                     "material.density_kg_per_m3",

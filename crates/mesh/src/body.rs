@@ -57,7 +57,7 @@ impl BodyProblem {
 
 /// The first tooth of a sector such that the cut before it keeps clear of all openings.
 pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
-    let Some(openings) = gear.blank.openings else {
+    let Some(openings) = gear.blank.openings() else {
         return Ok(0);
     };
     if gear.sectors() == 1 {
@@ -91,7 +91,7 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
 /// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle
 /// too.
 pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
-    let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web);
+    let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web());
     move |r: f64| {
         let from_ring = ring_size + GRADING * (ring - r).abs();
         let from_hub = web.map_or(f64::INFINITY, |web| {
@@ -105,14 +105,18 @@ pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f
 pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
     let ring = ring_radius_m(gear);
     let mut levels = vec![(ring, false)];
-    if let Some(web) = gear.blank.web {
+    if let Some(web) = gear.blank.web() {
         if web.rim_inner_radius_m < ring - 1e-9 {
             levels.push((web.rim_inner_radius_m, true));
         } else {
             levels[0].1 = true;
         }
         // Where the contour has a kink, nodes lie.
-        let kinks = gear.blank.contour.iter().flat_map(|contour| &contour.web);
+        let kinks = gear
+            .blank
+            .contour()
+            .into_iter()
+            .flat_map(|contour| &contour.web);
         let inner = kinks.map(|point| point.radius_m).rev();
         levels.extend(
             inner
@@ -121,7 +125,7 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
         );
         levels.push((web.hub_radius_m, false));
     }
-    levels.push((gear.blank.bore_radius_m, false));
+    levels.push((gear.blank.bore_radius_m(), false));
     levels
 }
 
@@ -170,7 +174,7 @@ pub fn body_problem(
         .enumerate()
         .map(|(level, &(r, _))| {
             // The bore takes over the hub's number of pieces, so that the hub can be paved regularly.
-            let hub_inside = level + 1 == levels.len() && gear.blank.web.is_some();
+            let hub_inside = level + 1 == levels.len() && gear.blank.web().is_some();
             if r != ring && !hub_inside {
                 // Free regions are meshed two boundary pieces at a time, and blossom needs an even number of those:
                 // the outline of a region has a multiple of four pieces, of which two equal edges are even already.
@@ -221,7 +225,7 @@ pub fn body_problem(
             left_side.extend(&left);
             left_side.push(inner[inner.len() - 1]);
         }
-        if let Some(openings) = gear.blank.openings {
+        if let Some(openings) = gear.blank.openings() {
             let (r_in, r_out) = openings.radii_m();
             if r_out < levels[i].0 && r_in > levels[i + 1].0 {
                 let repeat = TAU / openings.count() as f64;

@@ -54,10 +54,10 @@ impl GearMesh {
     /// # Errors
     /// [`MeshError`] when gmsh is missing or fails, or when the mesh is poorer than `min_scaled_jacobian`.
     pub fn new(gear: &GearDefinition, python: &PythonEnvironment) -> Result<Self, MeshError> {
-        if gear.mesh.element == Element::Tet10 && gear.blank.meshed.is_none() {
+        if gear.mesh.element == Element::Tet10 && gear.blank.meshed().is_none() {
             return Self::in_tetrahedra(gear, python);
         }
-        if let Some(body) = &gear.blank.meshed {
+        if let Some(body) = gear.blank.meshed() {
             return Err(MeshError::MeshedElsewhere {
                 file: body.file.display().to_string(),
             });

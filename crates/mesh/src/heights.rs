@@ -33,8 +33,8 @@ impl Heights {
         Self {
             moved: gear
                 .blank
-                .contour
-                .clone()
+                .contour()
+                .cloned()
                 .map(|contour| Moved { contour, rim_m }),
         }
     }

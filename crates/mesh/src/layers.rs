@@ -68,7 +68,7 @@ impl Layers {
             return Self::even(gear.tooth.face_width_m, axial);
         }
         let mut breaks = vec![-half, half];
-        if let Some(web) = gear.blank.web {
+        if let Some(web) = gear.blank.web() {
             breaks.extend([
                 web.offset_m - 0.5 * web.thickness_m,
                 web.offset_m + 0.5 * web.thickness_m,
@@ -88,8 +88,8 @@ impl Layers {
         for pair in breaks.windows(2) {
             let (from, to) = (pair[0], pair[1]);
             let middle = 0.5 * (from + to);
-            let inside =
-                (gear.blank.web).is_none_or(|w| (middle - w.offset_m).abs() < 0.5 * w.thickness_m);
+            let inside = (gear.blank.web())
+                .is_none_or(|w| (middle - w.offset_m).abs() < 0.5 * w.thickness_m);
             let any = Pieces {
                 least: 1,
                 even: false,

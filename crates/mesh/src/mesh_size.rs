@@ -49,12 +49,12 @@ struct Quads {
 impl MeshSize {
     /// Estimates the mesh of a gear. A gear that was meshed elsewhere has none to estimate.
     pub fn estimate(gear: &GearDefinition) -> Option<Self> {
-        if gear.blank.meshed.is_some() {
+        if gear.blank.meshed().is_some() {
             return None;
         }
         let layers = Layers::new(gear);
         let all = layers.count() as f64;
-        let web = if gear.blank.web.is_some() {
+        let web = if gear.blank.web().is_some() {
             layers.web.len() as f64
         } else {
             all
@@ -152,7 +152,7 @@ fn structured(blocks: &ToothBlocks) -> Quads {
 
 /// Share of a ring of the body that openings leave.
 fn open_share(gear: &GearDefinition, outer: f64, inner: f64) -> f64 {
-    let Some(openings) = gear.blank.openings else {
+    let Some(openings) = gear.blank.openings() else {
         return 1.0;
     };
     let (r_in, r_out) = openings.radii_m();
@@ -170,7 +170,7 @@ fn open_share(gear: &GearDefinition, outer: f64, inner: f64) -> f64 {
 
 /// Share of the face width that the body fills between two circles.
 fn web_share(gear: &GearDefinition, web_only: bool) -> f64 {
-    match gear.blank.web {
+    match gear.blank.web() {
         Some(web) if web_only => web.thickness_m / gear.tooth.face_width_m,
         _ => 1.0,
     }

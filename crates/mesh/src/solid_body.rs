@@ -110,7 +110,7 @@ impl Sector {
         let mismatch = |text: String| MeshError::from(SolidMeshError::Mismatch(text));
         let ring_m = ring_radius_m(gear);
         let step = TAU / (gear.tooth.teeth * foot.pieces()) as f64;
-        let (start, bore_m) = (problem.start, gear.blank.bore_radius_m);
+        let (start, bore_m) = (problem.start, gear.blank.bore_radius_m());
         let mut ends = BTreeMap::new();
         let mut corners: HashSet<usize> = HashSet::new();
         for element in &mesh.elements {

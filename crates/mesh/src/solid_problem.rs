@@ -41,7 +41,7 @@ pub fn solid_problem(
     let arc_m = ring_m * pitch / ring_pieces as f64;
     let layer_m = gear.tooth.face_width_m / layers as f64;
     let mut openings = Vec::new();
-    if let Some(given) = gear.blank.openings {
+    if let Some(given) = gear.blank.openings() {
         let repeat = TAU / given.count() as f64;
         let first = ((start - given.phase_rad()) / repeat).ceil() as i64;
         openings = (0..(given.count() / sectors) as i64)
@@ -107,11 +107,11 @@ fn contour_loop(
 
 /// Thickness of the web at a radius between hub and rim.
 fn web_thickness_m(gear: &GearDefinition, radius_m: f64) -> Option<f64> {
-    let web = gear.blank.web?;
+    let web = gear.blank.web()?;
     if radius_m < web.hub_radius_m - SAME_M || radius_m > web.rim_inner_radius_m + SAME_M {
         return None;
     }
-    let Some(contour) = &gear.blank.contour else {
+    let Some(contour) = gear.blank.contour() else {
         return Some(web.thickness_m);
     };
     let points = &contour.web;

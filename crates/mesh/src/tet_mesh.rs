@@ -52,7 +52,7 @@ impl GearMesh {
         // gmsh's bore is one to its own tolerance.
         for &n in &solid.bore {
             let [x, y, z] = mesh.nodes[n as usize];
-            let scale = gear.blank.bore_radius_m / x.hypot(y);
+            let scale = gear.blank.bore_radius_m() / x.hypot(y);
             mesh.nodes[n as usize] = [scale * x, scale * y, z];
         }
         mesh.solid = Some(solid);

@@ -43,13 +43,13 @@ pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
     let module = gear.tooth.module_m;
     let root = gear.profile.root_radius_m;
     let default = root - 1.5 * module;
-    match gear.blank.web {
+    match gear.blank.web() {
         // Fillets run out into the rim's inner surface: the ring keeps clear of it.
         Some(web) if gear.mesh.element == Element::Tet10 => {
             default.max(web.rim_inner_radius_m + BELOW_RING * (root - web.rim_inner_radius_m))
         }
         Some(web) if web.rim_inner_radius_m > root - 2.5 * module => web.rim_inner_radius_m,
         Some(_) => default,
-        None => default.max(0.5 * (gear.blank.bore_radius_m + root)),
+        None => default.max(0.5 * (gear.blank.bore_radius_m() + root)),
     }
 }

@@ -22,7 +22,7 @@ impl Twist {
             teeth_rad_per_m: gear.profile.twist_rad_per_m(),
             fade_m: gear
                 .blank
-                .openings
+                .openings()
                 .map(|o| [o.radii_m().1, gear.profile.root_radius_m]),
         }
     }

@@ -90,7 +90,7 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
     let bore = mesh.bore();
     assert!(bore.iter().all(|&n| {
         let p = mesh.nodes[n as usize];
-        (p[0].hypot(p[1]) - gear.blank.bore_radius_m).abs() < 1e-12
+        (p[0].hypot(p[1]) - gear.blank.bore_radius_m()).abs() < 1e-12
     }));
     // Flank nodes lie on the involute; supports of the submodel are disjoint from the loaded flank.
     let sets = mesh.node_sets(&gear);
@@ -130,16 +130,16 @@ fn check(text: &str, volume_m3: impl Fn(&GearDefinition) -> f64) {
 #[test]
 fn solid_gear() {
     check(&source("gear1.toml"), |g| {
-        (outline_area(g) - PI * g.blank.bore_radius_m.powi(2)) * g.tooth.face_width_m
+        (outline_area(g) - PI * g.blank.bore_radius_m().powi(2)) * g.tooth.face_width_m
     });
 }
 
 fn thin_rim_volume(g: &GearDefinition) -> f64 {
-    let web = g.blank.web.unwrap();
+    let web = g.blank.web().unwrap();
     let annulus = |a: f64, b: f64| PI * (b * b - a * a);
     (outline_area(g) - PI * web.rim_inner_radius_m.powi(2)) * g.tooth.face_width_m
         + annulus(web.hub_radius_m, web.rim_inner_radius_m) * web.thickness_m
-        + annulus(g.blank.bore_radius_m, web.hub_radius_m) * g.tooth.face_width_m
+        + annulus(g.blank.bore_radius_m(), web.hub_radius_m) * g.tooth.face_width_m
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn thin_rim_with_offset_web_and_chamfer() {
 #[test]
 fn three_slots() {
     check(&source("gear3.toml"), |g| {
-        let web = g.blank.web.unwrap();
+        let web = g.blank.web().unwrap();
         // Corners: each of the four takes (1 − π/4) c² from the slot.
         let slot = 0.5 * 80f64.to_radians() * (0.060f64.powi(2) - 0.042f64.powi(2))
             - (4.0 - PI) * 0.003f64.powi(2);

@@ -167,6 +167,14 @@ impl ColumnFile {
         self.version
     }
 
+    /// The same file, the units of its columns by their names: of formats that did not state them.
+    pub fn with_units_of(mut self, unit: impl Fn(&str) -> &'static str) -> Self {
+        for column in &mut self.columns {
+            unit(&column.name).clone_into(&mut column.unit);
+        }
+        self
+    }
+
     /// The columns, in the order of the rows they came from.
     pub fn columns(&self) -> &[Column] {
         &self.columns

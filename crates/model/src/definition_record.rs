@@ -110,25 +110,49 @@ impl Record for ToothDefinition {
 
 impl Record for Blank {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.number("bore_radius", &mut self.bore_radius_m, "m", "bore radius")?;
-        f.optional("web", &mut self.web, Web::fields)?;
-        f.optional("contour", &mut self.contour, Contour::fields)?;
-        let (mut slots, mut holes) = match self.openings {
+        let mut bore_radius_m = self.bore_radius_m();
+        let (mut web, mut contour) = (self.web(), self.contour().cloned());
+        let mut meshed = self.meshed().cloned();
+        let (mut slots, mut holes) = match self.openings() {
             None => (None, None),
             Some(Openings::Slots(slots)) => (Some(slots), None),
             Some(Openings::Holes(holes)) => (None, Some(holes)),
         };
+        f.number("bore_radius", &mut bore_radius_m, "m", "bore radius")?;
+        f.optional("web", &mut web, Web::fields)?;
+        f.optional("contour", &mut contour, Contour::fields)?;
         f.optional("slots", &mut slots, Slots::fields)?;
         f.optional("holes", &mut holes, Holes::fields)?;
-        if f.is_reading() {
-            self.openings = match (slots, holes) {
-                (Some(_), Some(_)) => {
-                    return Err(f.contradiction("holes", "there are slots, too"));
-                }
-                (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
-            };
+        f.optional("meshed", &mut meshed, MeshedBody::fields)?;
+        if !f.is_reading() {
+            return Ok(());
         }
-        f.optional("meshed", &mut self.meshed, MeshedBody::fields)
+        let openings = match (slots, holes) {
+            (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
+            (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
+        };
+        *self = match (meshed, web, contour) {
+            (Some(body), None, None) if openings.is_none() => Self::Meshed {
+                bore_radius_m,
+                body,
+            },
+            (Some(_), ..) => {
+                let what = "there is a web, a contour or openings, too";
+                return Err(f.contradiction("meshed", what));
+            }
+            (None, Some(web), contour) => Self::Webbed {
+                bore_radius_m,
+                web,
+                contour,
+                openings,
+            },
+            (None, None, None) => Self::Solid {
+                bore_radius_m,
+                openings,
+            },
+            (None, None, Some(_)) => return Err(f.contradiction("contour", "there is no web")),
+        };
+        Ok(())
     }
 }
 

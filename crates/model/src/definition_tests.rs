@@ -57,14 +57,14 @@ fn rarer_parts_come_back_equal() {
     };
     assert!(sides.right.topography.is_some());
     assert_eq!(read_back(&sides), sides);
-    let blank = Blank {
+    let blank = Blank::Webbed {
         bore_radius_m: 0.01,
-        web: Some(Web {
+        web: Web {
             hub_radius_m: 0.02,
             rim_inner_radius_m: 0.05,
             thickness_m: 0.006,
             offset_m: -0.001,
-        }),
+        },
         contour: Some(Contour {
             hub_z_m: [-0.01, 0.012],
             web: vec![
@@ -88,14 +88,19 @@ fn rarer_parts_come_back_equal() {
             phase_rad: 0.1,
             corner_radius_m: 0.002,
         })),
-        meshed: Some(MeshedBody {
+    };
+    assert_eq!(read_back(&blank), blank);
+    let meshed = Blank::Meshed {
+        bore_radius_m: 0.01,
+        body: MeshedBody {
             file: "body.msh".into(),
             length_unit: LengthUnit::Metre,
             bore_set: "bore".into(),
             flank_sets: "{tooth} {side}".into(),
-        }),
+        },
     };
-    assert_eq!(read_back(&blank), blank);
+    assert_eq!(read_back(&meshed), meshed);
+    assert_eq!(read_back(&Blank::solid(0.02)), Blank::solid(0.02));
     let crack = CrackDefinition {
         tooth: 4,
         side: Flank::Left,

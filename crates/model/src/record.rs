@@ -419,6 +419,35 @@ impl<'a> Fields<'a> {
         Ok(())
     }
 
+    /// Records in groups whose names are numbers of four digits, beside other parts of the group.
+    ///
+    /// # Errors
+    /// Those of their parts.
+    pub fn numbered_list<R: Default>(
+        &mut self,
+        group: &str,
+        records: &mut Vec<R>,
+        mut parts: impl FnMut(&mut R, &mut Self) -> Result<(), FileError>,
+    ) -> Result<(), FileError> {
+        match &self.way {
+            Way::Write(_) => {}
+            Way::Read(tree, _) => {
+                let is_number = |name: &String| name.bytes().all(|byte| byte.is_ascii_digit());
+                let names = tree.children(&self.at(group));
+                let count = names.into_iter().filter(is_number).count();
+                records.resize_with(count, R::default);
+            }
+            Way::List(_) => {
+                let mut one = R::default();
+                return self.group(&format!("{group}/NNNN"), |fields| parts(&mut one, fields));
+            }
+        }
+        for (i, record) in records.iter_mut().enumerate() {
+            self.group(&format!("{group}/{i:04}"), |fields| parts(record, fields))?;
+        }
+        Ok(())
+    }
+
     /// Whether a part of this group is in the file that is read; always where a record is written or listed.
     pub fn has(&self, name: &str) -> bool {
         let name = self.at(name);

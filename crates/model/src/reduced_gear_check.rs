@@ -118,7 +118,7 @@ impl ReducedGear {
         for (item, value) in [
             ("definition.tooth.module", tooth.module_m),
             ("definition.tooth.face_width", tooth.face_width_m),
-            ("definition.blank.bore_radius", gear.blank.bore_radius_m),
+            ("definition.blank.bore_radius", gear.blank.bore_radius_m()),
             ("definition.material.young", material.young_pa),
             (
                 "definition.material.density",

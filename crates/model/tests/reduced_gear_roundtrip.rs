@@ -15,7 +15,7 @@ fn synthetic_gear_comes_back_equal() {
     let path = folder.path().join("gear.h5");
     let gear = small_reduced_gear();
     let definition = gear.input.definition_in("synthetic.toml").unwrap();
-    assert!(definition.blank.openings.is_some());
+    assert!(definition.blank.openings().is_some());
     write_reduced_gear(&path, &gear).unwrap();
     assert!(read_reduced_gear(&path).unwrap() == gear);
     let left_over = std::fs::read_dir(folder.path()).unwrap().count();

@@ -97,7 +97,7 @@ impl ImportCheck<'_> {
         let nodes = self
             .set(name)
             .ok_or_else(|| self.missing(name.clone(), 0, "where the gear is held"))?;
-        let expected = self.gear.blank.bore_radius_m;
+        let expected = self.gear.blank.bore_radius_m();
         let radius = |n: u32| {
             let [x, y, _] = self.mesh.points[n as usize];
             x.hypot(y)

@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Modes up to a frequency \[Hz\]; none without a density, or where the gear was meshed elsewhere.
 pub fn modes_up_to(gear: &GearDefinition, frequency_hz: f64) -> Option<f64> {
-    if gear.blank.meshed.is_some() {
+    if gear.blank.meshed().is_some() {
         return None;
     }
     let density = gear.material.density_kg_per_m3?;
@@ -63,9 +63,9 @@ impl Plate {
 
 /// Hub, web and rim; the openings are taken out of the web, or of the disc.
 fn plates(gear: &GearDefinition) -> Vec<Plate> {
-    let (bore, width) = (gear.blank.bore_radius_m, gear.tooth.face_width_m);
+    let (bore, width) = (gear.blank.bore_radius_m(), gear.tooth.face_width_m);
     let reference = gear.profile.reference_radius_m;
-    let (mut parts, opened) = match gear.blank.web {
+    let (mut parts, opened) = match gear.blank.web() {
         None => (vec![Plate::ring(bore, reference, width)], 0),
         Some(web) => (
             vec![
@@ -76,7 +76,7 @@ fn plates(gear: &GearDefinition) -> Vec<Plate> {
             1,
         ),
     };
-    let open_m2 = match gear.blank.openings {
+    let open_m2 = match gear.blank.openings() {
         None => 0.0,
         Some(Openings::Holes(holes)) => holes.count as f64 * PI * holes.radius_m.powi(2),
         Some(Openings::Slots(slots)) => {

@@ -1,8 +1,8 @@
 //! Several results in the same charts, by the names of their files.
 
-use gearmesh_model::FileError;
+use gearmesh_model::{Column, FileError};
 use gearmesh_scene::SceneResult;
-use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
+use gearmesh_scene::system_run::{ResultKind, SystemResult, rank, stem};
 use gearmesh_signal::statistics::{mean, peak_to_peak};
 
 use crate::min_max;
@@ -87,21 +87,25 @@ pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Se
     let [(_, first), others @ ..] = results else {
         return Ok(None);
     };
-    let in_time = first.kind == "transient";
-    let overlaid = in_time || first.kind == "speed-sweep";
+    let in_time = first.kind == ResultKind::Transient;
+    let overlaid = in_time || first.kind == ResultKind::SpeedSweep;
     if others.is_empty() || !overlaid || others.iter().any(|(_, r)| r.kind != first.kind) {
         return Ok(None);
     }
-    let names_of = |r: &SystemResult| -> Vec<String> {
+    let columns_of = |r: &SystemResult| -> Vec<Column> {
         match &r.sweep {
             Some(sweep) => sweep.columns.clone(),
-            None => r.rows.columns().iter().map(|c| c.name.clone()).collect(),
+            None => r.rows.columns().to_vec(),
         }
     };
-    let others: Vec<Vec<String>> = others.iter().map(|(_, r)| names_of(r)).collect();
-    let mut common = names_of(first);
-    common.retain(|name| rank(name) <= LAST_RANK && others.iter().all(|all| all.contains(name)));
-    common.sort_by_key(|name| rank(name));
+    let others: Vec<Vec<Column>> = others.iter().map(|(_, r)| columns_of(r)).collect();
+    let has = |all: &[Column], column: &Column| {
+        let mut all = all.iter();
+        all.any(|other| (&other.name, &other.unit) == (&column.name, &column.unit))
+    };
+    let mut common = columns_of(first);
+    common.retain(|c| rank(&c.name) <= LAST_RANK && others.iter().all(|all| has(all, c)));
+    common.sort_by_key(|column| rank(&column.name));
     let mut section = Section::new("Results side by side");
     if common.is_empty() {
         return Ok(Some(section.push(Text::paragraph(
@@ -109,7 +113,7 @@ pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Se
         ))));
     }
     let left_out = common.len().saturating_sub(MOST_CHARTS);
-    for name in common.iter().take(MOST_CHARTS) {
+    for Column { name, unit, .. } in common.iter().take(MOST_CHARTS) {
         let curves = results.iter().map(|(_, r)| {
             if in_time {
                 in_time_curve(r, name)
@@ -118,7 +122,7 @@ pub fn overlaid_systems(results: &[(String, &SystemResult)]) -> Result<Option<Se
             }
         });
         let curves = curves.collect::<Result<Vec<_>, FileError>>()?;
-        let (stem, unit) = split_unit(name);
+        let stem = stem(name, unit);
         let values = curves.iter().flat_map(|(_, y)| y);
         let largest = values.fold(0.0, |most: f64, y| most.max(y.abs()));
         let (factor, unit) = usual_unit(unit, largest);
@@ -172,7 +176,7 @@ fn swept_curve(r: &SystemResult, name: &str) -> Curve {
     let Some(sweep) = &r.sweep else {
         return Curve::default();
     };
-    let Some(column) = sweep.columns.iter().position(|c| c == name) else {
+    let Some(column) = sweep.columns.iter().position(|c| c.name == name) else {
         return Curve::default();
     };
     let up = sweep.windows.iter().any(|w| w.up);

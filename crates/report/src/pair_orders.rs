@@ -51,7 +51,7 @@ impl PairOrders {
         let gears = [gear_1, gear_2];
         Some(Self {
             teeth: gears.map(|gear| gear.tooth.teeth),
-            openings: gears.map(|gear| gear.blank.openings.map_or(0, |o| o.count())),
+            openings: gears.map(|gear| gear.blank.openings().map_or(0, |o| o.count())),
         })
     }
 

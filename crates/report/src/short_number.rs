@@ -16,8 +16,9 @@ pub fn short(value: f64) -> String {
 /// The unit in which an engineer reads a quantity whose largest amount is `largest`, and the factor that brings it
 /// there: stress and pressure in MPa, line load and stiffness in N/mm, small lengths in µm or mm.
 #[must_use]
-pub fn usual_unit(unit: &'static str, largest: f64) -> (f64, &'static str) {
+pub fn usual_unit(unit: &str, largest: f64) -> (f64, &str) {
     match unit {
+        "1" => (1.0, ""),
         "Pa" => (1e-6, "MPa"),
         "N/m" => (1e-3, "N/mm"),
         "m" if largest < 1e-3 => (1e6, "µm"),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{MeshRecord, SystemResult, split_unit};
+use gearmesh_scene::system_run::{MeshRecord, ResultKind, SystemResult};
 use gearmesh_signal::{AngleSeries, AngleSeriesError, Resampler, SeriesError, synchronous_average};
 
 use crate::comparison::{ComparisonError, RigView, SeriesComparison, compare_with_column};
@@ -27,7 +27,7 @@ pub enum SystemComparisonError {
     #[error("found a result of kind `{found}`; records are compared with `transient` runs")]
     Kind {
         /// Its kind.
-        found: String,
+        found: ResultKind,
     },
     /// Nothing says what to compare.
     #[error(
@@ -65,7 +65,7 @@ pub enum SystemComparisonError {
         /// Column of the result.
         column: String,
         /// Its unit.
-        found: &'static str,
+        found: String,
         /// Column of the record.
         head: String,
         /// What is needed.
@@ -169,8 +169,8 @@ pub fn compare_system(
     record: &ReferenceRecord,
     selection: &SystemSelection,
 ) -> Result<Vec<SeriesComparison>, SystemComparisonError> {
-    if result.kind != "transient" {
-        let found = result.kind.clone();
+    if result.kind != ResultKind::Transient {
+        let found = result.kind;
         return Err(SystemComparisonError::Kind { found });
     }
     let mut columns = record.multibody_columns.clone();
@@ -200,7 +200,7 @@ fn compared(
     (of_record, column): (&RecordColumn, &str),
     selection: &SystemSelection,
 ) -> Result<SeriesComparison, SystemComparisonError> {
-    let factor = si_factor(of_record, column)?;
+    let factor = si_factor(result, of_record, column)?;
     let mesh = mesh_of(result, column)?;
     let body = match record.shaft {
         Shaft::Gear1 => &mesh.bodies[0],
@@ -251,8 +251,15 @@ fn compared(
 }
 
 /// Factor that brings a column of the result to SI units.
-fn si_factor(of_record: &RecordColumn, column: &str) -> Result<f64, SystemComparisonError> {
-    let (_, found) = split_unit(column);
+fn si_factor(
+    result: &SystemResult,
+    of_record: &RecordColumn,
+    column: &str,
+) -> Result<f64, SystemComparisonError> {
+    known(result, column)?;
+    let mut columns = result.rows.columns().iter();
+    let found = columns.find(|known| known.name == column);
+    let found = found.map_or("", |known| &known.unit);
     let (needed, factor) = match of_record.quantity {
         Quantity::TransmissionError => ("m", 1.0),
         Quantity::Strain { .. } => ("µε", 1e-6),
@@ -262,7 +269,7 @@ fn si_factor(of_record: &RecordColumn, column: &str) -> Result<f64, SystemCompar
     }
     Err(SystemComparisonError::Unit {
         column: column.into(),
-        found,
+        found: found.to_owned(),
         head: of_record.name.clone(),
         needed,
     })

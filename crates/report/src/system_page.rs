@@ -17,7 +17,7 @@ mod sweep;
 mod transient;
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{MeshPassing, SystemResult, is_prominent};
+use gearmesh_scene::system_run::{MeshPassing, ResultKind, SystemResult, is_prominent};
 
 use self::columns::turning;
 use crate::page::{KeyFigures, Section, Text};
@@ -27,19 +27,19 @@ use crate::ratings;
 pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
     let passings = r.mesh_passings()?;
     let mut sections = vec![overview(r, &passings)?];
-    match &r.kind[..] {
-        "transient" => {
+    match r.kind {
+        ResultKind::Transient => {
             sections.push(transient::histories(r)?);
             sections.extend(transient::spectra(r, &passings)?);
             sections.push(transient::accuracy(r)?);
         }
-        "speed-sweep" => {
+        ResultKind::SpeedSweep => {
             if let Some(sweep) = &r.sweep {
                 sections.push(sweep::sweep_section(r, sweep));
             }
         }
-        "static" => sections.extend(equilibria::equilibria(r)?),
-        _ => sections.push(eigen::eigen(r)),
+        ResultKind::Static => sections.extend(equilibria::equilibria(r)?),
+        ResultKind::Eigen => sections.push(eigen::eigen(r)),
     }
     sections.extend(ratings::section(&r.head.title, &r.ratings));
     sections.push(provenance(r));
@@ -48,9 +48,9 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
 
 fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileError> {
     let mut tables = Vec::new();
-    let mut figures = match (&r.sweep, &r.kind[..]) {
+    let mut figures = match (&r.sweep, r.kind) {
         (Some(sweep), _) => sweep::key_figures(sweep),
-        (None, "transient" | "static") => {
+        (None, ResultKind::Transient | ResultKind::Static) => {
             let found = r.summaries(is_prominent)?;
             let figures = at_a_glance::key_figures(r, &found);
             tables = at_a_glance::tables(r, found, passings);

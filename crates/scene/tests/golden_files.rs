@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use gearmesh_model::synthetic::{small_crack, small_reduced_gear};
 use gearmesh_model::{
-    DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, StoredGear, read_reduced_gear,
+    Column, DataTree, FileFormat, REDUCED_GEAR_FORMAT, ReducedGear, StoredGear, read_reduced_gear,
     write_reduced_gear,
 };
 use gearmesh_scene::periods::Coverage;
@@ -170,6 +170,8 @@ fn results_of_multibody_runs_of_every_version_are_read() {
             ("bodies/wheel/x_m", "m")
         );
         assert!(!column.description.is_empty());
+        let stated = |column: &Column| !column.unit.is_empty();
+        assert!(result.rows.columns().iter().all(stated));
         assert!(matches!(
             ResultFile::open(&path).unwrap(),
             ResultFile::System(_)

@@ -121,7 +121,7 @@ fn sweep(
     let x = found
         .columns
         .iter()
-        .position(|name| name == "bodies/carriage/x_m")
+        .position(|column| column.name == "bodies/carriage/x_m")
         .unwrap();
     let amplitude = |(window, figures): (&Window, &Vec<Figures>)| {
         let amplitude = 0.5 * figures[x].peak_to_peak();

@@ -44,7 +44,7 @@ fn the_analytic_tooth_is_that_of_finite_elements() {
                 density_kg_per_m3: None,
             },
             face_width_m: 1.0,
-            bore_radius_m: gear.blank.bore_radius_m,
+            bore_radius_m: gear.blank.bore_radius_m(),
         };
         let profile = &gear.profile;
         for share in [0.2, 0.5, 0.8] {

@@ -20,7 +20,7 @@ use crate::ball_row::{BallRow, Groove};
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, Row};
-use crate::ring_channels::{RING_CHANNELS, ring_channels, sample_ring};
+use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
 use crate::ring_pose::RingPose;
 
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
@@ -374,17 +374,22 @@ impl ForceElement for DynamicBearing {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let mut names = ring_channels();
-        names.push("orbit_speed_rad_per_s".to_owned());
+        let mut channels = ring_channels();
+        let orbit = "mean angular speed of the balls about the axis, against the outer ring";
+        channels.push(Channel::new("orbit_speed_rad_per_s", "rad/s", orbit));
         for cage in 1..=self.effects.cages.len() {
-            names.extend(["x", "y", "z"].map(|axis| format!("cage_{cage}_force_{axis}_N")));
+            let what = "force of the balls on the cage, world axes";
+            channels.extend(
+                ["x", "y", "z"]
+                    .map(|axis| Channel::new(format!("cage_{cage}_force_{axis}_N"), "N", what)),
+            );
         }
         if self.ball_loads {
             for ball in 1..=self.balls() {
-                names.extend(["inner", "outer"].map(|race| format!("ball_{ball}_{race}_N")));
+                channels.extend(race_loads("ball", ball));
             }
         }
-        names.into_iter().map(|name| Channel { name }).collect()
+        channels
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {

@@ -217,7 +217,7 @@ fn gear(path: &Path, document: &InputDocument) -> Result<(), Failure> {
             p.virtual_teeth()
         ));
     }
-    if gear.blank.openings.is_some() && gear.sectors() == 1 {
+    if gear.blank.openings().is_some() && gear.sectors() == 1 {
         console::warning(
             "the openings do not divide the teeth: the body does not repeat, and every tooth is solved",
         );

@@ -3,7 +3,7 @@
 use crate::console;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::rating::RatingResult;
-use gearmesh_scene::system_run::split_unit;
+use gearmesh_scene::system_run::stem;
 use serde_json::{Value, json};
 
 /// Tells what could not be judged.
@@ -31,7 +31,7 @@ pub fn lines(ratings: &[RatingResult]) -> Vec<String> {
                 f64::INFINITY => "no damage".to_owned(),
                 value => short(factor * value),
             };
-            let (stem, _) = split_unit(figure.name);
+            let stem = stem(figure.name, figure.unit);
             format!("  {stem:<28} {value:>10} {unit:<4} {}", figure.description)
         }));
     }

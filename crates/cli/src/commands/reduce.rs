@@ -11,7 +11,7 @@ use serde_json::json;
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
     output_name::demand_hdf5(&arguments.output)?;
     let gear = offline::gear(&arguments.gear)?;
-    let model = match &gear.blank.meshed {
+    let model = match gear.blank.meshed() {
         Some(body) => {
             if !arguments.no_error_estimate {
                 console::note("no error estimate: the mesh is given, there is no coarser one");

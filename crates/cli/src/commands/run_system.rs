@@ -7,9 +7,10 @@ use crate::commands::{ratings, system_table};
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
+use gearmesh_model::Named;
 use gearmesh_scene::system::LoadedSystem;
 use gearmesh_scene::system_run::{
-    Advance, Outcome, RunJob, RunOptions, SystemResult, is_overdamped, run as run_job,
+    Advance, Outcome, ResultKind, RunJob, RunOptions, SystemResult, is_overdamped, run as run_job,
 };
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -21,7 +22,7 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
     let job = RunJob::from_scene(loaded)?;
     job.head.notes.iter().for_each(console::note);
     let resumes = job.kind.resumes();
-    let bar = RunBar::new(job.kind.name());
+    let bar = RunBar::new(job.kind.of_result().name_in_files());
     let progress = |advance: Advance| {
         if advance.resumed {
             console::note(format!(
@@ -70,8 +71,7 @@ pub fn run(loaded: LoadedSystem, arguments: &RunArguments) -> Result<(), Failure
 
 /// The figures for machines.
 fn figures(result: &SystemResult) -> Result<Value, Failure> {
-    let mut value =
-        json!({"title": result.head.title, "kind": result.kind, "notes": result.head.notes});
+    let mut value = json!({"title": result.head.title, "kind": result.kind.to_string(), "notes": result.head.notes});
     if let Some(record) = &result.record {
         let entries = record
             .entries()
@@ -83,13 +83,13 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
         value["run"] = run;
     }
     value["ratings"] = ratings::json(&result.ratings);
-    match &result.kind[..] {
-        "transient" => {
+    match result.kind {
+        ResultKind::Transient => {
             let passings = result.mesh_passings().map_err(Failure::work)?;
             let columns = result.summaries(|_| true).map_err(Failure::work)?;
             let columns = columns.iter().map(|c| {
                 json!({
-                    "name": c.name, "mean": c.figures.mean, "deviation": c.figures.deviation, "least": c.figures.least,
+                    "name": c.name, "unit": c.unit, "mean": c.figures.mean, "deviation": c.figures.deviation, "least": c.figures.least,
                     "largest": c.figures.largest, "dominant_Hz": c.dominant_hz,
                     "complete": !passings.iter().any(|mesh| mesh.leaves_incomplete(&c.name)),
                 })
@@ -104,7 +104,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
             });
             value["meshes"] = meshes.collect();
         }
-        "speed-sweep" => {
+        ResultKind::SpeedSweep => {
             if let Some(sweep) = &result.sweep {
                 let windows = sweep.windows.iter().zip(&sweep.figures);
                 let windows = windows.map(|(window, figures)| {
@@ -117,10 +117,13 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
                     })
                 });
                 value["windows"] = windows.collect();
-                value["columns"] = json!(sweep.columns);
+                let names = sweep.columns.iter().map(|column| &column.name);
+                value["columns"] = json!(names.collect::<Vec<_>>());
+                let units = sweep.columns.iter().map(|column| &column.unit);
+                value["units"] = json!(units.collect::<Vec<_>>());
             }
         }
-        "static" => {
+        ResultKind::Static => {
             let read = |column: &gearmesh_model::Column| {
                 let values = result.rows.read(&column.name).map_err(Failure::work)?;
                 Ok((column.name.clone(), json!(values)))
@@ -128,7 +131,7 @@ fn figures(result: &SystemResult) -> Result<Value, Failure> {
             let columns = result.rows.columns().iter().map(read);
             value["columns"] = Value::Object(columns.collect::<Result<_, Failure>>()?);
         }
-        _ => {
+        ResultKind::Eigen => {
             let points = result.eigen.iter().map(|found| {
                 let modes = found.modes.iter().zip(&found.participation);
                 let modes = modes.map(|(mode, shares)| {

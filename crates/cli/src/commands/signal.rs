@@ -6,6 +6,7 @@ mod series;
 use crate::arguments::{AbscissaArguments, SignalAnalysis, SignalArguments};
 use crate::console;
 use crate::failure::Failure;
+use gearmesh_model::Column;
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
 use gearmesh_signal::{
     Band, OrderBlocks, Resampler, SidebandSettings, Spectrum, Window, amplitude_spectrum, envelope,
@@ -20,8 +21,20 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
     match &a.analysis {
         SignalAnalysis::Columns { result } => {
             let result = open(result)?;
-            let names = result.rows.columns().iter().map(|column| &column.name);
-            names.for_each(console::data);
+            let columns = result.rows.columns().iter();
+            let width = columns
+                .clone()
+                .map(|column| column.name.chars().count())
+                .max();
+            let width = width.unwrap_or(0);
+            for Column {
+                name,
+                unit,
+                description,
+            } in columns
+            {
+                console::data(format!("{name:width$}  {unit:8}  {description}"));
+            }
             Ok(())
         }
         SignalAnalysis::Statistics { series } => {
@@ -127,7 +140,7 @@ fn spectrum_outcome(series: &Series, analysis: &'static str, spectrum: &Spectrum
     let places = (0..spectrum.values.len()).map(|line| spectrum.at(line));
     outcome.curves = vec![
         Curve::new(series.place, series.place_unit, places.collect()),
-        Curve::new("amplitude", series.unit, spectrum.values.clone()),
+        Curve::new("amplitude", &series.unit, spectrum.values.clone()),
     ];
     outcome.is_logarithmic = true;
     outcome
@@ -162,16 +175,16 @@ fn band_envelope(
     let found = envelope(&series.values, series.rate, band).map_err(Failure::input)?;
     let mut outcome = Outcome::new(series, "envelope");
     let level = mean(&found.envelope).map_err(Failure::input)?;
-    outcome.figure("mean of the envelope", level, series.unit);
+    outcome.figure("mean of the envelope", level, &series.unit);
     let swing = peak_to_peak(&found.envelope).map_err(Failure::input)?;
-    outcome.figure("peak to peak of the envelope", swing, series.unit);
+    outcome.figure("peak to peak of the envelope", swing, &series.unit);
     let spiky = kurtosis(&found.filtered).unwrap_or(f64::NAN);
     outcome.figure("kurtosis of the band", spiky, "");
     outcome.list_peaks(&spectrum(series, &found.envelope, abscissa)?, peaks);
     outcome.curves = vec![
         series.abscissa(),
-        Curve::new("band", series.unit, found.filtered),
-        Curve::new("envelope", series.unit, found.envelope),
+        Curve::new("band", &series.unit, found.filtered),
+        Curve::new("envelope", &series.unit, found.envelope),
     ];
     Ok(outcome)
 }
@@ -182,10 +195,10 @@ fn statistics(series: &Series) -> Outcome {
     let centred: Vec<f64> = values.iter().map(|x| x - centre).collect();
     let mut outcome = Outcome::new(series, "statistics");
     let or_none = |value: Result<f64, _>| value.unwrap_or(f64::NAN);
-    outcome.figure("mean", centre, series.unit);
-    outcome.figure("RMS", or_none(rms(values)), series.unit);
-    outcome.figure("RMS about the mean", or_none(rms(&centred)), series.unit);
-    outcome.figure("peak to peak", or_none(peak_to_peak(values)), series.unit);
+    outcome.figure("mean", centre, &series.unit);
+    outcome.figure("RMS", or_none(rms(values)), &series.unit);
+    outcome.figure("RMS about the mean", or_none(rms(&centred)), &series.unit);
+    outcome.figure("peak to peak", or_none(peak_to_peak(values)), &series.unit);
     outcome.figure("kurtosis", or_none(kurtosis(values)), "");
     outcome.figure(
         "crest factor about the mean",
@@ -194,7 +207,7 @@ fn statistics(series: &Series) -> Outcome {
     );
     outcome.curves = vec![
         series.abscissa(),
-        Curve::new(&series.column, series.unit, values.clone()),
+        Curve::new(&series.column, &series.unit, values.clone()),
     ];
     outcome
 }
@@ -219,9 +232,9 @@ fn average(
     let mut outcome = Outcome::new(series, "synchronous average");
     outcome.figure("periods averaged", found.periods as f64, "");
     let swing = peak_to_peak(&found.average).map_err(Failure::input)?;
-    outcome.figure("peak to peak of the average", swing, series.unit);
+    outcome.figure("peak to peak of the average", swing, &series.unit);
     let left = rms(&found.residual).map_err(Failure::input)?;
-    outcome.figure("RMS of the residual", left, series.unit);
+    outcome.figure("RMS of the residual", left, &series.unit);
     outcome.figure(
         "kurtosis of the residual",
         found.residual_kurtosis.unwrap_or(f64::NAN),
@@ -231,7 +244,7 @@ fn average(
     let angle = |sample: usize| resampled.start_rad + sample as f64 * step;
     outcome.curves = vec![
         Curve::new("angle", "rad", (0..per_period).map(angle).collect()),
-        Curve::new("average", series.unit, found.average),
+        Curve::new("average", &series.unit, found.average),
     ];
     Ok(outcome)
 }
@@ -290,7 +303,7 @@ fn map(series: &Series, blocks: OrderBlocks, peaks: usize) -> Result<Outcome, Fa
     for line in 0..lines {
         let values = rows.iter().map(|row| row.spectrum.values[line]);
         let name = format!("order {}", envelope.at(line));
-        let mut curve = Curve::new(&name, series.unit, values.collect());
+        let mut curve = Curve::new(&name, &series.unit, values.collect());
         curve.is_drawn = tracks.contains(&line);
         outcome.curves.push(curve);
     }

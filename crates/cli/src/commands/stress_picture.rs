@@ -17,7 +17,7 @@ pub fn pictures(
     let (mut pictures, mut left_out) = (Vec::new(), Vec::new());
     for gear in [1, 2] {
         let definition = result.gears[gear - 1].definition_in("the result")?;
-        if definition.blank.meshed.is_some() || definition.mesh.element == Element::Tet10 {
+        if definition.blank.meshed().is_some() || definition.mesh.element == Element::Tet10 {
             left_out.push(format!(
                 "{}: its mesh has no cross-section of quadrilaterals; `gearmesh recover --field-gear {gear}` writes the whole field",
                 definition.name

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::study::{CaseResult, Selected, Study, run_study};
-use gearmesh_scene::system_run::split_unit;
+use gearmesh_scene::system_run::stem;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
@@ -65,10 +65,11 @@ fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
         study.tables.title, study.tables.from_s
     )];
     for (k, column) in study.tables.columns.iter().enumerate() {
-        let (stem, unit) = split_unit(column);
-        let found = cases
-            .iter()
-            .filter_map(|result| result.figures.as_ref().ok());
+        let found = cases.iter();
+        let found = found.filter_map(|result| result.figures.as_ref().ok());
+        // Of no case where all have failed.
+        let unit = found.clone().next().map_or("", |columns| &columns[k].unit);
+        let stem = stem(column, unit);
         let largest = found.fold(0.0_f64, |most, columns| {
             let figures = columns[k].figures;
             most.max(figures.least.abs()).max(figures.largest.abs())
@@ -103,9 +104,9 @@ fn figures(result: &CaseResult) -> Value {
     let settings = result.case.settings.iter();
     let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
     let columns = |columns: &Vec<Selected>| {
-        let figures = columns.iter().map(|Selected { column, figures }| {
+        let figures = columns.iter().map(|Selected { column, unit, figures }| {
             json!({
-                "name": column, "mean": figures.mean, "deviation": figures.deviation, "least": figures.least,
+                "name": column, "unit": unit, "mean": figures.mean, "deviation": figures.deviation, "least": figures.least,
                 "largest": figures.largest,
             })
         });

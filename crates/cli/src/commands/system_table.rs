@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_model::Column;
 use gearmesh_report::{short, usual_unit};
 use gearmesh_scene::system_run::{
-    ColumnSummary, EigenResult, MeshPassing, RunRecord, SystemResult, foremost, is_overdamped,
-    is_prominent, rank, shares_in_words, split_unit,
+    ColumnSummary, EigenResult, MeshPassing, ResultKind, RunRecord, SystemResult, foremost,
+    is_overdamped, is_prominent, rank, shares_in_words, stem,
 };
 
 use crate::commands::periods::MARK;
@@ -24,11 +25,11 @@ const MOST_SHARES: usize = 3;
 /// The figures for people.
 pub fn table(result: &SystemResult) -> Result<Vec<String>, Failure> {
     let mut lines = vec![format!("{}: {}", result.head.title, result.kind)];
-    lines.extend(match &result.kind[..] {
-        "transient" => columns(result)?,
-        "speed-sweep" => sweep(result),
-        "static" => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
-        _ => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
+    lines.extend(match result.kind {
+        ResultKind::Transient => columns(result)?,
+        ResultKind::SpeedSweep => sweep(result),
+        ResultKind::Static => [equilibria(result)?, mesh_axes::lines(result)?].concat(),
+        ResultKind::Eigen => result.eigen.iter().flat_map(|p| modes(result, p)).collect(),
     });
     lines.extend(ratings::lines(&result.ratings));
     if let Some(record) = &result.record {
@@ -111,7 +112,7 @@ fn table_of(
     cells: impl Fn(&ColumnSummary, f64) -> Vec<String>,
 ) -> Vec<String> {
     let shown = &found[..found.len().min(MOST_LINES)];
-    let stems = shown.iter().map(|column| split_unit(&column.name).0);
+    let stems = shown.iter().map(|column| stem(&column.name, &column.unit));
     let width = stems.map(|stem| stem.chars().count()).max();
     let width = width.unwrap_or(0).max(6);
     let row = |name: &str, unit: &str, cells: Vec<String>| {
@@ -121,8 +122,8 @@ fn table_of(
     let heads = heads.iter().map(|head| (*head).to_owned());
     let mut lines = vec![row("column", "unit", heads.collect())];
     for column in shown {
-        let (stem, unit) = split_unit(&column.name);
-        let (factor, unit) = usual_unit(unit, column.figures.magnitude());
+        let stem = stem(&column.name, &column.unit);
+        let (factor, unit) = usual_unit(&column.unit, column.figures.magnitude());
         lines.push(row(stem, unit, cells(column, factor)));
     }
     lines
@@ -143,17 +144,17 @@ fn sweep(result: &SystemResult) -> Vec<String> {
         return Vec::new();
     };
     let varying = sweep.varying();
-    let mut chosen: Vec<(usize, &String)> = sweep.columns.iter().enumerate().collect();
-    chosen.retain(|(place, name)| varying[*place] && is_prominent(name));
-    chosen.sort_by_key(|(_, name)| rank(name));
+    let mut chosen: Vec<(usize, &Column)> = sweep.columns.iter().enumerate().collect();
+    chosen.retain(|(place, column)| varying[*place] && is_prominent(&column.name));
+    chosen.sort_by_key(|(_, column)| rank(&column.name));
     chosen.truncate(MOST_COLUMNS);
     let mut head = format!("{:>12} {:>5}", "speed rpm", "way");
     let mut factors = Vec::new();
-    for (column, name) in &chosen {
-        let (stem, unit) = split_unit(name);
+    for (place, Column { name, unit, .. }) in &chosen {
+        let stem = stem(name, unit);
         let windows = sweep.figures.iter();
         let largest = windows.fold(0.0, |most: f64, figures| {
-            most.max(figures[*column].peak_to_peak())
+            most.max(figures[*place].peak_to_peak())
         });
         let (factor, unit) = usual_unit(unit, largest);
         factors.push(factor);

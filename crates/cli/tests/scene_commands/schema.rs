@@ -28,7 +28,16 @@ fn schemas_are_json() {
 /// The pages in docs/reference are what the program makes.
 #[test]
 fn reference_pages_are_up_to_date() {
-    for kind in ["gear", "scene", "study", "bearing", "bevel"] {
+    for kind in [
+        "gear",
+        "scene",
+        "study",
+        "bearing",
+        "bevel",
+        "model",
+        "pair-result",
+        "system-result",
+    ] {
         let made = succeeds(&["schema", kind, "--markdown"]).stdout;
         let place = format!("docs/reference/{kind}.md");
         let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))

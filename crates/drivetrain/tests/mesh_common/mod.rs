@@ -322,13 +322,7 @@ pub fn disc(
     width_m: f64,
     (x_m, angle_rad, speed_rad_per_s): (f64, f64, f64),
 ) -> gearmesh_dynamics::Body {
-    let blank = gearmesh_geometry::Blank {
-        bore_radius_m: 8e-3,
-        web: None,
-        openings: None,
-        contour: None,
-        meshed: None,
-    };
+    let blank = gearmesh_geometry::Blank::solid(8e-3);
     let inertia = GearInertia::new(gear, &blank, width_m, 7850.0).unwrap();
     let (across, polar) = (inertia.across_kg_m2, inertia.polar_kg_m2);
     gearmesh_dynamics::Body {

@@ -57,6 +57,31 @@ pub trait Law: Send {
     fn restore(&mut self, _numbers: &[f64]) {}
 }
 
+/// What an element between two markers shows of its load on body 2: force and moment, A axes, and the force in world axes; where A's axes
+/// have a name (with `_` behind), the force across z, too. Nine or ten channels.
+#[must_use]
+pub fn load_channels(axes: &str) -> Vec<Channel> {
+    let three = |head: &str, (end, unit), what: &str| {
+        ["x", "y", "z"].map(|axis| Channel::new(format!("{head}{axis}_{end}"), unit, what))
+    };
+    let frame = if axes.is_empty() {
+        "axes of the marker of body 1"
+    } else {
+        "axes of the shaft, which do not turn with it"
+    };
+    let (force, moment) = (("N", "N"), ("Nm", "N·m"));
+    let on_2 = |load: &str| format!("{load} on body 2, {frame}");
+    let mut channels = three(&format!("force_{axes}"), force, &on_2("force")).to_vec();
+    let what = on_2("moment about the marker");
+    channels.extend(three(&format!("moment_{axes}"), moment, &what));
+    channels.extend(three("force_world_", force, "force on body 2, world axes"));
+    if !axes.is_empty() {
+        let what = "amount of the force across the shaft";
+        channels.push(Channel::new("force_radial_N", "N", what));
+    }
+    channels
+}
+
 /// A law at its place. Channels: force and moment on B, A axes, and the force in world axes; where A's axes have a name, the force across z, too.
 #[derive(Debug, Clone)]
 pub struct MarkerElement<L> {
@@ -139,19 +164,7 @@ impl<L: Law> ForceElement for MarkerElement<L> {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let axes = self.law.axes();
-        let three =
-            |head: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{head}{axis}_{unit}"));
-        let mut names = [
-            three(&format!("force_{axes}"), "N"),
-            three(&format!("moment_{axes}"), "Nm"),
-            three("force_world_", "N"),
-        ]
-        .concat();
-        if !axes.is_empty() {
-            names.push("force_radial_N".to_owned());
-        }
-        names.into_iter().map(|name| Channel { name }).collect()
+        load_channels(self.law.axes())
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {

@@ -20,11 +20,10 @@ impl ForceElement for DistanceSensor {
         Ok(())
     }
 
-    // The unit is the end of the name. In a result the column is `elements/sensor/distance_m`.
+    // In a result the column is `elements/sensor/distance_m`.
     fn channels(&self) -> Vec<Channel> {
-        vec![Channel {
-            name: "distance_m".to_owned(),
-        }]
+        let what = "distance between the origins of the two bodies";
+        vec![Channel::new("distance_m", "m", what)]
     }
 
     // One number for each channel, in the same order; called for rows that are written, and for nothing else.

@@ -47,9 +47,7 @@ impl ForceElement for Maxwell {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        vec![Channel {
-            name: "damper_length_m".to_owned(),
-        }]
+        vec![Channel::new("damper_length_m", "m", "length of the damper")]
     }
 
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {

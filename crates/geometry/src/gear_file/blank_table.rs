@@ -125,15 +125,16 @@ impl BlankTable {
             width_mm: tooth.face_width_m / MM,
         };
         room.check_bore(&keys)?;
-        let (web, contour, slots, holes) = match self {
-            Self::Solid(table) => (None, None, table.slots, table.holes),
+        let bore_radius_m = 0.5 * bore_mm * MM;
+        let (web, slots, holes) = match self {
+            Self::Solid(table) => (None, table.slots, table.holes),
             Self::ThinRim(table) => {
                 let web = table.check_web(&keys, &room)?;
-                (Some(web), None, table.slots, table.holes)
+                (Some((web, None)), table.slots, table.holes)
             }
             Self::Contour(table) => {
                 let (contour, web) = table.check_contour(&keys, &room)?;
-                (Some(web), Some(contour), table.slots, table.holes)
+                (Some((web, Some(contour))), table.slots, table.holes)
             }
             Self::Mesh(table) => {
                 let meshed = table.check_meshed(document, &keys)?;
@@ -143,34 +144,36 @@ impl BlankTable {
                         "a mesh from elsewhere is read for spur gears only; set tooth.helix_angle_deg = 0 or choose another kind",
                     ));
                 }
-                return Ok(Blank {
-                    bore_radius_m: 0.5 * bore_mm * MM,
-                    web: None,
-                    contour: None,
-                    openings: None,
-                    meshed: Some(meshed),
+                return Ok(Blank::Meshed {
+                    bore_radius_m,
+                    body: meshed,
                 });
             }
         };
         // Openings keep clear of the fillets at hub and rim.
-        let fillets = contour.as_ref().map_or([0.0; 2], |c: &Contour| {
-            [c.web.first(), c.web.last()].map(|p| p.map_or(0.0, |p| p.fillet_radius_m / MM))
-        });
-        let (inner_mm, outer_mm) =
-            web.map_or((0.5 * bore_mm, 0.5 * room.ring_diameter_mm), |w: Web| {
-                (
-                    w.hub_radius_m / MM + fillets[0],
-                    w.rim_inner_radius_m / MM - fillets[1],
-                )
+        let whole_disc = (0.5 * bore_mm, 0.5 * room.ring_diameter_mm);
+        let (inner_mm, outer_mm) = web.as_ref().map_or(whole_disc, |(web, contour)| {
+            let fillets = contour.as_ref().map_or([0.0; 2], |c: &Contour| {
+                [c.web.first(), c.web.last()].map(|p| p.map_or(0.0, |p| p.fillet_radius_m / MM))
             });
+            (
+                web.hub_radius_m / MM + fillets[0],
+                web.rim_inner_radius_m / MM - fillets[1],
+            )
+        });
         let openings =
             check_openings(slots, holes, document, (inner_mm, outer_mm), tooth.module_m)?;
-        let blank = Blank {
-            bore_radius_m: 0.5 * bore_mm * MM,
-            web,
-            contour,
-            openings,
-            meshed: None,
+        let blank = match web {
+            None => Blank::Solid {
+                bore_radius_m,
+                openings,
+            },
+            Some((web, contour)) => Blank::Webbed {
+                bore_radius_m,
+                web,
+                contour,
+                openings,
+            },
         };
         check_fillets(&keys, &blank, tooth.face_width_m, profile.root_radius_m)?;
         Ok(blank)

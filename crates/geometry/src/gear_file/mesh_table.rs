@@ -2,7 +2,7 @@
 
 use super::{MM, TableKeys};
 use crate::body_outline::beyond_layers;
-use crate::definition::{Blank, MeshSettings, Openings, ToothDefinition};
+use crate::definition::{Blank, MeshSettings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
 use gearmesh_elements::Element;
 use schemars::JsonSchema;
@@ -51,7 +51,7 @@ impl MeshTable {
             )?;
             Ok::<f64, InputError>(size_mm * MM)
         };
-        if blank.meshed.is_some() {
+        if blank.meshed().is_some() {
             for (key, given) in [
                 ("flank_mm", self.flank_mm.is_some()),
                 ("fillet_mm", self.fillet_mm.is_some()),
@@ -80,7 +80,7 @@ impl MeshTable {
                 "plane strain knows straight teeth only; set tooth.helix_angle_deg = 0 or plane_strain = false",
             ));
         }
-        if self.plane_strain && blank.web.is_some() {
+        if self.plane_strain && blank.web().is_some() {
             return Err(keys.error(
                 "plane_strain",
                 "plane strain knows the cross-section only, a web thinner than the face has no place in it; set blank.kind = \"solid\" or plane_strain = false",
@@ -115,10 +115,9 @@ impl MeshTable {
         tooth: &ToothDefinition,
         blank: &Blank,
     ) -> Result<(Element, Option<&'static str>), InputError> {
-        let openings_m = blank.openings.as_ref().map(Openings::radii_m);
+        let openings_m = blank.openings().map(|openings| openings.radii_m());
         let beyond = blank
-            .contour
-            .as_ref()
+            .contour()
             .and_then(|contour| beyond_layers(contour, openings_m, tooth.face_width_m));
         match (self.element, beyond) {
             (Some(Element::Tet10), _) if self.plane_strain => Err(keys.error(

@@ -4,7 +4,7 @@
 use crate::small_gears::{self, MESH, QUADRATIC, SOLID, difference, reduced};
 use gearmesh_fe::{QuadraticMesh, arc_middle, chord_middle};
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_geometry::{Flank, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
+use gearmesh_geometry::{Blank, Flank, GearDefinition, LengthUnit, MeshedBody, ProfileCurve};
 use gearmesh_mesh::GearMesh;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{CellKind, MeshData, ReducedGear};
@@ -42,7 +42,10 @@ fn exported(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
 fn imported(gear: &GearDefinition, mesh: MeshData) -> Result<ReducedGear, ReductionError> {
     let mut gear = gear.clone();
     let body = meshed_elsewhere();
-    gear.blank.meshed = Some(body.clone());
+    gear.blank = Blank::Meshed {
+        bore_radius_m: gear.blank.bore_radius_m(),
+        body: body.clone(),
+    };
     reduce_imported(&gear, &body, mesh, &Silent)
 }
 
@@ -138,7 +141,7 @@ fn in_tetrahedra(gear: &GearDefinition, mesh: &GearMesh) -> MeshData {
         let y = mirror * y;
         near.then_some([cos * x - sin * y, sin * x + cos * y, centre[2]])
     };
-    let bore = gear.blank.bore_radius_m;
+    let bore = gear.blank.bore_radius_m();
     let place = |_, ends: [[f64; 3]; 2]| {
         if ends.iter().all(|p| (p[0].hypot(p[1]) - bore).abs() < 1e-9) {
             return arc_middle(ends);

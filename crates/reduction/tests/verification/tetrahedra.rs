@@ -116,7 +116,7 @@ fn is_whole(gear: &GearDefinition, openings_m3: f64) {
     }
     assert!(mesh.bore().iter().all(|&n| {
         let [x, y, _] = mesh.nodes[n as usize];
-        (x.hypot(y) - gear.blank.bore_radius_m).abs() < 1e-12
+        (x.hypot(y) - gear.blank.bore_radius_m()).abs() < 1e-12
     }));
     let (found, exact) = (model.volume().unwrap(), volume_m3(gear) - openings_m3);
     println!(

@@ -1,6 +1,7 @@
 //! Tables of a multibody result: rows in time or of equilibria, windows of a sweep, modes.
 
-use gearmesh_scene::system_run::SystemResult;
+use gearmesh_model::Column;
+use gearmesh_scene::system_run::{ResultKind, SystemResult};
 
 use super::{ExportError, Table, ratings_table};
 
@@ -10,10 +11,10 @@ use super::{ExportError, Table, ratings_table};
 /// # Errors
 /// [`ExportError::File`] if a column cannot be read.
 pub fn system_tables(result: &SystemResult) -> Result<Vec<Table>, ExportError> {
-    let mut tables = match &result.kind[..] {
-        "transient" | "static" => vec![rows(result)?],
-        "speed-sweep" => vec![windows(result)],
-        _ => vec![modes(result), shapes(result)],
+    let mut tables = match result.kind {
+        ResultKind::Transient | ResultKind::Static => vec![rows(result)?],
+        ResultKind::SpeedSweep => vec![windows(result)],
+        ResultKind::Eigen => vec![modes(result), shapes(result)],
     };
     tables.extend(ratings_table(&result.ratings));
     Ok(tables)
@@ -43,7 +44,7 @@ fn windows(result: &SystemResult) -> Table {
     table.numbers("up", up.collect());
     table.numbers("from_s", windows.iter().map(|w| w.from_s).collect());
     table.numbers("to_s", windows.iter().map(|w| w.to_s).collect());
-    for (place, name) in sweep.columns.iter().enumerate() {
+    for (place, Column { name, .. }) in sweep.columns.iter().enumerate() {
         let figures = || sweep.figures.iter().map(|window| &window[place]);
         table.numbers(format!("{name} mean"), figures().map(|f| f.mean).collect());
         let deviation = figures().map(|f| f.deviation);

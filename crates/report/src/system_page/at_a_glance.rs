@@ -1,7 +1,7 @@
 //! What a reader asks first of a run in time or of equilibria: key figures, and a line for each channel.
 
 use gearmesh_scene::system_run::{
-    ColumnSummary, Figures, MeshPassing, SystemResult, foremost, rank, split_unit,
+    ColumnSummary, Figures, MeshPassing, ResultKind, SystemResult, foremost, rank, stem,
 };
 
 use super::columns::readable;
@@ -27,8 +27,8 @@ enum Extent {
 
 impl Extent {
     fn of(r: &SystemResult) -> Self {
-        match (&r.kind[..], r.rows.rows()) {
-            ("transient", _) => Self::Time,
+        match (r.kind, r.rows.rows()) {
+            (ResultKind::Transient, _) => Self::Time,
             (_, 1) => Self::Equilibrium,
             _ => Self::Equilibria,
         }
@@ -118,9 +118,9 @@ pub(super) fn tables(
     });
     let mut tables = [first, rest.folded()];
     for column in foremost(found) {
-        let (name, unit) = split_unit(&column.name);
+        let name = stem(&column.name, &column.unit);
         let f = column.figures;
-        let (factor, unit) = usual_unit(unit, f.magnitude());
+        let (factor, unit) = usual_unit(&column.unit, f.magnitude());
         let shown = |x: f64| short(factor * x);
         let incomplete = passings
             .iter()

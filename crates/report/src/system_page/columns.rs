@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{MeshPassing, SystemResult, rank, split_unit};
+use gearmesh_scene::system_run::{MeshPassing, SystemResult, rank, stem};
 
 use crate::page::{Axis, Section, Text};
 use crate::short_number::usual_unit;
@@ -24,7 +24,7 @@ pub(super) fn quantity(unit: &str) -> &'static str {
         "µε" => "strain",
         "J" => "energy",
         "W" => "power",
-        "" => "number",
+        "" | "1" => "number",
         _ => "quantity",
     }
 }
@@ -47,7 +47,7 @@ pub(super) fn turning(passings: &[MeshPassing]) -> impl Iterator<Item = &MeshPas
 /// Columns that make one chart: title, unit, and the columns with the names of their curves.
 pub(super) struct Group {
     pub(super) title: String,
-    pub(super) unit: &'static str,
+    pub(super) unit: String,
     pub(super) columns: Vec<(String, String)>,
 }
 
@@ -60,7 +60,7 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         let [kind, owners @ .., last] = &parts[..] else {
             continue;
         };
-        let (stem, unit) = split_unit(last);
+        let (stem, unit) = (stem(last, &column.unit), &column.unit[..]);
         let owner = owners.join(" ");
         // Speeds of all bodies share a chart; places and angles have one for each body.
         let (title, curve) = match *kind {
@@ -102,7 +102,7 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
         }
         let group = groups.entry(title.clone()).or_insert(Group {
             title,
-            unit,
+            unit: unit.to_owned(),
             columns: Vec::new(),
         });
         group.columns.push((column.name.clone(), curve));
@@ -129,10 +129,10 @@ impl Group {
 }
 
 /// Brings curves to the unit in which they are read; gives the unit.
-pub(super) fn scaled<'a>(
-    unit: &'static str,
+pub(super) fn scaled<'a, 'u>(
+    unit: &'u str,
     curves: impl Iterator<Item = &'a mut Vec<f64>>,
-) -> &'static str {
+) -> &'u str {
     let curves: Vec<&mut Vec<f64>> = curves.collect();
     let values = curves.iter().flat_map(|curve| curve.iter());
     let largest = values.fold(0.0_f64, |most, x| most.max(x.abs()));

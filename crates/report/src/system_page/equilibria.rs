@@ -1,7 +1,7 @@
 //! Static series over an angle or a load factor.
 
-use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{SystemResult, rank, split_unit};
+use gearmesh_model::{Column, FileError};
+use gearmesh_scene::system_run::{SystemResult, rank, stem};
 
 use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
@@ -57,8 +57,8 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Option<Section>, FileError>
             };
             let columns = group.columns.iter().map(of_rows);
             let mut curves: Vec<Vec<f64>> = columns.collect::<Result<_, _>>()?;
-            let unit = scaled(group.unit, curves.iter_mut());
-            let y = Axis::new(quantity(group.unit), unit);
+            let unit = scaled(&group.unit, curves.iter_mut());
+            let y = Axis::new(quantity(&group.unit), unit);
             let mut chart = LineChart::new(title, axis.clone(), y)
                 .x_values(rows.iter().map(|&row| x[row]).collect());
             for ((_, name), values) in group.columns.iter().zip(curves) {
@@ -70,17 +70,19 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Option<Section>, FileError>
     let mut table = Table::new("Each equilibrium")
         .column("load factor", Align::Right)
         .column(axis_name(varied), Align::Right);
-    let names = r.rows.columns().iter().map(|c| c.name.clone());
-    let mut chosen: Vec<String> = names.filter(|name| name.starts_with("elements/")).collect();
-    chosen.sort_by_key(|name| rank(name));
+    let columns = r.rows.columns().iter();
+    let mut chosen: Vec<&Column> = columns
+        .filter(|column| column.name.starts_with("elements/"))
+        .collect();
+    chosen.sort_by_key(|column| rank(&column.name));
     chosen.truncate(MOST_COLUMNS);
     let mut values = Vec::new();
-    for name in &chosen {
-        let (stem, unit) = split_unit(name);
-        let mut column = r.rows.read(name)?;
-        let unit = scaled(unit, std::iter::once(&mut column));
-        table = table.column(format!("{} {unit}", readable(stem)), Align::Right);
-        values.push(column);
+    for column in chosen {
+        let mut of_rows = r.rows.read(&column.name)?;
+        let unit = scaled(&column.unit, std::iter::once(&mut of_rows));
+        let head = readable(stem(&column.name, &column.unit));
+        table = table.column(format!("{head} {unit}"), Align::Right);
+        values.push(of_rows);
     }
     for row in 0..factors.len().min(200) {
         let mut cells = vec![format!("{}", factors[row]), format!("{:.5}", x[row])];

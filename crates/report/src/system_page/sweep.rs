@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_model::Column;
 use gearmesh_scene::system_run::{
-    Figures, SweepResult, SystemResult, Window, is_prominent, rank, split_unit,
+    Figures, SweepResult, SystemResult, Window, is_prominent, rank, stem,
 };
 
 use super::at_a_glance::MOST_MESHES;
@@ -42,9 +43,9 @@ pub(super) fn key_figures(sweep: &SweepResult) -> KeyFigures {
             short(window.speed_rad_per_s * 60.0 / TAU)
         )
     };
-    let mut push = |label: String, name: &str, found: Option<(&Window, f64)>| {
+    let mut push = |label: String, column: &Column, found: Option<(&Window, f64)>| {
         if let Some((window, value)) = found {
-            let (factor, unit) = usual_unit(split_unit(name).1, value.abs());
+            let (factor, unit) = usual_unit(&column.unit, value.abs());
             let figure = std::mem::take(&mut figures).figure(
                 label,
                 short(factor * value),
@@ -55,27 +56,28 @@ pub(super) fn key_figures(sweep: &SweepResult) -> KeyFigures {
     };
     let named = || sweep.columns.iter().enumerate();
     let owner = |name: &str| name.split('/').nth(1).unwrap_or_default().to_owned();
-    let meshes = named().filter(|(_, name)| name.ends_with("/transmission_error_m"));
-    for (column, name) in meshes.take(MOST_MESHES) {
-        let mesh = owner(name);
+    let meshes = named().filter(|(_, column)| column.name.ends_with("/transmission_error_m"));
+    for (place, column) in meshes.take(MOST_MESHES) {
+        let mesh = owner(&column.name);
         push(
             format!("{mesh}: largest TE peak to peak"),
-            name,
-            peak(column, Figures::peak_to_peak),
+            column,
+            peak(place, Figures::peak_to_peak),
         );
-        let sides =
-            named().filter(|(_, name)| name.starts_with(&format!("elements/{mesh}/normal_force_")));
-        let forces = sides.filter_map(|(column, name)| Some((name, peak(column, |f| f.largest)?)));
-        if let Some((name, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
-            push(format!("{mesh}: largest normal force"), name, Some(force));
+        let of_side = format!("elements/{mesh}/normal_force_");
+        let sides = named().filter(|(_, column)| column.name.starts_with(&of_side));
+        let forces =
+            sides.filter_map(|(place, column)| Some((column, peak(place, |f| f.largest)?)));
+        if let Some((column, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+            push(format!("{mesh}: largest normal force"), column, Some(force));
         }
     }
-    let radial = named().filter(|(_, name)| name.ends_with("/force_radial_N"));
-    let forces = radial.filter_map(|(column, name)| Some((name, peak(column, |f| f.largest)?)));
-    if let Some((name, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+    let radial = named().filter(|(_, column)| column.name.ends_with("/force_radial_N"));
+    let forces = radial.filter_map(|(place, column)| Some((column, peak(place, |f| f.largest)?)));
+    if let Some((column, force)) = forces.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
         push(
-            format!("largest bearing force: {}", owner(name)),
-            name,
+            format!("largest bearing force: {}", owner(&column.name)),
+            column,
             Some(force),
         );
     }
@@ -109,17 +111,19 @@ pub(super) fn sweep_section(r: &SystemResult, sweep: &SweepResult) -> Section {
         speeds.iter().map(at).collect()
     };
     let varying = sweep.varying();
-    let interesting = |name: &str| {
+    let interesting = |column: &Column| {
+        let (name, unit) = (&column.name, &column.unit[..]);
         is_prominent(name)
-            || name.starts_with("joints/") && matches!(split_unit(name).1, "N" | "N·m")
-            || name.starts_with("bodies/") && split_unit(name).1 == "m"
+            || name.starts_with("joints/") && matches!(unit, "N" | "N·m")
+            || name.starts_with("bodies/") && unit == "m"
     };
     let mut chosen: Vec<usize> = (0..sweep.columns.len())
         .filter(|c| interesting(&sweep.columns[*c]) && varying[*c])
         .collect();
-    chosen.sort_by_key(|c| rank(&sweep.columns[*c]));
+    chosen.sort_by_key(|c| rank(&sweep.columns[*c].name));
     for &column in chosen.iter().take(MOST_CHARTS) {
-        let (name, unit) = split_unit(&sweep.columns[column]);
+        let Column { name, unit, .. } = &sweep.columns[column];
+        let name = stem(name, unit);
         let figures: [Figure; 4] = [
             ("peak to peak", Figures::peak_to_peak),
             ("RMS about the mean", |f| f.deviation),

@@ -1,7 +1,7 @@
 //! Time histories, spectra, energy and accuracy of a run in time.
 
 use gearmesh_model::FileError;
-use gearmesh_scene::system_run::{MeshPassing, RunRecord, SystemResult, is_prominent, split_unit};
+use gearmesh_scene::system_run::{MeshPassing, RunRecord, SystemResult, is_prominent, stem};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
 use super::columns::{MOST_CHARTS, groups, left_out, quantity, scaled, turning, varies};
@@ -31,11 +31,11 @@ pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
         let columns = group.columns.iter().map(read);
         let mut curves = columns.collect::<Result<Vec<_>, _>>()?;
         curves.iter_mut().for_each(|y| *y = min_max::values(y));
-        let unit = scaled(group.unit, curves.iter_mut());
+        let unit = scaled(&group.unit, curves.iter_mut());
         let mut chart = LineChart::new(
             group.title.clone(),
             Axis::new("time", "s"),
-            Axis::new(quantity(group.unit), unit),
+            Axis::new(quantity(&group.unit), unit),
         )
         .x_values(x.clone());
         for ((_, name), values) in group.columns.iter().zip(curves) {
@@ -101,7 +101,7 @@ pub(super) fn spectra(
         {
             continue;
         }
-        let unit = scaled(group.unit, curves.iter_mut().map(|(_, values)| values));
+        let unit = scaled(&group.unit, curves.iter_mut().map(|(_, values)| values));
         let strongest = curves
             .iter()
             .flat_map(|(_, values)| values[1..shown].iter().copied())
@@ -192,7 +192,7 @@ pub(super) fn run_table(record: &RunRecord) -> Table {
         .column("value", Align::Right)
         .column("unit", Align::Left);
     for (name, unit, value) in record.entries() {
-        let (stem, _) = split_unit(name);
+        let stem = stem(name, unit);
         let (value, unit) = match unit {
             "1" => (format!("{value}"), ""),
             _ => (short(value), unit),

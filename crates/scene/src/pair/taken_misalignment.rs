@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::system::names;
-use crate::system_run::SystemResult;
+use crate::system_run::{ResultKind, SystemResult};
 
 /// `misalignment_from`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -47,8 +47,8 @@ impl MisalignmentFrom {
         }
         let unreadable = |error: gearmesh_model::FileError| at("result", error.to_string());
         let result = SystemResult::open(&path).map_err(unreadable)?;
-        if result.kind != "static" {
-            let kind = &result.kind;
+        if result.kind != ResultKind::Static {
+            let kind = result.kind;
             return Err(at(
                 "result",
                 format!("found a result of kind \"{kind}\", allowed is \"static\""),

@@ -161,16 +161,6 @@ pub(super) fn figures(values: &[(&str, f64)]) -> Vec<RatingFigure> {
     kinds.collect()
 }
 
-/// The ratings of a result file; none in a file without.
-#[derive(Debug, Default)]
-pub struct Ratings(pub Vec<RatingResult>);
-
-impl Record for Ratings {
-    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
-        f.list("ratings", &mut self.0, RatingResult::fields)
-    }
-}
-
 impl Record for RatingResult {
     fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         f.text("name", &mut self.name, "what is rated")?;

@@ -64,6 +64,8 @@ impl StudyError {
 pub struct Selected {
     /// Name with unit.
     pub column: String,
+    /// Unit.
+    pub unit: String,
     /// Mean, deviation, extremes.
     pub figures: Figures,
 }
@@ -246,18 +248,14 @@ fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
         ));
     }
     let figures = |name: &String| {
-        if !result
-            .rows
-            .columns()
-            .iter()
-            .any(|column| column.name == *name)
-        {
+        let mut columns = result.rows.columns().iter();
+        let Some(column) = columns.find(|column| column.name == *name) else {
             let known: Vec<&str> = result.rows.columns().iter().map(|c| &c.name[..]).collect();
             return Err(format!(
                 "the result has no column `{name}`; it has {}",
                 known.join(", ")
             ));
-        }
+        };
         let values = result.rows.read(name).map_err(say)?;
         let mut statistics = ColumnStatistics::new(1);
         values[first..]
@@ -265,6 +263,7 @@ fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
             .for_each(|value| statistics.add(&[*value]));
         Ok(Selected {
             column: name.clone(),
+            unit: column.unit.clone(),
             figures: statistics.figures()[0],
         })
     };
@@ -304,7 +303,10 @@ fn table(study: &Study, results: &[CaseResult]) -> String {
         let file = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         match &result.figures {
             Ok(columns) => {
-                for Selected { column, figures } in columns {
+                for Selected {
+                    column, figures, ..
+                } in columns
+                {
                     let [mean, deviation] = [figures.mean, figures.deviation];
                     let [least, largest] = [figures.least, figures.largest];
                     let column = quoted(column);

@@ -1,11 +1,11 @@
-//! What the names of columns say: unit, and which ones a reader asks for first.
+//! What the names of columns say: which ones a reader asks for first, and how they read without their unit.
 
 use std::collections::BTreeMap;
 
 /// What varies by less, over the largest value of its unit, is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Suffixes of column names, longer ones before those that end them, and their units.
+/// How units are written behind a name, longer ones before those that end them.
 const UNITS: [(&str, &str); 15] = [
     ("_rad_per_s2", "rad/s²"),
     ("_rad_per_s", "rad/s"),
@@ -24,12 +24,17 @@ const UNITS: [(&str, &str); 15] = [
     ("_s", "s"),
 ];
 
-/// A column's name without its unit, and the unit; empty for plain numbers.
-pub fn split_unit(name: &str) -> (&str, &'static str) {
-    let found = UNITS
-        .iter()
-        .find_map(|(suffix, unit)| Some((name.strip_suffix(suffix)?, *unit)));
-    found.unwrap_or((name, ""))
+/// A column's name without the unit that stands behind it, if its unit is that one.
+pub fn stem<'a>(name: &'a str, unit: &str) -> &'a str {
+    let written = UNITS.iter().find(|(_, known)| *known == unit);
+    let stem = written.and_then(|(suffix, _)| name.strip_suffix(suffix));
+    stem.unwrap_or(name)
+}
+
+/// The unit of a column in files of version 1, which stated it only in the name; `1` for plain numbers.
+pub(super) fn unit_in_version_1(name: &str) -> &'static str {
+    let found = UNITS.iter().find(|(suffix, _)| name.ends_with(suffix));
+    found.map_or("1", |(_, unit)| unit)
 }
 
 /// How soon a reader asks for a column, soonest first: transmission error, forces of meshes, radial and axial forces of
@@ -51,7 +56,7 @@ pub fn rank(name: &str) -> u8 {
             _ => 6,
         },
         "bodies" if *channel == "angular_velocity_z_rad_per_s" => 5,
-        "joints" if matches!(split_unit(channel).1, "N" | "N·m") => 7,
+        "joints" if channel.starts_with("force_") || channel.starts_with("moment_") => 7,
         _ => 9,
     }
 }
@@ -73,30 +78,28 @@ pub fn is_prominent(name: &str) -> bool {
 }
 
 /// Which columns are other than zero by more than rounding, measured by the largest value that has their unit. A column
-/// is its name with its least and largest value.
+/// is its unit with its least and largest value.
 pub fn noticeable<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns
-        .map(|(name, least, most)| {
-            least.abs().max(most.abs()) > ROUNDING * scales[split_unit(name).1]
-        })
+        .map(|(unit, least, most)| least.abs().max(most.abs()) > ROUNDING * scales[unit])
         .collect()
 }
 
-/// Which columns vary by more than rounding, measured by the largest value that has their unit. A column is its name
+/// Which columns vary by more than rounding, measured by the largest value that has their unit. A column is its unit
 /// with its least and largest value.
 pub fn varying<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)> + Clone) -> Vec<bool> {
     let scales = scales(columns.clone());
     columns
-        .map(|(name, least, most)| most - least > ROUNDING * scales[split_unit(name).1])
+        .map(|(unit, least, most)| most - least > ROUNDING * scales[unit])
         .collect()
 }
 
 /// Largest magnitude of each unit.
 fn scales<'a>(columns: impl Iterator<Item = (&'a str, f64, f64)>) -> BTreeMap<&'a str, f64> {
     let mut largest = BTreeMap::new();
-    for (name, least, most) in columns {
-        let scale: &mut f64 = largest.entry(split_unit(name).1).or_default();
+    for (unit, least, most) in columns {
+        let scale: &mut f64 = largest.entry(unit).or_default();
         *scale = scale.max(least.abs()).max(most.abs());
     }
     largest
@@ -107,14 +110,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_are_those_of_the_names() {
-        assert_eq!(split_unit("a/force_x_N"), ("a/force_x", "N"));
-        assert_eq!(split_unit("moment_z_Nm"), ("moment_z", "N·m"));
-        assert_eq!(
-            split_unit("acceleration_x_m_per_s2"),
-            ("acceleration_x", "m/s²")
-        );
-        assert_eq!(split_unit("loaded_pairs"), ("loaded_pairs", ""));
+    fn names_are_read_without_the_unit_that_they_have() {
+        assert_eq!(stem("a/force_x_N", "N"), "a/force_x");
+        assert_eq!(stem("moment_z_Nm", "N·m"), "moment_z");
+        // A gauge whose name ends like a unit.
+        assert_eq!(stem("gauge_m", "1"), "gauge_m");
+        assert_eq!(stem("gauge_m", "µε"), "gauge_m");
+    }
+
+    #[test]
+    fn files_of_version_1_have_their_units_in_the_names() {
+        for (name, unit) in [
+            ("a/force_x_N", "N"),
+            ("moment_z_Nm", "N·m"),
+            ("acceleration_x_m_per_s2", "m/s²"),
+            ("loaded_pairs", "1"),
+        ] {
+            assert_eq!(unit_in_version_1(name), unit);
+        }
     }
 
     #[test]
@@ -139,13 +152,13 @@ mod tests {
     #[test]
     fn rounding_does_not_vary() {
         let columns = [
-            ("x_m", 0.1, 0.3),
-            ("y_m", -1e-17, 1e-17),
-            ("n", 1.0, 2.0),
-            ("z_N", -1e-17, 1e-17),
+            ("m", 0.1, 0.3),
+            ("m", -1e-17, 1e-17),
+            ("1", 1.0, 2.0),
+            ("N", -1e-17, 1e-17),
         ];
         assert_eq!(varying(columns.into_iter()), [true, false, true, true]);
-        let still = [("x_m", 0.3, 0.3), ("y_m", -1e-17, 1e-17), ("n", 0.0, 0.0)];
+        let still = [("m", 0.3, 0.3), ("m", -1e-17, 1e-17), ("1", 0.0, 0.0)];
         assert_eq!(noticeable(still.into_iter()), [true, false, false]);
     }
 }

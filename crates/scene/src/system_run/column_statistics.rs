@@ -4,7 +4,7 @@
 //! Source: B. P. Welford, Technometrics 4 (1962) 419-420.
 
 /// Figures of one column.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Figures {
     /// Mean.
     pub mean: f64,

@@ -11,7 +11,9 @@ use std::sync::atomic::Ordering;
 use super::error::SystemRunError;
 use super::in_time::begin;
 use super::job::{Advance, EigenJob, EigenPoint, Outcome, RunHead, RunOptions};
-use super::result::{self, EigenResult};
+use super::result::EigenResult;
+use super::result_kind::ResultKind;
+use super::result_record::Contents;
 
 /// Runs all operating points. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_eigen(
@@ -46,9 +48,10 @@ pub(super) fn run_eigen(
             return Ok(Outcome::Stopped);
         }
     }
-    let mut tree = result::base(&head, "eigen", None);
-    result::put_eigen(&mut tree, [&bodies, &elements], &results);
-    result::write(options.output, &tree)?;
+    let mut contents = Contents::of_run(ResultKind::Eigen, head);
+    (contents.bodies, contents.elements) = (bodies, elements);
+    contents.eigen = results;
+    contents.write(options.output)?;
     Ok(Outcome::Finished)
 }
 

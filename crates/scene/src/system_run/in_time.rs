@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use gearmesh_dynamics::{
     Accepted, EnergyBalance, OutputGrid, Simulation, StaticParams, System, equilibrium,
 };
-use gearmesh_model::{Column, DataTree, FileError, RowLog, write_record};
+use gearmesh_model::{Column, DataTree, FileError, RowLog};
 
 use super::column_statistics::ColumnStatistics;
 use super::error::SystemRunError;
@@ -20,10 +20,11 @@ use super::mesh_pace::MeshPace;
 use super::part_folder::PartFolder;
 use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
-use super::result;
+use super::result::SweepResult;
+use super::result_kind::ResultKind;
+use super::result_record::Contents;
 use super::run_record::RunRecord;
 use super::stored_checkpoint::{Recorded, from_tree, to_tree};
-use crate::rating::Ratings;
 use crate::system::tables::output::MOST_ROWS;
 use crate::system::{RatingJob, Start};
 
@@ -232,7 +233,7 @@ pub(super) fn run_in_time(
     mut head: RunHead,
     system: System,
     (selection, ratings): (&Selection, &[RatingJob]),
-    (kind, run): (&str, &InTime),
+    (kind, run): (ResultKind, &InTime),
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
     let mut tape = Tape::new(run, (&head, &system), selection)?;
@@ -302,18 +303,17 @@ pub(super) fn run_in_time(
     }
     tape.finish();
     let record = RunRecord::new(simulation.info(), simulation.state().time_s, wall_s);
-    let mut tree = result::base(&head, kind, Some(&record));
+    let mut contents = Contents::of_run(kind, head);
+    contents.record = Some(record);
     if run.windows.is_empty() {
-        result::put_statistics(&mut tree, &tape.statistics.figures());
-        let rated = rating::of_rows(ratings, &columns, part.log())?;
-        write_record(&mut Ratings(rated), &mut tree);
+        contents.statistics = tape.statistics.figures();
+        contents.ratings = rating::of_rows(ratings, &columns, part.log())?;
         let rows = ("time", &columns[..], part.log());
-        result::write_rows(options.output, &tree, rows)?;
+        contents.write_with_rows(options.output, rows)?;
     } else {
-        result::put_sweep(&mut tree, &columns, &run.windows, &tape.figures);
-        let rated = rating::of_windows(ratings, &columns, &tape.figures);
-        write_record(&mut Ratings(rated), &mut tree);
-        result::write(options.output, &tree)?;
+        contents.ratings = rating::of_windows(ratings, &columns, &tape.figures);
+        contents.sweep = Some(SweepResult::of_run(&run.windows, columns, &tape.figures));
+        contents.write(options.output)?;
     }
     part.finish()?;
     Ok(Outcome::Finished)

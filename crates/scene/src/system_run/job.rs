@@ -11,6 +11,7 @@ use crate::system::{RatingJob, Start};
 
 use super::error::SystemRunError;
 use super::recorder::Selection;
+use super::result_kind::ResultKind;
 use super::speed_plan::Window;
 
 /// One of a series of equilibria.
@@ -36,7 +37,7 @@ pub struct StaticJob {
 }
 
 /// An operating point whose natural frequencies are sought.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EigenPoint {
     /// Speed of the varied motion \[rad/s\], if there is one.
     pub speed_rad_per_s: Option<f64>,
@@ -95,13 +96,13 @@ pub enum RunKind {
 }
 
 impl RunKind {
-    /// The word of the scene file.
-    pub fn name(&self) -> &'static str {
+    /// Kind of the result.
+    pub fn of_result(&self) -> ResultKind {
         match self {
-            Self::Transient(_) => "transient",
-            Self::SpeedSweep(_) => "speed-sweep",
-            Self::Static(_) => "static",
-            Self::Eigen(_) => "eigen",
+            Self::Transient(_) => ResultKind::Transient,
+            Self::SpeedSweep(_) => ResultKind::SpeedSweep,
+            Self::Static(_) => ResultKind::Static,
+            Self::Eigen(_) => ResultKind::Eigen,
         }
     }
 
@@ -112,7 +113,7 @@ impl RunKind {
 }
 
 /// A gear mesh, for the frequencies that a reader looks for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MeshRecord {
     /// Force element.
     pub name: String,

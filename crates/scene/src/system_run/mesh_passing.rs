@@ -17,6 +17,7 @@ use nalgebra::Vector3;
 use super::job::MeshRecord;
 use super::recorder::{body_column, element_column};
 use super::result::SystemResult;
+use super::result_kind::ResultKind;
 use crate::system::line_of_centres_rad_per_s;
 
 /// Share of a revolution by which rows and start-up may miss a whole one.
@@ -91,7 +92,9 @@ impl SystemResult {
     pub fn mesh_passings(&self) -> Result<Vec<MeshPassing>, FileError> {
         let mut found = Vec::new();
         for mesh in &self.head.meshes {
-            if self.kind == "transient" && mesh.bodies.iter().all(|body| self.records(body)) {
+            if self.kind == ResultKind::Transient
+                && mesh.bodies.iter().all(|body| self.records(body))
+            {
                 found.push(self.passing(mesh)?);
             }
         }
@@ -109,11 +112,11 @@ impl SystemResult {
             for (gear, body) in (1..).zip(&mesh.bodies) {
                 let strain = element_column(&mesh.name, &format!("strain_gear{gear}_"));
                 let spin = body_column(body, "angular_velocity_z_rad_per_s");
-                let spin = sweep.columns.iter().position(|column| *column == spin);
+                let spin = sweep.columns.iter().position(|column| column.name == spin);
                 let gauged = sweep
                     .columns
                     .iter()
-                    .any(|column| column.starts_with(&strain));
+                    .any(|column| column.name.starts_with(&strain));
                 let Some(spin) = spin.filter(|_| gauged) else {
                     continue;
                 };

@@ -29,13 +29,15 @@ mod part_folder;
 mod rating;
 mod recorder;
 mod result;
+mod result_kind;
+mod result_record;
 mod run_record;
 mod speed_plan;
 mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, rank, split_unit, varying};
+pub use column_names::{is_prominent, rank, stem, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
@@ -51,6 +53,7 @@ pub use part_folder::PartFolder;
 pub use recorder::{Course, Moment, Recorder, Selection};
 pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
+pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
 pub use speed_plan::{SpeedPlan, Window};
 pub use summary::{ColumnSummary, foremost};
@@ -67,7 +70,7 @@ pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunEr
         ratings,
         kind,
     } = job;
-    let name = kind.name();
+    let name = kind.of_result();
     match &kind {
         RunKind::Transient(run) | RunKind::SpeedSweep(run) => {
             let recorded = (&selection, &ratings[..]);

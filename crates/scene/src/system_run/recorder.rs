@@ -150,11 +150,7 @@ impl Recorder {
             let element = names.iter().position(|of| of == name);
             if element.is_some_and(|i| recorder.chosen[i]) {
                 let column = element_column(name, &channel.name);
-                recorder.column(
-                    column,
-                    "as named",
-                    &format!("channel of force element `{name}`, unit in the name"),
-                );
+                recorder.column(column, channel.unit, &channel.description);
             }
         }
         if course == Course::InTime {
@@ -249,20 +245,20 @@ impl Recorder {
                     );
                     three(
                         "acceleration",
-                        "m/s2",
+                        "m/s²",
                         "m_per_s2",
                         "acceleration of the reference point, world axes",
                     );
                     three(
                         "angular_acceleration",
-                        "rad/s2",
+                        "rad/s²",
                         "rad_per_s2",
                         "rate of the angular velocity, body axes",
                     );
                 }
                 for mode in 0..modes {
                     let name = format!("{group}/mode_{mode}_sqrt_kg_m");
-                    self.column(name, "kg^0.5 m", "modal coordinate, unit modal mass");
+                    self.column(name, "√kg·m", "modal coordinate, unit modal mass");
                 }
             }
             dof += 6 + modes;
@@ -291,7 +287,7 @@ impl Recorder {
                 for axis in AXES {
                     let text =
                         "moment of the joint on body 2 in its marker, axes of the marker of body 1";
-                    self.column(format!("{group}/moment_{axis}_Nm"), "N m", text);
+                    self.column(format!("{group}/moment_{axis}_Nm"), "N·m", text);
                 }
                 for axis in AXES {
                     let text = "force of the joint on body 2, world axes";

@@ -4,25 +4,28 @@ use std::path::Path;
 
 use gearmesh_dynamics::NaturalMode;
 use gearmesh_model::{
-    Column, ColumnFile, DataArray, DataTree, FileError, FileFormat, RowLog, Values, read_record,
-    utc_now, write_columns,
+    Column, ColumnFile, DataTree, FileError, FileFormat, ListedField, RowLog, list_record,
+    read_record, utc_now, write_columns, write_record,
 };
 
-use super::column_names::varying;
+use super::column_names::{unit_in_version_1, varying};
 use super::column_statistics::Figures;
-use super::job::{EigenPoint, MeshRecord, RunHead};
+use super::job::{EigenPoint, RunHead};
+use super::result_kind::ResultKind;
+use super::result_record::{Contents, STATED_UNITS};
 use super::run_record::RunRecord;
 use super::speed_plan::Window;
-use crate::rating::{RatingResult, Ratings};
+use crate::rating::RatingResult;
 
 /// Name and version of the result file.
 pub const SYSTEM_RESULT_FORMAT: FileFormat = FileFormat {
     name: "gearmesh-system-result",
-    version: 1,
+    // 2: units and descriptions of all channels
+    version: 2,
 };
 
 /// Natural modes at one operating point.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct EigenResult {
     /// The point.
     pub point: EigenPoint,
@@ -36,12 +39,12 @@ pub struct EigenResult {
 }
 
 /// A measured speed sweep.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweepResult {
     /// Windows, in the order of time.
     pub windows: Vec<Window>,
-    /// Names of the columns.
-    pub columns: Vec<String>,
+    /// The columns.
+    pub columns: Vec<Column>,
     /// Figures, `[window][column]`.
     pub figures: Vec<Vec<Figures>>,
 }
@@ -51,8 +54,8 @@ pub struct SweepResult {
 pub struct SystemResult {
     /// Where it comes from.
     pub head: RunHead,
-    /// `transient`, `speed-sweep`, `static` or `eigen`.
-    pub kind: String,
+    /// What it holds.
+    pub kind: ResultKind,
     /// Program version.
     pub version: String,
     /// When, UTC.
@@ -76,12 +79,29 @@ pub struct SystemResult {
 }
 
 impl SweepResult {
+    /// From the four figures of each column, window by window.
+    pub(super) fn of_run(windows: &[Window], columns: Vec<Column>, figures: &[f64]) -> Self {
+        let of_column = |f: &[f64; 4]| Figures {
+            mean: f[0],
+            deviation: f[1],
+            least: f[2],
+            largest: f[3],
+        };
+        let figures: Vec<Figures> = figures.as_chunks().0.iter().map(of_column).collect();
+        let figures = figures.chunks(columns.len().max(1)).map(<[_]>::to_vec);
+        Self {
+            windows: windows.to_vec(),
+            figures: figures.collect(),
+            columns,
+        }
+    }
+
     /// Which columns vary by more than rounding in some window.
     #[must_use]
     pub fn varying(&self) -> Vec<bool> {
         let of_window = |figures: &Vec<Figures>| {
             let columns = self.columns.iter().zip(figures);
-            varying(columns.map(|(name, f)| (name.as_str(), f.least, f.largest)))
+            varying(columns.map(|(column, f)| (column.unit.as_str(), f.least, f.largest)))
         };
         let none = vec![false; self.columns.len()];
         self.figures
@@ -96,381 +116,87 @@ impl SweepResult {
     }
 }
 
-const FIGURES: [(&str, &str); 4] = [
-    ("mean", "mean"),
-    ("deviation", "standard deviation: RMS value about the mean"),
-    ("least", "smallest value"),
-    ("largest", "largest value"),
-];
-
-/// The parts that every result has.
-pub(super) fn base(head: &RunHead, kind: &str, record: Option<&RunRecord>) -> DataTree {
-    let mut tree = DataTree::default();
-    for (name, text) in [
-        ("title", &head.title[..]),
-        ("kind", kind),
-        ("scene_toml", &head.scene_toml),
-        ("inputs", &head.inputs.join("\n")),
-        ("notes", &head.notes.join("\n")),
-        ("version", env!("CARGO_PKG_VERSION")),
-        ("created_utc", &utc_now()),
-    ] {
-        tree.put_text(name, text);
-    }
-    for (i, mesh) in head.meshes.iter().enumerate() {
-        let name = |part: &str| format!("meshes/{i}/{part}");
-        tree.put_text(name("name"), mesh.name.clone());
-        for gear in 0..2 {
-            let body = name(&format!("body_{}", gear + 1));
-            tree.put_text(body, mesh.bodies[gear].clone());
-            let teeth = DataArray::count(mesh.teeth[gear] as u32, "teeth");
-            tree.put(name(&format!("teeth_{}", gear + 1)), teeth);
+impl Contents {
+    /// Those of a run that has just ended.
+    pub(super) fn of_run(kind: ResultKind, head: RunHead) -> Self {
+        Self {
+            kind,
+            head,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            created_utc: utc_now(),
+            ..Self::default()
         }
     }
-    if let Some(record) = record {
-        record.put(&mut tree);
+
+    /// Writes a result without rows.
+    pub(super) fn write(&mut self, path: &Path) -> Result<(), FileError> {
+        self.tree().write(path, &SYSTEM_RESULT_FORMAT)
     }
-    tree
-}
 
-fn put(
-    tree: &mut DataTree,
-    name: &str,
-    values: Vec<f64>,
-    axes: &[(&str, usize)],
-    unit: &str,
-    text: &str,
-) {
-    tree.put(name, DataArray::new(Values::F64(values), axes, unit, text));
-}
-
-/// Figures of all rows, in the order of the columns.
-pub(super) fn put_statistics(tree: &mut DataTree, figures: &[Figures]) {
-    for (k, (name, text)) in FIGURES.into_iter().enumerate() {
-        let values = figures.iter().map(|f| parts(f)[k]).collect();
-        let axes = [("column", figures.len())];
-        put(
-            tree,
-            &format!("statistics/{name}"),
-            values,
-            &axes,
-            "of the column",
-            text,
-        );
+    /// Writes a result with rows; `axis` says what they go through.
+    pub(super) fn write_with_rows(
+        &mut self,
+        path: &Path,
+        (axis, columns, log): (&str, &[Column], &mut RowLog),
+    ) -> Result<(), FileError> {
+        let rows = (axis, columns);
+        write_columns(path, &SYSTEM_RESULT_FORMAT, &self.tree(), rows, log)
     }
-}
 
-fn parts(figures: &Figures) -> [f64; 4] {
-    [
-        figures.mean,
-        figures.deviation,
-        figures.least,
-        figures.largest,
-    ]
-}
-
-/// The windows of a sweep with the figures of every column.
-pub(super) fn put_sweep(
-    tree: &mut DataTree,
-    columns: &[Column],
-    windows: &[Window],
-    figures: &[f64],
-) {
-    let axis = ("window", windows.len());
-    let mut of_windows = |name: &str, unit: &str, text: &str, value: fn(&Window) -> f64| {
-        let values = windows.iter().map(value).collect();
-        put(tree, &format!("sweep/{name}"), values, &[axis], unit, text);
-    };
-    of_windows("speed_rad_per_s", "rad/s", "prescribed speed", |w| {
-        w.speed_rad_per_s
-    });
-    of_windows("up", "1", "1 on the way up, 0 on the way down", |w| {
-        f64::from(u8::from(w.up))
-    });
-    of_windows("from_s", "s", "begin of the measurement", |w| w.from_s);
-    of_windows("to_s", "s", "end of the measurement", |w| w.to_s);
-    let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
-    tree.put_text("sweep/columns", names.join("\n"));
-    for (k, (name, text)) in FIGURES.into_iter().enumerate() {
-        let values = figures.iter().skip(k).step_by(4).copied().collect();
-        let axes = [axis, ("column", columns.len())];
-        put(
-            tree,
-            &format!("sweep/{name}"),
-            values,
-            &axes,
-            "of the column",
-            text,
-        );
+    fn tree(&mut self) -> DataTree {
+        let mut tree = DataTree::default();
+        write_record(self, &mut tree);
+        tree
     }
-}
-
-/// Natural modes of some operating points.
-pub(super) fn put_eigen(
-    tree: &mut DataTree,
-    [bodies, elements]: [&[String]; 2],
-    results: &[EigenResult],
-) {
-    tree.put_text("eigen/bodies", bodies.join("\n"));
-    tree.put_text("eigen/elements", elements.join("\n"));
-    for (i, result) in results.iter().enumerate() {
-        let group = format!("eigen/{i:04}");
-        let modes = ("mode", result.modes.len());
-        let dofs = result.modes.first().map_or(0, |mode| mode.shape.len());
-        let mut of_modes = |name: &str, unit: &str, text: &str, value: fn(&NaturalMode) -> f64| {
-            let values = result.modes.iter().map(value).collect();
-            put(
-                tree,
-                &format!("{group}/{name}"),
-                values,
-                &[modes],
-                unit,
-                text,
-            );
-        };
-        of_modes(
-            "frequency_Hz",
-            "Hz",
-            "frequency of the damped vibration",
-            NaturalMode::frequency_hz,
-        );
-        of_modes(
-            "damping_ratio",
-            "1",
-            "damping ratio",
-            NaturalMode::damping_ratio,
-        );
-        of_modes(
-            "growth_per_s",
-            "1/s",
-            "real part of the eigenvalue, negative where the motion dies out",
-            |m| m.growth_per_s,
-        );
-        for (part, name) in ["shape_real", "shape_imaginary"].into_iter().enumerate() {
-            let shapes = result
-                .modes
-                .iter()
-                .flat_map(|mode| mode.shape.iter().map(move |a| a[part]));
-            let text = "of each body displacement and rotation along world axes, then modal coordinates; the largest is 1";
-            put(
-                tree,
-                &format!("{group}/{name}"),
-                shapes.collect(),
-                &[modes, ("degree of freedom", dofs)],
-                "m or rad",
-                text,
-            );
-        }
-        let shares = result.participation.iter().flatten().copied().collect();
-        let text = "share of each body in the kinetic energy";
-        put(
-            tree,
-            &format!("{group}/participation"),
-            shares,
-            &[modes, ("body", bodies.len())],
-            "1",
-            text,
-        );
-        if !elements.is_empty() {
-            let shares = result.strain.iter().flatten().copied().collect();
-            let text = "share of each force element in the strain energy";
-            put(
-                tree,
-                &format!("{group}/strain"),
-                shares,
-                &[modes, ("element", elements.len())],
-                "1",
-                text,
-            );
-        }
-        let scalar = |value: f64, unit: &str, text: &str| DataArray::scalar(value, unit, text);
-        let factor = scalar(result.point.load_factor, "1", "share of the scene's loads");
-        tree.put(format!("{group}/load_factor"), factor);
-        if let Some(speed) = result.point.speed_rad_per_s {
-            let speed = scalar(speed, "rad/s", "speed of the varied motion");
-            tree.put(format!("{group}/speed_rad_per_s"), speed);
-        }
-    }
-}
-
-/// Writes a result without rows.
-pub(super) fn write(path: &Path, tree: &DataTree) -> Result<(), FileError> {
-    tree.write(path, &SYSTEM_RESULT_FORMAT)
-}
-
-/// Writes a result with rows; `axis` says what they go through.
-pub(super) fn write_rows(
-    path: &Path,
-    tree: &DataTree,
-    (axis, columns, log): (&str, &[Column], &mut RowLog),
-) -> Result<(), FileError> {
-    write_columns(path, &SYSTEM_RESULT_FORMAT, tree, (axis, columns), log)
 }
 
 impl SystemResult {
+    /// What stands in the file, for the documentation.
+    #[must_use]
+    pub fn data_sets() -> Vec<ListedField> {
+        let rows = ListedField {
+            name: "columns/NAME".to_owned(),
+            form: "[row]".to_owned(),
+            unit: "of the column".to_owned(),
+            description: "a column, as docs/results.md lists them".to_owned(),
+        };
+        let mut list = list_record::<Contents>();
+        list.push(rows);
+        list
+    }
+
     /// Opens a result.
     ///
     /// # Errors
     /// [`FileError`] when the file is missing, cut, altered, of another kind, or an array does not fit the others.
     pub fn open(path: &Path) -> Result<Self, FileError> {
-        let (rows, mut tree) = ColumnFile::open(path, &SYSTEM_RESULT_FORMAT)?;
-        let tree = &mut tree;
-        let lines = |text: String| text.lines().map(str::to_owned).collect::<Vec<_>>();
-        let kind = tree.take_text(path, "kind")?;
-        let in_time = matches!(&kind[..], "transient" | "speed-sweep");
-        let record = in_time.then(|| RunRecord::take(tree, path)).transpose()?;
-        let statistics = if kind == "transient" {
-            take_figures(tree, path, "statistics", &[rows.columns().len()])?
-        } else {
-            Vec::new()
-        };
-        let sweep = (kind == "speed-sweep")
-            .then(|| take_sweep(tree, path))
-            .transpose()?;
-        let Ratings(ratings) = read_record(tree, path, rows.version())?;
-        let ([bodies, elements], eigen) = if kind == "eigen" {
-            take_eigen(tree, path)?
-        } else {
-            Default::default()
-        };
+        let (mut rows, mut tree) = ColumnFile::open(path, &SYSTEM_RESULT_FORMAT)?;
+        if rows.version() < STATED_UNITS {
+            rows = rows.with_units_of(unit_in_version_1);
+        }
+        let it: Contents = read_record(&mut tree, path, rows.version())?;
+        let columns = rows.columns().len();
+        if it.kind == ResultKind::Transient && it.statistics.len() != columns {
+            return Err(FileError::WrongShape {
+                path: path.to_owned(),
+                item: "array \"statistics/mean\"".to_owned(),
+                found: vec![it.statistics.len()],
+                expected: vec![columns],
+            });
+        }
         Ok(Self {
-            head: RunHead {
-                title: tree.take_text(path, "title")?,
-                scene_toml: tree.take_text(path, "scene_toml")?,
-                inputs: lines(tree.take_text(path, "inputs")?),
-                notes: lines(tree.take_text(path, "notes")?),
-                meshes: take_meshes(tree, path)?,
-            },
-            version: tree.take_text(path, "version")?,
-            created_utc: tree.take_text(path, "created_utc")?,
-            kind,
-            record,
+            head: it.head,
+            kind: it.kind,
+            version: it.version,
+            created_utc: it.created_utc,
+            record: it.record,
             rows,
-            statistics,
-            sweep,
-            ratings,
-            eigen,
-            bodies,
-            elements,
+            statistics: it.statistics,
+            sweep: it.sweep,
+            ratings: it.ratings,
+            eigen: it.eigen,
+            bodies: it.bodies,
+            elements: it.elements,
         })
     }
-}
-
-fn take_meshes(tree: &mut DataTree, path: &Path) -> Result<Vec<MeshRecord>, FileError> {
-    let count = tree.children("meshes").len();
-    let mesh = |i: usize| {
-        let name = |part: &str| format!("meshes/{i}/{part}");
-        Ok(MeshRecord {
-            name: tree.take_text(path, &name("name"))?,
-            bodies: [
-                tree.take_text(path, &name("body_1"))?,
-                tree.take_text(path, &name("body_2"))?,
-            ],
-            teeth: [
-                tree.take_count(path, &name("teeth_1"))?,
-                tree.take_count(path, &name("teeth_2"))?,
-            ],
-        })
-    };
-    (0..count).map(mesh).collect()
-}
-
-fn take_figures(
-    tree: &mut DataTree,
-    path: &Path,
-    group: &str,
-    shape: &[usize],
-) -> Result<Vec<Figures>, FileError> {
-    let mut take = |name: &str| tree.take_f64(path, &format!("{group}/{name}"), shape);
-    let [mean, deviation] = [take("mean")?, take("deviation")?];
-    let [least, largest] = [take("least")?, take("largest")?];
-    let figures = |i: usize| Figures {
-        mean: mean[i],
-        deviation: deviation[i],
-        least: least[i],
-        largest: largest[i],
-    };
-    Ok((0..mean.len()).map(figures).collect())
-}
-
-fn take_sweep(tree: &mut DataTree, path: &Path) -> Result<SweepResult, FileError> {
-    let [count] = tree.shape(path, "sweep/speed_rad_per_s")?;
-    let names = tree.take_text(path, "sweep/columns")?;
-    let columns: Vec<String> = names.lines().map(str::to_owned).collect();
-    let all = take_figures(tree, path, "sweep", &[count, columns.len()])?;
-    let mut take = |name: &str| tree.take_f64(path, &format!("sweep/{name}"), &[count]);
-    let [speed, up] = [take("speed_rad_per_s")?, take("up")?];
-    let [from, to] = [take("from_s")?, take("to_s")?];
-    let window = |i: usize| Window {
-        speed_rad_per_s: speed[i],
-        up: up[i] != 0.0,
-        from_s: from[i],
-        to_s: to[i],
-    };
-    Ok(SweepResult {
-        windows: (0..count).map(window).collect(),
-        figures: all
-            .chunks(columns.len().max(1))
-            .map(<[_]>::to_vec)
-            .collect(),
-        columns,
-    })
-}
-
-/// Names of bodies and elements, and the points.
-fn take_eigen(
-    tree: &mut DataTree,
-    path: &Path,
-) -> Result<([Vec<String>; 2], Vec<EigenResult>), FileError> {
-    let names = tree.take_text(path, "eigen/bodies")?;
-    let bodies: Vec<String> = names.lines().map(str::to_owned).collect();
-    // Files of older programs have no elements.
-    let names = tree.take_text(path, "eigen/elements").unwrap_or_default();
-    let elements: Vec<String> = names.lines().map(str::to_owned).collect();
-    let points = tree.children("eigen");
-    let mut results = Vec::with_capacity(points.len());
-    for point in points {
-        let name = |part: &str| format!("eigen/{point}/{part}");
-        let [modes, dofs] = tree.shape(path, &name("shape_real"))?;
-        let speed = name("speed_rad_per_s");
-        let speed_rad_per_s = tree
-            .arrays
-            .contains_key(&speed)
-            .then(|| tree.take_scalar(path, &speed))
-            .transpose()?;
-        let load_factor = tree.take_scalar(path, &name("load_factor"))?;
-        let frequency = tree.take_f64(path, &name("frequency_Hz"), &[modes])?;
-        let growth = tree.take_f64(path, &name("growth_per_s"), &[modes])?;
-        let real = tree.take_f64(path, &name("shape_real"), &[modes, dofs])?;
-        let imaginary = tree.take_f64(path, &name("shape_imaginary"), &[modes, dofs])?;
-        let shares = tree.take_f64(path, &name("participation"), &[modes, bodies.len()])?;
-        let strain = if elements.is_empty() {
-            Vec::new()
-        } else {
-            tree.take_f64(path, &name("strain"), &[modes, elements.len()])?
-        };
-        let mode = |i: usize| NaturalMode {
-            growth_per_s: growth[i],
-            angular_frequency_rad_per_s: std::f64::consts::TAU * frequency[i],
-            shape: (i * dofs..(i + 1) * dofs)
-                .map(|k| [real[k], imaginary[k]])
-                .collect(),
-        };
-        results.push(EigenResult {
-            point: EigenPoint {
-                speed_rad_per_s,
-                load_factor,
-            },
-            modes: (0..modes).map(mode).collect(),
-            participation: shares
-                .chunks(bodies.len().max(1))
-                .map(<[_]>::to_vec)
-                .collect(),
-            strain: strain
-                .chunks(elements.len().max(1))
-                .map(<[_]>::to_vec)
-                .collect(),
-        });
-    }
-    Ok(([bodies, elements], results))
 }

@@ -1,9 +1,7 @@
 //! What a run in time has needed and how exact it was, as scalars of the result.
 
-use std::path::Path;
-
 use gearmesh_dynamics::RunInfo;
-use gearmesh_model::{DataArray, DataTree, FileError};
+use gearmesh_model::{Fields, FileError, Record};
 
 /// Effort and accuracy of a run in time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -213,22 +211,18 @@ impl RunRecord {
             .into_iter()
             .map(move |(name, unit, _, field)| (name, unit, *field(&mut self)))
     }
+}
 
-    pub(super) fn put(mut self, tree: &mut DataTree) {
+impl Record for RunRecord {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
         for (name, unit, text, field) in FIELDS {
-            let value = DataArray::scalar(*field(&mut self), unit, text);
-            tree.put(format!("run/{name}"), value);
+            // Older programs did not keep it.
+            if name == WORK && !f.has(name) {
+                self.work_j = f64::NAN;
+                continue;
+            }
+            f.number(name, field(self), unit, text)?;
         }
-    }
-
-    pub(super) fn take(tree: &mut DataTree, path: &Path) -> Result<Self, FileError> {
-        let mut record = Self::default();
-        for (name, _, _, field) in FIELDS {
-            *field(&mut record) = match tree.take_scalar(path, &format!("run/{name}")) {
-                Err(FileError::Missing { .. }) if name == WORK => f64::NAN,
-                found => found?,
-            };
-        }
-        Ok(record)
+        Ok(())
     }
 }

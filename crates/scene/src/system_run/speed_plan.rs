@@ -16,7 +16,7 @@ const CHANGE: f64 = 0.25;
 const RAMP_WINDOWS: usize = Schedule::RAMP_WINDOWS;
 
 /// A time in which the response is measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Window {
     /// Speed, the mean of a ramped window \[rad/s\].
     pub speed_rad_per_s: f64,

@@ -3,7 +3,7 @@
 use gearmesh_dynamics::{
     EnergyBalance, State, StaticParams, System, equilibrium, next_equilibrium,
 };
-use gearmesh_model::{Column, write_record};
+use gearmesh_model::Column;
 use std::sync::atomic::Ordering;
 
 use super::error::SystemRunError;
@@ -11,8 +11,8 @@ use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
 use super::part_folder::PartFolder;
 use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
-use super::result;
-use crate::rating::Ratings;
+use super::result_kind::ResultKind;
+use super::result_record::Contents;
 use crate::system::RatingJob;
 
 /// Runs a series. It is not resumed: an unfinished one begins anew.
@@ -93,11 +93,10 @@ pub(super) fn run_static(
             return Ok(Outcome::Stopped);
         }
     }
-    let mut tree = result::base(&head, "static", None);
-    let rated = rating::of_rows(ratings, &columns, part.log())?;
-    write_record(&mut Ratings(rated), &mut tree);
+    let mut contents = Contents::of_run(ResultKind::Static, head);
+    contents.ratings = rating::of_rows(ratings, &columns, part.log())?;
     let rows = ("equilibrium", &columns[..], part.log());
-    result::write_rows(options.output, &tree, rows)?;
+    contents.write_with_rows(options.output, rows)?;
     part.finish()?;
     Ok(Outcome::Finished)
 }

@@ -6,6 +6,7 @@ use gearmesh_signal::{Window, amplitude_spectrum};
 use super::column_names::{noticeable, rank, varying};
 use super::column_statistics::Figures;
 use super::result::SystemResult;
+use super::result_kind::ResultKind;
 
 /// Longest series that is transformed: the last so many rows.
 const LONGEST: usize = 1 << 20;
@@ -18,6 +19,8 @@ const MEAN_LINES: f64 = 3.0;
 pub struct ColumnSummary {
     /// Name with unit.
     pub name: String,
+    /// Unit.
+    pub unit: String,
     /// Mean, deviation, extremes.
     pub figures: Figures,
     /// Frequency of the strongest line \[Hz\]; none where nothing varies.
@@ -51,7 +54,7 @@ impl SystemResult {
     #[must_use]
     pub fn varying(&self) -> Vec<bool> {
         let columns = self.rows.columns().iter().zip(&self.statistics);
-        varying(columns.map(|(column, f)| (column.name.as_str(), f.least, f.largest)))
+        varying(columns.map(|(column, f)| (column.unit.as_str(), f.least, f.largest)))
     }
 
     /// Columns of a run in time or of a static series whose names `wanted` accepts, in the order of the file.
@@ -63,10 +66,11 @@ impl SystemResult {
         wanted: impl Fn(&str) -> bool,
     ) -> Result<Vec<ColumnSummary>, FileError> {
         let mut found = Vec::new();
-        if self.kind != "transient" {
+        if self.kind != ResultKind::Transient {
             for column in self.rows.columns().iter().filter(|c| wanted(&c.name)) {
                 found.push(ColumnSummary {
                     name: column.name.clone(),
+                    unit: column.unit.clone(),
                     figures: Figures::of(&self.rows.read(&column.name)?),
                     dominant_hz: None,
                 });
@@ -86,6 +90,7 @@ impl SystemResult {
             };
             found.push(ColumnSummary {
                 name: column.name.clone(),
+                unit: column.unit.clone(),
                 figures: *figures,
                 dominant_hz,
             });
@@ -100,7 +105,7 @@ pub fn foremost(mut found: Vec<ColumnSummary>) -> Vec<ColumnSummary> {
     let shown = {
         let columns = found
             .iter()
-            .map(|c| (&*c.name, c.figures.least, c.figures.largest));
+            .map(|c| (&*c.unit, c.figures.least, c.figures.largest));
         noticeable(columns)
     };
     let mut shown = shown.into_iter();

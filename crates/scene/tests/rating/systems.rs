@@ -279,7 +279,7 @@ interval_s = 1e-4"#;
     let result = desk.run(RunJob::from_scene(loaded).unwrap());
     let sweep = result.sweep.as_ref().unwrap();
     let name = "elements/mesh/normal_force_right_N";
-    let place = sweep.columns.iter().position(|c| c == name).unwrap();
+    let place = sweep.columns.iter().position(|c| c.name == name).unwrap();
     let largest = sweep.figures.iter().map(|window| window[place].largest);
     let expected = largest.fold(0.0, f64::max);
     assert!(expected > 1000.0);

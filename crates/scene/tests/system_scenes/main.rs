@@ -14,6 +14,7 @@ mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod provenance;
+mod rig_of_seed_002;
 mod rolling_bearings;
 mod shafts;
 mod shipped;

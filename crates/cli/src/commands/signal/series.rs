@@ -3,7 +3,7 @@
 use crate::arguments::{AbscissaArguments, SeriesArguments, WindowKind};
 use crate::commands::signal::outcome::Curve;
 use crate::failure::Failure;
-use gearmesh_scene::system_run::{SystemResult, split_unit};
+use gearmesh_scene::system_run::{ResultKind, SystemResult};
 use gearmesh_signal::{AngleSamples, Resampler, Window};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -17,7 +17,7 @@ pub struct Series {
     pub title: String,
     pub column: String,
     /// Unit of the values.
-    pub unit: &'static str,
+    pub unit: String,
     /// Samples in a second, or in a turn.
     pub rate: f64,
     /// Time of the first sample \[s\], or angle \[turns\].
@@ -35,7 +35,7 @@ pub struct Series {
 /// Opens the result of a run in time.
 pub fn open(path: &Path) -> Result<SystemResult, Failure> {
     let result = SystemResult::open(path).map_err(Failure::input)?;
-    if result.kind != "transient" {
+    if result.kind != ResultKind::Transient {
         return Err(Failure::input(format!(
             "{}: found a result of kind `{}`; signals are those of a `transient` run",
             path.display(),
@@ -97,11 +97,18 @@ impl Series {
             }
         };
         let start_s = range.start as f64 / rate;
+        let mut columns = result.rows.columns().iter();
+        let column = columns.find(|column| column.name == a.column);
+        let unit = column.map_or("", |column| match &column.unit[..] {
+            "1" => "",
+            unit => unit,
+        });
+        let unit = unit.to_owned();
         values = values[range].to_vec();
         Ok(Self {
             title: result.head.title.clone(),
             column: a.column.clone(),
-            unit: split_unit(&a.column).1,
+            unit,
             rate,
             start: start_s,
             start_s,

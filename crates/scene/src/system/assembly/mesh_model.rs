@@ -252,7 +252,7 @@ impl SceneMesh<'_> {
                 material: gear.material,
                 // Slices bend on their own: what stands beside the zone does not help.
                 face_width_m: self.zone_width_m(),
-                bore_radius_m: gear.blank.bore_radius_m,
+                bore_radius_m: gear.blank.bore_radius_m(),
             }
         };
         let cracks = [&model.cracks_1, &model.cracks_2];

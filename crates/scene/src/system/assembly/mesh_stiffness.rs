@@ -144,7 +144,7 @@ impl SceneMesh<'_> {
             std::mem::swap(&mut pinion, &mut wheel);
         }
         let blanks = [pinion, wheel].map(|gear| {
-            gear.blank.web.map_or(1.0, |web| {
+            gear.blank.web().map_or(1.0, |web| {
                 let rim =
                     (gear.profile.root_radius_m - web.rim_inner_radius_m) / gear.tooth.module_m;
                 blank_factor(web.thickness_m / gear.tooth.face_width_m, rim)

@@ -1,0 +1,272 @@
+//! The parts of a multibody result in its file besides the rows, declared once for writing, reading and docs/files.md.
+
+use std::f64::consts::TAU;
+
+use gearmesh_dynamics::NaturalMode;
+use gearmesh_model::{Column, Fields, FileError, OPEN, Record};
+
+use super::column_names::unit_in_version_1;
+use super::column_statistics::Figures;
+use super::job::{MeshRecord, RunHead};
+use super::result::{EigenResult, SweepResult};
+use super::result_kind::ResultKind;
+use super::run_record::RunRecord;
+use super::speed_plan::Window;
+use crate::rating::RatingResult;
+
+/// The first version in which channels and columns state their units.
+pub(super) const STATED_UNITS: u32 = 2;
+
+/// Everything but the rows.
+#[derive(Debug, Default)]
+pub(super) struct Contents {
+    pub kind: ResultKind,
+    pub head: RunHead,
+    pub version: String,
+    pub created_utc: String,
+    pub record: Option<RunRecord>,
+    pub statistics: Vec<Figures>,
+    pub sweep: Option<SweepResult>,
+    pub ratings: Vec<RatingResult>,
+    pub bodies: Vec<String>,
+    pub elements: Vec<String>,
+    pub eigen: Vec<EigenResult>,
+}
+
+impl Record for Contents {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.choice("kind", &mut self.kind, "kind of the result")?;
+        self.head.fields(f)?;
+        f.text("version", &mut self.version, "version of the program")?;
+        f.text("created_utc", &mut self.created_utc, "when, UTC")?;
+        // A kind has its own parts; the documentation lists those of all.
+        let of = |is_one: bool| is_one || f.is_listing();
+        let [in_time, transient] =
+            [self.kind.is_in_time(), self.kind == ResultKind::Transient].map(of);
+        let [sweep, eigen] =
+            [ResultKind::SpeedSweep, ResultKind::Eigen].map(|kind| of(self.kind == kind));
+        if in_time {
+            let record = self.record.get_or_insert_default();
+            f.group("run", |f| record.fields(f))?;
+        }
+        if transient {
+            f.group("statistics", |f| {
+                figure_fields(&mut self.statistics, f, &[("column", OPEN)])
+            })?;
+        }
+        if sweep {
+            let sweep = self.sweep.get_or_insert_default();
+            f.group("sweep", |f| sweep.fields(f))?;
+        }
+        if eigen {
+            self.eigen_fields(f)?;
+        }
+        f.list("ratings", &mut self.ratings, RatingResult::fields)
+    }
+}
+
+impl Record for RunHead {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("title", &mut self.title, "title of the scene")?;
+        f.text(
+            "scene_toml",
+            &mut self.scene_toml,
+            "the scene, word for word",
+        )?;
+        let what = "names and digests of the files that the scene names";
+        f.lines("inputs", &mut self.inputs, what)?;
+        f.lines("notes", &mut self.notes, "assumptions and warnings")?;
+        f.list("meshes", &mut self.meshes, MeshRecord::fields)
+    }
+}
+
+impl Record for MeshRecord {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.text("name", &mut self.name, "name of the gear mesh")?;
+        for (body, name) in self.bodies.iter_mut().zip(["body_1", "body_2"]) {
+            f.text(name, body, "body of the gear")?;
+        }
+        for (teeth, name) in self.teeth.iter_mut().zip(["teeth_1", "teeth_2"]) {
+            f.count(name, teeth, "teeth of the gear")?;
+        }
+        Ok(())
+    }
+}
+
+impl Record for SweepResult {
+    fn fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        self.column_fields(f)?;
+        let mut numbers = |name: &str, unit: &str, what: &str, of: fn(&mut Window) -> &mut f64| {
+            let values = self.windows.iter_mut().map(|window| *of(window));
+            let mut values: Vec<f64> = values.collect();
+            f.numbers(name, &mut values, &[("window", OPEN)], unit, what)?;
+            self.windows.resize_with(values.len(), Window::default);
+            let windows = self.windows.iter_mut().zip(values);
+            windows.for_each(|(window, value)| *of(window) = value);
+            Ok::<_, FileError>(())
+        };
+        let what = "prescribed speed";
+        numbers("speed_rad_per_s", "rad/s", what, |w| &mut w.speed_rad_per_s)?;
+        numbers("from_s", "s", "begin of the measurement", |w| &mut w.from_s)?;
+        numbers("to_s", "s", "end of the measurement", |w| &mut w.to_s)?;
+        let windows = ("window", self.windows.len());
+        let ways = self.windows.iter().map(|w| f64::from(u8::from(w.up)));
+        let mut up: Vec<f64> = ways.collect();
+        let what = "1 on the way up, 0 on the way down";
+        f.numbers("up", &mut up, &[windows], "1", what)?;
+        let ways = self.windows.iter_mut().zip(up);
+        ways.for_each(|(window, up)| window.up = up != 0.0);
+        let columns = self.columns.len();
+        let mut figures = self.figures.concat();
+        figure_fields(&mut figures, f, &[windows, ("column", columns)])?;
+        self.figures = figures.chunks(columns.max(1)).map(<[_]>::to_vec).collect();
+        Ok(())
+    }
+}
+
+impl SweepResult {
+    fn column_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        let of = |part: fn(&Column) -> &String| self.columns.iter().map(part).cloned().collect();
+        let (mut names, mut units, mut texts): (Vec<String>, Vec<String>, Vec<String>) =
+            (of(|c| &c.name), of(|c| &c.unit), of(|c| &c.description));
+        f.lines("columns", &mut names, "names of the columns")?;
+        if f.version() >= STATED_UNITS {
+            f.lines("units", &mut units, "their units")?;
+            f.lines("descriptions", &mut texts, "what they are")?;
+        } else {
+            units = names
+                .iter()
+                .map(|name| unit_in_version_1(name).to_owned())
+                .collect();
+            texts = vec![String::new(); names.len()];
+        }
+        if names.len() != units.len() || names.len() != texts.len() {
+            return Err(f.contradiction("units", "there are not as many as columns"));
+        }
+        let columns = names.into_iter().zip(units).zip(texts);
+        let column = |((name, unit), description)| Column {
+            name,
+            unit,
+            description,
+        };
+        self.columns = columns.map(column).collect();
+        Ok(())
+    }
+}
+
+fn figure_fields(
+    figures: &mut Vec<Figures>,
+    f: &mut Fields<'_>,
+    axes: &[(&str, usize)],
+) -> Result<(), FileError> {
+    let mut part = |name: &str, what: &str, of: fn(&mut Figures) -> &mut f64| {
+        let mut values: Vec<f64> = figures.iter_mut().map(|figures| *of(figures)).collect();
+        f.numbers(name, &mut values, axes, "of the column", what)?;
+        figures.resize_with(values.len(), Figures::default);
+        let pairs = figures.iter_mut().zip(values);
+        pairs.for_each(|(figures, value)| *of(figures) = value);
+        Ok::<_, FileError>(())
+    };
+    part("mean", "mean", |f| &mut f.mean)?;
+    let what = "standard deviation: RMS value about the mean";
+    part("deviation", what, |f| &mut f.deviation)?;
+    part("least", "smallest value", |f| &mut f.least)?;
+    part("largest", "largest value", |f| &mut f.largest)
+}
+
+impl Contents {
+    fn eigen_fields(&mut self, f: &mut Fields<'_>) -> Result<(), FileError> {
+        f.lines("eigen/bodies", &mut self.bodies, "names of the bodies")?;
+        // Files of older programs have no elements.
+        if f.has("eigen/elements") {
+            f.lines(
+                "eigen/elements",
+                &mut self.elements,
+                "names of the force elements",
+            )?;
+        }
+        let names = [self.bodies.len(), self.elements.len()];
+        f.numbered_list("eigen", &mut self.eigen, |point, f| {
+            point_fields(point, f, names)
+        })
+    }
+}
+
+fn point_fields(
+    it: &mut EigenResult,
+    f: &mut Fields<'_>,
+    [bodies, elements]: [usize; 2],
+) -> Result<(), FileError> {
+    let what = "share of the scene's loads";
+    f.number("load_factor", &mut it.point.load_factor, "1", what)?;
+    let what = "speed of the varied motion, where one is varied";
+    f.number_if_there(
+        "speed_rad_per_s",
+        &mut it.point.speed_rad_per_s,
+        "rad/s",
+        what,
+    )?;
+    let of = |value: fn(&NaturalMode) -> f64| it.modes.iter().map(value).collect::<Vec<f64>>();
+    let (mut frequency, mut damping, mut growth) = (
+        of(NaturalMode::frequency_hz),
+        of(NaturalMode::damping_ratio),
+        of(|mode| mode.growth_per_s),
+    );
+    let what = "frequency of the damped vibration";
+    f.numbers(
+        "frequency_Hz",
+        &mut frequency,
+        &[("mode", OPEN)],
+        "Hz",
+        what,
+    )?;
+    let modes = ("mode", frequency.len());
+    f.numbers(
+        "damping_ratio",
+        &mut damping,
+        &[modes],
+        "1",
+        "damping ratio",
+    )?;
+    let what = "real part of the eigenvalue, negative where the motion dies out";
+    f.numbers("growth_per_s", &mut growth, &[modes], "1/s", what)?;
+    let amplitudes = || it.modes.iter().flat_map(|mode| &mode.shape);
+    let mut real: Vec<f64> = amplitudes().map(|a| a[0]).collect();
+    let mut imaginary: Vec<f64> = amplitudes().map(|a| a[1]).collect();
+    let axes = [modes, ("degree of freedom", OPEN)];
+    let what = "of each body displacement and rotation along world axes, then modal coordinates; the largest is 1";
+    f.numbers("shape_real", &mut real, &axes, "m or rad", what)?;
+    let dofs = real.len() / modes.1.max(1);
+    let axes = [modes, ("degree of freedom", dofs)];
+    f.numbers("shape_imaginary", &mut imaginary, &axes, "m or rad", what)?;
+    let axes = [modes, ("body", bodies)];
+    let what = "share of each body in the kinetic energy";
+    share_fields("participation", &mut it.participation, f, (axes, what))?;
+    if elements > 0 || f.is_listing() {
+        let axes = [modes, ("element", elements)];
+        let what = "share of each force element in the strain energy";
+        share_fields("strain", &mut it.strain, f, (axes, what))?;
+    }
+    if f.is_reading() {
+        let shape = |i: usize| (i * dofs..(i + 1) * dofs).map(|k| [real[k], imaginary[k]]);
+        let mode = |i: usize| NaturalMode {
+            growth_per_s: growth[i],
+            angular_frequency_rad_per_s: TAU * frequency[i],
+            shape: shape(i).collect(),
+        };
+        it.modes = (0..modes.1).map(mode).collect();
+    }
+    Ok(())
+}
+
+fn share_fields(
+    name: &str,
+    shares: &mut Vec<Vec<f64>>,
+    f: &mut Fields<'_>,
+    (axes, what): ([(&str, usize); 2], &str),
+) -> Result<(), FileError> {
+    let mut flat = shares.concat();
+    f.numbers(name, &mut flat, &axes, "1", what)?;
+    *shares = flat.chunks(axes[1].1.max(1)).map(<[_]>::to_vec).collect();
+    Ok(())
+}
