@@ -48,6 +48,8 @@ pub enum JointKind {
     Cylindrical,
     /// Turns freely about a common point: 3.
     Spherical,
+    /// The point of B stays on the z axis of A and turns freely: 2.
+    PointOnAxis,
     /// Slides in the x-y plane of A and turns about z: 3.
     Planar,
     /// Common point, x of A stays perpendicular to y of B: 4.
@@ -134,6 +136,7 @@ impl Joint {
             JointKind::Prismatic => ([&point[..2], &aligned, &[untwisted]].concat(), None),
             JointKind::Cylindrical => ([&point[..2], &aligned].concat(), None),
             JointKind::Spherical => (point.to_vec(), None),
+            JointKind::PointOnAxis => (point[..2].to_vec(), None),
             JointKind::Planar => ([&point[2..], &aligned].concat(), None),
             JointKind::Universal => ([&point[..], &[perpendicular(0, 1)]].concat(), None),
             JointKind::Translation(motion) => (vec![Along(2)], Some(motion)),
