@@ -163,9 +163,25 @@ fn a_stated_contact_is_its_law() {
         (0.5 * mass * speed * speed * (exponent + 1.0) / stiffness).powf(1.0 / (exponent + 1.0));
     close(peak, stiffness * depth.powf(exponent), 1e-3);
     close(after, 1.0, 1e-4);
-    let (_, least, damped) = thrown(20.0);
-    assert!(
-        least >= 0.0 && damped > 0.1 && damped < 0.97,
-        "{least} N, {damped}"
-    );
+    let (_, least, damped) = thrown(200.0);
+    assert!(least >= 0.0, "{least} N");
+    // The same blow by a method of its own: m δ̈ = −(K δ^e + c STEP δ̇), classical Runge-Kutta steps of 10 ns.
+    let load = |[depth, rate]: [f64; 2]| {
+        let s = (depth / 1e-5).min(1.0);
+        (stiffness * depth.powf(exponent) + 200.0 * s * s * (3.0 - 2.0 * s) * rate).max(0.0)
+    };
+    let slope = |at: [f64; 2]| [at[1], -load([at[0].max(0.0), at[1]]) / mass];
+    let (mut at, h) = ([0.0, speed], 1e-8);
+    while at[0] >= 0.0 {
+        let ahead = |by: f64, k: [f64; 2]| [at[0] + by * k[0], at[1] + by * k[1]];
+        let k1 = slope(at);
+        let k2 = slope(ahead(0.5 * h, k1));
+        let k3 = slope(ahead(0.5 * h, k2));
+        let k4 = slope(ahead(h, k3));
+        let sum = [0, 1].map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0);
+        at = ahead(h, sum);
+    }
+    let expected = -at[1] / speed;
+    close(damped, expected, 1e-3);
+    assert!(expected < 0.95, "{expected}");
 }
