@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod bearing_kinds;
+mod bearings_of_seeds;
 #[path = "../common/mod.rs"]
 mod common;
 mod dynamic_bearings;
@@ -14,7 +15,6 @@ mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod provenance;
-mod rig_of_seed_002;
 mod rolling_bearings;
 mod shafts;
 mod shipped;
