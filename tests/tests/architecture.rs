@@ -36,7 +36,7 @@ const ONLINE: [&str; 10] = [
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 19] = [
+const ALLOWED: [(&str, &[&str]); 20] = [
     ("elements", &[]),
     ("geometry", &["elements"]),
     ("mesh", &["elements", "geometry"]),
@@ -53,6 +53,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
         &["geometry", "model", "contact", "dynamics", "recovery"],
     ),
     ("signal", &[]),
+    ("rexs", &[]),
     ("rating", &["geometry", "contact"]),
     (
         "scene",
@@ -84,6 +85,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "signal",
             "scene",
             "report",
+            "rexs",
         ],
     ),
     (
