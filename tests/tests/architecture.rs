@@ -50,7 +50,9 @@ const ALLOWED: [(&str, &[&str]); 20] = [
     ("recovery", &["model", "contact"]),
     (
         "drivetrain",
-        &["geometry", "model", "contact", "dynamics", "recovery"],
+        &[
+            "bevel", "geometry", "model", "contact", "dynamics", "recovery",
+        ],
     ),
     ("signal", &[]),
     ("rexs", &[]),
@@ -59,6 +61,7 @@ const ALLOWED: [(&str, &[&str]); 20] = [
         "scene",
         &[
             "bearings",
+            "bevel",
             "geometry",
             "model",
             "contact",

@@ -43,13 +43,7 @@ impl SurfacePoint {
     /// plane. As n points into the
     /// material, convex bodies have positive curvatures.
     pub fn curvature(&self) -> Matrix3<f64> {
-        // Dual basis of the tangent plane: e^a·r_a = 1, e^a·r_b = 0.
-        let [ra, rb] = self.dr;
-        let (e, f, g) = (ra.dot(&ra), ra.dot(&rb), rb.dot(&rb));
-        let det = e * g - f * f;
-        let dual_a = (ra * g - rb * f) / det;
-        let dual_b = (rb * e - ra * f) / det;
-        -(self.dn[0] * dual_a.transpose() + self.dn[1] * dual_b.transpose())
+        curvature_tensor(&self.dr, &self.dn)
     }
 
     fn from_jets(r: JetVector, n: JetVector, above: Jet) -> Self {
@@ -63,6 +57,17 @@ impl SurfacePoint {
             above_end_slopes: above.d,
         }
     }
+}
+
+/// −(n_a ⊗ e^a + n_b ⊗ e^b) with the dual tangents e^a, e^b of the tangents r_a, r_b.
+pub(crate) fn curvature_tensor(dr: &[Vector3<f64>; 2], dn: &[Vector3<f64>; 2]) -> Matrix3<f64> {
+    // Dual basis of the tangent plane: e^a·r_a = 1, e^a·r_b = 0.
+    let [ra, rb] = dr;
+    let (e, f, g) = (ra.dot(ra), ra.dot(rb), rb.dot(rb));
+    let det = e * g - f * f;
+    let dual_a = (ra * g - rb * f) / det;
+    let dual_b = (rb * e - ra * f) / det;
+    -(dn[0] * dual_a.transpose() + dn[1] * dual_b.transpose())
 }
 
 /// What one tool side leaves on the work.

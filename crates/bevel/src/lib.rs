@@ -7,6 +7,7 @@
 //! | settings of the machine | [`MachineSettings`], [`basic_settings()`] | `settings.rs`, `basic_settings.rs` |
 //! | the surface that the tool leaves, exact to second derivatives | [`CutSurface`] | `cut_surface.rs`, `jet.rs` |
 //! | a flank on its blank, a tooth and its checks | [`Flank`], [`Tooth`] | `flank.rs`, `tooth.rs` |
+//! | a flank as a smooth patch, for contact in motion | [`FlankPatch`] | `flank_patch.rs`, `chebyshev.rs` |
 //! | both members in space, with errors | [`Assembly`] | `assembly.rs` |
 //! | contact of flanks and edges | [`Mesh`] | `contact_point.rs`, `ease_off.rs` |
 //! | path of contact, transmission error, ellipses | [`tooth_contact`] | `tca.rs`, `contact_path.rs`, `contact_ellipse.rs` |
@@ -20,6 +21,7 @@
 pub mod assembly;
 pub mod basic_settings;
 pub mod blank;
+mod chebyshev;
 pub mod contact_ellipse;
 pub mod contact_path;
 pub mod contact_point;
@@ -27,6 +29,7 @@ pub mod cut_surface;
 pub mod ease_off;
 mod error;
 pub mod flank;
+pub mod flank_patch;
 pub mod hand;
 pub mod jet;
 pub mod local_synthesis;
@@ -47,6 +50,7 @@ pub use cut_surface::{CutSurface, SurfacePoint};
 pub use ease_off::EaseOff;
 pub use error::BevelError;
 pub use flank::{Flank, Located};
+pub use flank_patch::{FlankPatch, PatchPoint};
 pub use hand::{FlankSide, Hand};
 pub use local_synthesis::{Synthesis, SynthesisTarget};
 pub use pair_design::{Cutting, PairDesign};

@@ -133,6 +133,33 @@ pub enum DrivetrainError {
         /// Sum of the base radii.
         smallest_mm: f64,
     },
+    /// A flank of a bevel gear that does not reach over its blank.
+    #[error(transparent)]
+    Bevel(#[from] gearmesh_bevel::BevelError),
+    /// Conjugate flanks of a bevel pair.
+    #[error(
+        "the {} flanks of the bevel pair touch along a line, not in a point that a force could act in: crown them (settings by local synthesis or \
+         to an ease-off)", flank.name()
+    )]
+    LineContact {
+        /// Side of the teeth.
+        flank: Flank,
+    },
+    /// Bevel gears too far from where they belong.
+    #[error(
+        "the axes of the bevel gears stand at {shaft_deg:.4} degrees, the pair is made for {designed_deg:.4} (2.8 degrees off are allowed); their \
+         pitch apexes stand {apart_mm:.4} mm apart, allowed are {allowed_mm:.4} mm"
+    )]
+    BevelAxes {
+        /// Angle between the axes, from apex to heel.
+        shaft_deg: f64,
+        /// Shaft angle of the pair.
+        designed_deg: f64,
+        /// Distance of the apexes.
+        apart_mm: f64,
+        /// What is allowed.
+        allowed_mm: f64,
+    },
     /// The two models do not fit each other or the pair, or their contact has no state.
     #[error(transparent)]
     Contact(#[from] ContactError),

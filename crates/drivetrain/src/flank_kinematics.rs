@@ -3,6 +3,7 @@
 //! | family | file |
 //! | --- | --- |
 //! | involute teeth, spur and helical, on parallel axes | `involute_mesh.rs`, with [`crate::MeshKinematics`] |
+//! | bevel gears, on axes that meet | `bevel/` |
 //! | crowned cylinders on crossed axes, the example of docs/extending.md | `tests/conformance/crowned_cylinders.rs` |
 //!
 //! At rest, [`crate::PosedFlanks`] makes of any family what a static contact asks for.
@@ -11,6 +12,7 @@
 
 use gearmesh_contact::SliceLayout;
 use gearmesh_geometry::Flank;
+use nalgebra::Vector3;
 
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
@@ -89,6 +91,23 @@ pub trait FlankKinematics: Send {
 
     /// ∂k by the increments of the pose.
     fn sliding_gradient(&self, found: &FlankContacts, contact: usize, side: Flank) -> Matrix6;
+
+    /// k along the tangent at right angles to that of [`Self::sliding`], and ∂k, of families whose flanks slide along the
+    /// teeth as well: friction then acts against the sliding in the tangent plane.
+    fn second_sliding(
+        &self,
+        _found: &FlankContacts,
+        _contact: usize,
+        _side: Flank,
+    ) -> Option<(Vector6, Matrix6)> {
+        None
+    }
+
+    /// A vector in gear 1's axes from gear 1's axis to where gear 2 is, for the directions in which the force on gear 1 is
+    /// told.
+    fn towards_gear_2(&self, pose: &Pose) -> Vector3<f64> {
+        pose.displacement_m
+    }
 
     /// Gap \[m\] of the nearest ideal flanks of one side, continued beyond their ends, as the transmission error counts it.
     fn nearest_gap_m(&self, side: Flank) -> Option<f64>;

@@ -12,6 +12,9 @@
 //! ```
 //!
 //! where what falls to zero with the tilt is left out of ∂k.
+//!
+//! Flanks that slide along the teeth as well (bevel gears) have two tangents: with v_i = k_i·(u̇, ω) the load is −F Σ w_i k_i,
+//! w = μ(|v|) v/|v|, and ∂w_i/∂v_j = μ′ e_i e_j + (μ/|v|)(δ_ij − e_i e_j), e = v/|v|.
 
 use nalgebra::Vector3;
 
@@ -93,6 +96,50 @@ impl Friction {
             step(speed, [vs, mu_s], [vd, mu_d])
         };
         (value.copysign(sliding_m_per_s), slope)
+    }
+}
+
+/// Friction in a tangent plane for a normal force of one newton.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InPlane {
+    /// μ at the speed of sliding.
+    pub coefficient: f64,
+    pub load: Vector6,
+    pub by_position: Matrix6,
+    pub by_velocity: Matrix6,
+    pub dissipated_w: f64,
+}
+
+impl Friction {
+    /// Against the sliding along two tangents: loads of unit forces along them, with their derivatives by the pose.
+    pub(crate) fn in_plane(&self, tangents: [&(Vector6, Matrix6); 2], rates: &Vector6) -> InPlane {
+        let speeds = tangents.map(|(k, _)| k.dot(rates));
+        let speed = speeds[0].hypot(speeds[1]);
+        let (mu, slope) = self.coefficient(speed);
+        // At rest the secant μ/v is the slope, and any direction will do.
+        let (e, secant) = if speed > f64::MIN_POSITIVE {
+            (speeds.map(|v| v / speed), mu / speed)
+        } else {
+            ([1.0, 0.0], slope)
+        };
+        let mut found = InPlane {
+            coefficient: mu,
+            load: Vector6::zeros(),
+            by_position: Matrix6::zeros(),
+            by_velocity: Matrix6::zeros(),
+            dissipated_w: mu * speed,
+        };
+        for (i, (k, change)) in tangents.into_iter().enumerate() {
+            found.load -= mu * e[i] * k;
+            found.by_position -= mu * e[i] * change;
+            for (j, (other, other_change)) in tangents.into_iter().enumerate() {
+                let own = f64::from(u8::from(i == j));
+                let by_speed = slope * e[i] * e[j] + secant * (own - e[i] * e[j]);
+                found.by_position -= by_speed * k * other_change.tr_mul(rates).transpose();
+                found.by_velocity -= by_speed * k * other.transpose();
+            }
+        }
+        found
     }
 }
 

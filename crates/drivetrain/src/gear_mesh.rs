@@ -221,7 +221,8 @@ impl GearMesh {
         self.sides.iter().filter_map(gap_m).min_by(f64::total_cmp)
     }
 
-    /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥; zero without friction.
+    /// μ of each contact of a side at the last pose, signed as the sliding of gear 2 along w⊥, positive where flanks slide along
+    /// the teeth as well; zero without friction.
     #[must_use]
     pub fn friction_coefficients(&self, flank: Flank) -> &[f64] {
         let side = self.sides.iter().find(|side| side.flank == flank);
@@ -400,7 +401,23 @@ impl Assembly<'_> {
             let mut direction = contact.gradient;
             let mut to_tip_n = 0.0;
             let mut rubbing = None;
-            if let Some(friction) = self.friction {
+            let second =
+                (self.friction).and_then(|_| self.kinematics.second_sliding(found, i, self.flank));
+            if let (Some(friction), Some(second)) = (self.friction, &second) {
+                parts.effort.friction += 1;
+                let first = (
+                    self.kinematics.sliding(found, i, self.flank),
+                    self.kinematics.sliding_gradient(found, i, self.flank),
+                );
+                let drag = friction.in_plane([&first, second], &self.rates);
+                parts.coefficients[i] = drag.coefficient;
+                direction += drag.load;
+                result.power.dissipated_w += force * drag.dissipated_w;
+                if tangents {
+                    result.by_position += force * drag.by_position;
+                    result.by_velocity += force * drag.by_velocity;
+                }
+            } else if let Some(friction) = self.friction {
                 parts.effort.friction += 1;
                 let k = self.kinematics.sliding(found, i, self.flank);
                 let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);

@@ -3,7 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | which teeth face each other at any pose of two gears, how far apart, with all derivatives | [`MeshKinematics`] | `mesh_kinematics.rs`, `pose.rs`; `mesh_frame.rs`, `slice_plane.rs`, `base_helix.rs`, `path_ends.rs`; what is found: `flank_contacts.rs` |
-//! | what a mesh asks of a family of flanks | [`FlankKinematics`] | `flank_kinematics.rs`; involute gears: `involute_mesh.rs` |
+//! | what a mesh asks of a family of flanks | [`FlankKinematics`] | `flank_kinematics.rs`; involute gears: `involute_mesh.rs`; bevel gears: [`BevelMesh`], `bevel/` |
 //! | what resists | the models | `teeth_model.rs`, `models/` |
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
@@ -16,10 +16,11 @@
 //! | mass and inertia of a gear body, from its geometry or its model file | [`GearInertia`], [`gear_body()`], [`modal_gear_body`] | `gear_inertia.rs`, `gear_body.rs` |
 //!
 //! An effect that is not asked for is not called: friction, damping, the coast side and flank errors are absent unless given. Spur and helical gears on
-//! parallel axes.
+//! parallel axes, bevel gears on axes that meet.
 //! The theory is in docs/theory/gear_meshes.md.
 
 mod base_helix;
+pub mod bevel;
 pub mod damping;
 pub mod error;
 pub mod errors;
@@ -54,6 +55,7 @@ pub mod tooth_compliance;
 pub mod tooth_overlap;
 mod tooth_zero;
 
+pub use bevel::BevelMesh;
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;

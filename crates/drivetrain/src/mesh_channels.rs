@@ -1,6 +1,7 @@
 //! What a mesh reports of its load: the force on gear 1 by directions that a gear designer names, and the line load of each slice.
 //!
-//! With e_r from the origin of gear 1 to that of gear 2 across the axis of gear 1, e_t = e_z × e_r and F the force on gear 2 (friction included),
+//! With e_r from the axis of gear 1 to gear 2 across that axis (parallel axes: towards gear 2's origin; bevel gears:
+//! towards gear 2's axis), e_t = e_z × e_r and F the force on gear 2 (friction included),
 //!
 //! ```text
 //! tangential F_t = −F·e_t     counter-clockwise about gear 1's z: positive on right flanks
@@ -15,6 +16,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
 use crate::gear_mesh::GearMesh;
+use crate::pose::Pose;
 
 /// Sum of the normal forces on the flanks of a side.
 pub(crate) fn normal_force(flank: Flank) -> Channel {
@@ -61,12 +63,12 @@ pub(crate) fn forces() -> [Channel; FORCES] {
     ]
 }
 
-/// F_t, F_r and F_a \[N\] on gear 1 at the last pose; `displacement_m`: gear 2's origin in gear 1's axes.
-pub(crate) fn force_on_gear_1(mesh: &GearMesh, displacement_m: &Vector3<f64>) -> [f64; 3] {
+/// F_t, F_r and F_a \[N\] on gear 1 at the last pose, which is given.
+pub(crate) fn force_on_gear_1(mesh: &GearMesh, pose: &Pose) -> [f64; 3] {
+    let towards = mesh.kinematics().towards_gear_2(pose);
     let load = &mesh.load().load;
     let force = Vector3::new(load[0], load[1], load[2]);
-    let Some(radial) = Vector3::new(displacement_m[0], displacement_m[1], 0.0).try_normalize(0.0)
-    else {
+    let Some(radial) = Vector3::new(towards[0], towards[1], 0.0).try_normalize(0.0) else {
         return [0.0; 3];
     };
     let tangential = Vector3::z().cross(&radial);

@@ -292,7 +292,7 @@ impl ForceElement for MeshElement {
         }
         let rest = places.into_slice();
         let (forces, slices) = rest.split_at_mut(FORCES);
-        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &motion.displacement_m));
+        forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(&motion)));
         if let Some(line_loads) = &self.line_loads {
             line_loads.write(&self.mesh, slices);
         }

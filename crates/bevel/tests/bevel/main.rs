@@ -5,3 +5,4 @@ mod blanks;
 mod common;
 mod contacts;
 mod flanks;
+mod patches;

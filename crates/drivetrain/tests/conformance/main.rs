@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod backlash;
+mod bevel_pair;
 mod crossed_cylinders;
 mod crowned_cylinders;
 mod effects;

@@ -9,6 +9,7 @@ use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
 
+use super::bevel_mesh::SceneBevel;
 use super::bodies::Bodies;
 use super::gears::Gear;
 use super::mesh_model::SceneMesh;
@@ -34,7 +35,7 @@ pub(super) struct PreparedMesh {
     /// The sides that can touch.
     pub sides: Vec<Flank>,
     /// Width of a slice \[m\]; zero for `kinematic`.
-    slice_width_m: f64,
+    pub slice_width_m: f64,
 }
 
 impl PreparedMesh {
@@ -64,6 +65,17 @@ impl PreparedMesh {
                     table.gear_2
                 ),
             ));
+        }
+        if let Some(file) = &table.bevel_pair {
+            let scene = SceneBevel {
+                table,
+                teeth,
+                keys,
+                model_keys,
+                teeth_keys,
+                file: &folder.join(file),
+            };
+            return scene.prepare((&key, numbers), bodies, parts);
         }
         let gear = |i: usize| {
             let placed = &bodies.list[numbers[i]];
@@ -188,7 +200,7 @@ impl PreparedMesh {
     }
 }
 
-fn pose(bodies: &Bodies, numbers: [usize; 2], seats: &[Marker; 2]) -> Pose {
+pub(super) fn pose(bodies: &Bodies, numbers: [usize; 2], seats: &[Marker; 2]) -> Pose {
     let [a, b] = numbers.map(|number| bodies.list[number].motion());
     let pair = MarkerPair {
         a: seats[0],
@@ -219,7 +231,7 @@ fn teeth(table: &GearMeshTable, keys: &TableKeys<'_>) -> Result<TeethTable, Inpu
 }
 
 /// Place of a gear on its body.
-fn seat(
+pub(super) fn seat(
     table: &Option<EccentricityTable>,
     keys: &TableKeys<'_>,
     key: &str,

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! ω₁: turn of gear 1 about its axis e; d: from gear 1's origin to gear 2's. ω_c is the turn of the line of centres,
-//! that of the carrier where axes are carried round; zero where they stand.
+//! that of the carrier where axes are carried round; zero where they stand. Bevel gears have their origins in one point
+//! and no line of centres.
 
 use std::f64::consts::TAU;
 
@@ -23,6 +24,10 @@ use crate::system::tables::mesh_model::MeshKind;
 /// itself is folded.
 pub(crate) const STEPS_A_PERIOD: f64 = 10.0;
 
+/// Origins that are nearer to each other across the axis than this \[m\] are those of bevel gears, apart by no more than
+/// their bearings give way.
+const LEAST_APART_M: f64 = 1e-3;
+
 /// How fast the line of centres turns about gear 1's axis \[rad/s\], from places and velocities of the two gears and
 /// that axis.
 pub(crate) fn line_of_centres_rad_per_s(
@@ -31,7 +36,7 @@ pub(crate) fn line_of_centres_rad_per_s(
     axis: &Vector3<f64>,
 ) -> f64 {
     let square = between_m.cross(axis).norm_squared();
-    if square > 0.0 {
+    if square > LEAST_APART_M * LEAST_APART_M {
         axis.dot(&between_m.cross(rate_m_per_s)) / square
     } else {
         0.0

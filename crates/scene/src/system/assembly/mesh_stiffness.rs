@@ -6,6 +6,7 @@ use std::path::Path;
 use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
 use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
+use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 
 use super::mesh_model::{REFERENCE_LINE_LOAD_N_PER_M, SceneMesh};
@@ -14,6 +15,47 @@ use crate::system::tables::{MM, UM};
 
 /// N/(mm·µm) in SI, N/m².
 const N_PER_MM_UM: f64 = 1e9;
+
+/// K in N/mm^e and e of `impact` as a scene states them.
+pub(super) fn stated_impact(
+    table: &ImpactTable,
+    keys: &TableKeys<'_>,
+) -> Result<(f64, f64), InputError> {
+    let needed_by = "kind = \"impact\" without `stiffness`";
+    let k = keys.needed(
+        "stiffness_N_per_mm_e",
+        table.stiffness_N_per_mm_e,
+        needed_by,
+    )?;
+    let unit = "the unit of stiffness_N_per_mm_e, N/mm^e,";
+    let e = keys.needed("exponent", table.exponent, unit)?;
+    keys.require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
+    keys.require("stiffness_N_per_mm_e", k, k > 0.0, "more than 0")?;
+    Ok((k, e))
+}
+
+/// The law of `impact` with K in N/mm^e and e.
+pub(super) fn impact_law(
+    table: &ImpactTable,
+    keys: &TableKeys<'_>,
+    (k, e): (f64, f64),
+    slices: usize,
+) -> Result<Impact, InputError> {
+    let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(|error| keys.error("", error))?;
+    let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
+        // Without damping the depth has no meaning.
+        (None, None) => (0.0, UM),
+        (damping, depth) => {
+            let [c, d] = ["damping_N_s_per_mm", "full_damping_depth_um"];
+            let damping = keys.needed(c, damping, d)?;
+            let depth = keys.needed(d, depth, c)?;
+            keys.require(c, damping, damping >= 0.0, "0 or more")?;
+            keys.require(d, depth, depth > 0.0, "more than 0")?;
+            (damping / MM, UM * depth)
+        }
+    };
+    Impact::new(stiffness, damping, depth_m, slices).map_err(|error| keys.error("", error))
+}
 
 impl SceneMesh<'_> {
     /// K in N/mm^e and e of `impact`.
@@ -31,36 +73,17 @@ impl SceneMesh<'_> {
             }
             return Ok(curve.pair_law(self.pair, self.zone_width_m(), table.exponent));
         }
-        let needed_by = "kind = \"impact\" without `stiffness`";
-        let k = keys.needed(
-            "stiffness_N_per_mm_e",
-            table.stiffness_N_per_mm_e,
-            needed_by,
-        )?;
-        let unit = "the unit of stiffness_N_per_mm_e, N/mm^e,";
-        let e = keys.needed("exponent", table.exponent, unit)?;
-        keys.require("stiffness_N_per_mm_e", k, k > 0.0, "more than 0")?;
-        Ok((k, e))
+        stated_impact(table, keys)
     }
 
     /// The law of `impact`.
     pub(super) fn impact(&self, table: &ImpactTable, slices: usize) -> Result<Impact, InputError> {
-        let keys = &self.model_keys;
-        let (k, e) = self.impact_stiffness(table)?;
-        let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(self.fault())?;
-        let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
-            // Without damping the depth has no meaning.
-            (None, None) => (0.0, UM),
-            (damping, depth) => {
-                let [c, d] = ["damping_N_s_per_mm", "full_damping_depth_um"];
-                let damping = keys.needed(c, damping, d)?;
-                let depth = keys.needed(d, depth, c)?;
-                keys.require(c, damping, damping >= 0.0, "0 or more")?;
-                keys.require(d, depth, depth > 0.0, "more than 0")?;
-                (damping / MM, UM * depth)
-            }
-        };
-        Impact::new(stiffness, damping, depth_m, slices).map_err(self.fault())
+        impact_law(
+            table,
+            &self.model_keys,
+            self.impact_stiffness(table)?,
+            slices,
+        )
     }
 
     /// c_γα of `iso6336` \[N/m²\] where no curve gives it, and how it was found.

@@ -1,5 +1,7 @@
 //! `[[gear_mesh]]`: two gears, the model of their teeth, and what the teeth have whatever the model.
 
+use std::path::PathBuf;
+
 use gearmesh_geometry::Flank;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,6 +20,10 @@ pub struct GearMeshTable {
     pub gear_1: String,
     /// Body of gear 2.
     pub gear_2: String,
+    /// A bevel pair file, relative to the scene: gear 1 is its pinion, gear 2 its gear. Bodies of a bevel mesh are no
+    /// `gear`s of their own: their origin is the pitch apex, z points from the apex to the heel, the middle of tooth 0
+    /// stands on +x. Model `impact` only.
+    pub bevel_pair: Option<PathBuf>,
     /// Model of the teeth.
     pub model: MeshModel,
     /// What touches and how. Not with kind `kinematic`.
@@ -36,7 +42,7 @@ pub struct TeethTable {
     /// flanks touch where gear 1 drives clockwise. "both" where not given.
     pub flanks: TouchingFlanks,
     /// Beyond the ends of the path of contact: "extended" lets the tip edges go on, "line-of-action" does not.
-    /// "extended" where not given.
+    /// "extended" where not given; bevel pairs always have their edges.
     pub path: PathWord,
     /// Friction; none where not given.
     pub friction: Option<FrictionTable>,

@@ -1,0 +1,64 @@
+//! Smooth patches against the surfaces that they stand for.
+
+use gearmesh_bevel::{FlankPatch, FlankSide, PairFile};
+use nalgebra::Vector3;
+
+/// Points of a patch lie on the flank to 1 nm, normals are the flank's, and derivatives are those of the points.
+#[test]
+fn patches_are_the_flanks() {
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml", "bevel_31_36.toml"] {
+        let path = format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"));
+        let file = PairFile::read(path.as_ref()).unwrap();
+        let design = file.design().unwrap();
+        for (m, tooth) in design.teeth.iter().enumerate() {
+            for side in FlankSide::BOTH {
+                let mate = &file.blank.members[1 - m];
+                let patch = FlankPatch::of_tooth(tooth, mate, side).unwrap();
+                let flank = tooth.flank(side);
+                let (turn_sin, turn_cos) = tooth.half_angle_rad(side).sin_cos();
+                let turned = |v: Vector3<f64>| {
+                    Vector3::new(
+                        v.x * turn_cos - v.y * turn_sin,
+                        v.x * turn_sin + v.y * turn_cos,
+                        v.z,
+                    )
+                };
+                let mut worst = [0.0f64; 2];
+                for i in 0..=10 {
+                    for k in 0..=10 {
+                        let at = [0.1 * f64::from(i), 0.1 * f64::from(k)];
+                        let [cone, height] = patch.place_m(at);
+                        let exact = flank.locate(cone, height).unwrap().point;
+                        let found = patch.point(at);
+                        worst[0] = worst[0].max((found.r - turned(exact.r)).norm());
+                        worst[1] = worst[1].max((found.n - turned(exact.n)).norm());
+                    }
+                }
+                // Worst at the lower end of concave flanks, close to which the envelope turns back; convex ones 1e-13 m.
+                assert!(worst[0] < 1e-9, "{name} {m} {side:?}: {:e} m", worst[0]);
+                assert!(worst[1] < 1e-4, "{name} {m} {side:?}: {:e}", worst[1]);
+                let (at, h) = ([0.37, 0.61], 1e-5);
+                let here = patch.point(at);
+                for k in 0..2 {
+                    let moved = |by: f64| {
+                        let mut at = at;
+                        at[k] += by;
+                        patch.point(at)
+                    };
+                    let [a, b] = [moved(h), moved(-h)];
+                    let slope = |f: fn(&gearmesh_bevel::PatchPoint) -> Vector3<f64>| {
+                        (f(&a) - f(&b)) / (2.0 * h)
+                    };
+                    let near = |found: Vector3<f64>, expected: Vector3<f64>| {
+                        let off = (found - expected).norm() / expected.norm();
+                        assert!(off < 1e-6, "{name} {m} {side:?} {k}: {off:e}");
+                    };
+                    near(slope(|p| p.r), here.dr[k]);
+                    near(slope(|p| p.dr[0]), here.ddr[k]);
+                    near(slope(|p| p.dr[1]), here.ddr[k + 1]);
+                    near(slope(|p| p.n), here.dn[k]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! Where two smooth patches with edges are nearest to each other, or deepest in each other: Newton's method on
+//! stationary distances, of faces, edges and corners.
+//!
+//! d = r₂ − r₁, t the tangents ∂r/∂(s, v), n the normals into the material. Four unknowns (s, v on both), four equations:
+//!
+//! ```text
+//! inside both        d·t₂ = 0 (2),   t₁·n₂ = 0 (2)
+//! edge on a face     d·t = 0 of the face (2),   t·n = 0 along the edge,   the edge's own coordinate at its end
+//! corner on a face   d·t = 0 of the face (2),   both coordinates of the corner
+//! edge across edge   d·t = 0 along both edges,  two coordinates at their ends
+//! ```
+//!
+//! The gap g = d·N, N the normal of the face (of both edges where edges cross), goes over from one to the next without a
+//! jump, and so does its gradient: at the change both have one common normal. Of several ends that hold a contact back
+//! that counts at which the gap would shrink further beyond (the multiplier of the end).
+
+use std::cell::Cell;
+
+use gearmesh_bevel::{FlankPatch, PatchPoint};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+
+/// Newton steps at most.
+const MOST_STEPS: usize = 25;
+/// Longest step of a coordinate, flanks being 1 long.
+const LONGEST: f64 = 0.3;
+/// Steps below end the iteration: what is left is of the order of its square.
+const CLOSE: f64 = 1e-8;
+
+/// A patch in space: r = R r_own + origin.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed<'a> {
+    pub patch: &'a FlankPatch,
+    pub rotation: Matrix3<f64>,
+    pub origin_m: Vector3<f64>,
+}
+
+impl Placed<'_> {
+    fn point(&self, at: [f64; 2]) -> PatchPoint {
+        let own = self.patch.point(at);
+        let m = &self.rotation;
+        PatchPoint {
+            r: m * own.r + self.origin_m,
+            dr: own.dr.map(|v| m * v),
+            ddr: own.ddr.map(|v| m * v),
+            n: m * own.n,
+            dn: own.dn.map(|v| m * v),
+        }
+    }
+}
+
+/// Which coordinates stand at an end: `[member][s, v]`.
+pub(crate) type Held = [[Option<f64>; 2]; 2];
+
+const FREE: Held = [[None; 2]; 2];
+
+/// What gives the normal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// The face of member 0 or 1.
+    Face(usize),
+    /// Two edges, along these coordinates of member 0 and 1.
+    Edges([usize; 2]),
+}
+
+/// Kind of a contact with held coordinates.
+pub(crate) fn kind(held: &Held) -> Kind {
+    let is_held = |member: usize| held[member].iter().any(Option::is_some);
+    match (is_held(0), is_held(1)) {
+        (_, false) => Kind::Face(1),
+        (true, true) => Kind::Edges([0, 1].map(|m: usize| usize::from(held[m][0].is_some()))),
+        (false, true) => Kind::Face(0),
+    }
+}
+
+/// Two points that are nearest.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nearest {
+    pub held: Held,
+    /// s, v on both members.
+    pub at: [[f64; 2]; 2],
+    pub points: [PatchPoint; 2],
+    /// N, from member 0 to member 1 where they stand apart.
+    pub normal: Vector3<f64>,
+    /// Open positive \[m\].
+    pub gap_m: f64,
+}
+
+impl Nearest {
+    fn new(held: Held, at: [[f64; 2]; 2], points: [PatchPoint; 2]) -> Self {
+        let [p, q] = &points;
+        let normal = match kind(&held) {
+            Kind::Face(1) => q.n,
+            Kind::Face(_) => -p.n,
+            Kind::Edges([i, j]) => {
+                let across = p.dr[i].cross(&q.dr[j]).normalize();
+                across * across.dot(&q.n).signum()
+            }
+        };
+        let gap_m = (q.r - p.r).dot(&normal);
+        Self {
+            held,
+            at,
+            points,
+            normal,
+            gap_m,
+        }
+    }
+
+    /// How the gap changes with a coordinate \[m\].
+    fn slope(&self, member: usize, k: usize) -> f64 {
+        let sign = [-1.0, 1.0][member];
+        sign * self.points[member].dr[k].dot(&self.normal)
+    }
+
+    /// Whether held coordinates would let the gap shrink beyond their ends.
+    fn is_held_back(&self) -> bool {
+        (0..2).all(|m| {
+            (0..2).all(|k| match self.held[m][k] {
+                None => true,
+                Some(end) => self.slope(m, k) * (2.0 * end - 1.0) <= 1e-12,
+            })
+        })
+    }
+}
+
+/// Residuals and their derivatives by the unknowns, rows as at the head of this file.
+pub(crate) fn equations(
+    held: &Held,
+    at: &[[f64; 2]; 2],
+    points: &[PatchPoint; 2],
+) -> (Vector4<f64>, Matrix4<f64>) {
+    let mut residual = Vector4::zeros();
+    let mut slopes = Matrix4::zeros();
+    let d = points[1].r - points[0].r;
+    // d·t of member m along k.
+    let along = |m: usize, k: usize, row: usize, f: &mut Vector4<f64>, j: &mut Matrix4<f64>| {
+        let p = &points[m];
+        f[row] = d.dot(&p.dr[k]);
+        for l in 0..2 {
+            j[(row, l)] -= points[0].dr[l].dot(&p.dr[k]);
+            j[(row, 2 + l)] += points[1].dr[l].dot(&p.dr[k]);
+            j[(row, 2 * m + l)] += d.dot(&p.ddr[k + l]);
+        }
+    };
+    let hold =
+        |m: usize, k: usize, end: f64, row: usize, f: &mut Vector4<f64>, j: &mut Matrix4<f64>| {
+            f[row] = at[m][k] - end;
+            j[(row, 2 * m + k)] = 1.0;
+        };
+    match kind(held) {
+        Kind::Face(face) => {
+            let other = 1 - face;
+            for k in 0..2 {
+                along(face, k, k, &mut residual, &mut slopes);
+                if let Some(end) = held[other][k] {
+                    hold(other, k, end, 2 + k, &mut residual, &mut slopes);
+                    continue;
+                }
+                let (p, q) = (&points[other], &points[face]);
+                residual[2 + k] = p.dr[k].dot(&q.n);
+                for l in 0..2 {
+                    slopes[(2 + k, 2 * other + l)] = p.ddr[k + l].dot(&q.n);
+                    slopes[(2 + k, 2 * face + l)] = p.dr[k].dot(&q.dn[l]);
+                }
+            }
+        }
+        Kind::Edges(free) => {
+            for m in 0..2 {
+                along(m, free[m], m, &mut residual, &mut slopes);
+                let k = 1 - free[m];
+                if let Some(end) = held[m][k] {
+                    hold(m, k, end, 2 + m, &mut residual, &mut slopes);
+                }
+            }
+        }
+    }
+    (residual, slopes)
+}
+
+/// Newton's method for one set of held coordinates.
+fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
+    let domain = FlankPatch::domain();
+    let mut at = start;
+    for m in 0..2 {
+        for k in 0..2 {
+            if let Some(end) = held[m][k] {
+                at[m][k] = end;
+            }
+        }
+    }
+    let place = |at: &[[f64; 2]; 2]| [0, 1].map(|m: usize| bodies[m].point(at[m]));
+    for _ in 0..MOST_STEPS {
+        let points = place(&at);
+        let (residual, slopes) = equations(&held, &at, &points);
+        let mut step = slopes.lu().solve(&residual)?;
+        let most = step.amax();
+        if !most.is_finite() {
+            return None;
+        }
+        if most > LONGEST {
+            step *= LONGEST / most;
+        }
+        let mut moved: f64 = 0.0;
+        for m in 0..2 {
+            for k in 0..2 {
+                let [low, high] = domain[k];
+                let next = (at[m][k] - step[2 * m + k]).clamp(low, high);
+                moved = moved.max((next - at[m][k]).abs());
+                at[m][k] = next;
+            }
+        }
+        if most < CLOSE {
+            let points = place(&at);
+            let facing = points[0].n.dot(&points[1].n) < 0.0;
+            return facing.then(|| Nearest::new(held, at, points));
+        }
+        // Pressed against the end of the patch: nothing is nearest here.
+        if moved < CLOSE {
+            return None;
+        }
+    }
+    None
+}
+
+/// What holds a contact back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Limit {
+    /// Tip of member 0 or 1.
+    Tip(usize),
+    /// Both toes or both heels: the first of the two ends.
+    End(usize),
+}
+
+const LIMITS: [Limit; 4] = [Limit::Tip(0), Limit::Tip(1), Limit::End(0), Limit::End(1)];
+
+impl Limit {
+    /// By how much a contact stands beyond it, in lengths of the flank; within it below zero.
+    fn excess(self, at: &[[f64; 2]; 2]) -> f64 {
+        match self {
+            Self::Tip(member) => at[member][1] - 1.0,
+            Self::End(end) => {
+                let sign = 2.0 * end as f64 - 1.0;
+                let beyond = |m: usize| sign * (at[m][0] - end as f64);
+                beyond(0).max(beyond(1))
+            }
+        }
+    }
+
+    /// Members whose coordinate it may hold. Toes, and heels, of both lie nearly on one another: only one of them holds.
+    fn members(self) -> std::ops::Range<usize> {
+        match self {
+            Self::Tip(member) => member..member + 1,
+            Self::End(_) => 0..2,
+        }
+    }
+
+    /// Holds the coordinate of a member.
+    fn hold(self, member: usize, mut held: Held) -> Held {
+        match self {
+            Self::Tip(_) => held[member][1] = Some(1.0),
+            Self::End(end) => held[member][0] = Some(end as f64),
+        }
+        held
+    }
+}
+
+/// Slack of limits: rounding.
+const SLACK: f64 = 1e-9;
+
+/// Nearest points of two flanks with tips, toes and heels, from a guess. None where the flanks do not face each other.
+pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2]) -> Option<Nearest> {
+    // From the middle of a cell straight to the other flank: both points then belong together.
+    let foot = solve(bodies, [guess[0].map(Some), [None; 2]], guess);
+    let guess = foot.map_or(guess, |foot| foot.at);
+    let inside = solve(bodies, FREE, guess);
+    let within = |at: &[[f64; 2]; 2], but: &[Limit]| {
+        let mut others = LIMITS.iter().filter(|limit| !but.contains(limit));
+        others.all(|limit| limit.excess(at) <= SLACK)
+    };
+    if let Some(found) = inside.filter(|found| within(&found.at, &[])) {
+        return Some(found);
+    }
+    let start = inside.map_or(guess, |found| found.at);
+    // Toes and heels of both members hold together: the gap is the larger one of the two.
+    let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
+    let larger = |best: Option<Nearest>, held: Held, limits: &[Limit]| {
+        let found = solve(bodies, held, start).filter(|found| within(&found.at, limits));
+        let (back, on) = (
+            found.filter(Nearest::is_held_back),
+            found.filter(|f| !f.is_held_back()),
+        );
+        elsewhere.set(elsewhere.get().or(on));
+        match (back, best) {
+            (Some(a), Some(b)) => Some(if a.gap_m > b.gap_m { a } else { b }),
+            (a, b) => a.or(b),
+        }
+    };
+    let least = |a: Option<Nearest>, b: Option<Nearest>| match (a, b) {
+        (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
+        (a, b) => a.or(b),
+    };
+    let mut found = None;
+    for limit in LIMITS {
+        let mut own = None;
+        for member in limit.members() {
+            own = larger(own, limit.hold(member, FREE), &[limit]);
+        }
+        found = least(found, own);
+    }
+    // Not held back by an end: there is a contact inside, which the first guess has missed.
+    let missed = elsewhere
+        .get()
+        .filter(|_| found.is_none() && inside.is_none());
+    let missed = missed.and_then(|from| solve(bodies, FREE, from.at));
+    let found = found.or(missed.filter(|found| within(&found.at, &[])));
+    if found.is_some() {
+        return found;
+    }
+    let mut found = None;
+    for tip in [0, 1] {
+        let tips = Limit::Tip(tip).hold(tip, FREE);
+        for end in [Limit::End(0), Limit::End(1)] {
+            let mut own = None;
+            for member in end.members() {
+                own = larger(own, end.hold(member, tips), &[Limit::Tip(tip), end]);
+            }
+            found = least(found, own);
+        }
+    }
+    found
+}

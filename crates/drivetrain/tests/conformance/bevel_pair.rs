@@ -1,0 +1,331 @@
+//! Bevel gears run through the same models, and their contact without load is that of the tooth contact analysis.
+
+use gearmesh_bevel::{
+    Assembly, AssemblyError, FlankSide, PairBlank, PairDesign, PairFile, TcaRequest, tooth_contact,
+};
+use gearmesh_drivetrain::flank_contacts::FlankContacts;
+use gearmesh_drivetrain::pose::Vector6;
+use gearmesh_drivetrain::*;
+use gearmesh_geometry::Flank;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::energy::{check_energy, check_power};
+use crate::mesh_common::*;
+use crate::two_bodies::{check_reaction, check_tangents, check_turned};
+use crate::{DAMPINGS, friction};
+
+struct Pair {
+    blank: PairBlank,
+    design: PairDesign,
+    mesh: BevelMesh,
+}
+
+fn pair(name: &str) -> Pair {
+    let file = format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"));
+    let file = PairFile::read(file.as_ref()).unwrap();
+    let design = file.design().unwrap();
+    Pair {
+        mesh: BevelMesh::new(&file.blank, &design).unwrap(),
+        blank: file.blank,
+        design,
+    }
+}
+
+impl Pair {
+    /// Gear 2 in gear 1 of an assembly with errors, both turned about their axes.
+    fn pose(&self, error: &AssemblyError, turns_rad: [f64; 2]) -> Pose {
+        let assembly = Assembly::new(&self.blank, error);
+        let axes = [0, 1].map(|m: usize| {
+            let turn: Matrix3<f64> = about(Vector3::z(), turns_rad[m]);
+            assembly.members[m].axes * turn
+        });
+        let apart = assembly.members[1].apex_m - assembly.members[0].apex_m;
+        let back = axes[0].transpose();
+        Pose::at_rest(back * apart, back * axes[1])
+    }
+
+    fn gap_m(&self, pose: &Pose, side: Flank) -> f64 {
+        let mut found = FlankContacts::default();
+        self.mesh.contacts_at(pose, side, &mut found).unwrap();
+        found.lines[0].ideal_gap_m
+    }
+
+    /// Turn of gear 2 at which the flanks of a side stand open by so much.
+    fn turn_2(&self, error: &AssemblyError, turn_1: f64, side: Flank, gap_m: f64) -> f64 {
+        let lever = self.mesh.levers_m()[1] * side.mirror();
+        let mut turn_2 =
+            -turn_1 * self.blank.data.teeth[0] as f64 / self.blank.data.teeth[1] as f64;
+        for _ in 0..60 {
+            let off = self.gap_m(&self.pose(error, [turn_1, turn_2]), side) - gap_m;
+            turn_2 -= off / lever;
+            if off.abs() < 1e-15 {
+                break;
+            }
+        }
+        turn_2
+    }
+
+    fn mesh(&self) -> GearMesh {
+        let law = || {
+            let stiffness = PowerStiffness::n_per_mm_e(7.2e5, 1.5).unwrap();
+            Impact::new(stiffness, 2e3, 2e-6, 1).unwrap()
+        };
+        let mesh = GearMesh::of_flanks(Box::new(self.mesh.clone()), Flank::Right, law()).unwrap();
+        mesh.with_side(Flank::Left, law()).unwrap()
+    }
+}
+
+/// Offset, axial places, shaft angle.
+fn assembly([v, p, g, a]: [f64; 4]) -> AssemblyError {
+    AssemblyError {
+        offset_m: v,
+        pinion_axial_m: p,
+        gear_axial_m: g,
+        shaft_angle_rad: a,
+    }
+}
+
+/// Positions a pitch.
+const POSITIONS: usize = 12;
+const AS_DESIGNED: [f64; 4] = [0.0; 4];
+/// Errors that bring the contact to toe, heel and tips.
+const MISALIGNED: [[f64; 4]; 4] = [
+    [0.15e-3, 0.0, 0.0, 0.0],
+    [-0.15e-3, 0.0, 0.0, 1e-3],
+    [0.0, 0.1e-3, -0.05e-3, -2e-3],
+    [0.05e-3, -0.2e-3, 0.1e-3, 0.0],
+];
+
+/// The design at first touch turns gear 2 as the tooth contact analysis says, in every assembly, edges included.
+#[test]
+fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
+    let mut missed = 0;
+    for (name, all) in [
+        (
+            "bevel_20_20.toml",
+            &[AS_DESIGNED, [-5e-6, 5e-6, 5e-6, 2e-5]][..],
+        ),
+        ("bevel_13_35.toml", &[AS_DESIGNED][..]),
+    ] {
+        let pair = pair(name);
+        for errors in all.iter().copied() {
+            let error = assembly(errors);
+            for side in Flank::ALL {
+                let hand = pair.blank.members[0].hand;
+                let facing = -side.mirror();
+                let own = FlankSide::BOTH
+                    .into_iter()
+                    .find(|s| s.facing(hand) == facing);
+                let request = TcaRequest {
+                    error,
+                    per_pitch: 4 * POSITIONS,
+                    ..TcaRequest::default()
+                };
+                let flanks = pair.design.flanks(own.unwrap());
+                let expected = tooth_contact(flanks, &pair.blank, &request).unwrap();
+                let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
+                let ratio = pair.blank.data.teeth[0] as f64 / pair.blank.data.teeth[1] as f64;
+                // There turn 0 has the mean points of both flanks in the plane of the axes.
+                let azimuths = [0, 1].map(|m: usize| {
+                    let side = own.unwrap();
+                    let side = if m == 0 { side } else { side.mate() };
+                    pair.design.teeth[m].half_angle_rad(side)
+                });
+                // Ahead of constant ratio in the driven sense.
+                let lead: Vec<f64> = (0..POSITIONS)
+                    .map(|i| {
+                        let turn_1 = i as f64 * pitch / POSITIONS as f64;
+                        let turn_2 =
+                            pair.turn_2(&error, turn_1 - azimuths[0], side, 0.0) + azimuths[1];
+                        -facing * (turn_2 + ratio * turn_1)
+                    })
+                    .collect();
+                let pitch_2 = std::f64::consts::TAU / pair.blank.data.teeth[1] as f64;
+                let wrapped: Vec<f64> = lead
+                    .iter()
+                    .map(|x| x - pitch_2 * (x / pitch_2).round())
+                    .collect();
+                let most = wrapped.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                // Its largest is that of all its positions.
+                let of_positions: Vec<f64> =
+                    expected.error_rad.iter().copied().step_by(4).collect();
+                let largest = of_positions
+                    .iter()
+                    .copied()
+                    .fold(f64::NEG_INFINITY, f64::max);
+                for (i, (found, expected)) in wrapped.iter().zip(&of_positions).enumerate() {
+                    let off = found - most - (expected - largest);
+                    // The analysis follows edges from where its path crosses them and loses one now and then: what it
+                    // misses can only bring the gear further.
+                    let turn_1 = i as f64 * pitch / POSITIONS as f64 - azimuths[0];
+                    let on_edge = off > 1e-8 && {
+                        let turn_2 = pair.turn_2(&error, turn_1, side, 0.0);
+                        let mut there = FlankContacts::default();
+                        let pose = pair.pose(&error, [turn_1, turn_2]);
+                        pair.mesh.contacts_at(&pose, side, &mut there).unwrap();
+                        there.sections[0].roll_rad.contains(&1.0)
+                    };
+                    assert!(
+                        off.abs() < 1e-8 || on_edge,
+                        "{name} {errors:?} {side:?} {i}: {off:e} rad of {expected:e}"
+                    );
+                    missed += usize::from(on_edge);
+                }
+            }
+        }
+    }
+    assert!(missed <= 6, "{missed}");
+}
+
+/// Poses at which a side is pressed together or nearly so, misaligned ones too.
+fn poses(pair: &Pair, depth_m: f64) -> Vec<Pose> {
+    let mut list = Vec::new();
+    let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
+    for (number, errors) in [&[AS_DESIGNED][..], &MISALIGNED[..]]
+        .concat()
+        .into_iter()
+        .enumerate()
+    {
+        for (k, side) in [(0.1, Flank::Left), (0.45, Flank::Right), (0.8, Flank::Left)] {
+            let error = assembly(errors);
+            let turn_1 = (k + 0.07 * number as f64) * pitch;
+            let turn_2 = pair.turn_2(&error, turn_1, side, -depth_m);
+            list.push(pair.pose(&error, [turn_1, turn_2]));
+        }
+    }
+    list
+}
+
+#[test]
+fn bevel_flanks_conform() {
+    let pair = pair("bevel_20_20.toml");
+    let poses = poses(&pair, 12e-6);
+    let mut undamped = GearMesh::of_flanks(
+        Box::new(pair.mesh.clone()),
+        Flank::Right,
+        Impact::new(
+            PowerStiffness::n_per_mm_e(7.2e5, 1.5).unwrap(),
+            0.0,
+            1e-6,
+            1,
+        )
+        .unwrap(),
+    )
+    .unwrap();
+    let right: Vec<Pose> = poses
+        .iter()
+        .copied()
+        .filter(|pose| pair.gap_m(pose, Flank::Right) < 0.0)
+        .collect();
+    assert!(right.len() >= 4);
+    check_energy("bevel", &mut undamped, &right);
+    for (rubs, tolerance) in [(false, 2e-3), (true, 5e-3)] {
+        let mut mesh = pair.mesh();
+        if rubs {
+            mesh = mesh.with_friction(friction());
+        }
+        let what = format!("bevel, friction {rubs}");
+        check_power(("impact", DAMPINGS[0]), &mut mesh, &poses);
+        check_reaction(&what, &mut mesh, &poses);
+        check_tangents((&what, tolerance), &mut mesh, &poses);
+        check_turned(&what, &mut mesh, &poses);
+    }
+}
+
+/// Gaps have their gradients and second derivatives, wherever flanks, edges or corners touch.
+#[test]
+fn derivatives_of_bevel_gaps_agree_with_differences() {
+    let pair = pair("bevel_20_20.toml");
+    let mut mesh = pair.mesh.clone();
+    for (number, pose) in poses(&pair, 5e-6).iter().enumerate() {
+        for side in Flank::ALL {
+            mesh.locate(pose).unwrap();
+            let mut here = FlankContacts::default();
+            mesh.contacts(pose, side, &mut here);
+            let (h, mut there) = (1e-7, [FlankContacts::default(), FlankContacts::default()]);
+            for direction in 0..6 {
+                let mut step = Vector6::zeros();
+                step[direction] = h;
+                for (sign, found) in [1.0, -1.0].into_iter().zip(&mut there) {
+                    mesh.contacts_at(&moved(pose, &(sign * step)), side, found)
+                        .unwrap();
+                }
+                for (i, contact) in here.contacts.iter().enumerate() {
+                    let of = |found: &FlankContacts| {
+                        let teeth = here.lines[contact.line].teeth;
+                        let line = found.lines.iter().find(|line| line.teeth == teeth);
+                        line.map(|line| found.contacts[line.contacts.0])
+                    };
+                    let [Some(a), Some(b)] = [0, 1].map(|k: usize| of(&there[k])) else {
+                        continue;
+                    };
+                    let slope = (a.gap_m - b.gap_m) / (2.0 * h);
+                    let off = slope - contact.gradient[direction];
+                    assert!(
+                        off.abs() < 2e-7,
+                        "{number} {side:?} {i} by {direction}: {off:e}"
+                    );
+                    let change = (a.gradient - b.gradient) / (2.0 * h);
+                    let curvature = mesh.gap_curvature(&here, i, side);
+                    let off = (change - curvature.column(direction)).norm() / curvature.norm();
+                    assert!(
+                        off < 1e-4,
+                        "{number} {side:?} {i} by {direction}: {off:e} of {:e}",
+                        curvature.norm()
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// From inside to edges, corners and the next pair of teeth no gap jumps, and no flanks that overlap are lost.
+#[test]
+fn bevel_gaps_go_on_from_flank_to_edge_to_corner() {
+    let pair = pair("bevel_20_20.toml");
+    let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
+    let (steps, mut followed) = (240, 0);
+    for errors in [&[AS_DESIGNED][..], &MISALIGNED[..]].concat() {
+        let error = assembly(errors);
+        for side in Flank::ALL {
+            // All overlap somewhere: gear 2 is turned back by some micrometres.
+            let back = pair.turn_2(&error, 0.0, side, -30e-6);
+            let mut before: Option<(Pose, FlankContacts)> = None;
+            for i in 0..=steps {
+                let turn = 2.0 * pitch * f64::from(i) / f64::from(steps);
+                let pose = pair.pose(&error, [turn, back - turn]);
+                let mut found = FlankContacts::default();
+                pair.mesh.contacts_at(&pose, side, &mut found).unwrap();
+                if let Some((earlier, before)) = before {
+                    let change = pose.rotation * earlier.rotation.transpose();
+                    let turned = nalgebra::Rotation3::from_matrix_unchecked(change).scaled_axis();
+                    let shift = pose.displacement_m - earlier.displacement_m;
+                    let step =
+                        Vector6::new(shift.x, shift.y, shift.z, turned.x, turned.y, turned.z);
+                    for line in &before.lines {
+                        let own = &before.contacts[line.contacts.0];
+                        let next = found.lines.iter().find(|next| next.teeth == line.teeth);
+                        let Some(next) = next else {
+                            assert!(
+                                line.ideal_gap_m > -2e-6,
+                                "{errors:?} {side:?} {i}: lost {line:?}"
+                            );
+                            continue;
+                        };
+                        let next = &found.contacts[next.contacts.0];
+                        let mean = 0.5 * (own.gradient + next.gradient);
+                        let off = next.gap_m - own.gap_m - mean.dot(&step);
+                        // Of the third order in a step of 0.3 mm, of the second where an end begins to hold.
+                        assert!(
+                            off.abs() < 5e-7,
+                            "{errors:?} {side:?} {i}: {off:e} m at {line:?}"
+                        );
+                        followed += 1;
+                    }
+                }
+                before = Some((pose, found));
+            }
+        }
+    }
+    assert!(followed > 4 * steps, "{followed}");
+}

@@ -1,0 +1,189 @@
+//! `[[gear_mesh]]` with `bevel_pair`: flanks from a pair file between two bodies whose axes meet.
+
+use std::path::Path;
+
+use gearmesh_bevel::{BevelError, PairFile};
+use gearmesh_drivetrain::{BevelMesh, FlankKinematics, GearMesh};
+use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::{Flank, InputError};
+
+use super::bodies::Bodies;
+use super::gear_mesh::{PreparedMesh, pose, seat};
+use super::mesh_stiffness::{impact_law, stated_impact};
+use super::parts::Parts;
+use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
+use crate::system::tables::mesh_model::{ImpactTable, MeshModel};
+use crate::system::tables::{MM, UM};
+
+/// A table with all that its flanks are made from.
+pub(super) struct SceneBevel<'a> {
+    pub table: &'a GearMeshTable,
+    pub teeth: TeethTable,
+    pub keys: TableKeys<'a>,
+    pub model_keys: TableKeys<'a>,
+    pub teeth_keys: TableKeys<'a>,
+    pub file: &'a Path,
+}
+
+impl SceneBevel<'_> {
+    /// The mesh of two bodies.
+    pub(super) fn prepare(
+        &self,
+        (key, numbers): (&str, [usize; 2]),
+        bodies: &Bodies,
+        parts: &mut Parts,
+    ) -> Result<PreparedMesh, InputError> {
+        let model = self.refuse_unused(bodies, numbers)?;
+        let file = PairFile::read(self.file)?;
+        let fault = |error: BevelError| {
+            let problem = format!("{}: {error}", self.file.display());
+            self.keys.error("bevel_pair", problem)
+        };
+        let design = file.design().map_err(fault)?;
+        for (tooth, member) in design.teeth.iter().zip(&file.members) {
+            let checked = tooth.check(member.least_top_land_m, member.point_width_m);
+            checked.map_err(fault)?;
+        }
+        let mut kinematics =
+            BevelMesh::new(&file.blank, &design).map_err(|e| self.keys.error("bevel_pair", e))?;
+        let seats = [
+            seat(
+                &self.teeth.eccentricity_1,
+                &self.teeth_keys,
+                "eccentricity_1",
+            )?,
+            seat(
+                &self.teeth.eccentricity_2,
+                &self.teeth_keys,
+                "eccentricity_2",
+            )?,
+        ];
+        let at_start = pose(bodies, numbers, &seats);
+        let located = kinematics.locate(&at_start);
+        located.map_err(|e| self.keys.error("gear_2", e))?;
+        let base_radii_m = kinematics.levers_m();
+        let sides = self.teeth.flanks.flanks().to_vec();
+        let slice_width_m = kinematics.layout().width_m();
+        let mesh = self.mesh(kinematics, model, &sides)?;
+        self.effects(&file, parts);
+        Ok(PreparedMesh {
+            name: self.table.name.clone(),
+            key: key.to_owned(),
+            model: self.table.model.kind(),
+            bodies: numbers,
+            teeth: file.blank.data.teeth,
+            base_radii_m,
+            seats,
+            mesh: Some(mesh),
+            sides,
+            slice_width_m,
+        })
+    }
+
+    /// The law of the teeth, and what of the table bevel flanks do not use.
+    fn refuse_unused(
+        &self,
+        bodies: &Bodies,
+        numbers: [usize; 2],
+    ) -> Result<&ImpactTable, InputError> {
+        let MeshModel::Impact(model) = &self.table.model else {
+            let problem = format!(
+                "found \"{}\", allowed for a bevel pair is \"impact\"; the other kinds are for cylindrical gears",
+                self.table.model.kind().name()
+            );
+            return Err(self.model_keys.error("kind", problem));
+        };
+        let unused = |keys: &TableKeys<'_>, key: &str| {
+            Err(keys.error(key, "is not used by a bevel pair; remove it"))
+        };
+        if model.stiffness.is_some() {
+            return unused(&self.model_keys, "stiffness");
+        }
+        if model.slices.is_some() {
+            return unused(&self.model_keys, "slices");
+        }
+        if self.table.microgeometry.is_some() {
+            return unused(&self.keys, "microgeometry");
+        }
+        if !self.teeth.errors_1.is_empty() {
+            return unused(&self.teeth_keys, "errors_1");
+        }
+        if !self.teeth.errors_2.is_empty() {
+            return unused(&self.teeth_keys, "errors_2");
+        }
+        if self.teeth.path == PathWord::LineOfAction {
+            let problem =
+                "found \"line-of-action\"; the edges of bevel teeth always touch, remove it";
+            return Err(self.teeth_keys.error("path", problem));
+        }
+        for (key, number) in ["gear_1", "gear_2"].into_iter().zip(numbers) {
+            let body = &bodies.list[number];
+            if body.gear.is_some() {
+                let problem = format!(
+                    "body `{}` is a cylindrical gear; the teeth of this mesh come from bevel_pair: remove `gear` from its [[body]] and state mass_kg \
+                     and inertia_kg_m2",
+                    body.body.name
+                );
+                return Err(self.keys.error(key, problem));
+            }
+        }
+        Ok(model)
+    }
+
+    fn mesh(
+        &self,
+        kinematics: BevelMesh,
+        model: &ImpactTable,
+        sides: &[Flank],
+    ) -> Result<GearMesh, InputError> {
+        let fault = |error| self.keys.error("", error);
+        let stiffness = stated_impact(model, &self.model_keys)?;
+        let law = impact_law(model, &self.model_keys, stiffness, 1)?;
+        let [first, others @ ..] = sides else {
+            return Err(self.teeth_keys.error("flanks", "names no flanks"));
+        };
+        let mut mesh = GearMesh::of_flanks(Box::new(kinematics), *first, law).map_err(fault)?;
+        for side in others {
+            mesh = mesh.with_side(*side, law).map_err(fault)?;
+        }
+        let friction = self.teeth.friction.as_ref();
+        let friction = friction
+            .map(|table| table.check(&self.teeth_keys))
+            .transpose()?;
+        Ok(match friction {
+            None => mesh,
+            Some(friction) => mesh.with_friction(friction),
+        })
+    }
+
+    /// What is computed, in words for the plan.
+    fn effects(&self, file: &PairFile, parts: &mut Parts) {
+        let name = |what: &str| format!("mesh `{}`: {what}", self.table.name);
+        let both = self.teeth.flanks == TouchingFlanks::Both;
+        let backlash = format!(
+            "both sides, {:.1} um of normal backlash at the mean point",
+            file.blank.data.backlash_m / UM
+        );
+        parts.effect(name("backlash"), both.then_some(backlash));
+        let damping = match &self.table.model {
+            MeshModel::Impact(model) => model.damping_N_s_per_mm,
+            _ => None,
+        };
+        parts.effect(
+            name("damping"),
+            damping.map(|_| "STEP of the depth".to_string()),
+        );
+        let friction = self.teeth.friction.as_ref();
+        let rubs = "`coulomb`, regularised, along the sliding in the tangent plane";
+        parts.effect(name("friction"), friction.map(|_| rubs.to_string()));
+        let [pinion, gear] = &file.blank.members;
+        parts.notes.push(format!(
+            "mesh `{}`: bevel pair {}, {}/{} teeth, mean cone distance {:.4} mm",
+            self.table.name,
+            self.file.display(),
+            pinion.teeth,
+            gear.teeth,
+            file.blank.mean_cone_m / MM
+        ));
+    }
+}
