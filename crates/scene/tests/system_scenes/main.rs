@@ -1,6 +1,7 @@
 //! Multibody scene files become the systems that they describe.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
+mod bevel_pairs;
 #[path = "../common/mod.rs"]
 mod common;
 mod epicyclic;
