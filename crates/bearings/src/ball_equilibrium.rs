@@ -25,6 +25,9 @@ const MOST_ITERATIONS: usize = 60;
 /// One ball at its angle.
 pub(crate) struct Ball<'a> {
     pub row: &'a BallRow,
+    /// Its grooves, those of the row unless something is wrong with them or with the ball.
+    pub inner: &'a Groove,
+    pub outer: &'a Groove,
     pub pose: &'a RingPose,
     pub operation: &'a Operation,
     /// Radial unit vector at its angle.
@@ -134,7 +137,7 @@ impl Ball<'_> {
     /// Where the iteration begins; none where the ball is loose and nothing presses it.
     fn start(&self) -> Option<Vector2<f64>> {
         let row = self.row;
-        let (inner, outer) = (&row.inner, &row.outer);
+        let (inner, outer) = (self.inner, self.outer);
         // Nearest point of the inner ring's circle of groove centres, in the ball's plane.
         let a = &self.pose.axis;
         let e = (self.e_r - a * self.e_r.dot(a)).normalize();
@@ -168,11 +171,12 @@ impl Ball<'_> {
 
     fn motion_at(&self, angles: &ContactAngles, control: RaceControl) -> BallMotion {
         let row = self.row;
+        let (diameter_m, mass_kg) = row.ball_size(self.number);
         let ball = BallInMotion {
-            diameter_ratio: 0.5 * row.ball_diameter_m / row.pitch_radius_m,
-            mass_kg: row.ball_mass_kg,
+            diameter_ratio: 0.5 * diameter_m / row.pitch_radius_m,
+            mass_kg,
             pitch_radius_m: row.pitch_radius_m,
-            ball_radius_m: 0.5 * row.ball_diameter_m,
+            ball_radius_m: 0.5 * diameter_m,
         };
         let speeds = (
             self.operation.inner_rad_per_s,
@@ -207,7 +211,7 @@ impl Ball<'_> {
     }
 
     fn inner_contact(&self, place: &Vector2<f64>) -> InnerContact {
-        let groove = &self.row.inner;
+        let groove = self.inner;
         let a = &self.pose.axis;
         let w = self.e_r * place[0] + Vector3::z() * place[1] - self.pose.centre_m;
         let height = w.dot(a);
@@ -234,7 +238,7 @@ impl Ball<'_> {
     }
 
     fn outer_contact(&self, place: &Vector2<f64>) -> OuterContact {
-        let groove = &self.row.outer;
+        let groove = self.outer;
         let d = place - Vector2::new(groove.centre_radius_m, groove.centre_z_m);
         let length = d.norm().max(f64::MIN_POSITIVE);
         let n = d / length;
@@ -315,7 +319,7 @@ impl Ball<'_> {
             if step.norm() <= 4e-16 * self.row.pitch_radius_m {
                 return Ok((place, state));
             }
-            let mut factor = (0.2 * self.row.outer.arm_m / step.norm()).min(1.0);
+            let mut factor = (0.2 * self.outer.arm_m / step.norm()).min(1.0);
             loop {
                 let next = place + step * factor;
                 let found = self.state(&next, control);
@@ -430,8 +434,7 @@ impl Ball<'_> {
                 * spin.abs()
         };
         let [inner, outer] = motion.contact_spin_rad_per_s;
-        share(&self.row.inner, state.inner.load, inner)
-            + share(&self.row.outer, state.outer.load, outer)
+        share(self.inner, state.inner.load, inner) + share(self.outer, state.outer.load, outer)
     }
 
     fn unloaded(&self) -> ElementLoad {

@@ -6,6 +6,7 @@ use crate::ball_equilibrium::Ball;
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
 use crate::error::BearingError;
+use crate::faults::{RowFaults, Side};
 use crate::operation::Operation;
 use crate::point_contact::PointContact;
 use crate::ring_load::RingLoad;
@@ -45,6 +46,8 @@ pub struct BallRow {
     pub free_angle_rad: f64,
     /// Angle of the first ball \[rad\].
     pub first_angle_rad: f64,
+    /// What is wrong with it; none for a sound row.
+    pub faults: Option<Box<RowFaults>>,
 }
 
 impl BallRow {
@@ -54,6 +57,28 @@ impl BallRow {
         self.first_angle_rad
             + operation.cage_angle_rad
             + std::f64::consts::TAU * ball as f64 / self.balls as f64
+    }
+
+    /// The groove of a ring.
+    #[must_use]
+    pub fn groove(&self, side: Side) -> &Groove {
+        match side {
+            Side::Inner => &self.inner,
+            Side::Outer => &self.outer,
+        }
+    }
+
+    /// Diameter \[m\] and mass \[kg\] of a ball, which may be of another size than the others.
+    #[must_use]
+    pub fn ball_size(&self, ball: usize) -> (f64, f64) {
+        let (diameter_m, mass_kg) = (self.ball_diameter_m, self.ball_mass_kg);
+        match self.faults.as_ref().and_then(|faults| faults.size(ball)) {
+            None => (diameter_m, mass_kg),
+            Some(size) => (
+                diameter_m + size.oversize_m,
+                mass_kg * size.mass_ratio(diameter_m),
+            ),
+        }
     }
 
     /// Adds what the row does to the ring, and hands every ball's load to `each`. The search of each ball begins at its place, which it
@@ -72,8 +97,19 @@ impl BallRow {
         let (step_sine, step_cosine) = (std::f64::consts::TAU / self.balls as f64).sin_cos();
         let (mut sine, mut cosine) = self.angle_rad(0, operation).sin_cos();
         for (number, place) in places.iter_mut().enumerate() {
+            let faulty = self.faults.as_ref().map(|faults| {
+                let angle = self.angle_rad(number, operation);
+                let angles = (angle, angle - operation.inner_angle_rad);
+                faults.grooves_under(self, number, angles)
+            });
+            let [outer, inner] = match &faulty {
+                None => [&self.outer, &self.inner],
+                Some([outer, inner]) => [outer, inner],
+            };
             let ball = Ball {
                 row: self,
+                inner,
+                outer,
                 pose,
                 operation,
                 e_r: Vector3::new(cosine, sine, 0.0),

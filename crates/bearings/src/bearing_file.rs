@@ -3,6 +3,7 @@
 mod arrangement_keys;
 mod ball_keys;
 mod catalogue_keys;
+mod fault_keys;
 mod roller_keys;
 
 use std::path::Path;
@@ -15,6 +16,8 @@ use serde::Deserialize;
 use crate::catalogue::CatalogueType;
 use crate::definition::{BearingDefinition, BearingGeometry, BearingMaterial, StatedRatings};
 use crate::estimate::Estimate;
+
+pub use fault_keys::{FaultTable, SideWord};
 
 /// A millimetre in metres.
 const MM: f64 = 1e-3;
@@ -93,6 +96,9 @@ struct BearingFile {
     ring_material: Option<MaterialTable>,
     /// Load ratings of the whole bearing; those not given are computed. "catalogue": `dynamic_N` and `static_N` needed without `designation`.
     ratings: Option<RatingsTable>,
+    /// What is wrong with the bearing, one table a fault; sound where there is none.
+    #[serde(default)]
+    fault: Vec<FaultTable>,
 }
 
 /// `kind`.
@@ -263,12 +269,14 @@ impl BearingFromFile {
                 table.require(key, value, value > 0.0, "more than 0")?;
             }
         }
+        let arrangement = arrangement_keys::arrangement(&file, &keys)?;
         let definition = BearingDefinition {
             name,
+            faults: fault_keys::faults(&file.fault, document, &geometry, &arrangement)?,
             geometry,
             element_material: material(&file.element_material, document, "element_material")?,
             ring_material: material(&file.ring_material, document, "ring_material")?,
-            arrangement: arrangement_keys::arrangement(&file, &keys)?,
+            arrangement,
             preload: arrangement_keys::preload(&file, &keys)?,
             first_angle_rad: file.first_angle_deg.unwrap_or(0.0).to_radians(),
             stated_ratings: StatedRatings {

@@ -67,6 +67,7 @@ pub(crate) fn ball_row(
         },
         free_angle_rad: apart.asin(),
         first_angle_rad: definition.first_angle_rad,
+        faults: None,
     }
 }
 

@@ -1,5 +1,7 @@
 //! What a bearing is: sizes, materials, arrangement, in SI units.
 
+use crate::faults::Fault;
+
 /// A bearing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingDefinition {
@@ -19,6 +21,8 @@ pub struct BearingDefinition {
     pub first_angle_rad: f64,
     /// Load ratings that are stated; those that are not are computed.
     pub stated_ratings: StatedRatings,
+    /// What is wrong with it; empty for a sound bearing.
+    pub faults: Vec<Fault>,
 }
 
 /// Linear elastic, isotropic.

@@ -9,7 +9,9 @@
 //! | all rows: load on the inner ring and its tangent | [`QuasiStaticBearing`] | `quasi_static.rs` |
 //! | the same between two bodies of a system | [`QuasiStaticElement`] | `quasi_static_element.rs` |
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
+//! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
+//! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
 //!
@@ -30,9 +32,11 @@ pub mod element_place;
 pub mod elliptic;
 mod error;
 pub mod estimate;
+pub mod faults;
 pub mod frequencies;
 pub mod life;
 pub mod line_contact;
+pub mod load_history;
 pub mod operation;
 pub mod point_contact;
 pub mod quasi_static;
@@ -56,6 +60,7 @@ pub use error::BearingError;
 pub use frequencies::BearingFrequencies;
 pub use life::Life;
 pub use line_contact::LineContact;
+pub use load_history::{HistoryLife, HistorySample, LoadHistory};
 pub use operation::{Control, Operation};
 pub use point_contact::PointContact;
 pub use quasi_static::QuasiStaticBearing;

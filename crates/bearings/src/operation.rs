@@ -10,7 +10,7 @@ pub enum Control {
     LeastSpin,
 }
 
-/// Speeds of the rings and the cage's place.
+/// Speeds of the rings, and the places of cage and inner ring.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Operation {
     /// Speed of the inner ring \[rad/s\].
@@ -19,6 +19,8 @@ pub struct Operation {
     pub outer_rad_per_s: f64,
     /// Angle by which the cage has turned \[rad\].
     pub cage_angle_rad: f64,
+    /// Angle by which the inner ring has turned against the outer one: where the faults of its races are \[rad\].
+    pub inner_angle_rad: f64,
     /// How balls roll.
     pub control: Control,
 }

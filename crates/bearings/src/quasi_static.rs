@@ -1,5 +1,6 @@
 //! A bearing whose balls or rollers are in equilibrium at every place of the inner ring.
 
+use gearmesh_dynamics::{Marker, MarkerPair};
 use nalgebra::Vector3;
 
 use crate::ball_row::BallRow;
@@ -8,6 +9,7 @@ use crate::definition::{BearingDefinition, Preload};
 use crate::element_load::ElementLoad;
 use crate::element_place::{ElementPlace, ElementPlaces};
 use crate::error::BearingError;
+use crate::faults::{Fault, MisalignedRing, RowFaults, Side};
 use crate::operation::Operation;
 use crate::point_contact::ContactEllipse;
 use crate::ring_load::RingLoad;
@@ -126,13 +128,15 @@ pub struct QuasiStaticBearing {
     pub preload_m: f64,
     /// Whether it resists along its axis.
     pub locates: bool,
+    /// How the outer and the inner ring stand on their seats; none: straight. Poses here are those of the rings themselves.
+    pub misaligned: [Option<MisalignedRing>; 2],
 }
 
 impl QuasiStaticBearing {
     /// From a definition.
     ///
     /// # Errors
-    /// [`BearingError`] where a preload finds no equilibrium.
+    /// [`BearingError`] where a preload finds no equilibrium, or there are faults that its kind cannot have.
     pub fn new(definition: &BearingDefinition) -> Result<Self, BearingError> {
         let mut rows = build_rows::rows(definition);
         let locates = match &rows[0] {
@@ -148,11 +152,48 @@ impl QuasiStaticBearing {
         for (row, (_, sense)) in rows.iter_mut().zip(senses) {
             row.shift_inner(sense * preload_m);
         }
+        for (number, row) in rows.iter_mut().enumerate() {
+            match row {
+                Row::Ball(row) => row.faults = RowFaults::of(&definition.faults, number, row)?,
+                Row::Roller(_) => refuse_faults_of_balls(&definition.faults)?,
+            }
+        }
         Ok(Self {
             rows,
             preload_m,
             locates,
+            misaligned: [Side::Outer, Side::Inner].map(|side| misaligned(definition, side)),
         })
+    }
+
+    /// The markers of the rings, given those of their seats: outer, inner.
+    #[must_use]
+    pub fn ring_markers(&self, seats: MarkerPair) -> MarkerPair {
+        let on = |ring: &Option<MisalignedRing>, seat: Marker| match ring {
+            None => seat,
+            Some(ring) => ring.on(&seat),
+        };
+        MarkerPair {
+            a: on(&self.misaligned[0], seats.a),
+            b: on(&self.misaligned[1], seats.b),
+        }
+    }
+
+    /// Complains about faults that only moving balls can have.
+    ///
+    /// # Errors
+    /// [`BearingError::NotCarried`] for a spall on a ball, which meets the races only where the ball turns.
+    pub fn refuse_spalled_balls(&self) -> Result<(), BearingError> {
+        let spalled = |row: &Row| match row {
+            Row::Ball(row) => row.faults.as_ref().is_some_and(|f| !f.spalled().is_empty()),
+            Row::Roller(_) => false,
+        };
+        if self.rows.iter().any(spalled) {
+            return Err(BearingError::NotCarried(
+                "a spall on a ball meets the races as the ball turns, which only balls in motion do: take the model `dynamic`",
+            ));
+        }
+        Ok(())
     }
 
     /// Load on the inner ring by its rolling elements, and its tangent.
@@ -222,6 +263,24 @@ impl QuasiStaticBearing {
         ring.turn_freely(&pose.axis);
         Ok((ring, all))
     }
+}
+
+fn refuse_faults_of_balls(faults: &[Fault]) -> Result<(), BearingError> {
+    let of_balls = |fault: &Fault| !matches!(fault, Fault::MisalignedRing { .. });
+    if faults.iter().any(of_balls) {
+        return Err(BearingError::NotCarried(
+            "of the faults a roller bearing can have a misaligned ring only; spalls, waviness and off-size balls are those of ball bearings",
+        ));
+    }
+    Ok(())
+}
+
+fn misaligned(definition: &BearingDefinition, of: Side) -> Option<MisalignedRing> {
+    let mut found = definition.faults.iter().filter_map(|fault| match fault {
+        Fault::MisalignedRing { side, place } if *side == of => Some(*place),
+        _ => None,
+    });
+    found.next()
 }
 
 /// How far the inner ring of a row moves along the axis under an axial force, at rest.

@@ -2,7 +2,7 @@
 //!
 //! Marker A is the outer ring, marker B the inner one, z the axis. Load and tangent are those of [`QuasiStaticBearing`] at the place of B in A, with linear
 //! damping beside it. The speeds that balls feel (centrifugal force, gyroscopic moment) are those of the last accepted step; between steps the cage goes on
-//! at its speed of rolling, (ω_i(1 − γ) + ω_o(1 + γ))/2, so that elements pass.
+//! at its speed of rolling, (ω_i − ω_o)(1 − γ)/2 seen from the outer ring, so that elements pass.
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, Power, View};
 use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, RelativeMotion};
@@ -51,6 +51,8 @@ pub struct QuasiStaticElement {
 struct Kept {
     time_s: f64,
     cage_angle_rad: f64,
+    /// Of the inner ring against the outer one.
+    inner_angle_rad: f64,
     inner_rad_per_s: f64,
     outer_rad_per_s: f64,
 }
@@ -81,9 +83,10 @@ impl QuasiStaticElement {
             }
         }
         let bearing = QuasiStaticBearing::new(definition)?;
+        bearing.refuse_spalled_balls()?;
         Ok(Self {
             name: name.to_owned(),
-            pair,
+            pair: bearing.ring_markers(pair),
             bodies: [pair.a.body, pair.b.body],
             places: ElementPlaces::unknown(&bearing.rows),
             bearing,
@@ -122,14 +125,15 @@ impl QuasiStaticElement {
     /// The operation at a time, from what was kept.
     fn operation(&self, time_s: f64) -> Operation {
         let kept = &self.kept;
-        // Linear in the speeds, whatever their unit.
-        let rolling = self
-            .sizes
-            .frequencies(kept.inner_rad_per_s, kept.outer_rad_per_s);
+        // Seen from the outer ring; linear in the speeds, whatever their unit.
+        let relative = kept.inner_rad_per_s - kept.outer_rad_per_s;
+        let rolling = self.sizes.frequencies(relative, 0.0);
+        let since = time_s - kept.time_s;
         Operation {
             inner_rad_per_s: kept.inner_rad_per_s,
             outer_rad_per_s: kept.outer_rad_per_s,
-            cage_angle_rad: kept.cage_angle_rad + rolling.cage_hz * (time_s - kept.time_s),
+            cage_angle_rad: kept.cage_angle_rad + rolling.cage_hz * since,
+            inner_angle_rad: kept.inner_angle_rad + relative * since,
             control: self.control,
         }
     }
@@ -149,9 +153,11 @@ impl QuasiStaticElement {
 
     fn keep(&mut self, view: &View<'_>, cage_angle_rad: f64) {
         let [inner_rad_per_s, outer_rad_per_s] = self.speeds(view);
+        let seen = self.motion(view).rotation;
         self.kept = Kept {
             time_s: view.time_s,
             cage_angle_rad,
+            inner_angle_rad: (seen.m21 - seen.m12).atan2(seen.m11 + seen.m22),
             inner_rad_per_s,
             outer_rad_per_s,
         };
@@ -222,16 +228,25 @@ impl ForceElement for QuasiStaticElement {
         out.extend([
             kept.time_s,
             kept.cage_angle_rad,
+            kept.inner_angle_rad,
             kept.inner_rad_per_s,
             kept.outer_rad_per_s,
         ]);
     }
 
     fn restore(&mut self, numbers: &[f64]) {
-        if let [time_s, cage_angle_rad, inner_rad_per_s, outer_rad_per_s] = *numbers {
+        if let [
+            time_s,
+            cage_angle_rad,
+            inner_angle_rad,
+            inner_rad_per_s,
+            outer_rad_per_s,
+        ] = *numbers
+        {
             self.kept = Kept {
                 time_s,
                 cage_angle_rad,
+                inner_angle_rad,
                 inner_rad_per_s,
                 outer_rad_per_s,
             };

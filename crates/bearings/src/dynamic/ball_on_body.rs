@@ -27,11 +27,13 @@ pub(crate) struct Ball {
 }
 
 /// Where the coordinates of a ball stand among the local degrees of freedom of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BallPlaces {
     pub place: usize,
     /// None where nothing turns the ball.
     pub spin: Option<usize>,
+    /// Rotation of the ball by its coordinates of turning, δφ = Tᵀ δψ; asked for balls that have an orientation only.
+    pub turning: Matrix3<f64>,
 }
 
 /// A body that carries a surface.
@@ -90,8 +92,19 @@ impl<'a> Carrier<'a> {
         let rotation = &self.motion.rotation;
         let to_body = rotation.transpose();
         let (lever, turn) = (cross(r), cross(&found.force));
-        let force = self.follow(ball, &lever, &found.force_by, &found.force);
-        let own = self.follow(ball, &lever, &found.moment_by, &found.moment);
+        let mut force = self.follow(ball, &lever, &found.force_by, &found.force);
+        let mut own = self.follow(ball, &lever, &found.moment_by, &found.moment);
+        if let (Some([force_by, own_by]), Some(spin)) = (&found.by_turn, places.spin) {
+            // The ball turns against the surface, and the surface against the ball.
+            force.by_turn -= force_by;
+            own.by_turn -= own_by;
+            let (f, m) = (force_by * places.turning, own_by * places.turning);
+            loads.add_block_by_position(places.place, spin, &f);
+            loads.add_block_by_position(self.first, spin, &(-f));
+            let moment_by = to_body * (-lever * f - m);
+            loads.add_block_by_position(self.first + 3, spin, &moment_by);
+            loads.add_block_by_position(spin, spin, &m);
+        }
         let (x, v) = (places.place, self.first);
         // The ball's own rows, then its spin's, then the body's: force −f, moment −(r × f + m) in body axes.
         let rows = |of: &Follow, of_own: &Follow, by: Column| -> Matrix3<f64> {

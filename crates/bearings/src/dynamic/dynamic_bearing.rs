@@ -1,21 +1,21 @@
 //! A ball bearing between two bodies of a system, every ball a body of its own.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use gearmesh_dynamics::elements::{Channel, ForceElement, Loads, View};
-use gearmesh_dynamics::{BodyId, BodyMotion, ElementFailure, Marker, MarkerPair, Power, Unknown};
-use nalgebra::{Vector3, Vector6};
+use gearmesh_dynamics::{BodyId, ElementFailure, MarkerPair, Power, Unknown};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
-use super::ball_on_body::{Ball, BallPlaces, Carrier};
+use super::ball_on_body::{BallPlaces, Carrier};
+use super::ball_orientation::{BallOrientation, SAVED};
 use super::ball_start::start_of_row;
-use super::effort::{BearingEffort, count};
-use super::groove_touch::{groove_touch, hertz_load};
+use super::contact_damping::StatedContact;
+use super::effort::BearingEffort;
 use super::pockets::Pockets;
 use super::rebound::Rebound;
-use super::surface_contact::{SurfaceForce, surface_force};
+use super::surface_contact::SurfaceForce;
 use super::traction::Traction;
-use crate::ball_row::{BallRow, Groove};
+use crate::ball_row::BallRow;
 use crate::error::BearingError;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, Row};
@@ -25,7 +25,9 @@ use crate::ring_pose::RingPose;
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
 #[derive(Debug, Clone, Default)]
 pub struct DynamicEffects {
-    /// Damping of the contacts at the races.
+    /// Load and damping of the contacts at the races by a stated law; none: Hertz with `rebound`. Balls start at Hertz' places all the same.
+    pub contact: Option<StatedContact>,
+    /// Damping of Hertz' contacts at the races.
     pub rebound: Rebound,
     /// Friction at the races; without it balls do not turn.
     pub traction: Option<Traction>,
@@ -42,36 +44,21 @@ pub struct DynamicEffects {
 /// [`Self::with_ball_loads`] the load of every ball at both races; with cages the force on each by its pockets.
 pub struct DynamicBearing {
     name: String,
-    pair: MarkerPair,
+    pub(super) pair: MarkerPair,
     bodies: Vec<BodyId>,
     rows: Vec<BallRow>,
-    effects: DynamicEffects,
+    pub(super) effects: DynamicEffects,
+    /// Of balls with spalls, in the order of their numbers.
+    pub(super) orientations: Vec<BallOrientation>,
     ball_loads: bool,
-    effort: Option<Arc<BearingEffort>>,
-}
-
-/// The rings at a motion: body, middle and axis.
-struct Ring<'a> {
-    carrier: Carrier<'a>,
-    middle: Vector3<f64>,
-    axis: Vector3<f64>,
-}
-
-impl<'a> Ring<'a> {
-    fn new(marker: &Marker, motion: &'a BodyMotion, first: usize) -> Self {
-        Self {
-            carrier: Carrier::new(motion, first),
-            middle: motion.position_m + motion.rotation * marker.position_m,
-            axis: motion.rotation * (marker.orientation() * Vector3::z()),
-        }
-    }
+    pub(super) effort: Option<Arc<BearingEffort>>,
 }
 
 impl DynamicBearing {
     /// Puts a bearing between its outer ring (marker A) and its inner ring (marker B).
     ///
     /// # Errors
-    /// [`BearingError::NotCarried`] for bearings with rollers, or where there are cages but not one for each row.
+    /// [`BearingError::NotCarried`] for bearings with rollers, where there are cages but not one for each row, or for a spall on a ball that nothing turns.
     pub fn new(
         name: &str,
         pair: MarkerPair,
@@ -96,15 +83,34 @@ impl DynamicBearing {
         }
         let mut bodies = vec![pair.a.body, pair.b.body];
         bodies.extend(effects.cages.iter().map(|(body, _)| *body));
-        Ok(Self {
+        let mut found = Self {
             name: name.to_owned(),
-            pair,
+            pair: bearing.ring_markers(pair),
             bodies,
             rows,
             effects,
+            orientations: Vec::new(),
             ball_loads: false,
             effort: None,
-        })
+        };
+        found.orientations = found.spalled_balls();
+        if !found.orientations.is_empty() && !found.turns() {
+            return Err(BearingError::NotCarried(
+                "a spall on a ball needs traction: without friction nothing turns the balls, and the spall does not come round",
+            ));
+        }
+        Ok(found)
+    }
+
+    fn spalled_balls(&self) -> Vec<BallOrientation> {
+        let mut found = Vec::new();
+        for (_, row, ball, number) in self.numbered() {
+            let faults = row.faults.iter().flat_map(|faults| faults.spalled());
+            let own = faults.filter(|spalled| spalled.ball == ball);
+            found
+                .extend(own.map(|spalled| BallOrientation::new(number, spalled.spall.direction())));
+        }
+        found
     }
 
     /// Adds the load of every ball to the channels: `ball_<number>_inner_N`, `ball_<number>_outer_N`, counted from one, row after row.
@@ -122,12 +128,12 @@ impl DynamicBearing {
     }
 
     /// Coordinates of a ball.
-    fn per_ball(&self) -> usize {
+    pub(super) fn per_ball(&self) -> usize {
         if self.turns() { 6 } else { 3 }
     }
 
     /// Whether anything turns the balls.
-    fn turns(&self) -> bool {
+    pub(super) fn turns(&self) -> bool {
         let rubs = |(_, pockets): &(BodyId, Pockets)| pockets.traction.is_some();
         self.effects.traction.is_some() || self.effects.cages.iter().any(rubs)
     }
@@ -144,104 +150,6 @@ impl DynamicBearing {
             (0..row.balls).map(move |ball| (place, row, ball, before + ball))
         })
     }
-
-    fn ball(&self, view: &View<'_>, row: &BallRow, number: usize) -> Ball {
-        let first = number * self.per_ball();
-        let three = |values: &[f64], first: usize| {
-            Vector3::new(values[first], values[first + 1], values[first + 2])
-        };
-        Ball {
-            place_m: three(view.unknowns(), first),
-            velocity_m_per_s: three(view.unknown_rates(), first),
-            spin_rad_per_s: if self.turns() {
-                three(view.unknown_rates(), first + 3)
-            } else {
-                Vector3::zeros()
-            },
-            radius_m: 0.5 * row.ball_diameter_m,
-        }
-    }
-
-    fn rings<'a>(&self, view: &'a View<'_>, first: [usize; 2]) -> [Ring<'a>; 2] {
-        let motions = [self.pair.a.body, self.pair.b.body].map(|body| view.body(body));
-        [
-            Ring::new(&self.pair.a, motions[0], first[0]),
-            Ring::new(&self.pair.b, motions[1], first[1]),
-        ]
-    }
-
-    /// Force of a race on a ball; none where they do not touch.
-    fn at_race(
-        &self,
-        groove: &Groove,
-        ring: &Ring<'_>,
-        ball: &Ball,
-        tangents: bool,
-    ) -> Option<SurfaceForce> {
-        if let Some(effort) = &self.effort {
-            count(&effort.races);
-        }
-        let touch = groove_touch(groove, &(ball.place_m - ring.middle), &ring.axis)?;
-        if touch.approach_m <= 0.0 {
-            return None;
-        }
-        let law = self.effects.traction.as_ref().map(|traction| {
-            let effort = self.effort.as_deref();
-            move |load: f64, slip: f64| {
-                if let Some(effort) = effort {
-                    count(&effort.tractions);
-                }
-                traction.slip(&groove.contact, load, slip)
-            }
-        });
-        if let Some(effort) = &self.effort {
-            count(&effort.contacts);
-        }
-        Some(surface_force(
-            &touch,
-            &hertz_load(groove, touch.approach_m),
-            &self.effects.rebound,
-            &ring.carrier.against(ball),
-            law,
-            tangents,
-        ))
-    }
-
-    /// Force of a cage on the ball in its pocket.
-    fn in_pocket(
-        &self,
-        (row, place, ball_of_row): (&BallRow, usize, usize),
-        cage: &Carrier<'_>,
-        ball: &Ball,
-        tangents: bool,
-    ) -> Option<SurfaceForce> {
-        let (_, pockets) = &self.effects.cages[place];
-        if let Some(effort) = &self.effort {
-            count(&effort.pockets);
-        }
-        let angle = row.first_angle_rad + TAU * ball_of_row as f64 / row.balls as f64;
-        let touch = pockets.touch(
-            &ball.place_m,
-            cage.motion,
-            row.pitch_radius_m,
-            angle.sin_cos(),
-        );
-        let elastic = pockets.load(touch.approach_m);
-        if elastic.load_n == 0.0 && elastic.slope_n_per_m == 0.0 {
-            return None;
-        }
-        let law = pockets.traction.as_ref().map(|traction| {
-            move |load: f64, slip: f64| traction.slip(&row.inner.contact, load, slip)
-        });
-        Some(surface_force(
-            &touch,
-            &elastic,
-            &pockets.rebound,
-            &cage.against(ball),
-            law,
-            tangents,
-        ))
-    }
 }
 
 impl ForceElement for DynamicBearing {
@@ -256,14 +164,14 @@ impl ForceElement for DynamicBearing {
     fn unknowns(&self) -> Vec<Unknown> {
         let axes = ["x", "y", "z"];
         let mut unknowns = Vec::with_capacity(self.balls() * self.per_ball());
-        for (_, row, _, number) in self.numbered() {
-            let mass = row.ball_mass_kg;
+        for (_, row, ball, number) in self.numbered() {
+            let (diameter, mass) = row.ball_size(ball);
             for axis in axes {
                 let name = format!("ball_{}_{axis}_m", number + 1);
                 unknowns.push(Unknown::inertial(&name, mass, row.pitch_radius_m));
             }
             if self.turns() {
-                let inertia = 0.1 * mass * row.ball_diameter_m.powi(2);
+                let inertia = 0.1 * mass * diameter.powi(2);
                 for axis in axes {
                     let name = format!("ball_{}_turn_{axis}_rad", number + 1);
                     unknowns.push(Unknown::inertial(&name, inertia, 1.0));
@@ -333,19 +241,21 @@ impl ForceElement for DynamicBearing {
         let per_ball = self.per_ball();
         let mut power = Power::default();
         for (place, row, ball_of_row, number) in self.numbered() {
-            let ball = self.ball(view, row, number);
+            let ball = self.ball(view, row, ball_of_row, number);
+            let (faults, turning) = self.faults(view, row, ball_of_row, number);
             let first = loads.first_unknown() + number * per_ball;
             let places = BallPlaces {
                 place: first,
                 spin: (per_ball == 6).then_some(first + 3),
+                turning,
             };
             let mut add = |carrier: &Carrier<'_>, found: &SurfaceForce, loads: &mut Loads| {
                 carrier.add(&ball, places, found, loads);
                 power.stored_j += found.stored_j;
                 power.dissipated_w += found.dissipated_w;
             };
-            for (ring, groove) in rings.iter().zip([&row.outer, &row.inner]) {
-                if let Some(found) = self.at_race(groove, ring, &ball, tangents) {
+            for ring in &rings {
+                if let Some(found) = self.at_race(row, &faults, ring, &ball, tangents) {
                     add(&ring.carrier, &found, loads);
                 }
             }
@@ -357,13 +267,47 @@ impl ForceElement for DynamicBearing {
                 }
             }
             if let Some(gravity) = self.effects.gravity_m_per_s2 {
-                let weight = Vector3::from(gravity) * (row.ball_mass_kg * view.load_factor);
+                let weight =
+                    Vector3::from(gravity) * (row.ball_size(ball_of_row).1 * view.load_factor);
                 loads.add_force(first, weight.as_slice());
                 power.stored_j -= weight.dot(&ball.place_m);
             }
         }
         loads.power = power;
         Ok(())
+    }
+
+    fn begin(&mut self, view: &View<'_>) {
+        let mut orientations = std::mem::take(&mut self.orientations);
+        let [outer, _] = self.rings(view, [0, 0]);
+        for orientation in &mut orientations {
+            let first = orientation.ball * self.per_ball();
+            let place = Vector3::from_column_slice(&view.unknowns()[first..first + 3]);
+            let arm = place - outer.middle;
+            let out = (arm - outer.axis * arm.dot(&outer.axis)).normalize();
+            let axes = Matrix3::from_columns(&[out, outer.axis.cross(&out), outer.axis]);
+            orientation.begin(&axes, self.turned(view, orientation.ball));
+        }
+        self.orientations = orientations;
+    }
+
+    fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
+        let mut orientations = std::mem::take(&mut self.orientations);
+        for orientation in &mut orientations {
+            orientation.commit(self.turned(view, orientation.ball));
+        }
+        self.orientations = orientations;
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        self.orientations.iter().for_each(|o| o.save(out));
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        for (orientation, saved) in self.orientations.iter_mut().zip(numbers.chunks(SAVED)) {
+            orientation.restore(saved);
+        }
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -394,9 +338,10 @@ impl ForceElement for DynamicBearing {
         let first_cage = RING_CHANNELS + 1;
         let first_load = first_cage + 3 * cages;
         for (place, row, ball_of_row, number) in self.numbered() {
-            let ball = self.ball(view, row, number);
-            let [outer, inner] = [(&rings[0], &row.outer), (&rings[1], &row.inner)]
-                .map(|(ring, groove)| self.at_race(groove, ring, &ball, false));
+            let ball = self.ball(view, row, ball_of_row, number);
+            let (faults, _) = self.faults(view, row, ball_of_row, number);
+            let [outer, inner] =
+                [&rings[0], &rings[1]].map(|ring| self.at_race(row, &faults, ring, &ball, false));
             if let Some(inner) = &inner {
                 force -= inner.force;
                 let arm = ball.place_m - rings[1].middle;

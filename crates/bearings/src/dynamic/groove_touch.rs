@@ -41,6 +41,7 @@ pub(crate) fn groove_touch(
         approach_m,
         normal,
         turning,
+        by_turn: None,
     })
 }
 

@@ -97,6 +97,7 @@ impl Pockets {
             approach_m: z,
             normal,
             turning: (free - normal * normal.transpose()) / z,
+            by_turn: None,
         }
     }
 

@@ -10,7 +10,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::rebound::Rebound;
+use super::contact_damping::DampedLoad;
 use super::traction::Slip;
 use crate::ring_pose::cross;
 
@@ -23,6 +23,19 @@ pub(crate) struct Touch {
     pub normal: Vector3<f64>,
     /// N = ∂n/∂w \[1/m\], symmetric.
     pub turning: Matrix3<f64>,
+    /// How the approach depends on the ball's rotation; none for a sphere.
+    pub by_turn: Option<ByTurn>,
+}
+
+/// Derivatives of an approach by the rotation φ of the ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ByTurn {
+    /// τ \[m\].
+    pub first: Vector3<f64>,
+    /// ∂n/∂φ.
+    pub place: Matrix3<f64>,
+    /// ∂τ/∂φ \[m\].
+    pub turn: Matrix3<f64>,
 }
 
 /// An elastic load: value, slope and energy.
@@ -71,75 +84,160 @@ pub(crate) struct SurfaceForce {
     pub dissipated_w: f64,
     pub force_by: ByMotion,
     pub moment_by: ByMotion,
+    /// Derivatives of force and moment by φ.
+    pub by_turn: Option<[Matrix3<f64>; 2]>,
 }
 
-/// The force at a touch. `traction` gives κ of a load and a slip; none: no friction.
+/// The force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction.
 pub(crate) fn surface_force(
     touch: &Touch,
-    elastic: &ElasticLoad,
-    rebound: &Rebound,
+    damped: impl Fn(f64) -> DampedLoad,
     against: &Against,
     traction: Option<impl Fn(f64, f64) -> Slip>,
     tangents: bool,
 ) -> SurfaceForce {
     let (n, u) = (touch.normal, against.velocity);
-    let rate = n.dot(&u);
-    let (factor, chi) = rebound.factor(rate);
-    let load = elastic.load_n * factor;
+    let across = n.dot(&u);
+    let by_turn = touch.by_turn.as_ref();
+    let rate = across + by_turn.map_or(0.0, |by| by.first.dot(&against.spin));
+    let damped = damped(rate);
+    let load = damped.load_n;
     let mut found = SurfaceForce {
         load_n: load,
         force: -n * load,
-        moment: Vector3::zeros(),
-        stored_j: elastic.stored_j,
-        dissipated_w: (load - elastic.load_n) * rate,
+        moment: by_turn.map_or_else(Vector3::zeros, |by| by.first * -load),
+        stored_j: damped.stored_j,
+        dissipated_w: (load - damped.elastic_n) * rate,
         force_by: ByMotion::ZERO,
         moment_by: ByMotion::ZERO,
+        by_turn: None,
     };
     // ∂F by w and by u.
-    let rate_by_place = touch.turning * u;
-    let load_by_place =
-        n * (elastic.slope_n_per_m * factor) + rate_by_place * (elastic.load_n * chi);
-    let load_by_velocity = n * (elastic.load_n * chi);
-    if tangents {
-        found.force_by.place = -n * load_by_place.transpose() - touch.turning * load;
-        found.force_by.velocity = -n * load_by_velocity.transpose();
+    let mut rate_by_place = touch.turning * u;
+    if let Some(by) = by_turn {
+        rate_by_place += by.place * against.spin;
     }
-    let Some(traction) = traction else {
-        return found;
+    let load_by = LoadBy {
+        place: n * damped.by_depth + rate_by_place * damped.by_rate,
+        velocity: n * damped.by_rate,
     };
-    let arm = against.ball_radius_m;
-    let slip = u - n * rate + against.spin.cross(&n) * arm;
-    let law = traction(load, slip.norm());
-    let drag = -slip * law.resistance;
-    found.force += drag;
-    found.moment = n.cross(&drag) * arm;
-    found.dissipated_w += law.resistance * slip.norm_squared();
     if tangents {
+        found.force_by.place = -n * load_by.place.transpose() - touch.turning * load;
+        found.force_by.velocity = -n * load_by.velocity.transpose();
+    }
+    let mut drag = None;
+    if let Some(traction) = traction {
+        let arm = against.ball_radius_m;
+        let square = n.norm_squared();
+        let slip = u - n * (across / square) + against.spin.cross(&n) * arm;
+        let law = traction(load, slip.norm());
+        let force = -slip * law.resistance;
+        found.force += force;
+        found.moment += n.cross(&force) * arm;
+        found.dissipated_w += law.resistance * slip.norm_squared();
+        if tangents {
+            let here = Drag {
+                slip,
+                law,
+                force,
+                arm,
+                by_normal: n * (n * (2.0 * across / square) - u).transpose() / square
+                    - Matrix3::identity() * (across / square)
+                    + cross(&against.spin) * arm,
+            };
+            here.add(touch, &load_by, &mut found);
+            drag = Some(here);
+        }
+    }
+    if let (true, Some(by)) = (tangents, by_turn) {
+        let rate_by_turn = by.place.tr_mul(&u) + by.turn.tr_mul(&against.spin);
+        let by_turn = by.first * damped.by_depth + rate_by_turn * damped.by_rate;
+        let by_spin = by.first * damped.by_rate;
+        add_turn(
+            touch,
+            by,
+            (load, &load_by),
+            (&by_turn, &by_spin),
+            &drag,
+            &mut found,
+        );
+    }
+    found
+}
+
+/// ∂F by w and u.
+struct LoadBy {
+    place: Vector3<f64>,
+    velocity: Vector3<f64>,
+}
+
+/// Friction at a touch.
+struct Drag {
+    slip: Vector3<f64>,
+    law: Slip,
+    force: Vector3<f64>,
+    arm: f64,
+    /// ∂s/∂n.
+    by_normal: Matrix3<f64>,
+}
+
+impl Drag {
+    /// How the friction follows the slip and the load.
+    fn follow(&self, by_slip: &Matrix3<f64>, load_by: &Vector3<f64>) -> Matrix3<f64> {
+        let along = self.slip * self.law.by_half_square;
+        -by_slip * self.law.resistance
+            - self.slip * (by_slip.tr_mul(&along) + load_by * self.law.by_load).transpose()
+    }
+
+    fn add(&self, touch: &Touch, load_by: &LoadBy, found: &mut SurfaceForce) {
+        let n = touch.normal;
         let slip_by = ByMotion {
-            place: -n * rate_by_place.transpose() - touch.turning * rate
-                + cross(&against.spin) * touch.turning * arm,
-            velocity: Matrix3::identity() - n * n.transpose(),
-            spin: cross(&n) * -arm,
-        };
-        let along = slip * law.by_half_square;
-        let of = |by_slip: &Matrix3<f64>, load_by: &Vector3<f64>| {
-            -by_slip * law.resistance
-                - slip * (by_slip.tr_mul(&along) + load_by * law.by_load).transpose()
+            place: self.by_normal * touch.turning,
+            velocity: Matrix3::identity() - n * n.transpose() / n.norm_squared(),
+            spin: cross(&n) * -self.arm,
         };
         let drag_by = ByMotion {
-            place: of(&slip_by.place, &load_by_place),
-            velocity: of(&slip_by.velocity, &load_by_velocity),
-            spin: of(&slip_by.spin, &Vector3::zeros()),
+            place: self.follow(&slip_by.place, &load_by.place),
+            velocity: self.follow(&slip_by.velocity, &load_by.velocity),
+            spin: self.follow(&slip_by.spin, &Vector3::zeros()),
         };
-        let lever = cross(&n) * arm;
+        let lever = cross(&n) * self.arm;
         found.force_by.place += drag_by.place;
         found.force_by.velocity += drag_by.velocity;
         found.force_by.spin = drag_by.spin;
         found.moment_by = ByMotion {
-            place: lever * drag_by.place - cross(&drag) * touch.turning * arm,
+            place: lever * drag_by.place - cross(&self.force) * touch.turning * self.arm,
             velocity: lever * drag_by.velocity,
             spin: lever * drag_by.spin,
         };
     }
-    found
+}
+
+/// Derivatives that a ball has whose approach depends on its rotation; `load_by_own` are those of F by φ and by the spin.
+fn add_turn(
+    touch: &Touch,
+    by: &ByTurn,
+    (load, load_by): (f64, &LoadBy),
+    (load_by_turn, load_by_spin): (&Vector3<f64>, &Vector3<f64>),
+    drag: &Option<Drag>,
+    found: &mut SurfaceForce,
+) {
+    let n = touch.normal;
+    let mut force = -n * load_by_turn.transpose() - by.place * load;
+    let mut moment = -by.first * load_by_turn.transpose() - by.turn * load;
+    found.force_by.spin -= n * load_by_spin.transpose();
+    found.moment_by.place -= by.first * load_by.place.transpose() + by.place.transpose() * load;
+    found.moment_by.velocity -= by.first * load_by.velocity.transpose();
+    found.moment_by.spin -= by.first * load_by_spin.transpose();
+    if let Some(drag) = drag {
+        let lever = cross(&n) * drag.arm;
+        let by_turn = drag.follow(&(drag.by_normal * by.place), load_by_turn);
+        force += by_turn;
+        moment += lever * by_turn - cross(&drag.force) * by.place * drag.arm;
+        // The load follows the spin, too.
+        let by_spin = drag.slip * (load_by_spin * -drag.law.by_load).transpose();
+        found.force_by.spin += by_spin;
+        found.moment_by.spin += lever * by_spin;
+    }
+    found.by_turn = Some([force, moment]);
 }

@@ -7,6 +7,7 @@ mod cages;
 #[path = "../equilibrium/common.rs"]
 mod common;
 mod equilibria;
+mod faults;
 mod quasi_static_element;
 mod rig;
 mod skidding;

@@ -2,10 +2,10 @@
 
 use gearmesh_bearings::dynamic::{
     DynamicBearing, DynamicEffects, FluidTraction, LandContact, LandFilm, LandGuide, LandSide,
-    PocketShape, Pockets, Rebound, Traction,
+    PocketShape, Pockets, Rebound, StatedContact, Traction,
 };
 use gearmesh_bearings::quasi_static::{QuasiStaticBearing, Row};
-use gearmesh_dynamics::{Body, Marker, MarkerPair, State, System};
+use gearmesh_dynamics::{Body, Marker, MarkerPair, Params, Simulation, State, System};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::common::{B218, B6205, PAIR, bearing};
@@ -157,7 +157,11 @@ fn check(
     }
     let mut numbers = Numbers::with_seed(states as u64 + text.len() as u64);
     let (mut mixed, mut judged, mut unjudged) = (0, 0, 0);
-    let mut system = free_bodies(&bearing, effects, pockets, &mut numbers);
+    let system = free_bodies(&bearing, effects, pockets, &mut numbers);
+    // Balls with spalls take their orientation where a run begins.
+    let mut system = Simulation::new(system, Params::fixed(1e-6))
+        .unwrap()
+        .into_system();
     let start = system.start().clone();
     let n = system.degrees_of_freedom();
     let first = system.layout().first_unknown();
@@ -264,8 +268,19 @@ fn tangents_of_free_balls_are_derivatives() {
         rebound: BLOWS,
         ..DynamicEffects::default()
     };
-    let mixed = check(&clearance, 4, &bare, None, 150) + check(PAIR, 3, &damped, None, 150);
-    assert!(mixed > 150, "{mixed} states with lifted-off balls");
+    let stated = DynamicEffects {
+        contact: Some(StatedContact {
+            stiffness_n_per_m_e: 1e7 * 1e3_f64.powf(2.2),
+            exponent: 2.2,
+            damping_n_s_per_m: 1000.0,
+            full_damping_depth_m: 1e-5,
+        }),
+        ..DynamicEffects::default()
+    };
+    let mixed = check(&clearance, 4, &bare, None, 150)
+        + check(PAIR, 3, &damped, None, 150)
+        + check(&clearance, 4, &stated, None, 150);
+    assert!(mixed > 200, "{mixed} states with lifted-off balls");
 }
 
 #[test]
@@ -286,6 +301,30 @@ fn tangents_of_rolling_balls_are_derivatives() {
         + check(B6205, 4, &with(Traction::Fluid(fluid)), None, 150)
         + check(PAIR, 3, &with(table), None, 100);
     assert!(mixed > 100, "{mixed} states with lifted-off balls");
+}
+
+/// Rims of spalls under two balls, waves and an off-size ball; the same with balls that have spalls, which turn.
+#[test]
+fn tangents_of_faults_are_derivatives() {
+    let races = "[[fault]]\nkind = \"race-spall\"\nrace = \"outer\"\nangle_deg = 2.2\nlength_mm = 2.0\nwidth_mm = 1.0\ndepth_um = 5.0\n\
+                 [[fault]]\nkind = \"race-spall\"\nrace = \"inner\"\nangle_deg = 93.2\nlength_mm = 2.0\ndepth_um = 5.0\n\
+                 [[fault]]\nkind = \"waviness\"\nrace = \"inner\"\norder = 11\nradial_um = 1.0\naxial_um = 2.0\nphase_deg = 20.0\n\
+                 [[fault]]\nkind = \"waviness\"\nrace = \"outer\"\norder = 6\naxial_um = 1.5\n\
+                 [[fault]]\nkind = \"off-size-ball\"\nball = 1\noversize_um = 3.0\n\
+                 [[fault]]\nkind = \"misaligned-ring\"\nring = \"inner\"\ntilt_mrad = [0.1, -0.05]\noffset_um = [1.0, 0.0, 2.0]\n";
+    let balls = "[[fault]]\nkind = \"ball-spall\"\nball = 1\nangle_deg = 10.8\ndiameter_mm = 2.0\ndepth_um = 2.0\n\
+                 [[fault]]\nkind = \"ball-spall\"\nball = 2\nangle_deg = 172.0\nbeside_deg = 3.0\ndiameter_mm = 2.0\ndepth_um = 2.0\n";
+    let damped = DynamicEffects {
+        rebound: BLOWS,
+        ..DynamicEffects::default()
+    };
+    let rolling = DynamicEffects {
+        rebound: BLOWS,
+        traction: Some(coulomb()),
+        ..DynamicEffects::default()
+    };
+    check(&format!("{B6205}{races}"), 4, &damped, None, 150);
+    check(&format!("{B6205}{races}{balls}"), 4, &rolling, None, 150);
 }
 
 #[test]

@@ -183,3 +183,93 @@ fn catalogue_lines_are_checked() {
         "{found}"
     );
 }
+
+/// Faults: each is answered with its number, key, what was found and what is allowed.
+#[test]
+fn bad_faults_are_refused() {
+    let fault = |lines: &str| format!("{B6205}[[fault]]\n{lines}");
+    let spall = "kind = \"race-spall\"\nrace = \"outer\"\nangle_deg = 0.0\nlength_mm = 1.0\ndepth_um = 5.0\n";
+    for (text, parts) in [
+        (
+            fault("kind = \"spall\"\n"),
+            vec!["fault.0.kind", "race-spall", "ball-spall"],
+        ),
+        (fault("race = \"outer\"\n"), vec!["fault.0", "kind"]),
+        (
+            fault(&format!("{spall}ball = 3\n")),
+            vec!["fault.0", "`ball` belongs to", "race-spall"],
+        ),
+        (
+            fault(&format!("{spall}row = 2\n")),
+            vec!["fault.0.row", "found 2", "1 to 1"],
+        ),
+        (
+            fault(&spall.replace("outer", "middle")),
+            vec!["fault.0.race", "inner"],
+        ),
+        (
+            fault(&spall.replace("length_mm = 1.0", "length_mm = 0.0")),
+            vec!["fault.0.length_mm", "found 0"],
+        ),
+        (
+            fault(&spall.replace("depth_um = 5.0", "depth_um = -1.0")),
+            vec!["fault.0.depth_um", "found -1", "794"],
+        ),
+        (
+            fault(&spall.replace("depth_um = 5.0", "depth_um = nan")),
+            vec!["fault.0.depth_um", "NaN"],
+        ),
+        (
+            fault(&spall.replace("depth_um = 5.0\n", "")),
+            vec!["fault.0", "depth_um"],
+        ),
+        (
+            fault("kind = \"ball-spall\"\nball = 10\ndiameter_mm = 1.0\ndepth_um = 5.0\n"),
+            vec!["fault.0.ball", "found 10", "1 to 9"],
+        ),
+        (
+            fault("kind = \"ball-spall\"\nball = 1\ndiameter_mm = 9.0\ndepth_um = 5.0\n"),
+            vec!["fault.0.diameter_mm", "found 9", "7.938"],
+        ),
+        (
+            fault("kind = \"waviness\"\nrace = \"inner\"\norder = 0\nradial_um = 1.0\n"),
+            vec!["fault.0.order", "1 to 1000"],
+        ),
+        (
+            fault("kind = \"waviness\"\nrace = \"inner\"\norder = 3\n"),
+            vec!["fault.0", "radial_um", "axial_um"],
+        ),
+        (
+            fault("kind = \"off-size-ball\"\nball = 0\noversize_um = 1.0\n"),
+            vec!["fault.0.ball", "found 0", "1 to 9"],
+        ),
+        (
+            fault("kind = \"off-size-ball\"\nball = 1\noversize_um = 100.0\n"),
+            vec!["fault.0.oversize_um", "found 100", "79.4"],
+        ),
+        (
+            fault("kind = \"misaligned-ring\"\nring = \"inner\"\n"),
+            vec!["fault.0", "tilt_mrad", "offset_um"],
+        ),
+        (
+            fault("kind = \"misaligned-ring\"\nring = \"inner\"\ntilt_mrad = [0.0, 200.0]\n"),
+            vec!["fault.0.tilt_mrad", "found 200", "100"],
+        ),
+        (
+            fault(
+                "kind = \"misaligned-ring\"\nring = \"inner\"\ntilt_mrad = [1.0, 0.0]\n[[fault]]\nkind = \"misaligned-ring\"\nring = \
+                 \"inner\"\ntilt_mrad = [2.0, 0.0]\n",
+            ),
+            vec!["fault.1.ring", "same ring"],
+        ),
+        (
+            format!("{ROLLERS}[[fault]]\n{spall}"),
+            vec!["fault.0.kind", "ball bearings", "misaligned-ring"],
+        ),
+    ] {
+        let found = complaint(&text);
+        for part in parts {
+            assert!(found.contains(part), "`{part}` is not in: {found}\n{text}");
+        }
+    }
+}

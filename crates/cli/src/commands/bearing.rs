@@ -40,6 +40,7 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     let operation = operation(a)?;
     let lubrication = lubrication(a)?;
     let bearing = QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
+    refuse_faults_in_motion(&bearing)?;
     let pose = bearing
         .equilibrium(&load, &operation)
         .map_err(|e| match e {
@@ -67,6 +68,20 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
         console::json(&answer.figures());
     } else {
         answer.table();
+    }
+    Ok(())
+}
+
+/// Faults that say nothing of a bearing at rest.
+fn refuse_faults_in_motion(bearing: &QuasiStaticBearing) -> Result<(), Failure> {
+    let of_file = |problem: &str| Failure::input(format!("fault: {problem}"));
+    bearing
+        .refuse_spalled_balls()
+        .map_err(|e| of_file(&e.to_string()))?;
+    if bearing.misaligned.iter().any(Option::is_some) {
+        return Err(of_file(
+            "a misaligned ring tilts with the seat that carries it, which is known in a scene only; here remove it and give --tilt-mrad",
+        ));
     }
     Ok(())
 }
@@ -107,6 +122,7 @@ fn operation(a: &BearingArguments) -> Result<Operation, Failure> {
         inner_rad_per_s: rad_per_s(inner),
         outer_rad_per_s: rad_per_s(outer),
         cage_angle_rad: 0.0,
+        inner_angle_rad: 0.0,
         control: match a.control {
             ControlWord::OuterRace => Control::OuterRace,
             ControlWord::LeastSpin => Control::LeastSpin,

@@ -1,0 +1,368 @@
+//! `[[fault]]`: what is wrong with a bearing.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::kinds;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{MM, UM};
+use crate::definition::{Arrangement, BallGeometry, BearingGeometry};
+use crate::faults::{BallSpall, Fault, MisalignedRing, OffSizeBall, RaceSpall, Side, Waviness};
+
+/// `race`, `ring`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SideWord {
+    /// The inner ring.
+    Inner,
+    /// The outer ring.
+    Outer,
+}
+
+impl SideWord {
+    fn side(self) -> Side {
+        match self {
+            Self::Inner => Side::Inner,
+            Self::Outer => Side::Outer,
+        }
+    }
+}
+
+/// A fault of a bearing.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "BearingFaultTable")]
+pub enum FaultTable {
+    /// Material lost from a race.
+    RaceSpall {
+        /// The race.
+        race: SideWord,
+        /// The row, from 1; 1 where not given.
+        row: Option<usize>,
+        /// Its middle round the axis, from x towards y in the ring's own axes.
+        angle_deg: f64,
+        /// Its middle across the groove as a contact angle; the contact angle without load where not given.
+        contact_angle_deg: Option<f64>,
+        /// Along the way of the balls.
+        length_mm: f64,
+        /// Across the groove; all of the groove where not given.
+        width_mm: Option<f64>,
+        /// Depth. Between its rims a ball sinks no deeper than length and width let it.
+        depth_um: f64,
+    },
+    /// Material lost from a round patch of a ball; the bearing must be a `dynamic` one with traction.
+    BallSpall {
+        /// The row, from 1; 1 where not given.
+        row: Option<usize>,
+        /// The ball, from 1.
+        ball: usize,
+        /// Place along the track of the ball at the start: 0 faces the outer race, 180 the inner one; 0 where not given.
+        angle_deg: Option<f64>,
+        /// Place beside the track, towards +z; 0 where not given.
+        beside_deg: Option<f64>,
+        /// Diameter of the patch.
+        diameter_mm: f64,
+        /// Depth. Between its rims a race sinks no deeper than the diameter lets it.
+        depth_um: f64,
+    },
+    /// A race that is not round.
+    Waviness {
+        /// The race.
+        race: SideWord,
+        /// The row, from 1; 1 where not given.
+        row: Option<usize>,
+        /// Waves round the race.
+        order: u32,
+        /// Amplitude across the axis; 0 where not given.
+        radial_um: Option<f64>,
+        /// Amplitude along the axis; 0 where not given.
+        axial_um: Option<f64>,
+        /// Phase: the groove is displaced by amplitude times cos(order times angle + phase); 0 where not given.
+        phase_deg: Option<f64>,
+    },
+    /// A ball of another size.
+    OffSizeBall {
+        /// The row, from 1; 1 where not given.
+        row: Option<usize>,
+        /// The ball, from 1.
+        ball: usize,
+        /// By how much its diameter is larger; negative: smaller.
+        oversize_um: f64,
+    },
+    /// A ring that stands askew or aside on its seat.
+    MisalignedRing {
+        /// The ring.
+        ring: SideWord,
+        /// Tilt of its axis about x and y; 0 where not given.
+        tilt_mrad: Option<[f64; 2]>,
+        /// Displacement along x, y, z; 0 where not given.
+        offset_um: Option<[f64; 3]>,
+    },
+}
+
+kinds!(FaultTable, "kind");
+
+/// The faults of a list of tables `fault`, in SI units; what the bearing cannot have is refused.
+pub(super) fn faults(
+    tables: &[FaultTable],
+    document: &InputDocument,
+    geometry: &BearingGeometry,
+    arrangement: &Arrangement,
+) -> Result<Vec<Fault>, InputError> {
+    let mut found: Vec<Fault> = Vec::with_capacity(tables.len());
+    for (number, table) in tables.iter().enumerate() {
+        let path = format!("fault.{number}");
+        let keys = TableKeys::new(document, &path);
+        let rows = arrangement.rows().len();
+        let fault = table.fault(&keys, geometry, rows)?;
+        if let Fault::MisalignedRing { side, .. } = fault {
+            let same = |other: &Fault| matches!(other, Fault::MisalignedRing { side: of, .. } if *of == side);
+            if found.iter().any(same) {
+                return Err(keys.error(
+                    "ring",
+                    "a fault before this one misaligns the same ring; give one of them",
+                ));
+            }
+        }
+        found.push(fault);
+    }
+    Ok(found)
+}
+
+/// Row and ball as the user counts them, from 1.
+fn place(
+    keys: &TableKeys<'_>,
+    (row, rows): (Option<usize>, usize),
+    ball: Option<(usize, usize)>,
+) -> Result<(usize, usize), InputError> {
+    let row = row.unwrap_or(1);
+    keys.require(
+        "row",
+        row as f64,
+        (1..=rows).contains(&row),
+        &format!("1 to {rows}, the rows of the bearing"),
+    )?;
+    let (ball, balls) = ball.unwrap_or((1, 1));
+    keys.require(
+        "ball",
+        ball as f64,
+        (1..=balls).contains(&ball),
+        &format!("1 to {balls}, the balls of a row"),
+    )?;
+    Ok((row - 1, ball - 1))
+}
+
+impl FaultTable {
+    fn fault(
+        &self,
+        keys: &TableKeys<'_>,
+        geometry: &BearingGeometry,
+        rows: usize,
+    ) -> Result<Fault, InputError> {
+        let balls = match geometry {
+            BearingGeometry::Ball(g) => Some(g),
+            BearingGeometry::Roller(_) => None,
+        };
+        let needed = || {
+            balls.ok_or_else(|| {
+                keys.error("kind", "is a fault of ball bearings; a roller bearing can have \"misaligned-ring\" only")
+            })
+        };
+        match self {
+            Self::RaceSpall { .. } => self.race_spall(keys, needed()?, rows),
+            Self::BallSpall { .. } => self.ball_spall(keys, needed()?, rows),
+            Self::Waviness { .. } => {
+                needed()?;
+                self.waviness(keys, rows)
+            }
+            Self::OffSizeBall {
+                row,
+                ball,
+                oversize_um,
+            } => {
+                let g = needed()?;
+                let (row, ball) = place(keys, (*row, rows), Some((*ball, g.balls)))?;
+                let most = 0.01 * g.ball_diameter_m / UM;
+                let sound = oversize_um.abs() <= most;
+                let allowed =
+                    format!("between -{most:.1} and {most:.1}, a hundredth of the ball's diameter");
+                keys.require("oversize_um", *oversize_um, sound, &allowed)?;
+                let size = OffSizeBall {
+                    oversize_m: UM * oversize_um,
+                };
+                Ok(Fault::OffSizeBall { row, ball, size })
+            }
+            Self::MisalignedRing {
+                ring,
+                tilt_mrad,
+                offset_um,
+            } => {
+                let tilt = tilt_mrad.unwrap_or_default();
+                let offset = offset_um.unwrap_or_default();
+                let within = |values: &[f64], most: f64| values.iter().all(|v| v.abs() <= most);
+                let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+                keys.require(
+                    "tilt_mrad",
+                    largest(&tilt),
+                    within(&tilt, 100.0),
+                    "at most 100 to each side",
+                )?;
+                keys.require(
+                    "offset_um",
+                    largest(&offset),
+                    within(&offset, 1000.0),
+                    "at most 1000 to each side",
+                )?;
+                if tilt_mrad.is_none() && offset_um.is_none() {
+                    return Err(
+                        keys.error("", "says neither tilt_mrad nor offset_um; give one of them")
+                    );
+                }
+                Ok(Fault::MisalignedRing {
+                    side: ring.side(),
+                    place: MisalignedRing {
+                        tilt_rad: tilt.map(|t| 1e-3 * t),
+                        offset_m: offset.map(|d| UM * d),
+                    },
+                })
+            }
+        }
+    }
+
+    fn race_spall(
+        &self,
+        keys: &TableKeys<'_>,
+        g: &BallGeometry,
+        rows: usize,
+    ) -> Result<Fault, InputError> {
+        let Self::RaceSpall {
+            race,
+            row,
+            angle_deg,
+            contact_angle_deg,
+            length_mm,
+            width_mm,
+            depth_um,
+        } = self
+        else {
+            return Err(keys.error("kind", "is no race-spall"));
+        };
+        let (row, _) = place(keys, (*row, rows), None)?;
+        // Longer than the way between two balls it would be another race.
+        let most = std::f64::consts::PI * g.pitch_diameter_m / MM;
+        let within = |key: &str, value: f64, most: f64| {
+            let allowed = format!("more than 0 and at most {most:.3}");
+            keys.require(key, value, value > 0.0 && value <= most, &allowed)
+        };
+        within("length_mm", *length_mm, 0.5 * most)?;
+        if let Some(width) = width_mm {
+            within("width_mm", *width, 2.0 * g.ball_diameter_m / MM)?;
+        }
+        depth(keys, *depth_um, g)?;
+        let angle = contact_angle_deg.unwrap_or(0.0);
+        keys.require(
+            "contact_angle_deg",
+            angle,
+            angle.abs() < 90.0,
+            "between -90 and 90",
+        )?;
+        Ok(Fault::RaceSpall {
+            side: race.side(),
+            row,
+            spall: RaceSpall {
+                angle_rad: angle_deg.to_radians(),
+                contact_angle_rad: contact_angle_deg.map(f64::to_radians),
+                length_m: MM * length_mm,
+                width_m: width_mm.map(|w| MM * w),
+                depth_m: UM * depth_um,
+            },
+        })
+    }
+
+    fn ball_spall(
+        &self,
+        keys: &TableKeys<'_>,
+        g: &BallGeometry,
+        rows: usize,
+    ) -> Result<Fault, InputError> {
+        let Self::BallSpall {
+            row,
+            ball,
+            angle_deg,
+            beside_deg,
+            diameter_mm,
+            depth_um,
+        } = self
+        else {
+            return Err(keys.error("kind", "is no ball-spall"));
+        };
+        let (row, ball) = place(keys, (*row, rows), Some((*ball, g.balls)))?;
+        let most = g.ball_diameter_m / MM;
+        let sound = *diameter_mm > 0.0 && *diameter_mm <= most;
+        let allowed = format!("more than 0 and at most {most:.3}, the ball's diameter");
+        keys.require("diameter_mm", *diameter_mm, sound, &allowed)?;
+        depth(keys, *depth_um, g)?;
+        let beside = beside_deg.unwrap_or(0.0);
+        keys.require("beside_deg", beside, beside.abs() <= 90.0, "-90 to 90")?;
+        Ok(Fault::BallSpall {
+            row,
+            ball,
+            spall: BallSpall {
+                angle_rad: angle_deg.unwrap_or(0.0).to_radians(),
+                beside_rad: beside.to_radians(),
+                diameter_m: MM * diameter_mm,
+                depth_m: UM * depth_um,
+            },
+        })
+    }
+
+    fn waviness(&self, keys: &TableKeys<'_>, rows: usize) -> Result<Fault, InputError> {
+        let Self::Waviness {
+            race,
+            row,
+            order,
+            radial_um,
+            axial_um,
+            phase_deg,
+        } = self
+        else {
+            return Err(keys.error("kind", "is no waviness"));
+        };
+        let (row, _) = place(keys, (*row, rows), None)?;
+        let found = f64::from(*order);
+        keys.require(
+            "order",
+            found,
+            (1..=1000).contains(order),
+            "1 to 1000 waves round the race",
+        )?;
+        if radial_um.is_none() && axial_um.is_none() {
+            return Err(keys.error("", "says neither radial_um nor axial_um; give one of them"));
+        }
+        for (key, value) in [("radial_um", radial_um), ("axial_um", axial_um)] {
+            let value = value.unwrap_or(0.0);
+            keys.require(key, value, (0.0..=500.0).contains(&value), "0 to 500")?;
+        }
+        Ok(Fault::Waviness {
+            side: race.side(),
+            row,
+            waves: Waviness {
+                order: *order,
+                radial_m: UM * radial_um.unwrap_or(0.0),
+                axial_m: UM * axial_um.unwrap_or(0.0),
+                phase_rad: phase_deg.unwrap_or(0.0).to_radians(),
+            },
+        })
+    }
+}
+
+fn depth(keys: &TableKeys<'_>, depth_um: f64, g: &BallGeometry) -> Result<(), InputError> {
+    let most = 0.1 * g.ball_diameter_m / UM;
+    keys.require(
+        "depth_um",
+        depth_um,
+        (0.0..=most).contains(&depth_um),
+        &format!("0 to {most:.0}, a tenth of the ball's diameter"),
+    )
+}
