@@ -3,6 +3,7 @@
 
 mod bearing_kinds;
 mod bearings_of_seeds;
+mod bevel_pairs;
 #[path = "../common/mod.rs"]
 mod common;
 mod dynamic_bearings;
