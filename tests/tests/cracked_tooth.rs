@@ -87,8 +87,10 @@ fn section_loss_and_doubled_nodes_are_of_one_order() {
         );
         ratios.push([cracked - sound, cracked_beam - beam]);
     }
-    for [doubled, section_loss] in &ratios {
-        assert!(*doubled > 0.0 && (0.5..1.5).contains(&(section_loss / doubled)));
+    // Figures of this mesh, kept as they are: how far two models are apart has no theory.
+    for ([doubled, section_loss], kept) in ratios.iter().zip([0.74, 0.96]) {
+        let ratio = section_loss / doubled;
+        assert!(*doubled > 0.0 && (ratio - kept).abs() < 0.01, "{ratio}");
     }
     assert!(ratios[1][0] > 2.0 * ratios[0][0] && ratios[1][1] > 2.0 * ratios[0][1]);
 }

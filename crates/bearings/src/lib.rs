@@ -11,6 +11,7 @@
 //! | balls that move | [`DynamicBearing`] | `dynamic/` |
 //! | what may be wrong with it | [`faults::Fault`] | `faults/` |
 //! | ratings and life | [`Ratings`], [`Life`] | `ratings.rs`, `life.rs` |
+//! | life over the loads of a run | [`LoadHistory`] | `load_history.rs` |
 //! | from a catalogue's line to a definition | [`CatalogueLine`] | `catalogue.rs`, `estimate.rs` |
 //! | frequencies of rolling | [`BearingFrequencies`] | `frequencies.rs` |
 //!
@@ -35,6 +36,7 @@ pub mod faults;
 pub mod frequencies;
 pub mod life;
 pub mod line_contact;
+pub mod load_history;
 pub mod operation;
 pub mod point_contact;
 pub mod quasi_static;
@@ -58,6 +60,7 @@ pub use error::BearingError;
 pub use frequencies::BearingFrequencies;
 pub use life::Life;
 pub use line_contact::LineContact;
+pub use load_history::{HistoryLife, HistorySample, LoadHistory};
 pub use operation::{Control, Operation};
 pub use point_contact::PointContact;
 pub use quasi_static::QuasiStaticBearing;

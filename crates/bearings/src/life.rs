@@ -59,7 +59,7 @@ impl Life {
 }
 
 /// p: 3 for balls, 10/3 for rollers.
-fn exponent(geometry: &BearingGeometry) -> f64 {
+pub(crate) fn exponent(geometry: &BearingGeometry) -> f64 {
     match geometry {
         BearingGeometry::Ball(_) => 3.0,
         BearingGeometry::Roller(_) => 10.0 / 3.0,

@@ -134,17 +134,23 @@ fn gauges_are_channels_of_the_mesh() {
     run.run(50.0 * STEP_S, |step| {
         step.system.sample(step.to, &counts, &mut out);
         let strain = &out[first_strain..first_strain + 4];
+        let names = names.iter().map(|(_, channel)| &channel.name[..]);
+        let forces = names
+            .zip(&out)
+            .filter(|(name, _)| name.starts_with("normal_force"));
+        let newtons: f64 = forces.map(|(_, force)| force).sum();
         for (largest, value) in largest.iter_mut().zip(strain) {
-            *largest = largest.max(value.abs());
+            *largest = largest.max(value.abs() / newtons);
         }
         std::ops::ControlFlow::Continue(())
     })
     .unwrap();
-    // 3 kN at 1e-9 a newton: some µm/m.
-    assert!(
-        largest.iter().all(|s| (0.1..100.0).contains(s)),
-        "{largest:?}"
-    );
+    // The rows are waves of amplitude 1e-9 a newton, their difference in method 1 one of 1e-10 more; a force lies between two stations, whose
+    // rows differ by 0.1 at most: most of a crest is seen while the flank goes by.
+    let [first, second] = [1.1e-3, 1e-3];
+    for (seen, most) in largest.iter().zip([first, second, first, second]) {
+        assert!(*seen <= most && *seen > 0.5 * most, "{largest:?}");
+    }
 }
 
 #[test]

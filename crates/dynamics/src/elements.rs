@@ -10,6 +10,7 @@
 //! | torsion spring and damper, any number of turns | `torsion_spring.rs` |
 //! | bushing, 6×6 | `bushing.rs` |
 //! | linear bearing, spins freely | `linear_bearing.rs` |
+//! | bearing of a whole matrix about an operating point, spins freely | `matrix_bearing.rs` |
 //! | Timoshenko beam | `beam.rs` |
 
 mod applied_load;
@@ -18,6 +19,7 @@ mod bushing;
 mod gravity;
 mod linear_bearing;
 mod marker_element;
+mod matrix_bearing;
 mod spring_damper;
 mod torsion_spring;
 
@@ -25,8 +27,9 @@ pub use applied_load::{AppliedLoad, Axes, LoadKind};
 pub use beam::BeamSection;
 pub use bushing::Bushing;
 pub use gravity::Gravity;
-pub use linear_bearing::LinearBearing;
+pub use linear_bearing::{AxialSupport, LinearBearing};
 pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad, load_channels};
+pub use matrix_bearing::MatrixBearing;
 pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;
 

@@ -160,15 +160,9 @@ impl System {
                 for equation in 0..count {
                     out.violation[first + equation] += joint.part(equation, index, &motion);
                 }
-                let reaction = joint.reaction(index, lambda, &motion);
-                for (start, half) in starts.iter().zip(reaction.as_slice().chunks(6)) {
-                    if let Some(start) = start {
-                        for (place, value) in out.residual[*start..].iter_mut().zip(half) {
-                            *place += value;
-                        }
-                    }
-                }
+                let mut load = SVector::<f64, 6>::zeros();
                 joint.rows(index, &motion, |row| {
+                    load += lambda[row.equation] * row.load;
                     out.violation_rate[first + row.equation] += row.rate;
                     if detail == Detail::Tangents {
                         add_gradient(
@@ -179,9 +173,16 @@ impl System {
                         );
                     }
                 });
+                let reaction = motion.generalised_force(&load);
+                for (start, half) in starts.iter().zip(reaction.as_slice().chunks(6)) {
+                    if let Some(start) = start {
+                        for (place, value) in out.residual[*start..].iter_mut().zip(half) {
+                            *place += value;
+                        }
+                    }
+                }
                 if detail == Detail::Tangents {
-                    let jacobian = motion.jacobian();
-                    let tangent = joint.tangent(index, lambda, &motion, &jacobian);
+                    let tangent = joint.tangent(index, (lambda, &load), &motion);
                     for (j, column) in starts.iter().enumerate() {
                         for (i, row) in starts.iter().enumerate() {
                             let (Some(row), Some(column)) = (row, column) else {
@@ -249,7 +250,8 @@ impl System {
                     let [a, b] =
                         [pair.a.body, pair.b.body].map(|body| motion_of(&self.motions, body));
                     let motion = pair.motion(a, b);
-                    let tangent = joint.tangent(index, &unit, &motion, &motion.jacobian());
+                    let load = -joint.load(index, &unit, &motion);
+                    let tangent = joint.tangent(index, (&unit, &load), &motion);
                     let mut velocity = SVector::<f64, 12>::zeros();
                     for (half, motion) in [a, b].iter().enumerate() {
                         velocity

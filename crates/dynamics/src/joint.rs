@@ -21,7 +21,7 @@ use crate::derivatives::Derivatives;
 use crate::error::DynamicsError;
 use crate::polar_angle::PolarAngle;
 use crate::relative_angle::RelativeAngle;
-use crate::relative_motion::{Jacobian, Marker, MarkerPair, PairTangent, RelativeMotion};
+use crate::relative_motion::{Marker, MarkerPair, PairTangent, RelativeMotion};
 use crate::rotation::skew;
 use crate::state::BodyMotion;
 use crate::time_function::TimeFunction;
@@ -48,6 +48,8 @@ pub enum JointKind {
     Cylindrical,
     /// Turns freely about a common point: 3.
     Spherical,
+    /// The point of B stays on the z axis of A and turns freely: 2.
+    PointOnAxis,
     /// Slides in the x-y plane of A and turns about z: 3.
     Planar,
     /// Common point, x of A stays perpendicular to y of B: 4.
@@ -105,7 +107,8 @@ pub(crate) struct Row<'a> {
     pub equation: usize,
     /// Part of the pair in the rate of the equation's left-hand side.
     pub rate: f64,
-    load: SVector<f64, 6>,
+    /// Load (f, μ) of one unit of λ: ∂(equation)/∂(u, rotation).
+    pub load: SVector<f64, 6>,
     motion: &'a RelativeMotion,
 }
 
@@ -133,6 +136,7 @@ impl Joint {
             JointKind::Prismatic => ([&point[..2], &aligned, &[untwisted]].concat(), None),
             JointKind::Cylindrical => ([&point[..2], &aligned].concat(), None),
             JointKind::Spherical => (point.to_vec(), None),
+            JointKind::PointOnAxis => (point[..2].to_vec(), None),
             JointKind::Planar => ([&point[2..], &aligned].concat(), None),
             JointKind::Universal => ([&point[..], &[perpendicular(0, 1)]].concat(), None),
             JointKind::Translation(motion) => (vec![Along(2)], Some(motion)),
@@ -357,21 +361,15 @@ impl Joint {
         }
     }
 
-    /// Load (f, μ) of one unit of λ in an equation on a pair; its derivatives are added to `slope`, multiplied by `lambda`.
-    fn unit_load(
-        &self,
-        equation: usize,
-        pair: usize,
-        motion: &RelativeMotion,
-        slope: Option<(&mut UnitSlope, f64)>,
-    ) -> SVector<f64, 6> {
+    fn terms(&self, equation: usize, pair: usize) -> impl Iterator<Item = &Term> {
+        let terms = self.equations[equation].terms.iter();
+        terms.filter(move |term| term.pair == pair)
+    }
+
+    /// Load (f, μ) of one unit of λ in an equation on a pair.
+    fn unit_load(&self, equation: usize, pair: usize, motion: &RelativeMotion) -> SVector<f64, 6> {
         let mut load = SVector::<f64, 6>::zeros();
-        let mut curvature = UnitSlope::default();
-        for term in self.equations[equation]
-            .terms
-            .iter()
-            .filter(|term| term.pair == pair)
-        {
+        for term in self.terms(equation, pair) {
             match term.coordinate {
                 Coordinate::Along(axis) => load[axis] += term.factor,
                 Coordinate::Axes { of_a, of_b } => {
@@ -379,34 +377,44 @@ impl Joint {
                     let c: Vector3<f64> = motion.rotation.column(of_b).into();
                     let mut moment = load.fixed_rows_mut::<3>(3);
                     moment += term.factor * c.cross(&e);
-                    if slope.is_some() {
-                        // c × e with dc = φ × c
-                        curvature.by_rotation += term.factor * skew(&e) * skew(&c);
-                    }
                 }
                 Coordinate::Angle => {
                     let mut moment = load.fixed_rows_mut::<3>(3);
                     moment += term.factor * RelativeAngle::gradient(motion);
-                    if slope.is_some() {
-                        curvature.by_rotation +=
-                            term.factor * RelativeAngle::gradient_slope(motion);
-                    }
                 }
                 Coordinate::Polar => {
                     let mut force = load.fixed_rows_mut::<3>(0);
                     force += term.factor * PolarAngle::gradient(motion);
-                    if slope.is_some() {
-                        curvature.by_displacement +=
-                            term.factor * PolarAngle::gradient_slope(motion);
+                }
+            }
+        }
+        load
+    }
+
+    /// Derivatives of the load of all λ on a pair.
+    fn slope(&self, pair: usize, lambda: &[f64], motion: &RelativeMotion) -> UnitSlope {
+        let mut slope = UnitSlope::default();
+        for (equation, lambda) in lambda.iter().enumerate() {
+            for term in self.terms(equation, pair) {
+                let factor = lambda * term.factor;
+                match term.coordinate {
+                    Coordinate::Along(_) => {}
+                    Coordinate::Axes { of_a, of_b } => {
+                        let e = Vector3::ith(of_a, 1.0);
+                        let c: Vector3<f64> = motion.rotation.column(of_b).into();
+                        // c × e with dc = φ × c
+                        slope.by_rotation += factor * skew(&e) * skew(&c);
+                    }
+                    Coordinate::Angle => {
+                        slope.by_rotation += factor * RelativeAngle::gradient_slope(motion);
+                    }
+                    Coordinate::Polar => {
+                        slope.by_displacement += factor * PolarAngle::gradient_slope(motion);
                     }
                 }
             }
         }
-        if let Some((slope, lambda)) = slope {
-            slope.by_rotation += lambda * curvature.by_rotation;
-            slope.by_displacement += lambda * curvature.by_displacement;
-        }
-        load
+        slope
     }
 
     /// Force \[N\] and moment \[N·m\] of the joint on the body of marker B of a pair, in B's origin and along A's axes; the body of A
@@ -416,39 +424,23 @@ impl Joint {
         let mut load = SVector::<f64, 6>::zeros();
         for (equation, lambda) in lambda.iter().enumerate() {
             if *lambda != 0.0 {
-                load -= *lambda * self.unit_load(equation, pair, motion, None);
+                load -= *lambda * self.unit_load(equation, pair, motion);
             }
         }
         load
     }
 
-    /// Bᵀλ of one pair.
-    pub(crate) fn reaction(
-        &self,
-        pair: usize,
-        lambda: &[f64],
-        motion: &RelativeMotion,
-    ) -> SVector<f64, 12> {
-        motion.generalised_force(&-self.load(pair, lambda, motion))
-    }
-
-    /// ∂(Bᵀλ)/∂increments of one pair.
+    /// ∂(Bᵀλ)/∂increments of one pair, whose Σ λ ∂(equation)/∂(u, rotation) is `load`.
     pub(crate) fn tangent(
         &self,
         pair: usize,
-        lambda: &[f64],
+        (lambda, load): (&[f64], &SVector<f64, 6>),
         motion: &RelativeMotion,
-        jacobian: &Jacobian,
     ) -> PairTangent {
-        let mut load = SVector::<f64, 6>::zeros();
-        let mut slope = UnitSlope::default();
-        for (equation, &lambda) in lambda.iter().enumerate() {
-            if lambda != 0.0 {
-                load += lambda * self.unit_load(equation, pair, motion, Some((&mut slope, lambda)));
-            }
-        }
+        let jacobian = motion.jacobian();
+        let slope = self.slope(pair, lambda, motion);
         let turns = jacobian.fixed_rows::<3>(3);
-        let tangent = motion.geometric_tangent(jacobian, &load)
+        let tangent = motion.geometric_tangent(&jacobian, load)
             + turns.transpose() * (slope.by_rotation * turns);
         if self.polars.is_empty() {
             return tangent;
@@ -467,7 +459,7 @@ impl Joint {
         let (v, w) = (motion.velocity_m_per_s, motion.angular_velocity_rad_per_s);
         let rates = SVector::<f64, 6>::from([v[0], v[1], v[2], w[0], w[1], w[2]]);
         for equation in 0..self.equations.len() {
-            let load = self.unit_load(equation, pair, motion, None);
+            let load = self.unit_load(equation, pair, motion);
             visit(Row {
                 equation,
                 rate: load.dot(&rates),

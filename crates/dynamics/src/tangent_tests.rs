@@ -1,12 +1,12 @@
 //! Every joint and force element: analytic tangents against central differences, and energy against work. One suite for all.
 #![allow(clippy::unwrap_used)] // test code
 
-use nalgebra::{DMatrix, Matrix6, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Matrix5, Matrix6, UnitQuaternion, Vector3, Vector5};
 
 use crate::body::{Body, BodyId, GROUND, Modes};
 use crate::elements::{
-    AppliedLoad, Axes, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind, SpringDamper,
-    TorsionSpring,
+    AppliedLoad, Axes, AxialSupport, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind,
+    MatrixBearing, SpringDamper, TorsionSpring,
 };
 use crate::equations::{At, Detail, Equations};
 use crate::joint::{Joint, JointKind, Motion};
@@ -236,6 +236,7 @@ fn joints_have_exact_tangents() {
         JointKind::Prismatic,
         JointKind::Cylindrical,
         JointKind::Spherical,
+        JointKind::PointOnAxis,
         JointKind::Planar,
         JointKind::Universal,
         JointKind::Translation(Motion::Position(wave())),
@@ -314,6 +315,22 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
         radial_damping_n_s_per_m: 0.3,
         axial_damping_n_s_per_m: 0.2,
         tilt_damping_nm_s_per_rad: 0.4,
+        ..LinearBearing::default()
+    };
+    let one_way = LinearBearing {
+        axial_support: AxialSupport::Positive,
+        ..bearing
+    };
+    let other_way = LinearBearing {
+        axial_support: AxialSupport::Negative,
+        ..bearing
+    };
+    let damped = Matrix5::from_fn(|_, _| random.next());
+    let matrix = MatrixBearing {
+        stiffness: Matrix5::from_fn(|_, _| random.next()),
+        damping: 0.1 * damped * damped.transpose(),
+        at: Vector5::from_fn(|_, _| 0.1 * random.next()),
+        load: Vector5::from_fn(|_, _| random.next()),
     };
     let beam = BeamSection {
         damping_s: 0.1,
@@ -331,6 +348,9 @@ fn force_elements_have_exact_tangents_and_keep_their_energy() {
             ),
             Box::new(bushing.between("bushing", place()).unwrap()),
             Box::new(bearing.between("bearing", place()).unwrap()),
+            Box::new(one_way.between("one-way bearing", place()).unwrap()),
+            Box::new(other_way.between("bearing the other way", place()).unwrap()),
+            Box::new(matrix.between("matrix bearing", place()).unwrap()),
             Box::new(beam.between("beam", place(), 1.0).unwrap()),
         ];
         for axes in [Axes::World, Axes::Body] {

@@ -19,6 +19,13 @@ const MOST_ITERATIONS: usize = 50;
 const FOUND: f64 = 1e-13;
 
 impl System {
+    /// Moves the start to a state whose places fit the joints, such as an equilibrium of a simpler twin; coordinates of elements begin where the
+    /// elements say that they do there.
+    pub fn start_at(&mut self, state: State) {
+        self.start = state;
+        self.start_unknowns();
+    }
+
     /// Lets elements state where their coordinates start.
     pub(crate) fn start_unknowns(&mut self) {
         let mut state = self.start.clone();

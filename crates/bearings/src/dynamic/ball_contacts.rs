@@ -165,8 +165,13 @@ impl DynamicBearing {
         }
         Some(surface_force(
             &touch,
-            &hertz_load(groove, touch.approach_m),
-            &self.effects.rebound,
+            |rate| match &self.effects.contact {
+                None => {
+                    let elastic = hertz_load(groove, touch.approach_m);
+                    self.effects.rebound.damped(&elastic, rate)
+                }
+                Some(stated) => stated.damped(touch.approach_m, rate),
+            },
             &ring.carrier.against(ball),
             law,
             tangents,
@@ -214,8 +219,7 @@ impl DynamicBearing {
         });
         Some(surface_force(
             &touch,
-            &elastic,
-            &pockets.rebound,
+            |rate| pockets.rebound.damped(&elastic, rate),
             &cage.against(ball),
             law,
             tangents,

@@ -10,6 +10,7 @@ use super::ball_on_body::{BallPlaces, Carrier};
 use super::ball_orientation::{BallOrientation, SAVED};
 use super::ball_start::start_of_row;
 use super::cage_motion::{CAGE_MOTION, cage_motion, cage_motion_channels};
+use super::contact_damping::StatedContact;
 use super::effort::BearingEffort;
 use super::pockets::Pockets;
 use super::rebound::Rebound;
@@ -25,7 +26,9 @@ use crate::ring_pose::RingPose;
 /// What a bearing's balls feel besides the elastic races. The default is nothing.
 #[derive(Debug, Clone, Default)]
 pub struct DynamicEffects {
-    /// Damping of the contacts at the races.
+    /// Load and damping of the contacts at the races by a stated law; none: Hertz with `rebound`. Balls start at Hertz' places all the same.
+    pub contact: Option<StatedContact>,
+    /// Damping of Hertz' contacts at the races.
     pub rebound: Rebound,
     /// Friction at the races; without it balls do not turn.
     pub traction: Option<Traction>,

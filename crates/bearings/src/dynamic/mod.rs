@@ -7,6 +7,7 @@
 //! | where a ball meets a groove, as a torus | | `groove_touch.rs` |
 //! | the same on a groove with faults, and on a ball with a spall | | `uneven_groove.rs` |
 //! | how a ball with a spall stands | | `ball_orientation.rs` |
+//! | load and damping of a contact, or a stated law for both | [`StatedContact`] | `contact_damping.rs` |
 //! | energy lost in a blow | [`Rebound`] | `rebound.rs` |
 //! | friction or film against slip | [`Traction`] | `traction.rs` |
 //! | pockets of a cage | [`Pockets`] | `pockets.rs` |
@@ -25,6 +26,7 @@ mod ball_on_body;
 mod ball_orientation;
 mod ball_start;
 mod cage_motion;
+pub mod contact_damping;
 pub mod dynamic_bearing;
 pub mod effort;
 mod groove_touch;
@@ -35,6 +37,7 @@ mod surface_contact;
 pub mod traction;
 mod uneven_groove;
 
+pub use contact_damping::StatedContact;
 pub use dynamic_bearing::{DynamicBearing, DynamicEffects};
 pub use effort::BearingEffort;
 pub use land_guide::{LandContact, LandFilm, LandGuide, LandSide};

@@ -10,7 +10,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::rebound::Rebound;
+use super::contact_damping::DampedLoad;
 use super::traction::Slip;
 use crate::ring_pose::cross;
 
@@ -88,11 +88,10 @@ pub(crate) struct SurfaceForce {
     pub by_turn: Option<[Matrix3<f64>; 2]>,
 }
 
-/// The force at a touch. `traction` gives κ of a load and a slip; none: no friction.
+/// The force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction.
 pub(crate) fn surface_force(
     touch: &Touch,
-    elastic: &ElasticLoad,
-    rebound: &Rebound,
+    damped: impl Fn(f64) -> DampedLoad,
     against: &Against,
     traction: Option<impl Fn(f64, f64) -> Slip>,
     tangents: bool,
@@ -101,14 +100,14 @@ pub(crate) fn surface_force(
     let across = n.dot(&u);
     let by_turn = touch.by_turn.as_ref();
     let rate = across + by_turn.map_or(0.0, |by| by.first.dot(&against.spin));
-    let (factor, chi) = rebound.factor(rate);
-    let load = elastic.load_n * factor;
+    let damped = damped(rate);
+    let load = damped.load_n;
     let mut found = SurfaceForce {
         load_n: load,
         force: -n * load,
         moment: by_turn.map_or_else(Vector3::zeros, |by| by.first * -load),
-        stored_j: elastic.stored_j,
-        dissipated_w: (load - elastic.load_n) * rate,
+        stored_j: damped.stored_j,
+        dissipated_w: (load - damped.elastic_n) * rate,
         force_by: ByMotion::ZERO,
         moment_by: ByMotion::ZERO,
         by_turn: None,
@@ -119,8 +118,8 @@ pub(crate) fn surface_force(
         rate_by_place += by.place * against.spin;
     }
     let load_by = LoadBy {
-        place: n * (elastic.slope_n_per_m * factor) + rate_by_place * (elastic.load_n * chi),
-        velocity: n * (elastic.load_n * chi),
+        place: n * damped.by_depth + rate_by_place * damped.by_rate,
+        velocity: n * damped.by_rate,
     };
     if tangents {
         found.force_by.place = -n * load_by.place.transpose() - touch.turning * load;
@@ -152,9 +151,8 @@ pub(crate) fn surface_force(
     }
     if let (true, Some(by)) = (tangents, by_turn) {
         let rate_by_turn = by.place.tr_mul(&u) + by.turn.tr_mul(&against.spin);
-        let chi_load = elastic.load_n * chi;
-        let by_turn = by.first * (elastic.slope_n_per_m * factor) + rate_by_turn * chi_load;
-        let by_spin = by.first * chi_load;
+        let by_turn = by.first * damped.by_depth + rate_by_turn * damped.by_rate;
+        let by_spin = by.first * damped.by_rate;
         add_turn(
             touch,
             by,

@@ -43,6 +43,7 @@ fn caged(pockets: Pockets, land: Option<LandGuide>, start_share: f64, axial_m: f
         traction: Some(Traction::coulomb(0.06, 2e-2).unwrap()),
         gravity_m_per_s2: None,
         cages: vec![(cage, pockets)],
+        ..DynamicEffects::default()
     };
     builder.element(element(&bearing, effects, shaft));
     builder.build().unwrap()

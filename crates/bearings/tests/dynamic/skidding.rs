@@ -67,6 +67,7 @@ fn slip_percent(thrust_n: f64) -> f64 {
         traction: Some(Traction::coulomb(0.05, 0.05).unwrap()),
         gravity_m_per_s2: None,
         cages: vec![(cage, pockets())],
+        ..DynamicEffects::default()
     };
     builder.element(element(&bearing, effects, shaft));
     let mut run = Simulation::new(builder.build().unwrap(), Params::fixed(1e-5)).unwrap();

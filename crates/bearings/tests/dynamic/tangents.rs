@@ -2,7 +2,7 @@
 
 use gearmesh_bearings::dynamic::{
     DynamicBearing, DynamicEffects, FluidTraction, LandContact, LandFilm, LandGuide, LandSide,
-    PocketShape, Pockets, Rebound, Traction,
+    PocketShape, Pockets, Rebound, StatedContact, Traction,
 };
 use gearmesh_bearings::quasi_static::{QuasiStaticBearing, Row};
 use gearmesh_dynamics::{Body, Marker, MarkerPair, Params, Simulation, State, System};
@@ -268,8 +268,19 @@ fn tangents_of_free_balls_are_derivatives() {
         rebound: BLOWS,
         ..DynamicEffects::default()
     };
-    let mixed = check(&clearance, 4, &bare, None, 150) + check(PAIR, 3, &damped, None, 150);
-    assert!(mixed > 150, "{mixed} states with lifted-off balls");
+    let stated = DynamicEffects {
+        contact: Some(StatedContact {
+            stiffness_n_per_m_e: 1e7 * 1e3_f64.powf(2.2),
+            exponent: 2.2,
+            damping_n_s_per_m: 1000.0,
+            full_damping_depth_m: 1e-5,
+        }),
+        ..DynamicEffects::default()
+    };
+    let mixed = check(&clearance, 4, &bare, None, 150)
+        + check(PAIR, 3, &damped, None, 150)
+        + check(&clearance, 4, &stated, None, 150);
+    assert!(mixed > 200, "{mixed} states with lifted-off balls");
 }
 
 #[test]

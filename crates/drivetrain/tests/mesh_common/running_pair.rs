@@ -174,6 +174,7 @@ pub fn running_pair(pair: &GearPair, mesh: GearMesh, gauges: usize) -> SystemBui
         radial_damping_n_s_per_m: 2e3,
         axial_damping_n_s_per_m: 1e3,
         tilt_damping_nm_s_per_rad: 1.0,
+        ..LinearBearing::default()
     };
     let sides = [
         (0, &pair.gear_1, -SPEED, ratio * TORQUE),

@@ -7,7 +7,7 @@
 //! μ = −k_t c_z (−c_y, c_x, 0) − c_t (ω_x, ω_y, 0)
 //! ```
 //!
-//! which is the gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
+//! (an axial support that bears one way has k_a = 0 on the other side of u_z = 0; its damping acts both ways), which is the gradient of ½ k_r(u_x² + u_y²) + ½ k_a u_z² + ½ k_t(c_x² + c_y²) and the same for every angle of B.
 
 use nalgebra::{SMatrix, Vector3};
 
@@ -16,6 +16,18 @@ use super::{Power, not_negative};
 use crate::error::DynamicsError;
 use crate::relative_motion::{MarkerPair, RelativeMotion};
 use crate::rotation::skew;
+
+/// Which displacements of the shaft along z the bearing resists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AxialSupport {
+    /// Both ways.
+    #[default]
+    Both,
+    /// Towards +z only: it bears forces on the shaft along +z.
+    Positive,
+    /// Towards −z only.
+    Negative,
+}
 
 /// Parameters of a linear bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,6 +44,8 @@ pub struct LinearBearing {
     pub axial_damping_n_s_per_m: f64,
     /// c_t
     pub tilt_damping_nm_s_per_rad: f64,
+    /// Where k_a acts.
+    pub axial_support: AxialSupport,
 }
 
 impl LinearBearing {
@@ -57,11 +71,21 @@ impl LinearBearing {
         Ok(MarkerElement::new(name, pair, self))
     }
 
-    fn stiffness(&self) -> Vector3<f64> {
+    /// Stiffness along the axes, at a displacement.
+    fn stiffness(&self, u_z_m: f64) -> Vector3<f64> {
+        let bears = match self.axial_support {
+            AxialSupport::Both => true,
+            AxialSupport::Positive => u_z_m > 0.0,
+            AxialSupport::Negative => u_z_m < 0.0,
+        };
         Vector3::new(
             self.radial_stiffness_n_per_m,
             self.radial_stiffness_n_per_m,
-            self.axial_stiffness_n_per_m,
+            if bears {
+                self.axial_stiffness_n_per_m
+            } else {
+                0.0
+            },
         )
     }
 
@@ -81,7 +105,7 @@ impl Law for LinearBearing {
         let mut w = motion.angular_velocity_rad_per_s;
         w[2] = 0.0;
         let tilt = Vector3::new(-c[1], c[0], 0.0);
-        let elastic = self.stiffness().component_mul(&u);
+        let elastic = self.stiffness(u[2]).component_mul(&u);
         let viscous = self.damping().component_mul(&v);
         let (k, d) = (
             self.tilt_stiffness_nm_per_rad,
@@ -113,8 +137,9 @@ impl Law for LinearBearing {
             by_position: SMatrix::zeros(),
             by_velocity: SMatrix::zeros(),
         };
+        let stiffness = self.stiffness(motion.displacement_m[2]);
         for axis in 0..3 {
-            tangent.by_position[(axis, axis)] = -self.stiffness()[axis];
+            tangent.by_position[(axis, axis)] = -stiffness[axis];
             tangent.by_velocity[(axis, axis)] = -self.damping()[axis];
             tangent.by_position[(3, 3 + axis)] =
                 k * (turned[(2, axis)] * c[1] + c[2] * turned[(1, axis)]);

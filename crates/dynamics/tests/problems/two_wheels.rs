@@ -36,6 +36,7 @@ pub fn system(coupling: Coupling) -> System {
             radial_damping_n_s_per_m: 2e3,
             axial_damping_n_s_per_m: 1e3,
             tilt_damping_nm_s_per_rad: 1.0,
+            ..LinearBearing::default()
         };
         let pair = MarkerPair {
             a: Marker::ground([DISTANCE * index as f64, 0.0, 0.0]),

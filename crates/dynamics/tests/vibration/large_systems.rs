@@ -33,6 +33,7 @@ fn rotor(stations: usize) -> System {
                 radial_damping_n_s_per_m: 40.0,
                 axial_damping_n_s_per_m: 20.0,
                 tilt_damping_nm_s_per_rad: 0.01,
+                ..LinearBearing::default()
             };
             let pair = MarkerPair {
                 a: Marker::ground([0.0, 0.0, piece * index as f64]),

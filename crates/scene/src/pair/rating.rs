@@ -58,6 +58,8 @@ impl RatedPair<'_> {
             let keys = TableKeys::new(&self.scene.document, &key);
             table.refuse_keys_of_systems(&keys)?;
             ratings.push(match table {
+                // Refused above: a pair has no bearings.
+                RatingTable::BearingLife(_) => continue,
                 RatingTable::Fatigue(table) => self.fatigue(table, &keys)?,
                 RatingTable::Nominal(table) => {
                     let load = table.load_point();

@@ -6,20 +6,23 @@
 //! | what stands in `[[rating]]` | [`RatingTable`] | `table.rs`, `sn_table_file.rs` |
 //! | what is made of a stress history | [`FatigueJob`] | `fatigue_job.rs` |
 //! | what is made of the largest force | [`nominal_figures`] | `nominal_figures.rs` |
+//! | what is made of a bearing's loads | [`BearingLifeJob`] | `bearing_life.rs` |
 //! | what came out, in memory and in result files | [`RatingResult`] | `result.rs` |
 //!
 //! Where histories and forces come from is said by each kind of scene: `system/assembly/ratings.rs` and
 //! `system_run/rating.rs` take columns of a run in time, `pair/rating.rs` the positions of a pair. Equations:
 //! docs/theory/rating.md.
 
+mod bearing_life;
 mod fatigue_job;
 mod nominal_figures;
 mod result;
 mod sn_table_file;
 pub mod table;
 
+pub use bearing_life::BearingLifeJob;
 pub use fatigue_job::{FatigueJob, PassageLength};
 pub use nominal_figures::{nominal_error, nominal_figures, nominal_method};
 pub use result::{RatingFigure, RatingResult};
 pub use sn_table_file::sn_curve;
-pub use table::{FatigueRule, FatigueTable, NominalTable, RatingTable};
+pub use table::{BearingLifeTable, FatigueRule, FatigueTable, NominalTable, RatingTable};

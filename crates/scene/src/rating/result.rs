@@ -65,7 +65,7 @@ impl RatingResult {
 }
 
 /// All figures there are: name, unit, description.
-const KINDS: [(&str, &str, &str); 15] = [
+const KINDS: [(&str, &str, &str); 23] = [
     ("least_stress_Pa", "Pa", "smallest stress at the gauge"),
     ("largest_stress_Pa", "Pa", "largest stress at the gauge"),
     ("cycles", "1", "cycles counted, halves as one half"),
@@ -112,6 +112,38 @@ const KINDS: [(&str, &str, &str); 15] = [
         "hertz_pressure_Pa",
         "Pa",
         "nominal flank pressure where the contact lines are shortest",
+    ),
+    (
+        "bearing_equivalent_load_N",
+        "N",
+        "dynamic equivalent load P of ISO 281 over the whole history",
+    ),
+    (
+        "bearing_l10_mrev",
+        "1",
+        "basic rating life L10 in millions of turns",
+    ),
+    (
+        "bearing_l10r_mrev",
+        "1",
+        "reference rating life L10r of the loads of all rolling elements in millions of turns",
+    ),
+    (
+        "bearing_l10mr_mrev",
+        "1",
+        "modified reference rating life L10mr in millions of turns",
+    ),
+    (
+        "bearing_mean_speed_rad_per_s",
+        "rad/s",
+        "mean speed of the rings against each other",
+    ),
+    ("bearing_l10_h", "h", "basic rating life in hours"),
+    ("bearing_l10r_h", "h", "reference rating life in hours"),
+    (
+        "bearing_l10mr_h",
+        "h",
+        "modified reference rating life in hours",
     ),
 ];
 

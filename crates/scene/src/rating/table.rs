@@ -5,6 +5,7 @@
 //! | --- | --- | --- |
 //! | `fatigue` | cycles and damage of the stress at a root gauge | `gauge`, `sn_table`; `method`, `surface`, `mean_stress`, `tensile_strength_MPa`, `passage` |
 //! | `nominal` | Lewis's root stress and Hertz's pressure under the largest normal force | `load_point` |
+//! | `bearing-life` | L10, L10r and L10mr of a bearing under the loads of a run | `bearing`, `file`, `viscosity_mm2_per_s`, `contamination` |
 
 use std::path::PathBuf;
 
@@ -27,6 +28,8 @@ pub enum RatingTable {
     Fatigue(FatigueTable),
     /// Lewis and Hertz under the largest force.
     Nominal(NominalTable),
+    /// Rating life of a bearing.
+    BearingLife(BearingLifeTable),
 }
 
 kinds!(RatingTable, "kind");
@@ -74,6 +77,22 @@ pub struct NominalTable {
     /// contact ratio; the former where not given.
     #[serde(default)]
     pub load_point: LoadPointWord,
+}
+
+/// Keys of `kind = "bearing-life"`, multibody scenes only.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BearingLifeTable {
+    /// Name of a `[[bearing]]`, not of kind "rigid".
+    pub bearing: String,
+    /// Bearing file (docs/bearings.md), from the scene's folder: needed where the bearing's model names none.
+    pub file: Option<String>,
+    /// The part of the run before this time is left out; 0 where not given.
+    pub from_s: Option<f64>,
+    /// Viscosity of the lubricant at the bearing's temperature, for L10mr.
+    pub viscosity_mm2_per_s: Option<f64>,
+    /// With a viscosity: e_C of ISO 281, 0 (heavily contaminated) to 1 (clean).
+    pub contamination: Option<f64>,
 }
 
 /// `surface`.
@@ -198,6 +217,7 @@ impl RatingTable {
         match self {
             Self::Fatigue(table) => table.from_s,
             Self::Nominal(table) => table.from_s,
+            Self::BearingLife(table) => table.from_s,
         }
     }
 
@@ -211,6 +231,7 @@ impl RatingTable {
                 ("body", "; gear = 1 or 2 says whose gauge it is")
             }
             Self::Nominal(table) if table.mesh.is_some() => ("mesh", ", which has one mesh"),
+            Self::BearingLife(_) => ("bearing", ", which has no bearings"),
             _ if self.from_s().is_some() => ("from_s", ", which has no time"),
             _ => return Ok(()),
         };

@@ -6,7 +6,8 @@ use gearmesh_dynamics::{BodyId, System};
 use gearmesh_model::ReducedGear;
 use gearmesh_rating::NominalRating;
 
-use crate::rating::FatigueJob;
+use super::assembly::{PlacedCage, TangentSeat};
+use crate::rating::{BearingLifeJob, FatigueJob};
 
 /// A system that is ready to run.
 pub struct BuiltSystem {
@@ -28,6 +29,10 @@ pub struct BuiltSystem {
     pub notes: Vec<String>,
     /// Effects that are computed, and those that could be and are not.
     pub effects: Vec<Effect>,
+    /// Cages of bearings among the bodies.
+    pub(super) cages: Vec<PlacedCage>,
+    /// Bearings whose tangent is taken.
+    pub(super) tangents: Vec<TangentSeat>,
 }
 
 /// A body.
@@ -113,6 +118,8 @@ pub enum RatingRule {
     Fatigue(FatigueJob),
     /// Nominal stresses under the largest value of the columns, forces in N.
     Nominal(Box<NominalRating>),
+    /// Life of a bearing under the loads of the columns.
+    BearingLife(Box<BearingLifeJob>),
 }
 
 /// An effect that a scene may name.

@@ -18,7 +18,7 @@ use crate::named_files::named_files;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
-use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Variation};
+use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, Variation};
 
 impl RunJob {
     /// The job of a scene.
@@ -29,10 +29,16 @@ impl RunJob {
         let scene = &loaded.scene;
         let params = scene.solver.params;
         let needs_solver = || scene.document.error("solver", "missing; give a step");
+        // Where balls move, the system itself starts in equilibrium.
+        let start = if loaded.has_moving_balls() {
+            Start::AsGiven
+        } else {
+            scene.solver.start
+        };
         let in_time = |end_s: f64, windows| {
             Ok::<InTime, InputError>(InTime {
                 params: params.ok_or_else(needs_solver)?,
-                start: scene.solver.start,
+                start,
                 end_s,
                 interval_s: scene.output.interval_s.unwrap_or(end_s),
                 windows,

@@ -156,7 +156,7 @@ pub struct RunJob {
     pub system: System,
     /// What is recorded.
     pub selection: Selection,
-    /// What is judged after a run in time.
+    /// What is judged after the run.
     pub ratings: Vec<RatingJob>,
     /// What is computed.
     pub kind: RunKind,

@@ -50,8 +50,8 @@ pub use mesh_misalignment::MeshAxes;
 pub use mesh_passing::MeshPassing;
 pub use mode_shares::{is_overdamped, largest_shares, shares_in_words};
 pub use part_folder::PartFolder;
-pub(crate) use recorder::element_column;
 pub use recorder::{Course, Moment, Recorder, Selection};
+pub(crate) use recorder::{body_column, element_column};
 pub use result::{EigenResult, SYSTEM_RESULT_FORMAT, SweepResult, SystemResult};
 pub use result_kind::ResultKind;
 pub use run_record::RunRecord;
@@ -76,7 +76,10 @@ pub fn run(job: RunJob, options: &RunOptions<'_>) -> Result<Outcome, SystemRunEr
             let recorded = (&selection, &ratings[..]);
             in_time::run_in_time(head, system, recorded, (name, run), options)
         }
-        RunKind::Static(job) => static_series::run_static(head, &system, &selection, job, options),
+        RunKind::Static(job) => {
+            let recorded = (&selection, &ratings[..]);
+            static_series::run_static(head, &system, recorded, job, options)
+        }
         RunKind::Eigen(job) => eigen_run::run_eigen(head, job, options),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use gearmesh_bearings::LoadHistory;
 use gearmesh_model::{Column, FileError, RowLog};
 use gearmesh_rating::TurningPoints;
 
@@ -30,6 +31,7 @@ struct Collected<'a> {
     span_rad: Option<[f64; 2]>,
     points: TurningPoints,
     largest: f64,
+    history: Option<LoadHistory>,
     problem: Option<String>,
 }
 
@@ -47,6 +49,10 @@ impl<'a> Collected<'a> {
             span_rad: None,
             points: TurningPoints::default(),
             largest: f64::NEG_INFINITY,
+            history: match &job.rule {
+                RatingRule::BearingLife(life) => Some(LoadHistory::new(&life.bearing)),
+                _ => None,
+            },
             problem: (!complete).then(missing),
         }
     }
@@ -63,6 +69,12 @@ impl<'a> Collected<'a> {
         }
         let values = self.places.iter().map(|&place| row[place]);
         match &self.job.rule {
+            RatingRule::BearingLife(life) => {
+                if let Some(history) = &mut self.history {
+                    // Rows are as far apart as the rows before.
+                    history.add(&life.sample(1.0, &values.collect::<Vec<f64>>()));
+                }
+            }
             RatingRule::Nominal(_) => self.largest = values.fold(self.largest, largest),
             RatingRule::Fatigue(fatigue) => {
                 let stress = fatigue.modulus_pa * MICRO * values.sum::<f64>();
@@ -76,6 +88,10 @@ impl<'a> Collected<'a> {
     fn result(self) -> RatingResult {
         let figures = match (&self.job.rule, self.problem) {
             (_, Some(problem)) => Err(problem),
+            (RatingRule::BearingLife(life), None) => match &self.history {
+                Some(history) => life.figures(history).map_err(|e| e.to_string()),
+                None => Err("there is no row".to_owned()),
+            },
             (RatingRule::Nominal(job), None) => {
                 nominal_figures(job, self.largest).map_err(|e| e.to_string())
             }
@@ -108,7 +124,7 @@ fn largest(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Ratings of a run whose rows are kept, the time in their first column. What a rating cannot judge is its problem, not
+/// Ratings of a run whose rows are kept, the time, or the number of the equilibrium, in their first column. What a rating cannot judge is its problem, not
 /// that of the run.
 pub(super) fn of_rows(
     jobs: &[RatingJob],

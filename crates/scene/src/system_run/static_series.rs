@@ -9,15 +9,17 @@ use std::sync::atomic::Ordering;
 use super::error::SystemRunError;
 use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
 use super::part_folder::PartFolder;
+use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
 use super::result_kind::ResultKind;
 use super::result_record::Contents;
+use crate::system::RatingJob;
 
 /// Runs a series. It is not resumed: an unfinished one begins anew.
 pub(super) fn run_static(
     mut head: RunHead,
     nominal: &System,
-    selection: &Selection,
+    (selection, ratings): (&Selection, &[RatingJob]),
     job: &StaticJob,
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
@@ -91,8 +93,9 @@ pub(super) fn run_static(
             return Ok(Outcome::Stopped);
         }
     }
-    let rows = ("equilibrium", &columns[..], part.log());
     let mut contents = Contents::of_run(ResultKind::Static, head);
+    contents.ratings = rating::of_rows(ratings, &columns, part.log())?;
+    let rows = ("equilibrium", &columns[..], part.log());
     contents.write_with_rows(options.output, rows)?;
     part.finish()?;
     Ok(Outcome::Finished)

@@ -1,6 +1,7 @@
 //! Ratings of scenes of both kinds, and how much of its periods a pair's run has seen.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod bearing_lives;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../made_up_gears/mod.rs"]

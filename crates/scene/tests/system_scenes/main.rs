@@ -1,8 +1,11 @@
 //! Multibody scene files become the systems that they describe.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
+mod bearing_kinds;
+mod bevel_pairs;
 #[path = "../common/mod.rs"]
 mod common;
+mod dynamic_bearings;
 mod epicyclic;
 mod flanks_of_scenes;
 mod gearbox;
@@ -12,6 +15,7 @@ mod made_up_gears;
 mod pair_stiffness;
 mod pairs_at_rest;
 mod provenance;
+mod rig_of_seed_002;
 mod rolling_bearings;
 mod shafts;
 mod shipped;

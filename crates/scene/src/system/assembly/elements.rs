@@ -10,7 +10,8 @@ use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use nalgebra::{Matrix6, Vector3};
 
-use super::bearings;
+use super::bearings::cages::PlacedCage;
+use super::bearings::{self, tangent::Tangent};
 use super::bodies::{Bodies, Frame, direction, vector};
 use super::parts::Parts;
 use super::stiffness::refuse_rigid;
@@ -22,11 +23,24 @@ use crate::system::tables::load::{AxesWord, LoadTable};
 /// N/mm in N/m, N·s/mm in N·s/m.
 pub(super) const PER_MM: f64 = 1e3;
 
-/// Adds all of them; loads are multiplied by `load_factor`.
+/// How the elements are to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Manner<'a> {
+    /// Loads are multiplied by it.
+    pub load_factor: f64,
+    /// Whether balls that move are taken in equilibrium.
+    pub at_rest: bool,
+    /// Cages that stand among the bodies.
+    pub cages: &'a [PlacedCage],
+    /// Bearings of which a tangent is taken, where it is known already.
+    pub tangents: &'a [Tangent],
+}
+
+/// Adds all of them.
 pub(super) fn add(
     tables: &SystemTables,
     (document, folder): (&InputDocument, &Path),
-    load_factor: f64,
+    manner: Manner<'_>,
     bodies: &Bodies,
     builder: &mut SystemBuilder,
     parts: &mut Parts,
@@ -35,13 +49,22 @@ pub(super) fn add(
         let key = format!("load.{i}");
         let keys = TableKeys::new(document, &key);
         let body = bodies.find_body(&keys, "body", &table.body)?;
-        builder.element(load(table, &keys, folder, load_factor, bodies, body)?);
+        builder.element(load(
+            table,
+            &keys,
+            folder,
+            manner.load_factor,
+            bodies,
+            body,
+        )?);
         parts.element_on(&table.name(), "load", bodies, body);
     }
     let mut connections = Connections {
         document,
         folder,
         bodies,
+        manner,
+        gravity_m_per_s2: tables.gravity_m_per_s2,
         builder,
         parts,
     };
@@ -87,12 +110,15 @@ pub(super) fn add(
 
 /// Where elements between two bodies are added.
 pub(super) struct Connections<'a> {
-    document: &'a InputDocument,
+    pub document: &'a InputDocument,
     /// Where the files that the scene names are looked for.
     pub folder: &'a Path,
     pub bodies: &'a Bodies,
+    pub manner: Manner<'a>,
+    /// Acceleration of weight, where the scene has any.
+    pub gravity_m_per_s2: Option<[f64; 3]>,
     builder: &'a mut SystemBuilder,
-    parts: &'a mut Parts,
+    pub parts: &'a mut Parts,
 }
 
 impl Connections<'_> {
@@ -210,7 +236,7 @@ fn spring(
     Ok((spring, pair))
 }
 
-fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {
+pub(super) fn bushing(table: &BushingTable, keys: &TableKeys<'_>) -> Result<Bushing, InputError> {
     let along = table.stiffness_N_per_mm.unwrap_or_default();
     let about = table.stiffness_Nm_per_rad.unwrap_or_default();
     let matrix = table.stiffness_matrix_SI.unwrap_or_default();

@@ -8,15 +8,19 @@
 //! | gear meshes: do the gears fit, models, effects | `gear_mesh.rs`, `mesh_model.rs`, `mesh_stiffness.rs`, `pair_stiffness.rs`, `mesh_effects.rs`; of bevel gears `bevel_mesh.rs` |
 //! | speeds that nobody states, on axes that may be carried round | `start_speeds.rs`, `carriers.rs` |
 //! | angles that nobody states | `start.rs` |
+//! | a start in equilibrium where balls move | `start_at_rest.rs` |
+//! | bearings that are linear about an operating point | `operating_point.rs` |
 //! | how often teeth come into mesh, and whether steps follow it | `mesh_frequency.rs` |
 //! | speeds that contradict a joint, stiffnesses that no run resolves | `stated_speeds.rs`, `stiffness.rs` |
-//! | joints and motions, loads and springs | `joints.rs`, `elements.rs` |
+//! | joints and motions, loads and springs, bearings | `joints.rs`, `elements.rs`, `bearings/` |
+//! | whether the tables fit each other | `consistency.rs` |
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
 mod bevel_mesh;
 mod bodies;
 mod carriers;
+mod consistency;
 mod elements;
 mod gear_mesh;
 mod gears;
@@ -26,15 +30,19 @@ mod mesh_effects;
 mod mesh_frequency;
 mod mesh_model;
 mod mesh_stiffness;
+mod operating_point;
 mod pair_stiffness;
 mod parts;
 mod ratings;
 mod shafts;
 mod start;
+mod start_at_rest;
 mod start_speeds;
 mod stated_speeds;
 mod stiffness;
 
+pub(super) use self::bearings::cages::PlacedCage;
+pub(super) use self::bearings::tangent::TangentSeat;
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
 use std::sync::Arc;
@@ -43,18 +51,23 @@ use gearmesh_dynamics::{Motion, System, SystemBuilder};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
 
+use self::bearings::tangent::Tangent;
+use self::bearings::{cages, housing, rigid};
 use self::bodies::{Bodies, PlacedBody};
+use self::elements::Manner;
 use self::gear_mesh::PreparedMesh;
 use self::gears::{Gear, GearFiles};
 use self::joints::PlacedMotion;
 use self::parts::Parts;
 use self::shafts::PlacedShaft;
+use self::start_at_rest::start_in_equilibrium;
 use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
-use super::tables::body::Flexibility;
 use super::tables::mesh_model::MeshKind;
+use super::tables::run::Run;
+use super::tables::solver::Start;
 
 /// A scene whose gears have been read. Systems can be built from it again and again.
 #[derive(Debug, Clone)]
@@ -130,6 +143,30 @@ impl LoadedSystem {
     /// # Errors
     /// As [`LoadedSystem::build`].
     pub fn build_varied(&self, variation: &Variation) -> Result<BuiltSystem, InputError> {
+        let at_rest = matches!(self.scene.run, Run::Static { .. } | Run::Eigen { .. });
+        let (tangents, notes) = operating_point::tangents(self, variation)?;
+        let mut built = self.assemble(variation, at_rest, &tangents)?;
+        built.notes.extend(notes);
+        if !at_rest && self.scene.solver.start == Start::Equilibrium && self.has_moving_balls() {
+            let resting = self.assemble(variation, true, &tangents)?;
+            start_in_equilibrium(&mut built, resting).map_err(|e| self.scene.complaint(&e))?;
+        }
+        Ok(built)
+    }
+
+    /// Whether the scene has bearings whose balls move.
+    pub(crate) fn has_moving_balls(&self) -> bool {
+        bearings::any_dynamic(&self.scene.tables.bearing)
+    }
+
+    /// The system; `at_rest`: with balls in equilibrium, where others would move. `tangents`: of the bearings that are linear about an operating
+    /// point, as far as known; others are taken with balls in equilibrium.
+    fn assemble(
+        &self,
+        variation: &Variation,
+        at_rest: bool,
+        tangents: &[Tangent],
+    ) -> Result<BuiltSystem, InputError> {
         let (tables, document) = (&self.scene.tables, &self.scene.document);
         let files = (document, self.scene.folder.as_path());
         let mut parts = Parts::default();
@@ -182,6 +219,12 @@ impl LoadedSystem {
         start::settle_phases(&mut bodies, &meshes, document, &mut parts.notes)?;
         // Gears have been turned: frames along their axes are the same, others follow.
         let joints = joints::place(&tables.joint, document, &bodies)?;
+        housing::place(&tables.bearing, document, &mut bodies)?;
+        let cages = if at_rest {
+            Vec::new()
+        } else {
+            cages::place(&tables.bearing, files, &mut bodies)?
+        };
 
         let mut builder = System::builder();
         for (i, placed) in bodies.list.iter().enumerate() {
@@ -196,6 +239,7 @@ impl LoadedSystem {
             bodies.ids.push(id);
         }
         joints::add_joints(&joints, document, &bodies, &mut builder, &mut parts)?;
+        rigid::add(&tables.bearing, document, &bodies, &mut builder, &mut parts)?;
         for shaft in &shafts {
             shaft.connect(document, &bodies, &mut builder, &mut parts)?;
         }
@@ -210,7 +254,12 @@ impl LoadedSystem {
         elements::add(
             tables,
             files,
-            variation.load_factor,
+            Manner {
+                load_factor: variation.load_factor,
+                at_rest,
+                cages: &cages,
+                tangents,
+            },
             &bodies,
             &mut builder,
             &mut parts,
@@ -253,6 +302,8 @@ impl LoadedSystem {
             ratings,
             notes: parts.notes,
             effects: parts.effects,
+            cages,
+            tangents: parts.tangents,
         })
     }
 
@@ -266,62 +317,6 @@ impl LoadedSystem {
                 .push(PlacedBody::new(table, &keys, gear.clone())?);
         }
         Ok(bodies)
-    }
-
-    /// Names of bodies, of joints with motions, and of force elements must differ among each other.
-    fn refuse_repeated_names(&self) -> Result<(), InputError> {
-        let [bodies, joints, elements] = self.scene.named_tables();
-        for (what, names) in [
-            ("body or shaft", bodies),
-            ("joint or motion", joints),
-            ("load, spring, bearing or mesh", elements),
-        ] {
-            for (i, (key, name)) in names.iter().enumerate() {
-                let keys = TableKeys::new(&self.scene.document, key);
-                if name.is_empty() {
-                    return Err(keys.error("name", "is empty"));
-                }
-                if names[..i].iter().any(|(_, earlier)| earlier == name) {
-                    return Err(keys.error(
-                        "name",
-                        format!("`{name}` is the name of another {what}; give each its own"),
-                    ));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A stated flexibility must be one that the meshes of the body can feel.
-    fn check_flexibility(
-        &self,
-        bodies: &Bodies,
-        meshes: &[PreparedMesh],
-    ) -> Result<(), InputError> {
-        for (i, table) in self.scene.tables.body.iter().enumerate() {
-            let Some(flexibility) = table.flexibility else {
-                continue;
-            };
-            let key = format!("body.{i}");
-            let keys = TableKeys::new(&self.scene.document, &key);
-            let hybrid = meshes
-                .iter()
-                .find(|mesh| mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&i));
-            let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
-                (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
-                (Flexibility::Rigid, Some(mesh), _) => format!(
-                    "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
-                    mesh.name
-                ),
-                (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
-                    "is \"{}\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"",
-                    flexibility.name()
-                ),
-                _ => continue,
-            };
-            return Err(keys.error("flexibility", problem));
-        }
-        Ok(())
     }
 
     fn gauges(
@@ -420,41 +415,6 @@ impl LoadedSystem {
                 gravity[0], gravity[1], gravity[2]
             )),
         );
-        Ok(())
-    }
-
-    /// Names in `[output]` must exist.
-    fn check_output(&self, bodies: &Bodies, parts: &Parts) -> Result<(), InputError> {
-        let keys = TableKeys::new(&self.scene.document, "output");
-        let output = &self.scene.output;
-        let body_names: Vec<&str> = bodies
-            .list
-            .iter()
-            .map(|placed| placed.body.name.as_str())
-            .collect();
-        let joint_names: Vec<&str> = parts
-            .joints
-            .iter()
-            .map(|joint| joint.name.as_str())
-            .collect();
-        let element_names: Vec<&str> = parts
-            .elements
-            .iter()
-            .map(|element| element.name.as_str())
-            .collect();
-        for (key, what, stated, known) in [
-            ("bodies", "body", &output.bodies, body_names),
-            ("joints", "joint or motion", &output.joints, joint_names),
-            ("elements", "force element", &output.elements, element_names),
-        ] {
-            for (i, name) in stated.iter().flatten().enumerate() {
-                if !known.contains(&name.as_str()) {
-                    return Err(
-                        keys.error(&format!("{key}.{i}"), names::unknown(what, name, &known))
-                    );
-                }
-            }
-        }
         Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! Names and kinds of what has been built, in the order of the system.
 
+use super::bearings::tangent::TangentSeat;
 use super::bodies::Bodies;
 use crate::system::built::{BuiltPart, Effect};
 
@@ -10,6 +11,8 @@ pub(super) struct Parts {
     pub elements: Vec<BuiltPart>,
     pub notes: Vec<String>,
     pub effects: Vec<Effect>,
+    /// Bearings whose tangent is taken.
+    pub tangents: Vec<TangentSeat>,
 }
 
 impl Parts {

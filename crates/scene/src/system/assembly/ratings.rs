@@ -1,18 +1,26 @@
 //! `[[rating]]` to what is made of which columns of the result.
 
+use gearmesh_bearings::QuasiStaticBearing;
+use gearmesh_bearings::life::Lubrication;
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_rating::{LoadPoint, NominalRating};
+use nalgebra::Vector3;
 
+use super::bearings::rolling_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
-use crate::rating::{FatigueJob, FatigueTable, RatingTable, nominal_error, nominal_method};
+use crate::rating::{
+    BearingLifeJob, BearingLifeTable, FatigueJob, FatigueTable, RatingTable, nominal_error,
+    nominal_method,
+};
 use crate::system::built::{BuiltGauge, RatingJob, RatingRule};
 use crate::system::names;
 use crate::system::scene::SystemScene;
+use crate::system::tables::bearing::BearingModel;
 use crate::system::tables::mesh_model::MeshKind;
 use crate::system::tables::run::Run;
-use crate::system_run::element_column;
+use crate::system_run::{body_column, element_column};
 
 /// All ratings of a scene.
 pub(super) fn build(
@@ -28,6 +36,7 @@ pub(super) fn build(
         table.refuse_keys_of_pairs(&keys)?;
         let from_s = start(scene, table, &keys)?;
         let job = match table {
+            RatingTable::BearingLife(table) => bearing_life(scene, table, from_s, bodies, &keys)?,
             RatingTable::Fatigue(table) => fatigue(scene, table, from_s, (bodies, gauges), &keys)?,
             RatingTable::Nominal(table) => {
                 let load = table.load_point();
@@ -63,6 +72,13 @@ fn start(
     let (run, from_s) = (scene.run.kind().name(), rating.from_s());
     let end_s = match (&scene.run, rating) {
         (Run::Transient { end_s }, _) => *end_s,
+        (Run::Static { .. }, RatingTable::BearingLife(_)) => {
+            if from_s.is_some() {
+                let problem = "is not used by run.kind = \"static\", which has no time; remove it";
+                return Err(keys.error("from_s", problem));
+            }
+            return Ok(0.0);
+        }
         (Run::SpeedSweep(_), RatingTable::Nominal(_)) => {
             if from_s.is_some() {
                 let problem =
@@ -71,8 +87,8 @@ fn start(
             }
             return Ok(0.0);
         }
-        (Run::SpeedSweep(_), RatingTable::Fatigue(_)) => {
-            let problem = "\"fatigue\" counts the rows of a run.kind = \"transient\"; a speed-sweep keeps none";
+        (Run::SpeedSweep(_), RatingTable::Fatigue(_) | RatingTable::BearingLife(_)) => {
+            let problem = "counts the rows of a run.kind = \"transient\"; a speed-sweep keeps none";
             return Err(keys.error("kind", problem));
         }
         _ => {
@@ -149,6 +165,117 @@ fn fatigue(
         columns,
         turn_column: Some(format!("bodies/{}/turn_rad", gauge.body)),
         rule: RatingRule::Fatigue(FatigueJob::new(rule, material, &scene.folder, keys)?),
+    })
+}
+
+fn bearing_life(
+    scene: &SystemScene,
+    table: &BearingLifeTable,
+    from_s: f64,
+    bodies: &Bodies,
+    keys: &TableKeys<'_>,
+) -> Result<RatingJob, InputError> {
+    let lubrication = match (table.viscosity_mm2_per_s, table.contamination) {
+        (None, None) => None,
+        (viscosity, contamination) => {
+            let viscosity = keys.needed("viscosity_mm2_per_s", viscosity, "contamination")?;
+            let allowed = "more than 0";
+            keys.require("viscosity_mm2_per_s", viscosity, viscosity > 0.0, allowed)?;
+            let clean = keys.needed("contamination", contamination, "viscosity_mm2_per_s")?;
+            let allowed = "0 (heavily contaminated) to 1 (clean)";
+            keys.require(
+                "contamination",
+                clean,
+                (0.0..=1.0).contains(&clean),
+                allowed,
+            )?;
+            Some(Lubrication {
+                viscosity_mm2_per_s: viscosity,
+                contamination: clean,
+            })
+        }
+    };
+    let tables = &scene.tables.bearing;
+    let bearing = tables.iter().find(|one| one.name == table.bearing);
+    let bearing = bearing.ok_or_else(|| {
+        let known: Vec<&str> = tables.iter().map(|one| &*one.name).collect();
+        keys.error("bearing", names::unknown("bearing", &table.bearing, &known))
+    })?;
+    if matches!(bearing.model, BearingModel::Rigid(_)) {
+        let problem = format!(
+            "`{}` is a joint and has no load in its rows; take another kind of model",
+            table.bearing
+        );
+        return Err(keys.error("bearing", problem));
+    }
+    written(scene, &table.bearing, keys)?;
+    let definition = match (bearing.model.file(), &table.file) {
+        (Some(_), Some(_)) => {
+            let problem = "is given in the bearing's model, too; remove it here";
+            return Err(keys.error("file", problem));
+        }
+        (Some(file), None) => rolling_bearing::definition("bearing", file, &scene.folder, keys)?,
+        (None, file) => {
+            let file = keys.needed("file", file.as_ref(), "a bearing whose model names no file")?;
+            rolling_bearing::definition("file", file, &scene.folder, keys)?
+        }
+    };
+    let rolling = QuasiStaticBearing::new(&definition).map_err(|e| keys.error("bearing", e))?;
+    let ends = bodies.find_pair(keys, bearing.body_1.as_deref(), &bearing.body_2)?;
+    let frame = bodies.stated_frame(keys, ends[1], bearing.at_mm, bearing.axis)?;
+    let axis = frame.axes * Vector3::z();
+    // Inner ring first.
+    let rings = [ends[1], ends[0]];
+    let spin = |ring: Option<usize>| {
+        ring.map_or(0.0, |body| {
+            let motion = bodies.list[body].motion();
+            axis.dot(&(motion.rotation * motion.angular_velocity_rad_per_s))
+        })
+    };
+    let channels = ["force_shaft_x_N", "force_shaft_y_N", "force_shaft_z_N"]
+        .into_iter()
+        .chain(["moment_shaft_x_Nm", "moment_shaft_y_Nm"]);
+    let mut columns: Vec<String> = channels
+        .map(|channel| element_column(&bearing.name, channel))
+        .collect();
+    let in_time = matches!(scene.run, Run::Transient { .. });
+    let mut senses = [1.0; 2];
+    if in_time {
+        for (sense, body) in senses.iter_mut().zip(rings) {
+            let Some(body) = body else { continue };
+            let along = bodies.list[body].axis().dot(&axis);
+            let name = bodies.name(Some(body));
+            if along.abs() < 1.0 - 1e-9 {
+                let problem = format!(
+                    "the bearing's axis is not that of `{name}`'s own z, whose speed the rows have; turn the body, or its bearing"
+                );
+                return Err(keys.error("bearing", problem));
+            }
+            *sense = along.signum();
+            let chosen = scene.output.bodies.as_ref();
+            if !chosen.is_none_or(|names| names.iter().any(|one| one == name)) {
+                let problem = format!(
+                    "it reads the speed of `{name}`, which is not among output.bodies; add it there"
+                );
+                return Err(keys.error("", problem));
+            }
+            columns.push(body_column(name, "angular_velocity_z_rad_per_s"));
+        }
+    }
+    let job = BearingLifeJob {
+        bearing: rolling,
+        definition,
+        lubrication,
+        speeds_rad_per_s: rings.map(spin),
+        senses: in_time.then_some(senses),
+    };
+    Ok(RatingJob {
+        name: format!("bearing {}", bearing.name),
+        method: job.method(),
+        from_s,
+        columns,
+        turn_column: None,
+        rule: RatingRule::BearingLife(Box::new(job)),
     })
 }
 

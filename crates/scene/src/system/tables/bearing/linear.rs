@@ -3,26 +3,128 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Keys of `kind = "linear"`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+use super::ControlWord;
+
+/// Keys of `kind = "linear"`: the stiffness is stated by its diagonal (`radial_stiffness_N_per_mm` …), by a matrix, or taken from a bearing file
+/// (`tangent_of`).
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
 pub struct LinearBearingTable {
     /// Stiffness across the axis.
-    pub radial_stiffness_N_per_mm: f64,
+    pub radial_stiffness_N_per_mm: Option<f64>,
     /// Stiffness along the axis; none where not given.
-    #[serde(default)]
-    pub axial_stiffness_N_per_mm: f64,
+    pub axial_stiffness_N_per_mm: Option<f64>,
     /// Stiffness against tilting; none where not given.
-    #[serde(default)]
-    pub tilt_stiffness_Nm_per_rad: f64,
-    /// Damping across the axis; none where not given.
-    #[serde(default)]
-    pub radial_damping_N_s_per_mm: f64,
-    /// Damping along the axis; none where not given.
-    #[serde(default)]
-    pub axial_damping_N_s_per_mm: f64,
-    /// Damping of tilting; none where not given.
-    #[serde(default)]
-    pub tilt_damping_Nm_s_per_rad: f64,
+    pub tilt_stiffness_Nm_per_rad: Option<f64>,
+    /// Which way the axial stiffness bears: "both" (the default), "positive" (forces on the shaft along the axis) or "negative" (against it). The
+    /// axial damping acts both ways.
+    pub axial_support: Option<AxialSupportWord>,
+    /// Whole stiffness matrix in N/m, N/rad and N·m/rad instead of the diagonal: 5×5 (x, y, z, tilt about x, about y), or 6×6 with zeros for the
+    /// rotation about the axis, which is free.
+    pub stiffness_matrix_SI: Option<Vec<Vec<f64>>>,
+    /// Damping matrix in N·s/m, N·s/rad and N·m·s/rad, with the stiffness matrix and of its size.
+    pub damping_matrix_SI: Option<Vec<Vec<f64>>>,
+    /// Bearing file (docs/bearings.md), from the scene's folder: stiffness and load are those of its balls or rollers in equilibrium under the loads and
+    /// speeds of the start.
+    pub tangent_of: Option<String>,
+    /// With `tangent_of`: how balls roll at speed, "outer-race" (the default) or "least-spin".
+    pub control: Option<ControlWord>,
+    /// Damping across the axis; none where not given. Not with a matrix.
+    pub radial_damping_N_s_per_mm: Option<f64>,
+    /// Damping along the axis; none where not given. Not with a matrix.
+    pub axial_damping_N_s_per_mm: Option<f64>,
+    /// Damping of tilting; none where not given. Not with a matrix.
+    pub tilt_damping_Nm_s_per_rad: Option<f64>,
+}
+
+/// `axial_support`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AxialSupportWord {
+    /// Both ways.
+    #[default]
+    Both,
+    /// Forces on the shaft along the axis.
+    Positive,
+    /// Forces on the shaft against the axis.
+    Negative,
+}
+
+/// Where the stiffness comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StiffnessSource {
+    /// Its diagonal is stated.
+    Diagonal,
+    /// Its matrix is stated.
+    Matrix,
+    /// The tangent of a bearing file.
+    Tangent,
+}
+
+impl LinearBearingTable {
+    /// Where the stiffness comes from, and which key says so.
+    #[must_use]
+    pub fn source(&self) -> (StiffnessSource, &'static str) {
+        if self.tangent_of.is_some() {
+            (StiffnessSource::Tangent, "tangent_of")
+        } else if self.stiffness_matrix_SI.is_some() {
+            (StiffnessSource::Matrix, "stiffness_matrix_SI")
+        } else {
+            (StiffnessSource::Diagonal, "radial_stiffness_N_per_mm")
+        }
+    }
+
+    /// Keys that are given, each with the sources it goes with.
+    pub fn given(&self) -> impl Iterator<Item = (&'static str, &'static [StiffnessSource])> {
+        use StiffnessSource::{Diagonal, Matrix, Tangent};
+        let all: [(&'static str, bool, &'static [StiffnessSource]); 11] = [
+            (
+                "radial_stiffness_N_per_mm",
+                self.radial_stiffness_N_per_mm.is_some(),
+                &[Diagonal],
+            ),
+            (
+                "axial_stiffness_N_per_mm",
+                self.axial_stiffness_N_per_mm.is_some(),
+                &[Diagonal],
+            ),
+            (
+                "tilt_stiffness_Nm_per_rad",
+                self.tilt_stiffness_Nm_per_rad.is_some(),
+                &[Diagonal],
+            ),
+            ("axial_support", self.axial_support.is_some(), &[Diagonal]),
+            (
+                "stiffness_matrix_SI",
+                self.stiffness_matrix_SI.is_some(),
+                &[Matrix],
+            ),
+            (
+                "damping_matrix_SI",
+                self.damping_matrix_SI.is_some(),
+                &[Matrix],
+            ),
+            ("tangent_of", self.tangent_of.is_some(), &[Tangent]),
+            ("control", self.control.is_some(), &[Tangent]),
+            (
+                "radial_damping_N_s_per_mm",
+                self.radial_damping_N_s_per_mm.is_some(),
+                &[Diagonal, Tangent],
+            ),
+            (
+                "axial_damping_N_s_per_mm",
+                self.axial_damping_N_s_per_mm.is_some(),
+                &[Diagonal, Tangent],
+            ),
+            (
+                "tilt_damping_Nm_s_per_rad",
+                self.tilt_damping_Nm_s_per_rad.is_some(),
+                &[Diagonal, Tangent],
+            ),
+        ];
+        all.into_iter()
+            .filter(|(_, given, _)| *given)
+            .map(|(key, _, sources)| (key, sources))
+    }
 }

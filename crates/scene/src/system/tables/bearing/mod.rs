@@ -1,10 +1,19 @@
 //! `[[bearing]]`: where it is, and its model; one file for each kind of model. Places and axes are those of the world at the start.
 
+mod dynamic;
+mod housing;
 mod linear;
 mod quasi_static;
+mod rigid;
 
-pub use linear::LinearBearingTable;
+pub use dynamic::{
+    CageTable, ContactTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable,
+    RingWord, TractionTable,
+};
+pub use housing::HousingTable;
+pub use linear::{AxialSupportWord, LinearBearingTable, StiffnessSource};
 pub use quasi_static::{ControlWord, QuasiStaticBearingTable};
+pub use rigid::{HeldWord, RigidBearingTable};
 
 use gearmesh_geometry::kinds;
 use schemars::JsonSchema;
@@ -24,19 +33,38 @@ pub struct BearingTable {
     pub at_mm: Option<[f64; 3]>,
     /// Axis; the z axis of `body_2` where not given.
     pub axis: Option<[f64; 3]>,
+    /// What lies between the outer ring and `body_1`; nothing where not given.
+    pub housing: Option<HousingTable>,
     /// Model.
     pub model: BearingModel,
 }
 
-/// `bearing.model`. A bearing without elasticity is a revolute joint.
+/// `bearing.model`, cheapest first.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
 #[schemars(tag = "kind", rename = "BearingModel")]
 pub enum BearingModel {
+    /// A joint.
+    Rigid(RigidBearingTable),
     /// Constant stiffness and damping, turns freely.
-    Linear(LinearBearingTable),
+    Linear(Box<LinearBearingTable>),
     /// Every ball or roller in equilibrium, from a bearing file.
     QuasiStatic(QuasiStaticBearingTable),
+    /// Every ball a body, from the bearing file of a ball bearing.
+    Dynamic(Box<DynamicBearingTable>),
 }
 
 kinds!(BearingModel, "kind");
+
+impl BearingModel {
+    /// The bearing file that it names.
+    #[must_use]
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Rigid(_) => None,
+            Self::Linear(table) => table.tangent_of.as_deref(),
+            Self::QuasiStatic(table) => Some(&table.file),
+            Self::Dynamic(table) => Some(&table.file),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Whether the tables of a scene fit each other: names, flexibilities, outputs.
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::TableKeys;
+
+use super::LoadedSystem;
+use super::bodies::Bodies;
+use super::gear_mesh::PreparedMesh;
+use super::parts::Parts;
+use crate::system::names;
+use crate::system::tables::body::Flexibility;
+use crate::system::tables::mesh_model::MeshKind;
+
+impl LoadedSystem {
+    /// Names of bodies, of joints with motions, and of force elements must differ among each other.
+    pub(super) fn refuse_repeated_names(&self) -> Result<(), InputError> {
+        let [bodies, joints, elements] = self.scene.named_tables();
+        for (what, names) in [
+            ("body or shaft", bodies),
+            ("joint or motion", joints),
+            ("load, spring, bearing or mesh", elements),
+        ] {
+            for (i, (key, name)) in names.iter().enumerate() {
+                let keys = TableKeys::new(&self.scene.document, key);
+                if name.is_empty() {
+                    return Err(keys.error("name", "is empty"));
+                }
+                if names[..i].iter().any(|(_, earlier)| earlier == name) {
+                    return Err(keys.error(
+                        "name",
+                        format!("`{name}` is the name of another {what}; give each its own"),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A stated flexibility must be one that the meshes of the body can feel.
+    pub(super) fn check_flexibility(
+        &self,
+        bodies: &Bodies,
+        meshes: &[PreparedMesh],
+    ) -> Result<(), InputError> {
+        for (i, table) in self.scene.tables.body.iter().enumerate() {
+            let Some(flexibility) = table.flexibility else {
+                continue;
+            };
+            let key = format!("body.{i}");
+            let keys = TableKeys::new(&self.scene.document, &key);
+            let hybrid = meshes
+                .iter()
+                .find(|mesh| mesh.model == MeshKind::Hybrid && mesh.bodies.contains(&i));
+            let problem = match (flexibility, hybrid, &bodies.list[i].gear) {
+                (_, _, None) => "is stated for a body that is no gear; remove it".to_string(),
+                (Flexibility::Rigid, Some(mesh), _) => format!(
+                    "is \"rigid\", but `{}` is a hybrid mesh, which takes the static patterns of both gears; write \"reduced\"",
+                    mesh.name
+                ),
+                (Flexibility::Reduced | Flexibility::Modal, None, _) => format!(
+                    "is \"{}\", which hybrid meshes can feel only, and the body is in none; write \"rigid\"",
+                    flexibility.name()
+                ),
+                _ => continue,
+            };
+            return Err(keys.error("flexibility", problem));
+        }
+        Ok(())
+    }
+
+    /// Names in `[output]` must exist.
+    pub(super) fn check_output(&self, bodies: &Bodies, parts: &Parts) -> Result<(), InputError> {
+        let keys = TableKeys::new(&self.scene.document, "output");
+        let output = &self.scene.output;
+        let body_names: Vec<&str> = bodies
+            .list
+            .iter()
+            .map(|placed| placed.body.name.as_str())
+            .collect();
+        let joint_names: Vec<&str> = parts
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str())
+            .collect();
+        let element_names: Vec<&str> = parts
+            .elements
+            .iter()
+            .map(|element| element.name.as_str())
+            .collect();
+        for (key, what, stated, known) in [
+            ("bodies", "body", &output.bodies, body_names),
+            ("joints", "joint or motion", &output.joints, joint_names),
+            ("elements", "force element", &output.elements, element_names),
+        ] {
+            for (i, name) in stated.iter().flatten().enumerate() {
+                if !known.contains(&name.as_str()) {
+                    return Err(
+                        keys.error(&format!("{key}.{i}"), names::unknown(what, name, &known))
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+}
