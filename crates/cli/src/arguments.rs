@@ -10,7 +10,10 @@ pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use bevel::{BevelArguments, TcaArguments};
 pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
 pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
-pub use signal::{AbscissaArguments, SeriesArguments, SignalAnalysis, SignalArguments, WindowKind};
+pub use signal::{
+    AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
+    WindowKind,
+};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;

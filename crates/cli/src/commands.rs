@@ -2,6 +2,7 @@
 
 pub mod bearing;
 pub mod bearing_frequencies;
+mod bearing_page;
 pub mod bevel;
 pub mod check;
 pub mod compare;

@@ -73,8 +73,8 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             None => Default::default(),
         },
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
-        Command::Bearing(_)
-        | Command::BearingFrequencies(_)
+        Command::Bearing(a) => (vec![a.bearing.clone()], some(&a.report)),
+        Command::BearingFrequencies(_)
         | Command::Bevel(_)
         | Command::Tca(_)
         | Command::Compliance(_)

@@ -187,6 +187,52 @@ fn envelope_statistics_average_and_map_agree_with_the_tones() {
     assert_near(list(&map, "at rpm")[0], 600.0);
 }
 
+/// The envelope beats with 10 Hz, which is BPFO of this bearing at 167.07 rpm: the line is found there and nowhere else, and the page marks it.
+#[test]
+fn frequencies_of_a_bearing_are_marked_in_the_envelope() {
+    let (desk, file) = result();
+    let bearing = desk.file(
+        "bearing.toml",
+        "name = \"seed 002\"\nkind = \"deep-groove\"\nballs = 9\nball_diameter_mm = 7.94\npitch_diameter_mm = 39.32\n\
+         inner_conformity = 0.52\nouter_conformity = 0.52\n",
+    );
+    let page = desk.path("envelope.html");
+    let band = ["--low", "30", "--high", "110", "--peaks", "1"];
+    let lines = ["--bearing", argument(&bearing), "--speed-rpm", "167.07"];
+    let all = [&band[..], &lines[..], &["-o", argument(&page)]].concat();
+    let found = signal("envelope", &all);
+    assert!((figure(&found, "BPFO") - 10.0).abs() < 1e-3);
+    let strongest = list(&found, "amplitude")[0];
+    assert_eq!(figure(&found, "amplitude at BPFO"), strongest);
+    for other in ["amplitude at BSF", "amplitude at BPFI"] {
+        assert!(figure(&found, other) < 0.05 * strongest, "{other}");
+    }
+    let page = std::fs::read_to_string(&page).unwrap();
+    for part in ["Spectrum of the envelope", "2 BPFO", "FTF"] {
+        assert!(page.contains(part), "{part}");
+    }
+    let file = argument(file);
+    let ask = |further: &[&str]| {
+        let all = [&["signal", "envelope", file, ANGLE][..], &band[..], further].concat();
+        gearmesh(&all)
+    };
+    refused(
+        &ask(&lines[..2]),
+        2,
+        &["--bearing", "--speed-rpm", "--shaft"],
+    );
+    refused(
+        &ask(&[&lines[..3], &["0"]].concat()),
+        2,
+        &["--speed-rpm", "found 0"],
+    );
+    refused(
+        &ask(&[&lines[..], &["--shaft", "disc"]].concat()),
+        2,
+        &["--speed-rpm", "remove it"],
+    );
+}
+
 #[test]
 fn curves_go_to_a_table_or_a_page() {
     let (desk, _) = result();

@@ -20,12 +20,16 @@ mod field_picture;
 mod line_chart;
 mod markup;
 mod packed;
+mod path_chart;
+mod polar_chart;
 mod spectrum_chart;
 mod table;
 mod text;
 
 pub use field_picture::{FieldPicture, FieldValues, ViewWindow};
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
+pub use path_chart::PathChart;
+pub use polar_chart::PolarChart;
 pub use spectrum_chart::{SpectrumChart, SpectrumSeries};
 pub use table::{Align, KeyFigures, Table};
 pub use text::Text;
@@ -142,6 +146,10 @@ pub enum Block {
     SpectrumChart(SpectrumChart),
     /// A coloured plane mesh.
     FieldPicture(FieldPicture),
+    /// Bars round a circle.
+    PolarChart(PolarChart),
+    /// A path in a plane.
+    PathChart(PathChart),
 }
 
 macro_rules! block_from {
@@ -159,7 +167,9 @@ block_from!(
     Table,
     LineChart,
     SpectrumChart,
-    FieldPicture
+    FieldPicture,
+    PolarChart,
+    PathChart
 );
 
 /// A heading and what stands under it.
@@ -296,6 +306,8 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
         Block::Text(text) => text.render(html),
         Block::KeyFigures(figures) => figures.render(html),
         Block::Table(table) => table.render(html)?,
+        Block::PolarChart(chart) => chart.render(html)?,
+        Block::PathChart(chart) => chart.render(html)?,
         Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {
             render_figure(html, "spectrum", chart.title(), &chart.payload()?)?
@@ -378,6 +390,12 @@ mod tests {
             .push(KeyFigures::new().figure(evil, evil, evil))
             .push(Table::new(evil).column(evil, Align::Left).row([evil]))
             .push(chart(evil))
+            .push(
+                PolarChart::new(evil, evil)
+                    .angles_rad(vec![0.0])
+                    .series(evil, vec![1.0]),
+            )
+            .push(PathChart::new(evil, evil, vec![[1.0, 2.0]]))
             .push(spectrum)
             .push(picture);
         let html = Page::new(evil)

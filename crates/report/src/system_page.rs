@@ -5,11 +5,13 @@
 //! | key figures, a line a channel | `at_a_glance.rs` |
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
+//! | balls and cages of bearings whose balls move | `bearings.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
 
 mod at_a_glance;
+mod bearings;
 mod columns;
 mod eigen;
 mod equilibria;
@@ -31,6 +33,7 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
         ResultKind::Transient => {
             sections.push(transient::histories(r)?);
             sections.extend(transient::spectra(r, &passings)?);
+            sections.extend(bearings::sections(r)?);
             sections.push(transient::accuracy(r)?);
         }
         ResultKind::SpeedSweep => {

@@ -7,6 +7,7 @@ use gearmesh_dynamics::{BodyMotion, Marker};
 use nalgebra::{Matrix3, Vector3};
 
 use super::ball_on_body::{Ball, Carrier};
+use super::cage_motion::Seen;
 use super::dynamic_bearing::DynamicBearing;
 use super::effort::count;
 use super::groove_touch::{groove_touch, hertz_load};
@@ -33,6 +34,27 @@ impl<'a> Ring<'a> {
             middle: motion.position_m + motion.rotation * marker.position_m,
             axes,
             axis: axes.column(2).into_owned(),
+        }
+    }
+}
+
+impl Ring<'_> {
+    /// Angle of a place from the ring's middle, from its x towards y.
+    pub fn angle_rad(&self, arm: &Vector3<f64>) -> f64 {
+        let along = |axis: usize| arm.dot(&self.axes.column(axis));
+        along(1).atan2(along(0))
+    }
+
+    /// The ring as a frame in which others are seen.
+    pub fn seen(&self) -> Seen {
+        let motion = self.carrier.motion;
+        let spin = motion.rotation * motion.angular_velocity_rad_per_s;
+        let arm = self.middle - motion.position_m;
+        Seen {
+            middle: self.middle,
+            velocity: motion.velocity_m_per_s + spin.cross(&arm),
+            axes: self.axes,
+            spin_rad_per_s: spin.dot(&self.axis),
         }
     }
 }

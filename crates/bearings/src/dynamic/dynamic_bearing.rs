@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 use super::ball_on_body::{BallPlaces, Carrier};
 use super::ball_orientation::{BallOrientation, SAVED};
 use super::ball_start::start_of_row;
+use super::cage_motion::{CAGE_MOTION, cage_motion, cage_motion_channels};
 use super::contact_damping::StatedContact;
 use super::effort::BearingEffort;
 use super::pockets::Pockets;
@@ -41,7 +42,7 @@ pub struct DynamicEffects {
 /// A ball bearing: the outer ring on marker A, the inner ring on marker B, z along the axis of each.
 ///
 /// Channels: force and moment on the inner ring (axes of marker A, moment about marker B's place), mean orbital speed of the balls against the outer ring; with
-/// [`Self::with_ball_loads`] the load of every ball at both races; with cages the force on each by its pockets.
+/// [`Self::with_ball_loads`] the load of every ball at both races and its place; with cages the force on each by its pockets, where its middle is, and how fast it turns and whirls.
 pub struct DynamicBearing {
     name: String,
     pub(super) pair: MarkerPair,
@@ -113,7 +114,7 @@ impl DynamicBearing {
         found
     }
 
-    /// Adds the load of every ball to the channels: `ball_<number>_inner_N`, `ball_<number>_outer_N`, counted from one, row after row.
+    /// Adds the load of every ball to the channels: `ball_<number>_inner_N`, `ball_<number>_outer_N`, and its place `ball_<number>_angle_rad`, counted from one, row after row.
     #[must_use]
     pub fn with_ball_loads(mut self) -> Self {
         self.ball_loads = true;
@@ -320,10 +321,15 @@ impl ForceElement for DynamicBearing {
                 ["x", "y", "z"]
                     .map(|axis| Channel::new(format!("cage_{cage}_force_{axis}_N"), "N", what)),
             );
+            channels.extend(cage_motion_channels(cage));
         }
         if self.ball_loads {
             for ball in 1..=self.balls() {
                 channels.extend(race_loads("ball", ball));
+                let what = format!(
+                    "place of ball {ball} round the axis of the outer ring, from its x towards y"
+                );
+                channels.push(Channel::new(format!("ball_{ball}_angle_rad"), "rad", what));
             }
         }
         channels
@@ -336,7 +342,8 @@ impl ForceElement for DynamicBearing {
         let mut orbit = 0.0;
         let cages = self.effects.cages.len();
         let first_cage = RING_CHANNELS + 1;
-        let first_load = first_cage + 3 * cages;
+        let per_cage = 3 + CAGE_MOTION;
+        let first_load = first_cage + per_cage * cages;
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, _) = self.faults(view, row, ball_of_row, number);
@@ -356,15 +363,24 @@ impl ForceElement for DynamicBearing {
                 let which = (row, place, ball_of_row);
                 if let Some(found) = self.in_pocket(which, &cage, &ball, false) {
                     for axis in 0..3 {
-                        out[first_cage + 3 * place + axis] -= found.force[axis];
+                        out[first_cage + per_cage * place + axis] -= found.force[axis];
                     }
                 }
             }
             if self.ball_loads {
                 let load = |found: &Option<SurfaceForce>| found.map_or(0.0, |f| f.load_n);
-                out[first_load + 2 * number] = load(&inner);
-                out[first_load + 2 * number + 1] = load(&outer);
+                let angle = rings[0].angle_rad(&arm);
+                let of_ball = [load(&inner), load(&outer), angle];
+                out[first_load + 3 * number..][..3].copy_from_slice(&of_ball);
             }
+        }
+        for (place, (body, _)) in self.effects.cages.iter().enumerate() {
+            let found = cage_motion(
+                &rings[0].seen(),
+                rings[1].seen().spin_rad_per_s,
+                view.body(*body),
+            );
+            out[first_cage + per_cage * place + 3..][..CAGE_MOTION].copy_from_slice(&found);
         }
         let a = view.body(self.pair.a.body);
         let axes = a.rotation * self.pair.a.orientation().matrix();

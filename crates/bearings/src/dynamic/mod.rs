@@ -11,6 +11,7 @@
 //! | energy lost in a blow | [`Rebound`] | `rebound.rs` |
 //! | friction or film against slip | [`Traction`] | `traction.rs` |
 //! | pockets of a cage | [`Pockets`] | `pockets.rs` |
+//! | how a cage moves, for output | | `cage_motion.rs` |
 //! | land that guides a cage | [`LandGuide`] | `land_guide.rs` |
 //! | one ball at a motion: races, cage, faults | | `ball_contacts.rs` |
 //! | where balls begin | | `ball_start.rs` |
@@ -24,6 +25,7 @@ mod ball_contacts;
 mod ball_on_body;
 mod ball_orientation;
 mod ball_start;
+mod cage_motion;
 pub mod contact_damping;
 pub mod dynamic_bearing;
 pub mod effort;

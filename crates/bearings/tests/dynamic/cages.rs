@@ -78,6 +78,27 @@ fn the_cage_tends_to_its_kinematic_speed() {
     close(found.get("bearing.orbit_speed_rad_per_s"), kinematic, 1e-3);
 }
 
+/// A cage whose middle goes round the axis is seen where it is, with the speed at which it goes round.
+#[test]
+fn the_middle_of_the_cage_is_seen() {
+    let system = caged(pockets(), None, 1.0, PRESSED_M);
+    let mut state = system.start().clone();
+    let (place, whirl): (Vector3<f64>, f64) = (Vector3::new(3e-5, -4e-5, 1e-5), -70.0);
+    state.positions_m[1] = place;
+    state.velocity[6..9].copy_from_slice(&[-whirl * place.y, whirl * place.x, 0.3]);
+    let mut system = system;
+    let found = Channels::of(&mut system, &state);
+    close(found.get("bearing.cage_1_x_m"), 3e-5, 1e-12);
+    close(found.get("bearing.cage_1_y_m"), -4e-5, 1e-12);
+    close(found.get("bearing.cage_1_whirl_rad_per_s"), whirl, 1e-12);
+    close(found.get("bearing.cage_1_speed_ratio"), 0.398, 1e-12);
+    close(
+        found.get("bearing.ball_3_angle_rad"),
+        2.0 * std::f64::consts::TAU / 9.0,
+        1e-9,
+    );
+}
+
 /// Newton's law for the cage: what its pockets and its land do is its mass times its acceleration; and balls touch their pockets in this run.
 #[test]
 fn pocket_forces_sum_to_the_force_on_the_cage() {

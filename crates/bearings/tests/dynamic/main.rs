@@ -8,6 +8,7 @@ mod cages;
 mod common;
 mod equilibria;
 mod faults;
+mod hard_cases;
 mod quasi_static_element;
 mod rig;
 mod skidding;

@@ -181,3 +181,48 @@ fn balls_pass_at_the_outer_races_frequency() {
         }
     }
 }
+
+/// The outer ring turns, the inner one stands and is displaced: balls pass the load, which stands with it, at Z f_o (1 + γ)/2.
+#[test]
+fn balls_pass_under_a_turning_outer_ring() {
+    let outer_hz = 10.0;
+    let speed = std::f64::consts::TAU * outer_hz;
+    let mut builder = System::builder();
+    let housing = shaft(&mut builder, &RingPose::default(), speed);
+    hold(
+        &mut builder,
+        housing,
+        &RingPose::default(),
+        speed,
+        &Held::Fast,
+    );
+    let pair = MarkerPair {
+        a: Marker::at(housing, [0.0; 3]),
+        b: Marker::at(GROUND, [0.0, 2e-5, 0.0]),
+    };
+    builder.element(element(B6205, pair));
+    let gamma = 7.938 / 39.04;
+    let passing_hz = 9.0 * outer_hz * 0.5 * (1.0 + gamma);
+    let step_s = 1.0 / (200.0 * passing_hz);
+    let mut run = Simulation::new(builder.build().unwrap(), Params::fixed(step_s)).unwrap();
+    let mut force = Vec::new();
+    run.run(400.5 * step_s, |step| {
+        let found = Channels::of(step.system, step.to);
+        force.push(found.get("bearing.force_world_y_N"));
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let (least, most) = force
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), f| {
+            (a.min(*f), b.max(*f))
+        });
+    let ripple = most - least;
+    assert!(ripple > 1e-3 * most.abs(), "{ripple} N of {most} N");
+    for (now, later) in force.iter().zip(&force[200..]) {
+        assert!(
+            (now - later).abs() < 1e-2 * ripple,
+            "{now} {later}, {ripple}"
+        );
+    }
+}

@@ -63,6 +63,9 @@ pub struct BearingArguments {
     /// Contamination factor e_C of ISO 281: 1 clean, 0 dirty
     #[arg(long, requires = "viscosity_mm2_per_s")]
     pub contamination: Option<f64>,
+    /// Page with pictures: loads round the bearing, contact angles, pressures
+    #[arg(long, value_name = "PAGE.html")]
+    pub report: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

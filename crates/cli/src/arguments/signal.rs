@@ -71,6 +71,8 @@ pub enum SignalAnalysis {
         /// Strongest lines of the envelope's spectrum to print
         #[arg(long, default_value_t = 10)]
         peaks: usize,
+        #[command(flatten)]
+        bearing: BearingLineArguments,
     },
     /// Average over the turns of a shaft, or over mesh periods, and what it leaves
     Average {
@@ -148,6 +150,20 @@ pub struct AbscissaArguments {
     /// Window [default: hann in time; none over whole turns]
     #[arg(long)]
     pub window: Option<WindowKind>,
+}
+
+/// A bearing whose frequencies are marked.
+#[derive(Debug, Args)]
+pub struct BearingLineArguments {
+    /// Bearing file: mark its FTF, BSF, BPFO and BPFI in the envelope's spectrum
+    #[arg(long)]
+    pub bearing: Option<PathBuf>,
+    /// Speed of the bearing's inner ring against its outer one; not with --shaft
+    #[arg(long, requires = "bearing", allow_negative_numbers = true)]
+    pub speed_rpm: Option<f64>,
+    /// Contact angle of the bearing under load, instead of the nominal one
+    #[arg(long, requires = "bearing")]
+    pub contact_angle_deg: Option<f64>,
 }
 
 /// The shaft whose angle counts.

@@ -1,5 +1,6 @@
 //! `gearmesh bearing`: a rolling bearing under a load.
 
+use super::bearing_page;
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
 use crate::failure::Failure;
@@ -23,14 +24,14 @@ pub fn read(path: &Path) -> Result<BearingFromFile, Failure> {
 }
 
 /// Everything that is printed.
-struct Answer<'a> {
-    found: &'a BearingFromFile,
-    bearing: &'a QuasiStaticBearing,
-    pose: RingPose,
-    ring: RingLoad,
-    loads: RowLoads,
-    ratings: Ratings,
-    life: Life,
+pub(super) struct Answer<'a> {
+    pub found: &'a BearingFromFile,
+    pub bearing: &'a QuasiStaticBearing,
+    pub pose: RingPose,
+    pub ring: RingLoad,
+    pub loads: RowLoads,
+    pub ratings: Ratings,
+    pub life: Life,
 }
 
 /// Runs the command.
@@ -64,6 +65,9 @@ pub fn run(a: &BearingArguments) -> Result<(), Failure> {
         loads,
         life,
     };
+    if let Some(path) = &a.report {
+        bearing_page::write(&answer, a, path)?;
+    }
     if a.json {
         console::json(&answer.figures());
     } else {
@@ -156,12 +160,12 @@ fn lubrication(a: &BearingArguments) -> Result<Option<Lubrication>, Failure> {
 }
 
 impl Answer<'_> {
-    fn of_rollers(&self) -> bool {
+    pub fn of_rollers(&self) -> bool {
         matches!(self.found.definition.geometry, BearingGeometry::Roller(_))
     }
 
     /// Stiffness −∂load/∂(x, y, z, θx, θy), SI.
-    fn stiffness(&self) -> Vec<Vec<f64>> {
+    pub fn stiffness(&self) -> Vec<Vec<f64>> {
         (0..5)
             .map(|i| (0..5).map(|j| -self.ring.tangent[(i, j)]).collect())
             .collect()

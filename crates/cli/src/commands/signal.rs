@@ -1,18 +1,20 @@
 //! `gearmesh signal`: what a reader of vibration does with a column of a result.
 
+mod bearing_lines;
 mod outcome;
 mod series;
 
 use crate::arguments::{AbscissaArguments, SignalAnalysis, SignalArguments};
 use crate::console;
 use crate::failure::Failure;
+use bearing_lines::BearingLines;
 use gearmesh_model::Column;
 use gearmesh_signal::statistics::{crest_factor, kurtosis, mean, peak_to_peak, rms};
 use gearmesh_signal::{
     Band, OrderBlocks, Resampler, SidebandSettings, Spectrum, Window, amplitude_spectrum, envelope,
     sideband_table, synchronous_average,
 };
-use outcome::{Curve, Outcome};
+use outcome::{Curve, LineSpectrum, Outcome};
 use series::{Series, open};
 use std::f64::consts::TAU;
 
@@ -75,14 +77,16 @@ pub fn run(a: &SignalArguments) -> Result<(), Failure> {
             high,
             edge,
             peaks,
+            bearing,
         } => {
+            let lines = BearingLines::read(bearing, abscissa.shaft.is_some())?;
             let band = Band {
                 low: *low,
                 high: *high,
                 edge: edge.unwrap_or(0.1 * (high - low)),
             };
             let read = Series::over(series, abscissa)?;
-            band_envelope(&read, band, (abscissa, *peaks))?.finish(series)
+            band_envelope(&read, band, (abscissa, *peaks), lines.as_ref())?.finish(series)
         }
         SignalAnalysis::Average {
             series,
@@ -171,6 +175,7 @@ fn band_envelope(
     series: &Series,
     band: Band,
     (abscissa, peaks): (&AbscissaArguments, usize),
+    lines: Option<&BearingLines>,
 ) -> Result<Outcome, Failure> {
     let found = envelope(&series.values, series.rate, band).map_err(Failure::input)?;
     let mut outcome = Outcome::new(series, "envelope");
@@ -180,7 +185,12 @@ fn band_envelope(
     outcome.figure("peak to peak of the envelope", swing, &series.unit);
     let spiky = kurtosis(&found.filtered).unwrap_or(f64::NAN);
     outcome.figure("kurtosis of the band", spiky, "");
-    outcome.list_peaks(&spectrum(series, &found.envelope, abscissa)?, peaks);
+    let of_envelope = spectrum(series, &found.envelope, abscissa)?;
+    outcome.list_peaks(&of_envelope, peaks);
+    outcome.spectrum = Some(LineSpectrum::new(series, &of_envelope));
+    if let Some(lines) = lines {
+        lines.mark(&of_envelope, &mut outcome, &series.unit, series.place_unit);
+    }
     outcome.curves = vec![
         series.abscissa(),
         Curve::new("band", &series.unit, found.filtered),

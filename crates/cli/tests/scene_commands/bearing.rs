@@ -139,3 +139,70 @@ fn bad_loads_and_files_are_refused() {
     let answer = gearmesh(&["check", argument(&file)]);
     refused(&answer, 2, &["wrong.toml:3: balls", "found 99"]);
 }
+
+/// The page has the loads all round and the figures; the picture's largest bar is the largest load.
+#[test]
+fn a_page_shows_the_loads() {
+    let desk = Desk::new();
+    let file = desk.file("218.toml", B218);
+    let page = desk.path("218.html");
+    let load = ["bearing", argument(&file), "--load-N", "8000,0,17800"];
+    succeeds(
+        &[
+            &load[..],
+            &["--speed-rpm", "3000", "--report", argument(&page)],
+        ]
+        .concat(),
+    );
+    let text = std::fs::read_to_string(&page).unwrap();
+    for part in [
+        "Load on each element",
+        "Contact angle",
+        "Peak pressure",
+        "L10r",
+        "3000 rpm",
+    ] {
+        assert!(text.contains(part), "`{part}` is not in the page");
+    }
+    // Sixteen balls at two races, and eight rays.
+    assert_eq!(text.matches("stroke=\"var(--c").count(), 32);
+    let other = desk.path("218.pdf");
+    let asked = [&load[..], &["--report", argument(&other)]].concat();
+    refused(&gearmesh(&asked), 2, &["--report", "`pdf`", "html"]);
+    let same = [&load[..], &["--report", argument(&file)]].concat();
+    refused(&gearmesh(&same), 2, &["is read by this command"]);
+}
+
+/// Faults that need motion are refused with what to do; those of races act at rest.
+#[test]
+fn faults_at_rest() {
+    let desk = Desk::new();
+    let with = |name: &str, fault: &str| desk.file(name, &format!("{B218}[[fault]]\n{fault}"));
+    let load = |file: &std::path::Path| {
+        ["bearing", argument(file), "--load-N", "0,0,17800"].map(str::to_owned)
+    };
+    let askew = with(
+        "askew.toml",
+        "kind = \"misaligned-ring\"\nring = \"outer\"\ntilt_mrad = [1.0, 0.0]\n",
+    );
+    let words = load(&askew);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    refused(&gearmesh(&words), 2, &["misaligned ring", "--tilt-mrad"]);
+    let ball = with(
+        "ball.toml",
+        "kind = \"ball-spall\"\nball = 1\ndiameter_mm = 1.0\ndepth_um = 5.0\n",
+    );
+    let words = load(&ball);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    refused(&gearmesh(&words), 2, &["spall on a ball", "`dynamic`"]);
+    let large = with(
+        "large.toml",
+        "kind = \"off-size-ball\"\nball = 5\noversize_um = 5.0\n",
+    );
+    let words = load(&large);
+    let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
+    words.push("--json");
+    let json = succeeds(&words).json();
+    let load = |ball: usize| json["rows"][0][ball]["inner_load_N"].as_f64().unwrap();
+    assert!(load(4) > 1.05 * load(3) && load(4) > 1.05 * load(5));
+}

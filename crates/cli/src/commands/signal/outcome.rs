@@ -34,6 +34,51 @@ impl Curve {
     }
 }
 
+/// A spectrum that a page draws beside the curves.
+pub struct LineSpectrum {
+    axis: (&'static str, &'static str),
+    unit: String,
+    /// Without the mean.
+    pub places: Vec<f64>,
+    amplitudes: Vec<f64>,
+    /// Places with names.
+    pub marks: Vec<(f64, String)>,
+}
+
+impl LineSpectrum {
+    pub fn new(series: &Series, spectrum: &Spectrum) -> Self {
+        Self {
+            axis: (series.place, series.place_unit),
+            unit: series.unit.clone(),
+            places: (1..spectrum.values.len())
+                .map(|line| spectrum.at(line))
+                .collect(),
+            amplitudes: spectrum.values.iter().skip(1).copied().collect(),
+            marks: Vec::new(),
+        }
+    }
+
+    /// From zero to a little beyond the last mark; all where nothing is marked.
+    fn chart(&self) -> LineChart {
+        let (name, unit) = self.axis;
+        let mut chart = LineChart::new(
+            "Spectrum of the envelope",
+            Axis::new(name, unit),
+            Axis::new("amplitude", self.unit.clone()),
+        )
+        .x_values(self.places.clone())
+        .series(LineSeries::new("envelope", self.amplitudes.clone()));
+        let last = self.marks.iter().map(|(at, _)| *at).fold(0.0, f64::max);
+        if last > 0.0 {
+            chart = chart.x_window(0.0, 1.1 * last);
+        }
+        for (at, name) in &self.marks {
+            chart = chart.mark(*at, name.clone());
+        }
+        chart
+    }
+}
+
 /// Outcome of an analysis.
 pub struct Outcome {
     title: String,
@@ -48,6 +93,8 @@ pub struct Outcome {
     pub curves: Vec<Curve>,
     /// Whether ordinates are drawn on a logarithmic scale.
     pub is_logarithmic: bool,
+    /// A spectrum that is drawn, too.
+    pub spectrum: Option<LineSpectrum>,
 }
 
 impl Outcome {
@@ -62,6 +109,7 @@ impl Outcome {
             rows: Vec::new(),
             curves: Vec::new(),
             is_logarithmic: false,
+            spectrum: None,
         }
     }
 
@@ -191,6 +239,9 @@ impl Outcome {
             chart = chart.series(LineSeries::new(curve.name.clone(), values));
         }
         let mut section = Section::new(self.analysis).push(chart);
+        if let Some(spectrum) = &self.spectrum {
+            section = section.push(spectrum.chart());
+        }
         if !self.figures.is_empty() {
             let mut table = Table::new("Figures")
                 .column("figure", Align::Left)

@@ -1,0 +1,224 @@
+//! Values at angles round a circle, as bars from its middle: which balls of a bearing bear how much.
+//!
+//! Drawn as SVG in the page itself: it needs no script.
+
+use super::PageError;
+use super::markup::escape;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+/// Half the width of the drawing, in its own units.
+const HALF: f64 = 210.0;
+
+/// Its largest circle; the names of the angles stand outside.
+const RADIUS: f64 = 165.0;
+
+/// One family of bars.
+#[derive(Debug, Clone, PartialEq)]
+struct PolarSeries {
+    name: String,
+    values: Vec<f64>,
+}
+
+/// Bars from the middle; angles count from the right, anticlockwise, x to the right and y upwards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolarChart {
+    title: String,
+    unit: String,
+    angles_rad: Vec<f64>,
+    series: Vec<PolarSeries>,
+}
+
+impl PolarChart {
+    /// A picture without bars.
+    pub fn new(title: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            unit: unit.into(),
+            angles_rad: Vec::new(),
+            series: Vec::new(),
+        }
+    }
+
+    /// Where the bars stand.
+    #[must_use]
+    pub fn angles_rad(mut self, angles_rad: Vec<f64>) -> Self {
+        self.angles_rad = angles_rad;
+        self
+    }
+
+    /// Adds a family of bars, one value an angle, none below zero.
+    #[must_use]
+    pub fn series(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
+        self.series.push(PolarSeries {
+            name: name.into(),
+            values,
+        });
+        self
+    }
+
+    fn check(&self) -> Result<f64, PageError> {
+        let block = || self.title.clone();
+        if self.angles_rad.is_empty() || self.series.is_empty() {
+            return Err(PageError::Empty {
+                block: block(),
+                what: "the list of bars",
+            });
+        }
+        for series in &self.series {
+            if series.values.len() != self.angles_rad.len() {
+                return Err(PageError::Count {
+                    block: block(),
+                    what: format!("series '{}'", series.name),
+                    found: series.values.len(),
+                    expected: self.angles_rad.len(),
+                });
+            }
+        }
+        let all = self.series.iter().map(|s| (&*s.name, &s.values));
+        for (what, values) in all.chain([("angles", &self.angles_rad)]) {
+            if let Some((index, &found)) = values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+                return Err(PageError::NotFinite {
+                    block: block(),
+                    what: what.to_owned(),
+                    index,
+                    found,
+                });
+            }
+        }
+        let values = self.series.iter().flat_map(|s| &s.values);
+        Ok(values.fold(0.0, |a: f64, b| a.max(*b)))
+    }
+
+    pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
+        let largest = self.check()?;
+        let step = round_step(largest);
+        let top = if largest > 0.0 {
+            step * (largest / step).ceil()
+        } else {
+            1.0
+        };
+        let scale = RADIUS / top;
+        let title = escape(&self.title);
+        let wide = 2.0 * HALF;
+        // Writing to a String does not fail.
+        let _ = write!(
+            html,
+            "<figure class=\"polar\">\n<figcaption>{title}</figcaption>\n\
+             <svg viewBox=\"{} {} {wide} {wide}\" role=\"img\" aria-label=\"{title}\">\n",
+            -HALF, -HALF
+        );
+        self.grid(html, (step, top, scale));
+        let width = (0.45 * TAU * 60.0 / self.angles_rad.len() as f64).clamp(2.0, 14.0);
+        for (number, series) in self.series.iter().enumerate() {
+            let share = width / (number + 1) as f64;
+            for (angle, value) in self.angles_rad.iter().zip(&series.values) {
+                let (s, c) = angle.sin_cos();
+                let length = value.max(0.0) * scale;
+                let _ = write!(
+                    html,
+                    "<line x1=\"0\" y1=\"0\" x2=\"{:.2}\" y2=\"{:.2}\" stroke=\"var(--c{number})\" stroke-width=\"{share:.1}\"/>",
+                    length * c,
+                    -length * s
+                );
+            }
+        }
+        html.push_str("\n</svg>\n<p class=\"readout\">");
+        for (number, series) in self.series.iter().enumerate() {
+            let _ = write!(
+                html,
+                "<span class=\"key\" style=\"background: var(--c{number})\"></span> {} ",
+                escape(&series.name)
+            );
+        }
+        let unit = escape(&self.unit);
+        let _ = writeln!(
+            html,
+            "in {unit}; circles every {step} {unit}</p>\n</figure>"
+        );
+        Ok(())
+    }
+
+    /// Circles, and rays at every 45°.
+    fn grid(&self, html: &mut String, (step, top, scale): (f64, f64, f64)) {
+        let circles = (top / step).round().max(1.0) as usize;
+        for circle in 1..=circles {
+            let value = step * circle as f64;
+            let radius = value * scale;
+            let _ = write!(
+                html,
+                "<circle r=\"{radius:.1}\" class=\"grid\"/><text x=\"3\" y=\"{:.1}\">{value}</text>",
+                -radius - 2.0
+            );
+        }
+        for eighth in 0..8_u8 {
+            let degrees = 45.0 * f64::from(eighth);
+            let (s, c) = degrees.to_radians().sin_cos();
+            let (x, y) = (c * (RADIUS + 24.0), -s * (RADIUS + 24.0) + 4.0);
+            let _ = write!(
+                html,
+                "<line x1=\"0\" y1=\"0\" x2=\"{:.1}\" y2=\"{:.1}\" class=\"grid\"/>\
+                 <text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{degrees}°</text>",
+                RADIUS * c,
+                -RADIUS * s
+            );
+        }
+        html.push('\n');
+    }
+}
+
+/// 1, 2 or 5 times a power of ten, so that three to six fit in.
+pub(super) fn round_step(largest: f64) -> f64 {
+    if largest <= 0.0 {
+        return 1.0;
+    }
+    let rough = largest / 5.0;
+    let power = 10.0_f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|m| m * power >= rough);
+    // A sum in decimal digits: 0.30000000000000004 has no place in a picture.
+    let found = step.unwrap_or(10.0) * power;
+    format!("{found:.3e}").parse().unwrap_or(found)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_stand_at_their_angles_and_in_scale() {
+        let chart = PolarChart::new("t", "N")
+            .angles_rad(vec![0.0, 0.25 * TAU])
+            .series("inner", vec![100.0, 50.0]);
+        let mut html = String::new();
+        chart.render(&mut html).unwrap();
+        assert!(html.contains("x2=\"165.00\" y2=\"-0.00\""), "{html}");
+        assert!(html.contains("x2=\"0.00\" y2=\"-82.50\""), "{html}");
+        assert!(html.contains("circles every 20 N"), "{html}");
+    }
+
+    #[test]
+    fn what_does_not_fit_is_told() {
+        let mut html = String::new();
+        let none = PolarChart::new("t", "N");
+        assert!(matches!(
+            none.render(&mut html),
+            Err(PageError::Empty { .. })
+        ));
+        let short = none
+            .clone()
+            .angles_rad(vec![0.0, 1.0])
+            .series("a", vec![1.0]);
+        assert!(matches!(
+            short.render(&mut html),
+            Err(PageError::Count { .. })
+        ));
+        let wrong = none.angles_rad(vec![0.0]).series("a", vec![f64::NAN]);
+        assert!(matches!(
+            wrong.render(&mut html),
+            Err(PageError::NotFinite { .. })
+        ));
+    }
+}
