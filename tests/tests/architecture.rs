@@ -36,7 +36,7 @@ const ONLINE: [&str; 10] = [
 ];
 
 /// What each crate may use, `gearmesh-` left out. Data walks one way, so a crate stands below all that it uses.
-const ALLOWED: [(&str, &[&str]); 19] = [
+const ALLOWED: [(&str, &[&str]); 20] = [
     ("elements", &[]),
     ("geometry", &["elements"]),
     ("mesh", &["elements", "geometry"]),
@@ -55,6 +55,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
         ],
     ),
     ("signal", &[]),
+    ("rexs", &[]),
     ("rating", &["geometry", "contact"]),
     (
         "scene",
@@ -87,6 +88,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "signal",
             "scene",
             "report",
+            "rexs",
         ],
     ),
     (

@@ -2,11 +2,13 @@
 
 mod bearing;
 mod bevel;
+mod machine;
 mod offline;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use bevel::{BevelArguments, TcaArguments};
+pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
 pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
 pub use signal::{AbscissaArguments, SeriesArguments, SignalAnalysis, SignalArguments, WindowKind};
 
@@ -60,8 +62,18 @@ pub enum Command {
     Bevel(BevelArguments),
     /// Analyse the tooth contact of a bevel pair: path, transmission error, ellipses, ease-off, edges
     Tca(TcaArguments),
+    /// Import a gearbox from a REXS file: gear files, scenes, bearing files, a list of what was taken and what not
+    Import(ImportArguments),
     /// Print the JSON Schema of scene, study, gear, bearing or bevel files
     Schema(SchemaArguments),
+    /// Write commented files to start from: a gear, a pair, a gearbox
+    Init(InitArguments),
+    /// Say what this machine lacks: Python with gmsh and meshio, memory, other programs
+    Doctor(DoctorArguments),
+    /// Print the completions of a shell
+    Completions(CompletionsArguments),
+    /// Write the manual pages
+    Man(ManArguments),
     /// Make gear pairs A and B from definition to report
     Demo(DemoArguments),
 }
@@ -211,6 +223,19 @@ pub struct StudyArguments {
     #[arg(short, long)]
     pub output: PathBuf,
     /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh import`.
+#[derive(Debug, Args)]
+pub struct ImportArguments {
+    /// REXS file: XML (.rexs), JSON (.rexsj) or a zip file of one (.rexsz)
+    pub model: PathBuf,
+    /// Folder for the files that are made; files of the same names are replaced
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print what was taken, assumed and not represented as JSON
     #[arg(long)]
     pub json: bool,
 }

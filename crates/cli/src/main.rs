@@ -39,6 +39,11 @@ fn main() -> ExitCode {
         Command::BearingFrequencies(a) => commands::bearing_frequencies::run(a),
         Command::Bevel(a) => commands::bevel::run(a),
         Command::Tca(a) => commands::tca::run(a),
+        Command::Import(a) => commands::import::run(a),
+        Command::Init(a) => commands::init::run(a),
+        Command::Doctor(a) => commands::doctor::run(a),
+        Command::Completions(a) => commands::completions::completions(a),
+        Command::Man(a) => commands::completions::man(a),
         Command::Demo(a) => commands::demo::run(a),
     });
     match outcome {

@@ -13,7 +13,7 @@ const NOT_WORTH_A_NOTE: f64 = 0.3 * GIGA;
 
 /// Free memory \[byte\]: what the system can give without swapping, and free swap, within the limit of the control
 /// group. None where the system does not tell.
-fn free_bytes() -> Option<f64> {
+pub fn free_bytes() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let kilobytes = |name: &str| -> Option<f64> {
         let line = text.lines().find(|line| line.starts_with(name))?;

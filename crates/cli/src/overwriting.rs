@@ -81,6 +81,11 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
         | Command::Plan(_)
         | Command::Compare(_)
         | Command::Check(_)
+        | Command::Import(_)
+        | Command::Init(_)
+        | Command::Doctor(_)
+        | Command::Completions(_)
+        | Command::Man(_)
         | Command::Schema(_)
         | Command::Demo(_) => Default::default(),
     }

@@ -45,7 +45,14 @@ fn help_names_all_commands() {
       bevel                Print blank, machine settings and checks of a bevel pair
       tca                  Analyse the tooth contact of a bevel pair: path, transmission error,
                            ellipses, ease-off, edges
+      import               Import a gearbox from a REXS file: gear files, scenes, bearing files, a list
+                           of what was taken and what not
       schema               Print the JSON Schema of scene, study, gear, bearing or bevel files
+      init                 Write commented files to start from: a gear, a pair, a gearbox
+      doctor               Say what this machine lacks: Python with gmsh and meshio, memory, other
+                           programs
+      completions          Print the completions of a shell
+      man                  Write the manual pages
       demo                 Make gear pairs A and B from definition to report
       help                 Print this message or the help of the given subcommand(s)
     

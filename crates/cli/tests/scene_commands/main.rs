@@ -13,6 +13,8 @@ mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]
 mod drilled_pair;
 mod export;
+mod first_steps;
+mod import;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

@@ -114,9 +114,19 @@ impl StudyScenes {
         let mut scene_of = Vec::with_capacity(cases.len());
         for case in &cases {
             let made = varied(study, &scene, case, scene_folder)?;
-            if !matches!(made.run, Run::Transient { .. }) {
-                let problem = "must be \"transient\" in the scene of a study, whose figures are those of a time";
-                return Err(made.document.error("run.kind", problem));
+            match made.run {
+                Run::Transient { .. } => {}
+                Run::Static { .. } if study.tables.from_s == 0.0 => {}
+                Run::Static { .. } => {
+                    return Err(study.document.error(
+                        "from_s",
+                        "belongs to runs in time; the scene's run is \"static\": its figures are those of all its equilibria",
+                    ));
+                }
+                _ => {
+                    let problem = "must be \"transient\" or \"static\" in the scene of a study";
+                    return Err(made.document.error("run.kind", problem));
+                }
             }
             let same = |other: &SystemScene| other.document.text == made.document.text;
             let place = scenes.iter().position(same).unwrap_or(scenes.len());
@@ -237,15 +247,19 @@ fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
     if let Some(problem) = result.problem() {
         return Err(problem);
     }
-    let times = result.rows.read("time_s").map_err(say)?;
-    // Half a step of the clock's rounding belongs to the first row.
-    let first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));
-    if first == times.len() {
-        return Err(format!(
-            "from_s = {} is after the end of the run at {} s",
-            study.tables.from_s,
-            times.last().copied().unwrap_or_default()
-        ));
+    let mut first = 0;
+    // Equilibria have no time.
+    if study.tables.from_s > 0.0 {
+        let times = result.rows.read("time_s").map_err(say)?;
+        // Half a step of the clock's rounding belongs to the first row.
+        first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));
+        if first == times.len() {
+            return Err(format!(
+                "from_s = {} is after the end of the run at {} s",
+                study.tables.from_s,
+                times.last().copied().unwrap_or_default()
+            ));
+        }
     }
     let figures = |name: &String| {
         let mut columns = result.rows.columns().iter();

@@ -13,7 +13,7 @@ use serde::Deserialize;
 pub struct StudyTables {
     /// Title in prints.
     pub title: String,
-    /// The scene that is varied, relative to this file; a multibody scene whose run is "transient".
+    /// The scene that is varied, relative to this file; a multibody scene whose run is "transient" or "static".
     pub scene: PathBuf,
     /// How the parameters are combined; "one-at-a-time" where not given.
     #[serde(default)]

@@ -63,7 +63,6 @@ fn seed_001_has_its_forces_ratio_and_mesh_lines() {
         "axial_force_1_N",
     ]
     .map(mean);
-    println!("F_t {t:.1}, F_r {r:.1}, F_a {a:.1} N");
     for (found, expected) in [(t.abs(), 3367.0), (r, -609.0), (a, 2725.0)] {
         assert!(
             (found - expected).abs() < 0.03 * 3367.0,
@@ -77,15 +76,14 @@ fn seed_001_has_its_forces_ratio_and_mesh_lines() {
     // Orders of the pinion's revolution.
     let amplitude = |order: usize| {
         let (mut sine, mut cosine) = (0.0, 0.0);
-        for i in first..last {
-            let angle = TAU * (order * (i - first)) as f64 / (last - first) as f64;
-            sine += te[i] * angle.sin();
-            cosine += te[i] * angle.cos();
+        for (i, te) in te[first..last].iter().enumerate() {
+            let angle = TAU * (order * i) as f64 / (last - first) as f64;
+            sine += te * angle.sin();
+            cosine += te * angle.cos();
         }
         2.0 * f64::hypot(sine, cosine) / (last - first) as f64
     };
     let mesh = amplitude(20);
-    println!("20th order {mesh:e} m");
     for order in (1..20).chain(21..40) {
         assert!(
             amplitude(order) < 0.05 * mesh,

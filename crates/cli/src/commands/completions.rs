@@ -1,0 +1,23 @@
+//! `gearmesh completions` and `gearmesh man`: made from the arguments, so that they never lag behind.
+
+use crate::arguments::{Arguments, CompletionsArguments, ManArguments};
+use crate::console;
+use crate::failure::Failure;
+use clap::CommandFactory;
+
+/// Runs `gearmesh completions`.
+pub fn completions(a: &CompletionsArguments) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(a.shell, &mut Arguments::command(), "gearmesh", &mut script);
+    console::data(String::from_utf8_lossy(&script).trim_end());
+    Ok(())
+}
+
+/// Runs `gearmesh man`.
+pub fn man(a: &ManArguments) -> Result<(), Failure> {
+    let failed = |cause: std::io::Error| Failure::work(format!("{}: {cause}", a.output.display()));
+    std::fs::create_dir_all(&a.output).map_err(failed)?;
+    clap_mangen::generate_to(Arguments::command(), &a.output).map_err(failed)?;
+    console::data(a.output.join("gearmesh.1").display());
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! `gearmesh init`: commented files to start from.
+
+use crate::arguments::{InitArguments, InitKind};
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_model::write_text;
+
+const PINION: (&str, &str) = ("pinion.toml", include_str!("../../templates/pinion.toml"));
+const WHEEL: (&str, &str) = ("wheel.toml", include_str!("../../templates/wheel.toml"));
+const PAIR: (&str, &str) = ("pair.toml", include_str!("../../templates/pair.toml"));
+const DRIVE: (&str, &str) = ("drive.toml", include_str!("../../templates/drive.toml"));
+const GEARBOX: (&str, &str) = ("gearbox.toml", include_str!("../../templates/gearbox.toml"));
+
+/// Runs the command.
+pub fn run(a: &InitArguments) -> Result<(), Failure> {
+    let (files, next): (&[(&str, &str)], &str) = match a.kind {
+        InitKind::Gear => (&[PINION], "gearmesh reduce pinion.toml -o pinion.h5"),
+        InitKind::Pair => (
+            &[PINION, WHEEL, PAIR, DRIVE],
+            "gearmesh run drive.toml -o drive.h5",
+        ),
+        InitKind::Gearbox => (
+            &[PINION, WHEEL, GEARBOX],
+            "gearmesh run gearbox.toml -o gearbox.h5",
+        ),
+    };
+    let there: Vec<&str> = files
+        .iter()
+        .map(|f| f.0)
+        .filter(|name| a.output.join(name).symlink_metadata().is_ok())
+        .collect();
+    if !there.is_empty() {
+        return Err(Failure::input(format!(
+            "{}: {} there already and left as it is; name another folder with -o",
+            a.output.display(),
+            if there.len() == 1 {
+                format!("{} is", there[0])
+            } else {
+                format!("{} are", there.join(", "))
+            }
+        )));
+    }
+    std::fs::create_dir_all(&a.output)
+        .map_err(|cause| Failure::work(format!("{}: {cause}", a.output.display())))?;
+    for (name, text) in files {
+        let path = a.output.join(name);
+        write_text(&path, text)?;
+        console::data(path.display());
+    }
+    console::note(format!("next, in that folder: {next}"));
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! What a new user types first: `init`, `doctor`, `completions`, `man`.
+
+use crate::common::{Desk, argument, changed, gearmesh, names_in, refused, succeeds, workshop};
+use std::process::Command;
+
+#[test]
+fn what_init_writes_passes_check_and_runs() {
+    let desk = Desk::new();
+    for (kind, files) in [
+        ("gear", &["pinion.toml"][..]),
+        (
+            "pair",
+            &["drive.toml", "pair.toml", "pinion.toml", "wheel.toml"][..],
+        ),
+        (
+            "gearbox",
+            &["gearbox.toml", "pinion.toml", "wheel.toml"][..],
+        ),
+    ] {
+        let folder = desk.path(kind);
+        succeeds(&["init", kind, "-o", argument(&folder)]);
+        assert_eq!(names_in(&folder), files);
+        for file in files.iter().filter(|name| **name != "pair.toml") {
+            succeeds(&["check", argument(&folder.join(file))]);
+        }
+        // What is there is left as it is.
+        refused(
+            &gearmesh(&["init", kind, "-o", argument(&folder)]),
+            2,
+            &["there already", files[0]],
+        );
+    }
+    // The pair wants reduced gears: those of the workshop stand in for them.
+    let text = std::fs::read_to_string(desk.path("pair").join("pair.toml")).unwrap();
+    let (solid, thin) = (
+        argument(&workshop().solid).to_owned(),
+        argument(&workshop().thin).to_owned(),
+    );
+    let text = changed(
+        &changed(&text, "\"pinion.h5\"", &format!("{solid:?}")),
+        "\"wheel.h5\"",
+        &format!("{thin:?}"),
+    );
+    let text = changed(
+        &changed(&text, "94.6 ", "54.7 "),
+        "gear_1 = [\"root\"]",
+        "gear_2 = [\"tension\"]",
+    );
+    succeeds(&[
+        "check",
+        argument(&desk.file("pair_of_the_workshop.toml", text)),
+    ]);
+    let (scene, result) = (
+        desk.path("gearbox").join("gearbox.toml"),
+        desk.path("gearbox.h5"),
+    );
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+}
+
+#[test]
+fn doctor_says_where_python_is_and_what_the_variable_does() {
+    let answer = succeeds(&["doctor"]);
+    for word in [
+        "ok      python: 3.",
+        "ok      gmsh: 4.",
+        "ok      meshio: 5.",
+        "processors",
+    ] {
+        assert!(
+            answer.stdout.contains(word),
+            "{word} is not in {}",
+            answer.stdout
+        );
+    }
+    let found = succeeds(&["doctor", "--json"]).json();
+    assert!(
+        found
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|f| f["name"] == "gmsh" && f["sound"] == true)
+    );
+    let program = env!("CARGO_BIN_EXE_gearmesh");
+    let output = Command::new(program)
+        .arg("doctor")
+        .env("GEARMESH_PYTHON", "/no/such/python")
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    for word in [
+        "MISSING python",
+        "/no/such/python (GEARMESH_PYTHON)",
+        "pip install gmsh meshio",
+    ] {
+        assert!(text.contains(word), "{word} is not in {text}");
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_know_all_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = succeeds(&["completions", shell]).stdout;
+        for command in ["bearing-frequencies", "import", "tca"] {
+            assert!(script.contains(command), "{shell}: {command}");
+        }
+    }
+    let desk = Desk::new();
+    succeeds(&["man", "-o", argument(&desk.path("man"))]);
+    let pages = names_in(&desk.path("man"));
+    for page in ["gearmesh.1", "gearmesh-run.1", "gearmesh-signal-spectrum.1"] {
+        assert!(
+            pages.iter().any(|p| p == page),
+            "{page} is not among {pages:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_that_is_piped_has_colours() {
+    for arguments in [
+        &["--help"][..],
+        &["run"],
+        &["no-such-command"],
+        &["check", "no_such_file.toml"],
+    ] {
+        let answer = gearmesh(arguments);
+        assert!(
+            !answer.stdout.contains('\u{1b}') && !answer.stderr.contains('\u{1b}'),
+            "{arguments:?}"
+        );
+    }
+}

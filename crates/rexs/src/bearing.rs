@@ -1,0 +1,271 @@
+//! Bearings: springs in the scene, files for those with a catalogue.
+
+use crate::error::RexsError;
+use crate::model::Component;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::text::{number, quoted};
+use crate::units::{KN, MM, N_PER_M, NMM_PER_RAD, UM};
+
+/// Types of bearing components.
+pub const KINDS: [&str; 5] = [
+    "concept_bearing",
+    "rolling_bearing_with_catalog_geometry",
+    "rolling_bearing_with_detailed_geometry",
+    "hydrodynamic_radial_plain_bearing",
+    "slide_bearing",
+];
+
+/// Which axial forces of the inner part a bearing takes, along u.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxialSupport {
+    /// Both.
+    Both,
+    /// Those towards +u.
+    Positive,
+    /// Those towards −u.
+    Negative,
+    /// None.
+    None,
+}
+
+/// A bearing between two parts.
+#[derive(Debug, Clone)]
+pub struct Bearing {
+    /// Component.
+    pub id: i64,
+    /// Name in the scene.
+    pub name: String,
+    /// Inner and outer part: components.
+    pub sides: [i64; 2],
+    /// Places along u of the two sides, where these are shafts \[mm\].
+    pub u_mm: [Option<f64>; 2],
+    /// Radial stiffness \[N/mm\].
+    pub radial_n_per_mm: f64,
+    /// Axial stiffness where it supports \[N/mm\].
+    pub axial_n_per_mm: f64,
+    /// Tilt stiffness \[N m/rad\], 0 for none.
+    pub tilt_nm_per_rad: f64,
+    /// Axial support.
+    pub axial: AxialSupport,
+    /// Bore \[mm\], where given.
+    pub bore_mm: Option<f64>,
+    /// Its file, name and text, where its type has one.
+    pub file: Option<(String, String)>,
+}
+
+/// Radial stiffness where none is given \[N/mm\]: that of a loaded bearing of medium size.
+const RADIAL: f64 = 5e5;
+/// Axial stiffness where none is given \[N/mm\].
+const AXIAL: f64 = 2e5;
+/// What rigid bearings get \[N/mm\]: far stiffer than shafts, and harmless to equations.
+const RIGID: f64 = 1e7;
+/// Larger stiffness stands for rigid \[N/mm\].
+const RIGID_FROM: f64 = 1e8;
+/// The same of tilting \[N m/rad\].
+const RIGID_TILT: f64 = 1e7;
+
+/// Reads a bearing; none where it has no two sides.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    name: String,
+    file_name: String,
+) -> Result<Option<Bearing>, RexsError> {
+    let Some(sides) = structure.sides(component.id) else {
+        source.leave_out(
+            component,
+            "no relation says what it stands between: not in the scene",
+        );
+        return Ok(None);
+    };
+    if component.kind.contains("plain") || component.kind == "slide_bearing" {
+        source.leave_out(
+            component,
+            "plain bearing: a linear spring in its place, without film",
+        );
+    }
+    let u_mm = [
+        source.number(component, "u_coordinate_on_shaft_inner_side", MM)?,
+        source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
+    ];
+    let stiffness = |id: &str, without: f64| -> Result<f64, RexsError> {
+        let given = source.number(component, id, N_PER_M)?.map(|k| 1e-3 * k);
+        Ok(match given {
+            Some(k) if k >= RIGID_FROM => {
+                source.assume(
+                    component,
+                    format!("{id} of {k:e} N/mm stands for rigid: {RIGID:e} N/mm"),
+                );
+                RIGID
+            }
+            Some(k) if k > 0.0 => k,
+            _ => {
+                source.assume(component, format!("no {id} given: {without:e} N/mm"));
+                without
+            }
+        })
+    };
+    let carries_radially = source.flag(component, "radial_force_absorption")? != Some(false);
+    let radial_n_per_mm = if carries_radially {
+        stiffness("radial_stiffness", RADIAL)?
+    } else {
+        0.0
+    };
+    let kind = source.text(component, "bearing_type").unwrap_or_default();
+    let axial = match source.text(component, "axial_force_absorption").as_deref() {
+        Some("both_directions") => AxialSupport::Both,
+        Some("positive") => AxialSupport::Positive,
+        Some("negative") => AxialSupport::Negative,
+        Some("no_direction") => AxialSupport::None,
+        other => {
+            let has_stiffness = source
+                .number(component, "axial_stiffness", N_PER_M)?
+                .is_some_and(|k| k > 0.0);
+            let is_free =
+                ["radial_roller_bearing", "radial_needle_roller_bearing"].contains(&kind.as_str());
+            let support = if has_stiffness || (!is_free && kind.contains("bearing")) {
+                AxialSupport::Both
+            } else {
+                AxialSupport::None
+            };
+            let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
+            source.assume(
+                component,
+                format!("axial_force_absorption {found}: {support:?}"),
+            );
+            support
+        }
+    };
+    let axial_n_per_mm = match axial {
+        AxialSupport::None => 0.0,
+        _ => stiffness(
+            "axial_stiffness",
+            if radial_n_per_mm >= RIGID {
+                RIGID
+            } else {
+                AXIAL
+            },
+        )?,
+    };
+    let tilt = source
+        .number(component, "bending_stiffness", NMM_PER_RAD)?
+        .map_or(0.0, |k| 1e-3 * k);
+    if tilt > RIGID_TILT {
+        source.assume(
+            component,
+            format!(
+                "bending_stiffness of {tilt:e} N m/rad stands for rigid: {RIGID_TILT:e} N m/rad"
+            ),
+        );
+    }
+    let bore_mm = source
+        .number(component, "inner_diameter", MM)?
+        .filter(|d| *d > 0.0);
+    Ok(Some(Bearing {
+        id: component.id,
+        file: catalogue(source, component, &kind, bore_mm, &name, file_name)?,
+        name,
+        sides,
+        u_mm,
+        radial_n_per_mm,
+        axial_n_per_mm,
+        tilt_nm_per_rad: tilt.clamp(0.0, RIGID_TILT),
+        axial,
+        bore_mm,
+    }))
+}
+
+/// Types of REXS that gearmesh's catalogue bearings have.
+const TYPES: [(&str, &str); 3] = [
+    ("radial_grooved_ball_bearing", "deep-groove"),
+    ("angular_contact_ball_bearing", "angular-contact"),
+    ("radial_roller_bearing", "cylindrical-roller"),
+];
+
+/// A bearing file from bore, outside diameter, width and load ratings.
+fn catalogue(
+    source: &Source<'_>,
+    component: &Component,
+    kind: &str,
+    bore_mm: Option<f64>,
+    name: &str,
+    file_name: String,
+) -> Result<Option<(String, String)>, RexsError> {
+    if !component.kind.starts_with("rolling_bearing") {
+        return Ok(None);
+    }
+    let outside = source.number(component, "outer_diameter", MM)?;
+    let width = source.number(component, "width", MM)?;
+    let dynamic = source.number(component, "radial_dynamic_load_rating", KN)?;
+    let rest = source.number(component, "radial_static_load_rating", KN)?;
+    let fatigue = source
+        .number(component, "fatigue_limit_load", KN)?
+        .filter(|c| *c > 0.0);
+    let designation = source
+        .text(component, "catalogue_designation")
+        .unwrap_or_default();
+    let clearance = source.number(component, "operating_radial_bearing_clearance", UM)?;
+    let Some((_, word)) = TYPES.iter().find(|(rexs, _)| *rexs == kind) else {
+        source.leave_out(
+            component,
+            format!(
+                "type `{kind}` as balls or rollers: no bearing file, a linear spring in the scene"
+            ),
+        );
+        return Ok(None);
+    };
+    let rows = source
+        .integer(component, "number_of_bearing_rows")?
+        .unwrap_or(1);
+    let (Some(bore), Some(outside), Some(width), Some(dynamic), Some(rest)) =
+        (bore_mm, outside, width, dynamic, rest)
+    else {
+        source.leave_out(
+            component,
+            "no bearing file: it needs inner_diameter, outer_diameter, width and both load ratings",
+        );
+        return Ok(None);
+    };
+    if rows != 1 || bore >= outside || width <= 0.0 || dynamic <= 0.0 || rest <= 0.0 {
+        source.leave_out(
+            component,
+            "no bearing file: one row, diameters and load ratings that are possible",
+        );
+        return Ok(None);
+    }
+    let mut text = format!(
+        "# {designation}: for `model = {{ kind = \"quasi-static\", file = ... }}` in the scene\nname = {}\nkind = \"catalogue\"\ntype = \"{word}\"\n",
+        quoted(name)
+    );
+    for (key, value) in [
+        ("bore_mm", bore),
+        ("outside_diameter_mm", outside),
+        ("width_mm", width),
+    ] {
+        text.push_str(&format!("{key} = {}\n", number(value)));
+    }
+    if let Some(clearance) = clearance.filter(|_| *word != "angular-contact") {
+        text.push_str(&format!("radial_clearance_um = {}\n", number(clearance)));
+    }
+    if *word == "angular-contact" {
+        source.assume(
+            component,
+            "bearing file: contact angle of 40 deg unless its row says otherwise",
+        );
+        text.push_str("contact_angle_deg = 40.0\n");
+    }
+    text.push_str(&format!(
+        "\n[ratings]\ndynamic_N = {}\nstatic_N = {}\n",
+        number(1e3 * dynamic),
+        number(1e3 * rest)
+    ));
+    if let Some(fatigue) = fatigue {
+        text.push_str(&format!("fatigue_N = {}\n", number(1e3 * fatigue)));
+    }
+    Ok(Some((file_name, text)))
+}

@@ -1,0 +1,105 @@
+//! Couplings: what joins shafts, and whether it is engaged in the present gear.
+
+use crate::error::RexsError;
+use crate::model::{Component, Value};
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::units::{MM, N_PER_M, NMM_PER_RAD};
+
+/// Types of couplings and of joints between shafts.
+pub const KINDS: [&str; 2] = ["coupling", "switchable_coupling"];
+
+/// Joints of shaft and hub, which are rigid in scenes.
+pub const JOINTS: [&str; 4] = [
+    "feather_key_connection",
+    "cylindrical_interference_fit",
+    "tapered_interference_fit",
+    "involute_spline_connection",
+];
+
+/// A coupling between two parts.
+#[derive(Debug, Clone)]
+pub struct Coupling {
+    /// Name in the scene.
+    pub name: String,
+    /// Its two parts: components.
+    pub sides: [i64; 2],
+    /// Places along u of the two shafts \[mm\].
+    pub u_mm: [Option<f64>; 2],
+    /// Stiffness along the axis, across it \[N/mm\], about it, of tilting \[N m/rad\].
+    pub stiffness: [f64; 4],
+}
+
+/// What a coupling gets about its axis where no stiffness is given, or one that stands for rigid \[N m/rad\].
+const RIGID_NM_PER_RAD: f64 = 1e7;
+
+/// Reads a coupling; none where it joins nothing or is open.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    name: String,
+    shift_index: i64,
+) -> Result<Option<Coupling>, RexsError> {
+    let Some(sides) = structure.sides(component.id) else {
+        source.leave_out(
+            component,
+            "no relation says what it joins: not in the scene",
+        );
+        return Ok(None);
+    };
+    if source.has(component, "is_engaged") && !is_engaged(source, component, shift_index) {
+        source.leave_out(
+            component,
+            format!("open in gear {shift_index}: its two sides are not joined in the scene"),
+        );
+        return Ok(None);
+    }
+    let u_mm = [
+        source.number(component, "u_coordinate_on_shaft_inner_side", MM)?,
+        source.number(component, "u_coordinate_on_shaft_outer_side", MM)?,
+    ];
+    let number = |id: &str, unit, most: f64| -> Result<f64, RexsError> {
+        Ok(source
+            .number(component, id, unit)?
+            .map_or(0.0, |k| (1e-3 * k).clamp(0.0, most)))
+    };
+    let axial = number("axial_stiffness", N_PER_M, 1e7)?;
+    let radial = number("radial_stiffness", N_PER_M, 1e7)?;
+    let tilt = number("bending_stiffness", NMM_PER_RAD, RIGID_NM_PER_RAD)?;
+    let mut torsion = number("rotational_stiffness", NMM_PER_RAD, RIGID_NM_PER_RAD)?;
+    if torsion == 0.0 {
+        source.assume(
+            component,
+            format!("no rotational_stiffness given: {RIGID_NM_PER_RAD:e} N m/rad"),
+        );
+        torsion = RIGID_NM_PER_RAD;
+    }
+    Ok(Some(Coupling {
+        name,
+        sides,
+        u_mm,
+        stiffness: [axial, radial, torsion, tilt],
+    }))
+}
+
+/// `is_engaged` holds one word, or one for each gear.
+fn is_engaged(source: &Source<'_>, component: &Component, shift_index: i64) -> bool {
+    let yes = |text: &String| ["true", "1"].contains(&text.to_lowercase().as_str());
+    let engaged = match component.attribute("is_engaged").map(|a| &a.value) {
+        Some(Value::Scalar(text)) => yes(text),
+        Some(Value::List(items)) => {
+            let index = usize::try_from(shift_index - 1)
+                .unwrap_or(0)
+                .min(items.len().saturating_sub(1));
+            items.get(index).is_none_or(yes)
+        }
+        _ => true,
+    };
+    // Marks the attribute as used.
+    let _ = source.text(component, "is_engaged");
+    engaged
+}

@@ -1,0 +1,464 @@
+//! Cylindrical gears: teeth, tool, blank, material.
+
+use crate::error::RexsError;
+use crate::microgeometry::{self, Microgeometry};
+use crate::model::Component;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::tooth_thickness::din_3967_mm;
+use crate::units::{DEG, KG_PER_DM3, MM, MPA, ONE, UM};
+
+/// Linear elastic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus \[GPa\].
+    pub young_gpa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density \[kg/m³\].
+    pub density_kg_per_m3: f64,
+}
+
+/// Steel, where the file says nothing.
+pub const STEEL: Material = Material {
+    young_gpa: 206.0,
+    poisson: 0.3,
+    density_kg_per_m3: 7850.0,
+};
+
+/// A cylindrical gear.
+#[derive(Debug, Clone)]
+pub struct Gear {
+    /// Component.
+    pub id: i64,
+    /// Name in the scene.
+    pub name: String,
+    /// File.
+    pub file: String,
+    /// Teeth.
+    pub teeth: u32,
+    /// Normal module \[mm\].
+    pub module_mm: f64,
+    /// Normal pressure angle \[°\].
+    pub pressure_angle_deg: f64,
+    /// Helix angle at the reference circle \[°\], positive for a right hand.
+    pub helix_deg: f64,
+    /// Profile shift coefficient.
+    pub profile_shift: f64,
+    /// Face width \[mm\].
+    pub face_width_mm: f64,
+    /// Tip diameter \[mm\], where stated and sound, or from the stage.
+    pub tip_diameter_mm: Option<f64>,
+    /// Addendum of the basic rack in modules.
+    pub addendum: f64,
+    /// Dedendum in modules.
+    pub dedendum: f64,
+    /// Tip radius of the rack in modules.
+    pub rack_tip_radius: f64,
+    /// Reduction of the transverse tooth thickness \[mm\].
+    pub thickness_allowance_mm: f64,
+    /// Tip chamfer \[mm\].
+    pub tip_chamfer_mm: f64,
+    /// Bore \[mm\]; none until the shaft is known.
+    pub bore_mm: Option<f64>,
+    /// Material.
+    pub material: Material,
+    /// Modifications of left and right flanks.
+    pub microgeometry: Microgeometry,
+}
+
+impl Gear {
+    /// Transverse reference diameter \[mm\].
+    pub fn reference_diameter_mm(&self) -> f64 {
+        self.module_mm * f64::from(self.teeth) / self.helix_deg.to_radians().cos()
+    }
+
+    /// Root diameter \[mm\].
+    pub fn root_diameter_mm(&self) -> f64 {
+        self.reference_diameter_mm() - 2.0 * self.module_mm * (self.dedendum - self.profile_shift)
+    }
+
+    /// Base diameter \[mm\].
+    pub fn base_diameter_mm(&self) -> f64 {
+        let cos = self.helix_deg.to_radians().cos();
+        let transverse = (self.pressure_angle_deg.to_radians().tan() / cos).atan();
+        self.reference_diameter_mm() * transverse.cos()
+    }
+
+    /// Tip diameter \[mm\].
+    pub fn tip_mm(&self) -> f64 {
+        let rack = self.reference_diameter_mm()
+            + 2.0 * self.module_mm * (self.addendum + self.profile_shift);
+        self.tip_diameter_mm.unwrap_or(rack)
+    }
+}
+
+/// Larger moduli stand for rigid bodies \[MPa\]: a hundred times that of steel is stiff enough.
+const MOST_MPA: f64 = 2e7;
+
+/// Material of a component, steel where it names none.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn material(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+) -> Result<Material, RexsError> {
+    let ids = structure.partners(component.id, &["material"]);
+    let Some(found) = ids.first().and_then(|&id| source.model.component(id)) else {
+        source.assume(
+            component,
+            "no material given: steel, 206 GPa, 0.3, 7850 kg/m3",
+        );
+        return Ok(STEEL);
+    };
+    let young = source
+        .number(found, "elastic_modulus", MPA)?
+        .filter(|&e| e > 0.0);
+    if let Some(rigid) = young.filter(|&e| e > MOST_MPA) {
+        source.assume(
+            found,
+            format!("a modulus of {rigid:e} MPa stands for rigid: {MOST_MPA:e} MPa"),
+        );
+    }
+    let poisson = source
+        .number(found, "poisson_ratio", ONE)?
+        .filter(|v| (0.0..0.5).contains(v));
+    let density = source
+        .number(found, "density", KG_PER_DM3)?
+        .filter(|&d| d > 0.0);
+    if young.is_none() || poisson.is_none() || density.is_none() {
+        source.assume(found, "modulus, Poisson's ratio or density not given or not possible: those of steel, 206 GPa, 0.3, 7850 kg/m3");
+    }
+    Ok(Material {
+        young_gpa: young.map_or(STEEL.young_gpa, |e| 1e-3 * e.min(MOST_MPA)),
+        poisson: poisson.unwrap_or(STEEL.poisson),
+        density_kg_per_m3: density.map_or(STEEL.density_kg_per_m3, |d| 1e3 * d),
+    })
+}
+
+/// Reads a gear; its bore and a missing tip diameter come later.
+///
+/// # Errors
+/// Those of [`Source`], and what a gear cannot do without.
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    name: String,
+    file: String,
+) -> Result<Gear, RexsError> {
+    let missing = |what: &str| RexsError::Missing {
+        component: component.words(),
+        what: what.to_owned(),
+    };
+    let teeth = source
+        .integer(component, "number_of_teeth")?
+        .ok_or_else(|| missing("number_of_teeth is missing"))?;
+    let teeth = u32::try_from(teeth)
+        .ok()
+        .filter(|z| (3..=2000).contains(z))
+        .ok_or_else(|| missing(&format!("number_of_teeth is {teeth}; allowed are 3 to 2000 (of a ring gear say so by its type)")))?;
+    let helix_deg = source
+        .number(component, "helix_angle_reference_diameter", DEG)?
+        .unwrap_or(0.0);
+    if helix_deg.abs() >= 80.0 {
+        return Err(missing(&format!(
+            "helix_angle_reference_diameter is {helix_deg} deg; allowed is less than 80"
+        )));
+    }
+    let cos = helix_deg.to_radians().cos();
+    let normal = source.number(component, "normal_module", MM)?;
+    let module_mm = match normal {
+        Some(module) => module,
+        None => {
+            let transverse = source.number(component, "transverse_module", MM)?;
+            transverse.ok_or_else(|| missing("normal_module is missing"))? * cos
+        }
+    };
+    let face_width_mm = source.need(component, "face_width", MM)?;
+    for (what, value) in [("module", module_mm), ("face_width", face_width_mm)] {
+        if !(1e-3..1e5).contains(&value) {
+            return Err(missing(&format!(
+                "{what} is {value} mm; allowed is 0.001 to 100000"
+            )));
+        }
+    }
+    let flanks = structure
+        .flanks(component.id)
+        .map(|id| id.and_then(|id| source.model.component(id)));
+    let mut gear = Gear {
+        id: component.id,
+        name,
+        file,
+        teeth,
+        module_mm,
+        pressure_angle_deg: 20.0,
+        helix_deg,
+        profile_shift: 0.0,
+        face_width_mm,
+        tip_diameter_mm: None,
+        addendum: 1.0,
+        dedendum: 1.25,
+        rack_tip_radius: 0.38,
+        thickness_allowance_mm: 0.0,
+        tip_chamfer_mm: 0.0,
+        bore_mm: None,
+        material: material(source, structure, component)?,
+        microgeometry: Microgeometry::default(),
+    };
+    flank_values(source, component, &flanks, &mut gear)?;
+    tool(source, structure, component, &flanks, &mut gear)?;
+    tip_and_root(source, component, &mut gear)?;
+    thickness(source, component, &mut gear)?;
+    gear.bore_mm = bore(source, structure, component)?;
+    gear.microgeometry = microgeometry::read(source, structure, component, &flanks, &gear)?;
+    Ok(gear)
+}
+
+/// A value of both flanks: the right one's where they differ, which is told.
+fn of_flanks(
+    source: &Source<'_>,
+    gear: &Component,
+    flanks: &[Option<&Component>; 2],
+    attribute: &str,
+    read: impl Fn(&Component) -> Result<Option<f64>, RexsError>,
+) -> Result<Option<f64>, RexsError> {
+    let mut values = [None, None];
+    for (value, flank) in values.iter_mut().zip(flanks) {
+        if let Some(flank) = flank {
+            *value = read(flank)?;
+        }
+    }
+    if let [Some(left), Some(right)] = values
+        && (left - right).abs() > 1e-9
+    {
+        source.leave_out(gear, format!("{attribute} of left flanks, {left}: gears have one for both, the right flanks' {right}"));
+    }
+    let [left, right] = values;
+    Ok(right.or(left).or(read(gear)?))
+}
+
+fn flank_values(
+    source: &Source<'_>,
+    component: &Component,
+    flanks: &[Option<&Component>; 2],
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let value = |attribute: &str, unit| {
+        of_flanks(source, component, flanks, attribute, |c| {
+            source.number(c, attribute, unit)
+        })
+    };
+    match value("normal_pressure_angle", DEG)? {
+        Some(angle) if (5.0..=45.0).contains(&angle) => gear.pressure_angle_deg = angle,
+        other => source.assume(
+            component,
+            format!(
+                "normal_pressure_angle {}: 20 deg",
+                other.map_or("not given".to_owned(), |a| format!(
+                    "{a} deg is not possible"
+                ))
+            ),
+        ),
+    }
+    let shift = match value("addendum_modification_coefficient", ONE)? {
+        Some(x) => Some(x),
+        None => value("addendum_modification", MM)?.map(|amount| amount / gear.module_mm),
+    };
+    let shift = match shift {
+        Some(x) => Some(x),
+        None => value("addendum_modification_coefficient_after_finishing", ONE)?,
+    };
+    gear.profile_shift = shift.unwrap_or_else(|| {
+        source.assume(component, "no profile shift given: 0");
+        0.0
+    });
+    gear.tip_chamfer_mm = value("tooth_tip_chamfer", MM)?
+        .filter(|c| *c > 0.0)
+        .unwrap_or(0.0);
+    if let Some(addendum) =
+        value("addendum_coefficient_basic_profile", ONE)?.filter(|h| (0.2..3.0).contains(h))
+    {
+        gear.addendum = addendum;
+    }
+    Ok(())
+}
+
+fn tool(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    flanks: &[Option<&Component>; 2],
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let kinds = ["rack_shaped_tool", "cutter_wheel_tool", "profile_tool"];
+    let owners = [flanks[1], flanks[0], Some(component)];
+    let found = owners.into_iter().flatten().find_map(|owner| {
+        let tools = structure.partners(owner.id, &kinds);
+        // The last step gives the flank, the first one the root.
+        tools.first().and_then(|&id| source.model.component(id))
+    });
+    let Some(tool) = found else {
+        source.assume(
+            component,
+            "no tool given: rack of ISO 53 profile A, dedendum 1.25 and tip radius 0.38 modules",
+        );
+        return limit_tip_radius(source, component, gear);
+    };
+    if tool.kind != "rack_shaped_tool" {
+        source.assume(tool, "read as a rack of the same reference profile: roots cut by cutter wheels are not modelled");
+    }
+    let module = gear.module_mm;
+    let pair = |factor: &str, length: &str| -> Result<Option<f64>, RexsError> {
+        let by_factor = source.number(tool, factor, ONE)?;
+        let by_length = source.number(tool, length, MM)?.map(|l| l / module);
+        Ok(by_factor.or(by_length).filter(|v| (0.0..5.0).contains(v)))
+    };
+    match pair(
+        "addendum_coefficient_reference_profile",
+        "addendum_reference_profile",
+    )? {
+        Some(addendum) if addendum > 0.0 => gear.dedendum = addendum,
+        _ => source.assume(tool, "no addendum given: dedendum of the gear 1.25 modules"),
+    }
+    match pair(
+        "tip_corner_radius_factor_reference_profile",
+        "tip_corner_radius_reference_profile",
+    )? {
+        Some(radius) => gear.rack_tip_radius = radius,
+        None => source.assume(tool, "no tip radius given: 0.38 modules"),
+    }
+    limit_tip_radius(source, tool, gear)
+}
+
+/// The largest tip radius that a rack tooth has room for, and none larger than its addendum allows.
+fn limit_tip_radius(
+    source: &Source<'_>,
+    subject: &Component,
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let (sin, cos) = gear.pressure_angle_deg.to_radians().sin_cos();
+    let room = (std::f64::consts::FRAC_PI_4 - gear.dedendum * sin / cos) * cos / (1.0 - sin);
+    if room <= 0.0 {
+        return Err(RexsError::Missing {
+            component: subject.words(),
+            what: format!(
+                "a rack of dedendum {} modules and {} deg has no tip left",
+                gear.dedendum, gear.pressure_angle_deg
+            ),
+        });
+    }
+    // A hair below, so that rounding does not make the tip too narrow.
+    let most = (1e4 * room).floor() * 1e-4;
+    if gear.rack_tip_radius > most {
+        source.assume(
+            subject,
+            format!("a tip radius of {} modules does not fit on the rack's tip: {most:.4}, the full round", gear.rack_tip_radius),
+        );
+        gear.rack_tip_radius = most;
+    }
+    Ok(())
+}
+
+fn tip_and_root(
+    source: &Source<'_>,
+    component: &Component,
+    gear: &mut Gear,
+) -> Result<(), RexsError> {
+    let reference = gear.reference_diameter_mm();
+    let has_tool_data = gear.dedendum != 1.25;
+    if let Some(root) = source.number(component, "root_diameter", MM)? {
+        let dedendum = gear.profile_shift + (reference - root) / (2.0 * gear.module_mm);
+        if !has_tool_data
+            && (0.5..3.0).contains(&dedendum)
+            && (dedendum - gear.dedendum).abs() > 1e-6
+        {
+            source.assume(
+                component,
+                format!("dedendum {dedendum:.4} modules, from root_diameter"),
+            );
+            gear.dedendum = dedendum;
+            limit_tip_radius(source, component, gear)?;
+        }
+    }
+    if let Some(tip) = source.number(component, "tip_diameter", MM)? {
+        let least = gear
+            .base_diameter_mm()
+            .max(gear.root_diameter_mm() + 0.2 * gear.module_mm);
+        if tip > least && tip < reference + 8.0 * gear.module_mm {
+            gear.tip_diameter_mm = Some(tip);
+        } else {
+            source.leave_out(
+                component,
+                format!(
+                    "tip_diameter {tip} mm, which teeth of module {} mm cannot have",
+                    gear.module_mm
+                ),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn thickness(source: &Source<'_>, component: &Component, gear: &mut Gear) -> Result<(), RexsError> {
+    let cos_helix = gear.helix_deg.to_radians().cos();
+    let span = [
+        source.number(component, "upper_backlash_allowance_referenced_to_span", UM)?,
+        source.number(component, "lower_backlash_allowance_referenced_to_span", UM)?,
+    ];
+    let code = source.text(
+        component,
+        "tooth_thickness_deviation_tolerance_series_din_3967_1978",
+    );
+    let normal_mm = if let [Some(upper), Some(lower)] = span {
+        let mean = -0.5e-3 * (upper + lower) / gear.pressure_angle_deg.to_radians().cos();
+        source.assume(
+            component,
+            "tooth thickness: the middle of the allowances of span",
+        );
+        Some(mean)
+    } else if let Some(code) = code {
+        let found = din_3967_mm(&code, gear.reference_diameter_mm());
+        match found {
+            Some(mean) => source.assume(
+                component,
+                format!("tooth thickness: {:.1} um thinner in the normal section, the middle of DIN 3967 {code}", 1e3 * mean),
+            ),
+            None => source.leave_out(component, format!("tooth thickness `{code}`, which the tables of DIN 3967 do not have for this diameter")),
+        }
+        found
+    } else {
+        source.assume(component, "no tooth thickness allowance given: none, teeth without backlash at the theoretical centre distance");
+        None
+    };
+    if let Some(mean) = normal_mm.filter(|m| *m > 0.0 && *m < 0.5 * gear.module_mm) {
+        gear.thickness_allowance_mm = mean / cos_helix;
+    }
+    Ok(())
+}
+
+fn bore(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+) -> Result<Option<f64>, RexsError> {
+    let mut bore = source
+        .number(component, "inner_diameter", MM)?
+        .filter(|d| *d > 0.0);
+    for id in structure.partners(component.id, &["gear_body"]) {
+        if let Some(body) = source.model.component(id) {
+            bore = source
+                .number(body, "inner_diameter", MM)?
+                .filter(|d| *d > 0.0)
+                .or(bore);
+            if source.has(body, "body_contour_coordinate_u")
+                || source.has(body, "gear_body_web_thickness")
+            {
+                source.leave_out(body, "rim, web and contour: the blank is a solid disc with this bore; give [blank] kind = \"thin-rim\" or \"contour\" by hand");
+            }
+        }
+    }
+    Ok(bore)
+}

@@ -1,0 +1,351 @@
+//! A REXS file into gear files, bearing files, bevel pair files, scenes and the list of what became of it.
+
+use crate::bevel;
+use crate::container::{Unpacked, unpack};
+use crate::error::RexsError;
+use crate::gear_text::gear_file;
+use crate::ledger::Ledger;
+use crate::model::{LoadCase, Model};
+use crate::scene_text::scene;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::text::file_stem;
+use crate::train;
+use crate::units::{HOUR, M_PER_S2, ONE};
+use crate::{json, versions, xml};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// A file that was made.
+#[derive(Debug, Clone)]
+pub struct ImportedFile {
+    /// Name.
+    pub name: String,
+    /// Text.
+    pub text: String,
+}
+
+/// What was made of a REXS file.
+#[derive(Debug)]
+pub struct Import {
+    /// Version as stated.
+    pub version: String,
+    /// Program that wrote it.
+    pub application: String,
+    /// Files, scenes first.
+    pub files: Vec<ImportedFile>,
+    /// Names of the scenes among them.
+    pub scenes: Vec<String>,
+    /// What became of it.
+    pub ledger: Ledger,
+}
+
+/// Types that the import knows; what others hold is listed, with their names.
+const KNOWN: [&str; 40] = [
+    "gear_unit",
+    "gear_casing",
+    "shaft",
+    "shaft_section",
+    "cylindrical_gear",
+    "ring_gear",
+    "worm_gear",
+    "worm_wheel",
+    "bevel_gear",
+    "gear_body",
+    "cylindrical_gear_flank",
+    "bevel_gear_flank",
+    "rack_shaped_tool",
+    "cutter_wheel_tool",
+    "profile_tool",
+    "cylindrical_stage",
+    "bevel_stage",
+    "planetary_stage",
+    "worm_stage",
+    "cylindrical_stage_gear_data",
+    "bevel_stage_gear_data",
+    "concept_bearing",
+    "rolling_bearing_with_catalog_geometry",
+    "rolling_bearing_with_detailed_geometry",
+    "hydrodynamic_radial_plain_bearing",
+    "coupling",
+    "switchable_coupling",
+    "external_load",
+    "additional_mass",
+    "material",
+    "tip_relief",
+    "root_relief",
+    "profile_crowning",
+    "profile_slope",
+    "profile_twist",
+    "helix_crowning",
+    "helix_slope",
+    "end_relief_datum_face",
+    "end_relief_non_datum_face",
+    "topographical_modification",
+];
+
+/// Imports a file. `stem` begins the names of the files that are made.
+///
+/// # Errors
+/// [`RexsError`] for files that are no REXS or lack what a gearbox cannot do without.
+pub fn import(bytes: Vec<u8>, stem: &str) -> Result<Import, RexsError> {
+    let unpacked = unpack(bytes)?;
+    let mut ledger = Ledger::default();
+    let mut model = parse(&unpacked)?;
+    for further in &unpacked.further {
+        ledger.leave_out("the zip file", format!("member {further}"));
+    }
+    versions::bring_up_to_date(&mut model, &mut ledger)?;
+    for unknown in &model.unknown {
+        ledger.leave_out("the file", unknown.clone());
+    }
+    let structure = Structure::new(&model, &mut ledger)?;
+    let ledger = RefCell::new(ledger);
+    let used = RefCell::new(BTreeSet::new());
+    let stem = file_stem(stem);
+    let cases: Vec<&LoadCase> = model.spectra.iter().flat_map(|s| &s.cases).collect();
+    let mut made = Made::default();
+    if cases.is_empty() {
+        let source = Source::new(&model, &ledger, &used);
+        made.case(&source, &structure, &stem, &model, None)?;
+    }
+    for (i, case) in cases.iter().enumerate() {
+        let in_case = model.in_case(case);
+        let source = Source::new(&in_case, &ledger, &used);
+        let name = if i == 0 {
+            stem.clone()
+        } else {
+            format!("{stem}_case_{}", case.id)
+        };
+        made.case(&source, &structure, &name, &model, Some(case))?;
+        if i + 1 == cases.len() {
+            source.list_unused();
+        }
+    }
+    if cases.len() > 1 {
+        match study(&made, &stem) {
+            Some(text) => made.add(format!("{stem}_study.toml"), text),
+            None => ledger.borrow_mut().assume(
+                "the load spectrum",
+                "its cases differ in more than one torque: a scene for each case, no study",
+            ),
+        }
+    }
+    for spectrum in &model.spectra {
+        for component in spectrum
+            .accumulation
+            .iter()
+            .filter(|c| !c.attributes.is_empty())
+        {
+            let words = component.words();
+            ledger.borrow_mut().leave_out(
+                "accumulation of the load spectrum",
+                format!(
+                    "{} values of {words}: results of the other program",
+                    component.attributes.len()
+                ),
+            );
+        }
+    }
+    let source = Source::new(&model, &ledger, &used);
+    if cases.is_empty() {
+        source.list_unused();
+    }
+    for component in model
+        .components
+        .iter()
+        .filter(|c| !KNOWN.contains(&c.kind.as_str()))
+    {
+        source.leave_out(component, "components of this type have no counterpart");
+    }
+    Ok(Import {
+        version: model.version.clone(),
+        application: model.application.clone(),
+        files: made.files,
+        scenes: made.scenes,
+        ledger: ledger.into_inner(),
+    })
+}
+
+fn parse(unpacked: &Unpacked) -> Result<Model, RexsError> {
+    match unpacked.text.trim_start().chars().next() {
+        Some('<') => xml::read(&unpacked.text),
+        Some('{') => json::read(&unpacked.text),
+        Some(c) => Err(RexsError::Container {
+            found: format!("text that begins with `{c}`"),
+        }),
+        None => Err(RexsError::Container {
+            found: "nothing".to_owned(),
+        }),
+    }
+}
+
+#[derive(Default)]
+struct Made {
+    files: Vec<ImportedFile>,
+    scenes: Vec<String>,
+}
+
+impl Made {
+    fn add(&mut self, name: String, text: String) {
+        if !self.files.iter().any(|f| f.name == name) {
+            self.files.push(ImportedFile { name, text });
+        }
+    }
+
+    /// Scene, gears and bearings of a load case; gears and bearings are the same in all.
+    fn case(
+        &mut self,
+        source: &Source<'_>,
+        structure: &Structure,
+        name: &str,
+        base: &Model,
+        case: Option<&LoadCase>,
+    ) -> Result<(), RexsError> {
+        let stem = name.split("_case_").next().unwrap_or(name);
+        let train = train::read(source, structure, stem)?;
+        let (mut head, gravity) = unit_values(source, base, case)?;
+        if !train.shafts.is_empty() {
+            let title = source
+                .model
+                .of_kind(&["gear_unit"])
+                .next()
+                .map_or("", |u| &u.name);
+            let title = if title.is_empty() { name } else { title };
+            let title = case.map_or(title.to_owned(), |c| format!("{title}, load case {}", c.id));
+            head.push(
+                "What was taken, assumed and not represented stands in the list beside this file."
+                    .to_owned(),
+            );
+            let file = format!("{name}.toml");
+            self.add(file.clone(), scene(source, &train, &title, &head, gravity));
+            self.scenes.push(file);
+        }
+        let origin = head.first().cloned().unwrap_or_default();
+        for seated in &train.gears {
+            self.add(seated.gear.file.clone(), gear_file(&seated.gear, &origin));
+        }
+        for (file, text) in train.bearings.iter().filter_map(|b| b.file.clone()) {
+            self.add(file, text);
+        }
+        for (i, stage) in structure.stages().into_iter().enumerate() {
+            let found =
+                [stage.id, stage.gears[0], stage.gears[1]].map(|id| source.model.component(id));
+            let [Some(component), Some(g1), Some(g2)] = found else {
+                continue;
+            };
+            if component.kind == "bevel_stage"
+                && let Some(text) = bevel::pair_file(source, structure, component, [g1, g2])?
+            {
+                self.add(format!("{stem}_bevel_{}.toml", i + 1), text);
+            }
+        }
+        if self.files.is_empty() {
+            return Err(RexsError::Missing {
+                component: "the file".to_owned(),
+                what: "holds no shaft, no cylindrical gear and no bevel pair: nothing to import"
+                    .to_owned(),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The load cases as a study of the first one's scene, where they differ in one torque only.
+fn study(made: &Made, stem: &str) -> Option<String> {
+    let texts: Vec<Vec<&str>> = made
+        .scenes
+        .iter()
+        .filter_map(|name| made.files.iter().find(|f| f.name == *name))
+        .map(|f| {
+            f.text
+                .lines()
+                .filter(|l| !l.starts_with(['#']) && !l.starts_with("title"))
+                .collect()
+        })
+        .collect();
+    let first = texts.first()?;
+    let mut place = None;
+    for other in &texts[1..] {
+        if other.len() != first.len() {
+            return None;
+        }
+        for (i, _) in first
+            .iter()
+            .zip(other)
+            .enumerate()
+            .filter(|(_, (a, b))| a != b)
+        {
+            if place.is_some_and(|p| p != i) || !first[i].starts_with("torque_Nm = ") {
+                return None;
+            }
+            place = Some(i);
+        }
+    }
+    let place = place?;
+    let load = first[..place].iter().filter(|l| **l == "[[load]]").count() - 1;
+    let values: Vec<&str> = texts
+        .iter()
+        .map(|t| t[place].trim_start_matches("torque_Nm = "))
+        .collect();
+    let bearings: Vec<String> = (0..first.len().saturating_sub(1))
+        .filter(|&i| first[i] == "[[bearing]]")
+        .filter_map(|i| first[i + 1].strip_prefix("name = \"")?.strip_suffix('"'))
+        .map(|name| format!("\"elements/{name}/force_radial_N\""))
+        .collect();
+    Some(format!(
+        "# The load cases, by the torque in which they differ: `gearmesh study {stem}_study.toml -o DIR`.\n\
+         title = \"Load cases\"\nscene = \"{stem}.toml\"\ndesign = \"grid\"\ncolumns = [{}]\n\n\
+         [[parameter]]\nname = \"torque N m\"\nkeys = [\"load.{load}.torque_Nm\"]\nvalues = [{}]\n",
+        bearings.join(", "),
+        values.join(", ")
+    ))
+}
+
+/// Head lines and gravity of the scene.
+fn unit_values(
+    source: &Source<'_>,
+    base: &Model,
+    case: Option<&LoadCase>,
+) -> Result<(Vec<String>, Option<[f64; 3]>), RexsError> {
+    let mut head = vec![format!(
+        "Imported from REXS {}{}",
+        base.version,
+        if base.application.is_empty() {
+            String::new()
+        } else {
+            format!(", written by {}", base.application)
+        }
+    )];
+    let mut gravity = None;
+    for unit in source.model.of_kind(&["gear_unit"]) {
+        let share = source.number(unit, "operating_time_fraction", ONE)?;
+        let hours = source.number(unit, "operating_time", HOUR)?;
+        if let Some(case) = case {
+            let mut words = format!("Load case {}", case.id);
+            if let Some(share) = share {
+                words.push_str(&format!(", {:.4} % of the time", 100.0 * share));
+            }
+            if let Some(hours) = hours {
+                words.push_str(&format!(", {hours} h"));
+            }
+            head.push(words);
+        }
+        if source.flag(unit, "account_for_gravity")? == Some(true) {
+            let size = source
+                .number(unit, "gravitational_acceleration", M_PER_S2)?
+                .unwrap_or(9.81);
+            let mut direction = [0.0; 3];
+            for (value, axis) in direction.iter_mut().zip(["u", "v", "w"]) {
+                *value = source
+                    .number(unit, &format!("direction_vector_gravity_{axis}"), ONE)?
+                    .unwrap_or(0.0);
+            }
+            match crate::placement::unit(direction) {
+                Some(direction) => gravity = Some(direction.map(|x| size * x)),
+                None => source.leave_out(unit, "gravity without a direction"),
+            }
+        }
+    }
+    Ok((head, gravity))
+}

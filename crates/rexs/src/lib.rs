@@ -1,0 +1,37 @@
+//! REXS, the gear industry's exchange format for gearboxes: XML, JSON or a zip of one, versions 1.0 to 2.0.0.
+//!
+//! Data walk one way: bytes ([`container`]) → text of a [`model::Model`] ([`xml`], [`json`]) → names of version 2.0.0
+//! ([`versions`]) → values with units ([`source`], which keeps the list of what was taken) → shafts, gears, bearings,
+//! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what becomes of what.
+
+pub mod bearing;
+pub mod bevel;
+pub mod container;
+pub mod coupling;
+pub mod error;
+pub mod gear;
+pub mod gear_text;
+pub mod import;
+pub mod json;
+pub mod ledger;
+pub mod loads;
+pub mod microgeometry;
+pub mod model;
+pub mod placement;
+pub mod power_flow;
+pub mod scene_text;
+pub mod shaft;
+pub mod source;
+pub mod structure;
+pub mod text;
+pub mod tooth_thickness;
+pub mod train;
+pub mod train_finish;
+pub mod train_places;
+pub mod units;
+pub mod versions;
+pub mod xml;
+
+pub use error::RexsError;
+pub use import::{Import, ImportedFile, import};
+pub use ledger::{Entry, Ledger};

@@ -1,0 +1,122 @@
+//! External loads and additional masses on shafts.
+
+use crate::error::RexsError;
+use crate::model::Component;
+use crate::source::Source;
+use crate::units::{KG, KG_M2, KW, MM, N, NM};
+
+/// A load on a shaft.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// Component.
+    pub id: i64,
+    /// Name in the scene.
+    pub name: String,
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Place along u \[mm\].
+    pub u_mm: f64,
+    /// Torque about u \[N m\]; none where it follows from the others.
+    pub torque_nm: Option<f64>,
+    /// Power \[W\], where given instead.
+    pub power_w: Option<f64>,
+    /// Whether it takes part in the flow of power.
+    pub transmits: bool,
+    /// Force along u, v, w \[N\].
+    pub force_n: [f64; 3],
+    /// Moments about v and w \[N m\].
+    pub moment_nm: [f64; 2],
+}
+
+/// Reads a load.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn read(
+    source: &Source<'_>,
+    component: &Component,
+    name: String,
+    shaft: i64,
+) -> Result<Load, RexsError> {
+    let u_mm = source.number(component, "u_coordinate_on_shaft", MM)?;
+    let value = |id: &str, unit| source.number(component, id, unit);
+    let torque_nm = value("torque_around_u_axis", NM)?;
+    let power_w = value("power", KW)?.map(|p| 1e3 * p).filter(|p| *p != 0.0);
+    let states = source.flag(component, "transmits_torque")?;
+    let defines = source.flag(component, "defines_torque")?;
+    // A load that neither has a torque nor says that it passes one on is a force.
+    let transmits = states.unwrap_or(torque_nm.is_some() || power_w.is_some());
+    let follows = transmits && defines == Some(false);
+    if let Some(torque) = torque_nm.filter(|t| *t != 0.0 && !transmits) {
+        source.leave_out(
+            component,
+            format!("a torque of {torque} N m where transmits_torque is false"),
+        );
+    }
+    if u_mm.is_none() {
+        source.assume(component, "no u_coordinate_on_shaft given: 0");
+    }
+    let force = |axis: &str| value(&format!("force_{axis}_direction"), N);
+    Ok(Load {
+        id: component.id,
+        name,
+        shaft,
+        u_mm: u_mm.unwrap_or(0.0),
+        torque_nm: torque_nm.filter(|_| transmits && !follows),
+        power_w: power_w.filter(|_| transmits && !follows),
+        transmits,
+        force_n: [
+            force("u")?.unwrap_or(0.0),
+            force("v")?.unwrap_or(0.0),
+            force("w")?.unwrap_or(0.0),
+        ],
+        moment_nm: [
+            value("torque_around_v_axis", NM)?.unwrap_or(0.0),
+            value("torque_around_w_axis", NM)?.unwrap_or(0.0),
+        ],
+    })
+}
+
+/// A mass on a shaft.
+#[derive(Debug, Clone, Copy)]
+pub struct AddedMass {
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Place along u \[mm\].
+    pub u_mm: f64,
+    /// Mass \[kg\].
+    pub mass_kg: f64,
+    /// Moments of inertia about v, w and u \[kg m²\].
+    pub inertia_kg_m2: [f64; 3],
+}
+
+/// Reads an additional mass; none where it has no mass.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn added_mass(
+    source: &Source<'_>,
+    component: &Component,
+    shaft: i64,
+) -> Result<Option<AddedMass>, RexsError> {
+    let u_mm = source
+        .number(component, "u_coordinate_on_shaft", MM)?
+        .unwrap_or(0.0);
+    let Some(mass_kg) = source
+        .number(component, "mass_of_component", KG)?
+        .filter(|m| *m > 0.0)
+    else {
+        source.leave_out(component, "no mass given");
+        return Ok(None);
+    };
+    let inertia = |axis: &str| -> Result<f64, RexsError> {
+        let found = source.number(component, &format!("moment_of_inertia_{axis}_axis"), KG_M2)?;
+        Ok(found.unwrap_or(0.0).max(0.0))
+    };
+    Ok(Some(AddedMass {
+        shaft,
+        u_mm,
+        mass_kg,
+        inertia_kg_m2: [inertia("v")?, inertia("w")?, inertia("u")?],
+    }))
+}

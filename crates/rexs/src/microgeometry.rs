@@ -1,0 +1,376 @@
+//! Flank modifications: reliefs, crownings, slopes, twist, topography.
+
+use crate::error::RexsError;
+use crate::gear::Gear;
+use crate::model::Component;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::text::{number, numbers};
+use crate::units::{MM, Unit};
+
+/// Keys of `[microgeometry]` and their values, of left and right flanks.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Microgeometry {
+    /// Left flanks.
+    pub left: Vec<(String, String)>,
+    /// Right flanks.
+    pub right: Vec<(String, String)>,
+}
+
+impl Microgeometry {
+    /// Nothing is modified.
+    pub fn is_empty(&self) -> bool {
+        self.left.is_empty() && self.right.is_empty()
+    }
+}
+
+/// Micrometres in a millimetre.
+const UM_PER_MM: f64 = 1e3;
+
+/// Components that modify a flank and have a counterpart in gear files.
+const READ: [&str; 8] = [
+    "tip_relief",
+    "root_relief",
+    "profile_crowning",
+    "profile_slope",
+    "helix_crowning",
+    "helix_slope",
+    "profile_twist",
+    "topographical_modification",
+];
+
+/// End reliefs.
+const ENDS: [&str; 2] = ["end_relief_datum_face", "end_relief_non_datum_face"];
+
+/// Those that have none.
+const UNREAD: [&str; 4] = [
+    "triangular_tip_relief",
+    "triangular_root_relief",
+    "profile_deviation",
+    "helix_deviation",
+];
+
+/// Reads the modifications of both flanks.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    flanks: &[Option<&Component>; 2],
+    gear: &Gear,
+) -> Result<Microgeometry, RexsError> {
+    // +z of the gear file is +u. The datum face looks to -u unless the file says otherwise.
+    let datum_is_positive =
+        source.text(component, "datum_face_orientation").as_deref() == Some("positive");
+    let mut sides = [Vec::new(), Vec::new()];
+    for (side, flank) in sides.iter_mut().zip(flanks) {
+        let Some(flank) = flank else { continue };
+        let reader = Reader {
+            source,
+            gear,
+            datum_is_positive,
+        };
+        let found = |kinds: &[&str]| -> Vec<&Component> {
+            let ids = structure.partners(flank.id, kinds).into_iter();
+            ids.filter_map(|id| source.model.component(id)).collect()
+        };
+        let mut seen: Vec<&str> = Vec::new();
+        for m in found(&READ) {
+            if seen.contains(&m.kind.as_str()) {
+                source.leave_out(m, "a second one of its kind on the same flank");
+                continue;
+            }
+            seen.push(&m.kind);
+            side.extend(reader.modification(m)?);
+        }
+        side.extend(reader.ends(&found(&ENDS))?);
+        for m in found(&UNREAD) {
+            source.leave_out(m, "gear files have no such modification; give it as a topography or as an error of the mesh");
+        }
+    }
+    let [left, right] = sides;
+    Ok(Microgeometry { left, right })
+}
+
+type Keys = Vec<(String, String)>;
+
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    gear: &'a Gear,
+    datum_is_positive: bool,
+}
+
+impl Reader<'_> {
+    fn value(&self, m: &Component, id: &str, unit: Unit) -> Result<Option<f64>, RexsError> {
+        self.source.number(m, id, unit)
+    }
+
+    fn amount_um(&self, m: &Component, id: &str) -> Result<Option<f64>, RexsError> {
+        let found = self
+            .value(m, id, MM)?
+            .map(|mm| UM_PER_MM * mm)
+            .filter(|um| *um != 0.0);
+        if let Some(um) = found.filter(|um| um.abs() > 1000.0) {
+            self.source.leave_out(
+                m,
+                format!("{id} of {um} um: more than 1000 is no modification"),
+            );
+            return Ok(None);
+        }
+        Ok(found)
+    }
+
+    /// A diameter, or the rolling length to it.
+    fn diameter_mm(
+        &self,
+        m: &Component,
+        diameter: &str,
+        length: &str,
+    ) -> Result<Option<f64>, RexsError> {
+        if let Some(d) = self.value(m, diameter, MM)? {
+            return Ok(Some(d));
+        }
+        let base = 0.5 * self.gear.base_diameter_mm();
+        Ok(self
+            .value(m, length, MM)?
+            .map(|roll| 2.0 * base.hypot(roll)))
+    }
+
+    fn shape(&self, m: &Component) -> &'static str {
+        let shape = self.source.text(m, "shape_of_relief");
+        match shape.as_deref() {
+            Some("parabolic") => "parabolic",
+            Some("circular") => "arc",
+            Some("linear") => "linear",
+            Some(other) => {
+                self.source
+                    .leave_out(m, format!("shape `{other}`: taken as parabolic"));
+                "parabolic"
+            }
+            None => {
+                self.source.assume(m, "no shape given: linear");
+                "linear"
+            }
+        }
+    }
+
+    fn modification(&self, m: &Component) -> Result<Keys, RexsError> {
+        let key = |name: &str, value: f64| (name.to_owned(), number(value));
+        Ok(match m.kind.as_str() {
+            "tip_relief" => self.relief(m, "tip_relief")?,
+            "root_relief" => self.relief(m, "root_relief")?,
+            "profile_crowning" => {
+                let tip = self.amount_um(m, "profile_crowning_at_tip")?;
+                let root = self.amount_um(m, "profile_crowning_at_root")?;
+                let highest = self.value(m, "profile_highest_point", MM)?;
+                let Some(tip) = tip.or(root) else {
+                    return Ok(Vec::new());
+                };
+                if let Some(root) = root.filter(|root| *root != tip) {
+                    self.source.leave_out(m, format!("{root} um at the root: one parabola from the highest point on, {tip} um at the tip"));
+                }
+                let middle = highest.unwrap_or_else(|| {
+                    self.source
+                        .assume(m, "no highest point given: the reference circle");
+                    self.gear.reference_diameter_mm()
+                });
+                vec![
+                    key("profile_crowning_um", tip),
+                    key("profile_crowning_diameter_mm", middle),
+                ]
+            }
+            "profile_slope" => {
+                let Some(amount) = self.amount_um(m, "profile_slope")? else {
+                    return Ok(Vec::new());
+                };
+                self.source.assume(
+                    m,
+                    "sign: positive removes towards the tip; over the whole involute",
+                );
+                vec![key("profile_angle_um", amount)]
+            }
+            "helix_crowning" => {
+                let ends = [
+                    self.amount_um(m, "helix_crowning_amount_datum_face")?,
+                    self.amount_um(m, "helix_crowning_amount_non_datum_face")?,
+                ];
+                let [Some(a), Some(b)] = [ends[0].or(ends[1]), ends[1].or(ends[0])] else {
+                    return Ok(Vec::new());
+                };
+                if a != b {
+                    self.source.leave_out(
+                        m,
+                        format!("{a} and {b} um at the two faces: their mean at both"),
+                    );
+                }
+                vec![key("lead_crowning_um", 0.5 * (a + b))]
+            }
+            "helix_slope" => {
+                let Some(amount) = self.amount_um(m, "helix_slope")? else {
+                    return Ok(Vec::new());
+                };
+                self.source.assume(
+                    m,
+                    "sign: positive removes towards the face that is not the datum face",
+                );
+                vec![key(
+                    "flank_angle_um",
+                    if self.datum_is_positive {
+                        -amount
+                    } else {
+                        amount
+                    },
+                )]
+            }
+            "profile_twist" => {
+                let Some(amount) = self.amount_um(m, "profile_twist")? else {
+                    return Ok(Vec::new());
+                };
+                self.source.assume(
+                    m,
+                    "sign: positive where the profile's slope grows from the datum face on",
+                );
+                vec![key(
+                    "twist_um",
+                    if self.datum_is_positive {
+                        -amount
+                    } else {
+                        amount
+                    },
+                )]
+            }
+            _ => self.topography(m)?,
+        })
+    }
+
+    fn relief(&self, m: &Component, name: &str) -> Result<Keys, RexsError> {
+        let Some(amount) = self.amount_um(m, &format!("{name}_depth"))? else {
+            return Ok(Vec::new());
+        };
+        let start = self.diameter_mm(
+            m,
+            &format!("{name}_datum_diameter"),
+            &format!("{name}_datum_length"),
+        )?;
+        let Some(start) = start else {
+            self.source.leave_out(
+                m,
+                format!("{amount} um: neither a diameter nor a length at which it begins is given"),
+            );
+            return Ok(Vec::new());
+        };
+        let (tip, base) = (self.gear.tip_mm(), self.gear.base_diameter_mm());
+        if !(base..tip).contains(&start) {
+            self.source.leave_out(m, format!("{amount} um from a diameter of {start:.4} mm on: not on the flank, {base:.4} to {tip:.4} mm"));
+            return Ok(Vec::new());
+        }
+        Ok(vec![
+            (format!("{name}_um"), number(amount)),
+            (format!("{name}_start_diameter_mm"), number(start)),
+            (format!("{name}_shape"), format!("\"{}\"", self.shape(m))),
+        ])
+    }
+
+    fn ends(&self, ends: &[&Component]) -> Result<Keys, RexsError> {
+        let mut found: Vec<(f64, f64, &str, bool)> = Vec::new();
+        for m in ends {
+            let is_datum = m.kind == ENDS[0];
+            let face = if is_datum {
+                "datum_face"
+            } else {
+                "non_datum_face"
+            };
+            let amount = self.amount_um(m, &format!("end_relief_depth_{face}"))?;
+            let length = self.value(m, &format!("end_relief_length_{face}"), MM)?;
+            match (amount, length) {
+                (Some(amount), Some(length))
+                    if length > 0.0 && length < self.gear.face_width_mm =>
+                {
+                    found.push((
+                        amount,
+                        length,
+                        self.shape(m),
+                        is_datum == self.datum_is_positive,
+                    ));
+                }
+                (None, _) => {}
+                _ => self
+                    .source
+                    .leave_out(m, "end relief without a length on the face"),
+            }
+        }
+        let Some(&(amount, length, shape, is_positive)) = found.first() else {
+            return Ok(Vec::new());
+        };
+        let end = match found.get(1) {
+            None if is_positive => "+z",
+            None => "-z",
+            Some(second) => {
+                if (second.0, second.1, second.2) != (amount, length, shape) {
+                    self.source.leave_out(
+                        ends[1],
+                        "another end relief than at the other face: both have that of the first",
+                    );
+                }
+                "both"
+            }
+        };
+        Ok(vec![
+            ("end_relief_um".to_owned(), number(amount)),
+            ("end_relief_length_mm".to_owned(), number(length)),
+            ("end_relief_shape".to_owned(), format!("\"{shape}\"")),
+            ("end_relief_end".to_owned(), format!("\"{end}\"")),
+        ])
+    }
+
+    /// A table: amounts at diameters times places over the face, the places running fastest.
+    fn topography(&self, m: &Component) -> Result<Keys, RexsError> {
+        let diameters = self
+            .source
+            .list(m, "diameters_of_topographical_modification", MM)?;
+        let places = self
+            .source
+            .list(m, "coordinates_of_topographical_modification", MM)?;
+        let amounts = self
+            .source
+            .list(m, "topographical_modification_amounts", MM)?;
+        let (Some(diameters), Some(places), Some(amounts)) = (diameters, places, amounts) else {
+            self.source
+                .leave_out(m, "topography without diameters, coordinates and amounts");
+            return Ok(Vec::new());
+        };
+        let increasing =
+            |values: &[f64]| values.len() > 1 && values.windows(2).all(|w| w[0] < w[1]);
+        if !increasing(&diameters)
+            || !increasing(&places)
+            || amounts.len() != diameters.len() * places.len()
+        {
+            self.source.leave_out(
+                m,
+                format!(
+                    "topography of {} diameters, {} places and {} amounts: no full grid of increasing points",
+                    diameters.len(),
+                    places.len(),
+                    amounts.len()
+                ),
+            );
+            return Ok(Vec::new());
+        }
+        self.source.assume(m, "places over the face count from the face at the lower u; positive amounts remove material");
+        let half = 0.5 * self.gear.face_width_mm;
+        let z: Vec<f64> = places.iter().map(|b| b - half).collect();
+        let rows: Vec<String> = amounts
+            .chunks(places.len())
+            .map(|row| numbers(&row.iter().map(|mm| UM_PER_MM * mm).collect::<Vec<_>>()))
+            .collect();
+        let table = format!(
+            "{{ diameter_mm = {}, z_mm = {}, removed_um = [{}] }}",
+            numbers(&diameters),
+            numbers(&z),
+            rows.join(", ")
+        );
+        Ok(vec![("topography".to_owned(), table)])
+    }
+}

@@ -1,0 +1,167 @@
+//! A REXS model as it stands in the file: components with attributes, relations between them, load cases.
+
+/// A model.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// Version as stated.
+    pub version: String,
+    /// Program that wrote it.
+    pub application: String,
+    /// Relations.
+    pub relations: Vec<Relation>,
+    /// Components.
+    pub components: Vec<Component>,
+    /// Load spectra.
+    pub spectra: Vec<LoadSpectrum>,
+    /// Elements that the format does not know, as words.
+    pub unknown: Vec<String>,
+}
+
+/// A component.
+#[derive(Debug, Clone)]
+pub struct Component {
+    /// Number.
+    pub id: i64,
+    /// Type: `shaft`, `cylindrical_gear` and so on.
+    pub kind: String,
+    /// Name, may be empty.
+    pub name: String,
+    /// Attributes.
+    pub attributes: Vec<Attribute>,
+}
+
+impl Component {
+    /// Words for messages: type, number, name.
+    pub fn words(&self) -> String {
+        if self.name.is_empty() {
+            format!("{} {}", self.kind, self.id)
+        } else {
+            format!("{} {} `{}`", self.kind, self.id, self.name)
+        }
+    }
+
+    /// An attribute.
+    pub fn attribute(&self, id: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|a| a.id == id)
+    }
+}
+
+/// An attribute.
+#[derive(Debug, Clone)]
+pub struct Attribute {
+    /// Name.
+    pub id: String,
+    /// Unit; empty where not given.
+    pub unit: String,
+    /// Value.
+    pub value: Value,
+    /// Line in the text, where known.
+    pub line: Option<u32>,
+}
+
+/// A value, as text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Value {
+    /// One value.
+    Scalar(String),
+    /// An array.
+    List(Vec<String>),
+    /// A matrix, or an array of arrays.
+    Rows(Vec<Vec<String>>),
+}
+
+impl Value {
+    /// Nothing in it.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Scalar(text) => text.trim().is_empty(),
+            Self::List(items) => items.is_empty(),
+            Self::Rows(rows) => rows.is_empty(),
+        }
+    }
+}
+
+/// A relation between components.
+#[derive(Debug, Clone)]
+pub struct Relation {
+    /// Number.
+    pub id: i64,
+    /// Type: `assembly`, `stage` and so on.
+    pub kind: String,
+    /// Place among relations of its kind.
+    pub order: Option<i64>,
+    /// The components and their roles.
+    pub references: Vec<Reference>,
+}
+
+impl Relation {
+    /// The component in a role.
+    pub fn role(&self, roles: &[&str]) -> Option<i64> {
+        let found = self
+            .references
+            .iter()
+            .find(|r| roles.contains(&r.role.as_str()));
+        found.map(|r| r.id)
+    }
+
+    /// Whether a component takes part.
+    pub fn names(&self, id: i64) -> bool {
+        self.references.iter().any(|r| r.id == id)
+    }
+}
+
+/// A component in a relation.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// The component's number.
+    pub id: i64,
+    /// Its role.
+    pub role: String,
+}
+
+/// A load spectrum.
+#[derive(Debug, Clone)]
+pub struct LoadSpectrum {
+    /// Number.
+    pub id: i64,
+    /// Load cases.
+    pub cases: Vec<LoadCase>,
+    /// What other programs have summed up over the cases.
+    pub accumulation: Vec<Component>,
+}
+
+/// A load case: attributes that go before those of the components.
+#[derive(Debug, Clone)]
+pub struct LoadCase {
+    /// Number.
+    pub id: i64,
+    /// The components, of their attributes those of this case.
+    pub components: Vec<Component>,
+}
+
+impl Model {
+    /// A component.
+    pub fn component(&self, id: i64) -> Option<&Component> {
+        self.components.iter().find(|c| c.id == id)
+    }
+
+    /// Components of some types, in the order of the file.
+    pub fn of_kind<'a>(&'a self, kinds: &'a [&str]) -> impl Iterator<Item = &'a Component> {
+        let wanted = move |c: &&Component| kinds.contains(&c.kind.as_str());
+        self.components.iter().filter(wanted)
+    }
+
+    /// The model in a load case.
+    pub fn in_case(&self, case: &LoadCase) -> Self {
+        let mut model = self.clone();
+        for change in &case.components {
+            let found = model.components.iter_mut().find(|c| c.id == change.id);
+            let Some(component) = found else { continue };
+            for attribute in &change.attributes {
+                component.attributes.retain(|a| a.id != attribute.id);
+                component.attributes.push(attribute.clone());
+            }
+        }
+        model
+    }
+}

@@ -1,0 +1,146 @@
+//! Where components stand in space: vectors of a reference component, chained.
+
+use crate::error::RexsError;
+use crate::model::Component;
+use crate::source::Source;
+
+/// Origin and axes in the coordinates of the gear unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Origin \[mm\].
+    pub origin_mm: [f64; 3],
+    /// Unit vectors u, v and w.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl Frame {
+    /// The gear unit's own frame.
+    pub const WORLD: Self = Self {
+        origin_mm: [0.0; 3],
+        axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    };
+
+    /// A direction given in this frame.
+    pub fn direction(&self, local: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| (0..3).map(|k| local[k] * self.axes[k][i]).sum())
+    }
+
+    /// A point given in this frame.
+    pub fn point(&self, local: [f64; 3]) -> [f64; 3] {
+        add(self.origin_mm, self.direction(local), 1.0)
+    }
+
+    /// Coordinate of a point along u.
+    pub fn u_of(&self, point: [f64; 3]) -> f64 {
+        dot(add(point, self.origin_mm, -1.0), self.axes[0])
+    }
+}
+
+/// a + s b.
+pub fn add(a: [f64; 3], b: [f64; 3], s: f64) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + s * b[i])
+}
+
+/// Scalar product.
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+/// Vector product.
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// A vector of length one; none for the zero vector.
+pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(a, a).sqrt();
+    (length > 1e-9).then(|| a.map(|x| x / length))
+}
+
+/// Deepest chain of reference components.
+const LONGEST_CHAIN: usize = 1000;
+
+/// The frame of a component; none where it has no support vector.
+///
+/// # Errors
+/// [`RexsError::Cycle`] for components whose places are told by each other, those of [`Source`].
+pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {
+    let mut chain = Vec::new();
+    let mut next = component;
+    loop {
+        let Some(own) = own_frame(source, next)? else {
+            if chain.is_empty() {
+                return Ok(None);
+            }
+            source.assume(
+                next,
+                "other components stand in its frame, which is not given: taken as the gear unit's",
+            );
+            break;
+        };
+        chain.push((next, own));
+        let reference = source.integer(next, "reference_component_for_position")?;
+        let Some(parent) = reference
+            .filter(|&id| id != next.id)
+            .and_then(|id| source.model.component(id))
+        else {
+            break;
+        };
+        let is_seen = chain.iter().any(|(c, _)| c.id == parent.id);
+        if is_seen || chain.len() > LONGEST_CHAIN {
+            let words = chain.iter().map(|(c, _)| c.words()).chain([parent.words()]);
+            return Err(RexsError::Cycle {
+                what: "components whose place is given from each other",
+                chain: words.collect::<Vec<_>>().join(" > "),
+            });
+        }
+        next = parent;
+    }
+    let compose = |outer: Frame, inner: &Frame| Frame {
+        origin_mm: outer.point(inner.origin_mm),
+        axes: inner.axes.map(|axis| outer.direction(axis)),
+    };
+    Ok(Some(
+        chain
+            .iter()
+            .rev()
+            .fold(Frame::WORLD, |outer, (_, own)| compose(outer, own)),
+    ))
+}
+
+fn own_frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>, RexsError> {
+    let Some(origin_mm) = source.vector(component, "support_vector")? else {
+        return Ok(None);
+    };
+    let u = source.vector(component, "u_axis_vector")?;
+    let w = source.vector(component, "w_axis_vector")?;
+    let wrong = |attribute: &str| RexsError::Attribute {
+        line: component.attribute(attribute).and_then(|a| a.line),
+        component: component.words(),
+        attribute: attribute.to_owned(),
+        found: "no direction".to_owned(),
+        allowed: "u and w are vectors that are not zero and not along each other".to_owned(),
+    };
+    if u.is_none() || w.is_none() {
+        source.assume(
+            component,
+            "no u or w axis given: those of its reference component",
+        );
+    }
+    let u = unit(u.unwrap_or([1.0, 0.0, 0.0])).ok_or_else(|| wrong("u_axis_vector"))?;
+    let w = w.unwrap_or(if u[2].abs() > 0.9 {
+        [1.0, 0.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    });
+    // w may be given across u only roughly.
+    let w = unit(add(w, u, -dot(w, u))).ok_or_else(|| wrong("w_axis_vector"))?;
+    Ok(Some(Frame {
+        origin_mm,
+        axes: [u, cross(w, u), w],
+    }))
+}

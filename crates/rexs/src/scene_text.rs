@@ -1,0 +1,417 @@
+//! The text of the scene of a gearbox at rest under its loads.
+
+use crate::bearing::AxialSupport;
+use crate::placement::Frame;
+use crate::shaft::Shaft;
+use crate::source::Source;
+use crate::text::{comment, number, numbers, quoted};
+use crate::train::Train;
+use std::collections::BTreeMap;
+
+/// A torque on a shaft about z, at a place along u.
+struct Torque {
+    shaft: i64,
+    u_mm: f64,
+    nm: f64,
+    name: String,
+}
+
+/// Stiffness with which each train is held where power goes in \[N m/rad\].
+const HELD_NM_PER_RAD: f64 = 1e6;
+
+/// Text of the scene.
+pub fn scene(
+    source: &Source<'_>,
+    train: &Train,
+    title: &str,
+    head: &[String],
+    gravity: Option<[f64; 3]>,
+) -> String {
+    let mut text = String::new();
+    for line in head {
+        text.push_str(&format!("# {}\n", comment(line)));
+    }
+    text.push_str(&format!("title = {}\n", quoted(title)));
+    if let Some(g) = gravity {
+        text.push_str(&format!("gravity_m_per_s2 = {}\n", numbers(&g)));
+    }
+    text.push_str("\n[run]\nkind = \"static\"\n");
+    for seated in train.gears.iter().filter(|g| g.shaft >= 0) {
+        text.push_str(&format!(
+            "\n[[body]]\nname = {}\ngear = {}\n",
+            quoted(&seated.gear.name),
+            quoted(&seated.gear.file)
+        ));
+    }
+    let groups = groups(train);
+    for shaft in &train.shafts {
+        shaft_table(&mut text, train, shaft, &groups);
+    }
+    let supports = axial_supports(source, train);
+    bearings(&mut text, train, &supports);
+    couplings(&mut text, train);
+    drive(&mut text, source, train, &groups);
+    meshes(&mut text, train);
+    text
+}
+
+/// Trains that are joined by meshes and couplings: the number of each shaft's train.
+fn groups(train: &Train) -> BTreeMap<i64, usize> {
+    let mut group: BTreeMap<i64, usize> = train
+        .shafts
+        .iter()
+        .enumerate()
+        .map(|(i, s)| (s.id, i))
+        .collect();
+    let bevel: Vec<usize> = train.bevels.iter().map(|b| b.link.0).collect();
+    for (_, link) in train
+        .links
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| !bevel.contains(i))
+    {
+        let [Some(&a), Some(&b)] = link.shafts.map(|s| group.get(&s)) else {
+            continue;
+        };
+        group.values_mut().filter(|g| **g == b).for_each(|g| *g = a);
+    }
+    group
+}
+
+fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMap<i64, usize>) {
+    let frame = shaft.frame.unwrap_or(Frame::WORLD);
+    let axis = frame.axes[0].map(|x| shaft.sign() * x);
+    let stations = shaft.stations_mm();
+    let middles = stations
+        .windows(2)
+        .map(|w| shaft.sign() * 0.5 * (w[0] + w[1]));
+    let diameters: Vec<[f64; 2]> = middles.map(|u| shaft.diameters_mm(u)).collect();
+    let outer: Vec<f64> = diameters.iter().map(|d| d[0]).collect();
+    let inner: Vec<f64> = diameters.iter().map(|d| d[1]).collect();
+    text.push_str(&format!(
+        "\n[[shaft]]\nname = {}\norigin_mm = {}\naxis = {}\nstations_mm = {}\nouter_diameters_mm = {}\n",
+        quoted(&shaft.name),
+        numbers(&frame.origin_mm),
+        numbers(&axis),
+        numbers(&stations),
+        numbers(&outer)
+    ));
+    if inner.iter().any(|d| *d > 0.0) {
+        text.push_str(&format!("inner_diameters_mm = {}\n", numbers(&inner)));
+    }
+    text.push_str(&format!(
+        "density_kg_per_m3 = {}\n",
+        number(shaft.material.density_kg_per_m3)
+    ));
+    // One speed a train: those of the others follow by the ratios.
+    let first = train
+        .shafts
+        .iter()
+        .find(|s| groups.get(&s.id) == groups.get(&shaft.id));
+    if let Some(&speed) = train.flow.speed_rpm.get(&shaft.id).filter(|n| **n != 0.0)
+        && first.is_some_and(|s| s.id == shaft.id)
+    {
+        text.push_str(&format!("speed_rpm = {}\n", number(speed)));
+    }
+    let seats: Vec<String> = train
+        .gears
+        .iter()
+        .filter(|g| g.shaft == shaft.id)
+        .map(|g| {
+            format!(
+                "{{ station = {}, body = {} }}",
+                shaft.station(g.mid_mm),
+                quoted(&g.gear.name)
+            )
+        })
+        .collect();
+    if !seats.is_empty() {
+        text.push_str(&format!("seat = [{}]\n", seats.join(", ")));
+    }
+    let parts: Vec<String> = train
+        .masses
+        .iter()
+        .filter(|m| m.shaft == shaft.id)
+        .map(|m| {
+            let inertia = numbers(&m.inertia_kg_m2);
+            format!(
+                "{{ station = {}, mass_kg = {}, inertia_kg_m2 = {inertia} }}",
+                shaft.station(m.u_mm),
+                number(m.mass_kg)
+            )
+        })
+        .collect();
+    if !parts.is_empty() {
+        text.push_str(&format!("part = [{}]\n", parts.join(", ")));
+    }
+    text.push_str(&format!(
+        "model = {{ kind = \"beam\", young_GPa = {}, poisson = {} }}\n",
+        number(shaft.material.young_gpa),
+        number(shaft.material.poisson)
+    ));
+}
+
+/// Whether each bearing holds its shaft along the axis in this load case. One-way supports do where the load pushes
+/// against them; springs know no one way.
+fn axial_supports(source: &Source<'_>, train: &Train) -> Vec<bool> {
+    let mut axial_n: BTreeMap<i64, f64> = BTreeMap::new();
+    let mut is_known = true;
+    for mesh in &train.meshes {
+        let Some(torques) = train.flow.link_nm.get(mesh.link).copied().flatten() else {
+            is_known = false;
+            continue;
+        };
+        for (torque_nm, i) in torques.into_iter().zip(mesh.gears) {
+            let seated = &train.gears[i];
+            // F = T tan β / r at the reference circle, along z: a right hand pushed clockwise by its shaft goes to -z.
+            let radius_m = 0.5e-3 * seated.gear.reference_diameter_mm();
+            let force = torque_nm * seated.gear.helix_deg.to_radians().tan() / radius_m;
+            *axial_n.entry(seated.shaft).or_insert(0.0) += force;
+        }
+    }
+    for load in &train.loads {
+        let sign = train.shaft(load.shaft).map_or(1.0, Shaft::sign);
+        *axial_n.entry(load.shaft).or_insert(0.0) += sign * load.force_n[0];
+    }
+    let mut holds: Vec<bool> = train
+        .bearings
+        .iter()
+        .map(|b| b.axial == AxialSupport::Both)
+        .collect();
+    for shaft in &train.shafts {
+        let mine: Vec<usize> = (0..train.bearings.len())
+            .filter(|&i| train.bearings[i].sides.contains(&shaft.id))
+            .collect();
+        let along_u = shaft.sign() * axial_n.get(&shaft.id).copied().unwrap_or(0.0);
+        for &i in &mine {
+            let bearing = &train.bearings[i];
+            // The outer part feels the opposite of what the inner part does.
+            let on_inner = if bearing.sides[0] == shaft.id {
+                along_u
+            } else {
+                -along_u
+            };
+            let is_pushed = match bearing.axial {
+                AxialSupport::Positive => on_inner > 0.0,
+                AxialSupport::Negative => on_inner < 0.0,
+                _ => continue,
+            };
+            holds[i] |= is_pushed;
+            if let Some(component) = source.model.component(bearing.id) {
+                let verb = if is_pushed { "holds" } else { "does not hold" };
+                source.assume(
+                    component,
+                    format!("supports along u one way only: in this load case ({along_u:.1} N along u from the teeth and loads of {}) it {verb} the shaft", shaft.name),
+                );
+            }
+        }
+        if !mine.is_empty() && !mine.iter().any(|&i| holds[i]) {
+            let one_way = |i: &&usize| train.bearings[**i].axial != AxialSupport::None;
+            let chosen = mine.iter().find(one_way).unwrap_or(&mine[0]);
+            holds[*chosen] = true;
+            if let Some(component) = source.model.component(train.bearings[*chosen].id) {
+                source.assume(
+                    component,
+                    format!("nothing else holds {} along its axis: it does", shaft.name),
+                );
+            }
+        }
+    }
+    if !is_known && let Some(unit) = source.model.of_kind(&["gear_unit"]).next() {
+        source.assume(unit, "the train has loops: torques of its meshes depend on stiffness, flanks are `both`, one-way supports as without axial tooth forces");
+    }
+    holds
+}
+
+fn bearings(text: &mut String, train: &Train, supports: &[bool]) {
+    for (bearing, &holds) in train.bearings.iter().zip(supports) {
+        let body = |side: usize| -> Option<String> {
+            let shaft = train.shaft(bearing.sides[side])?;
+            Some(shaft.body(bearing.u_mm[side]?))
+        };
+        let (first, second) = match (body(1), body(0)) {
+            (outer, Some(inner)) => (outer, inner),
+            (Some(outer), None) => (None, outer),
+            (None, None) => continue,
+        };
+        text.push_str(&format!(
+            "\n[[bearing]]\nname = {}\n",
+            quoted(&bearing.name)
+        ));
+        if let Some(first) = first {
+            text.push_str(&format!("body_1 = {}\n", quoted(&first)));
+        }
+        text.push_str(&format!("body_2 = {}\n", quoted(&second)));
+        let mut model = format!(
+            "kind = \"linear\", radial_stiffness_N_per_mm = {}",
+            number(bearing.radial_n_per_mm.max(1e-3))
+        );
+        if holds {
+            // One that was chosen for want of others may have none of its own.
+            let axial = if bearing.axial_n_per_mm > 0.0 {
+                bearing.axial_n_per_mm
+            } else {
+                0.4 * bearing.radial_n_per_mm.max(1.0)
+            };
+            model.push_str(&format!(", axial_stiffness_N_per_mm = {}", number(axial)));
+        }
+        if bearing.tilt_nm_per_rad > 0.0 {
+            model.push_str(&format!(
+                ", tilt_stiffness_Nm_per_rad = {}",
+                number(bearing.tilt_nm_per_rad)
+            ));
+        }
+        text.push_str(&format!("model = {{ {model} }}\n"));
+        if let Some((file, _)) = &bearing.file {
+            text.push_str(&format!(
+                "# or: model = {{ kind = \"quasi-static\", file = {} }}\n",
+                quoted(file)
+            ));
+        }
+    }
+}
+
+fn couplings(text: &mut String, train: &Train) {
+    for coupling in &train.couplings {
+        let bodies = [0, 1].map(|side| {
+            let shaft = train.shaft(coupling.sides[side])?;
+            Some(shaft.body(coupling.u_mm[side]?))
+        });
+        let [Some(a), Some(b)] = bodies else { continue };
+        let [axial, radial, torsion, tilt] = coupling.stiffness;
+        text.push_str(&format!(
+            "\n[[bushing]]\nname = {}\nbody_1 = {}\nbody_2 = {}\nstiffness_N_per_mm = {}\nstiffness_Nm_per_rad = {}\n",
+            quoted(&coupling.name),
+            quoted(&a),
+            quoted(&b),
+            numbers(&[radial, radial, axial]),
+            numbers(&[tilt, tilt, torsion])
+        ));
+    }
+}
+
+/// Each train is held by a spring about its axis where most power goes in; all other torques and forces are loads.
+fn drive(text: &mut String, source: &Source<'_>, train: &Train, groups: &BTreeMap<i64, usize>) {
+    let transmitting = train.loads.iter().filter(|l| l.transmits);
+    let mut torques: Vec<Torque> = transmitting
+        .zip(&train.flow.torque_nm)
+        .map(|(load, &nm)| Torque {
+            shaft: load.shaft,
+            u_mm: load.u_mm,
+            nm,
+            name: load.name.clone(),
+        })
+        .collect();
+    for bevel in &train.bevels {
+        // What the shaft brings to the link, the link takes from the shaft.
+        if let Some(link) = train.flow.link_nm.get(bevel.link.0).copied().flatten() {
+            torques.push(Torque {
+                shaft: bevel.shaft,
+                u_mm: bevel.u_mm,
+                nm: -link[bevel.link.1],
+                name: format!("torque at {}", bevel.name),
+            });
+        }
+    }
+    let mut done: Vec<usize> = Vec::new();
+    for shaft in &train.shafts {
+        let Some(&group) = groups.get(&shaft.id) else {
+            continue;
+        };
+        if done.contains(&group) {
+            continue;
+        }
+        done.push(group);
+        let is_mine = |t: &&Torque| groups.get(&t.shaft) == Some(&group);
+        let power = |t: &Torque| t.nm * train.flow.speed_rpm.get(&t.shaft).copied().unwrap_or(1.0);
+        let input = torques
+            .iter()
+            .filter(is_mine)
+            .max_by(|a, b| power(a).total_cmp(&power(b)));
+        let (body, name) = match input {
+            Some(t) => (train.shaft(t.shaft).map(|s| s.body(t.u_mm)), t.name.clone()),
+            None => {
+                if let Some(component) = source.model.component(shaft.id) {
+                    source.assume(
+                        component,
+                        "no torque acts on its train: held at its first station",
+                    );
+                }
+                (Some(format!("{}/0", shaft.name)), shaft.name.clone())
+            }
+        };
+        let Some(body) = body else { continue };
+        text.push_str(&format!(
+            "\n# Holds the train where its power goes in; its torque is that of the input.\n[[torsion_spring]]\nname = {}\nbody_2 = {}\nstiffness_Nm_per_rad = {}\n",
+            quoted(&format!("held at {name}")),
+            quoted(&body),
+            number(HELD_NM_PER_RAD)
+        ));
+        for t in torques.iter().filter(is_mine) {
+            let is_input = input.is_some_and(|i| std::ptr::eq(i, t));
+            if is_input || t.nm == 0.0 {
+                continue;
+            }
+            let Some(on) = train.shaft(t.shaft) else {
+                continue;
+            };
+            text.push_str(&format!(
+                "\n[[load]]\nname = {}\nbody = {}\ntorque_Nm = {}\n",
+                quoted(&t.name),
+                quoted(&on.body(t.u_mm)),
+                number(t.nm)
+            ));
+        }
+    }
+    forces(text, train);
+}
+
+fn forces(text: &mut String, train: &Train) {
+    for load in &train.loads {
+        let Some(shaft) = train.shaft(load.shaft) else {
+            continue;
+        };
+        let frame = shaft.frame.unwrap_or(Frame::WORLD);
+        let body = quoted(&shaft.body(load.u_mm));
+        let mut table = |kind: &str, axis: usize, key: &str, value: f64| {
+            if value != 0.0 {
+                let name = quoted(&format!("{} {kind} {}", load.name, ["u", "v", "w"][axis]));
+                text.push_str(&format!(
+                    "\n[[load]]\nname = {name}\nbody = {body}\n{key} = {}\nalong = {}\n",
+                    number(value),
+                    numbers(&frame.axes[axis])
+                ));
+            }
+        };
+        for (axis, &force) in load.force_n.iter().enumerate() {
+            table("force", axis, "force_N", force);
+        }
+        for (axis, &moment) in load.moment_nm.iter().enumerate() {
+            table("moment", axis + 1, "torque_Nm", moment);
+        }
+    }
+}
+
+fn meshes(text: &mut String, train: &Train) {
+    for mesh in &train.meshes {
+        let [a, b] = mesh.gears.map(|i| &train.gears[i].gear);
+        let torque = train.flow.link_nm.get(mesh.link).copied().flatten();
+        let flanks = match torque {
+            Some([t, _]) if t < 0.0 => "right",
+            Some([t, _]) if t > 0.0 => "left",
+            _ => "both",
+        };
+        let has_flanks = !a.microgeometry.is_empty() || !b.microgeometry.is_empty();
+        let plain = if has_flanks {
+            "microgeometry = false       # one spring for all teeth knows no flanks\n"
+        } else {
+            ""
+        };
+        text.push_str(&format!(
+            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {{ kind = \"iso6336\", slices = 9 }}\nteeth = {{ flanks = \"{flanks}\" }}\n",
+            quoted(&mesh.name),
+            quoted(&a.name),
+            quoted(&b.name)
+        ));
+    }
+}

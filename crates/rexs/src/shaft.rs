@@ -1,0 +1,242 @@
+//! Shafts: sections, and what stands where along them.
+
+use crate::error::RexsError;
+use crate::gear::{Material, material};
+use crate::model::Component;
+use crate::placement::Frame;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::units::{MM, RPM};
+
+/// A cylindrical piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Start along u \[mm\].
+    pub start_mm: f64,
+    /// End \[mm\].
+    pub end_mm: f64,
+    /// Outer diameter \[mm\].
+    pub outer_mm: f64,
+    /// Inner diameter \[mm\], 0 for solid.
+    pub inner_mm: f64,
+}
+
+/// A shaft.
+#[derive(Debug, Clone)]
+pub struct Shaft {
+    /// Component.
+    pub id: i64,
+    /// Name in the scene.
+    pub name: String,
+    /// Place; none until it follows from its stages.
+    pub frame: Option<Frame>,
+    /// Whether z in the scene runs against u, so that all shafts of parallel axes point the same way.
+    pub is_reversed: bool,
+    /// Pieces from the lowest u on, without gaps.
+    pub sections: Vec<Section>,
+    /// Material.
+    pub material: Material,
+    /// Stated speed about u \[1/min\], where it defines those of the others.
+    pub speed_rpm: Option<f64>,
+    /// Places of stations along u \[mm\].
+    points_mm: Vec<f64>,
+}
+
+/// Points nearer than this are one station \[mm\].
+const SAME_MM: f64 = 1e-3;
+
+impl Shaft {
+    /// +1 where z runs along u, else −1.
+    pub fn sign(&self) -> f64 {
+        if self.is_reversed { -1.0 } else { 1.0 }
+    }
+
+    /// Something stands here.
+    pub fn mark(&mut self, u_mm: f64) {
+        self.points_mm.push(u_mm);
+    }
+
+    /// Stations along z \[mm\], increasing.
+    pub fn stations_mm(&self) -> Vec<f64> {
+        let ends = self.sections.iter().flat_map(|s| [s.start_mm, s.end_mm]);
+        // Marked points go before borders of sections, which they may move by less than a micrometre.
+        let mut kept: Vec<f64> = Vec::new();
+        for u in self.points_mm.iter().copied().chain(ends) {
+            let z = self.sign() * u;
+            if !kept.iter().any(|other| (other - z).abs() < SAME_MM) {
+                kept.push(z);
+            }
+        }
+        kept.sort_by(f64::total_cmp);
+        kept
+    }
+
+    /// Number of the station at a place along u.
+    pub fn station(&self, u_mm: f64) -> usize {
+        let z = self.sign() * u_mm;
+        let stations = self.stations_mm();
+        let distance = |i: &usize| (stations[*i] - z).abs();
+        (0..stations.len())
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(0)
+    }
+
+    /// Body of the station at a place along u.
+    pub fn body(&self, u_mm: f64) -> String {
+        format!("{}/{}", self.name, self.station(u_mm))
+    }
+
+    /// Outer and inner diameter at a place along u \[mm\]; beyond the ends those of the last piece.
+    pub fn diameters_mm(&self, u_mm: f64) -> [f64; 2] {
+        let distance = |s: &Section| (s.start_mm - u_mm).max(u_mm - s.end_mm).max(0.0);
+        let nearest = self
+            .sections
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.map_or([0.0, 0.0], |s| [s.outer_mm, s.inner_mm])
+    }
+}
+
+/// Pieces of a taper.
+const TAPER_PIECES: usize = 3;
+
+/// Reads a shaft with its sections.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn read(
+    source: &Source<'_>,
+    structure: &Structure,
+    component: &Component,
+    name: String,
+    frame: Option<Frame>,
+) -> Result<Shaft, RexsError> {
+    let mut sections = Vec::new();
+    let mut end_mm = 0.0;
+    for id in structure.partners(component.id, &["shaft_section"]) {
+        let Some(piece) = source.model.component(id) else {
+            continue;
+        };
+        let Some(length) = source.number(piece, "length", MM)?.filter(|l| *l > 0.0) else {
+            source.leave_out(piece, "a section without length");
+            continue;
+        };
+        let start = source
+            .number(piece, "u_coordinate_on_shaft", MM)?
+            .unwrap_or(end_mm);
+        end_mm = start + length;
+        let value = |id: &str| source.number(piece, id, MM);
+        let [outer_0, outer_1] = [value("outer_diameter_begin")?, value("outer_diameter_end")?];
+        let [inner_0, inner_1] = [value("inner_diameter_begin")?, value("inner_diameter_end")?];
+        let Some(outer) = outer_0.or(outer_1).filter(|d| *d > 0.0) else {
+            source.leave_out(piece, "a section without an outer diameter");
+            continue;
+        };
+        let outer = [
+            outer_0.unwrap_or(outer),
+            outer_1.filter(|d| *d > 0.0).unwrap_or(outer),
+        ];
+        let inner = [
+            inner_0.or(inner_1).unwrap_or(0.0),
+            inner_1.or(inner_0).unwrap_or(0.0),
+        ];
+        let is_taper = outer[0] != outer[1] || inner[0] != inner[1];
+        if is_taper {
+            source.assume(
+                piece,
+                format!("a taper: {TAPER_PIECES} cylinders of its diameters in their middles"),
+            );
+        }
+        let pieces = if is_taper { TAPER_PIECES } else { 1 };
+        for k in 0..pieces {
+            let at = |d: [f64; 2]| d[0] + (d[1] - d[0]) * (k as f64 + 0.5) / pieces as f64;
+            let [outer_mm, mut inner_mm] = [at(outer), at(inner).max(0.0)];
+            if inner_mm >= outer_mm {
+                source.leave_out(piece, format!("an inner diameter of {inner_mm} mm, which is not below the outer one: solid"));
+                inner_mm = 0.0;
+            }
+            let step = length / pieces as f64;
+            sections.push(Section {
+                start_mm: start + k as f64 * step,
+                end_mm: start + (k + 1) as f64 * step,
+                outer_mm,
+                inner_mm,
+            });
+        }
+    }
+    sections.sort_by(|a, b| a.start_mm.total_cmp(&b.start_mm));
+    close_gaps(source, component, &mut sections);
+    let speed = source.number(component, "rotational_speed", RPM)?;
+    let defines = source.flag(component, "defines_speed")?;
+    Ok(Shaft {
+        id: component.id,
+        name,
+        frame,
+        is_reversed: false,
+        sections,
+        material: material(source, structure, component)?,
+        speed_rpm: speed.filter(|n| *n != 0.0 && defines != Some(false)),
+        points_mm: Vec::new(),
+    })
+}
+
+/// Each piece ends where the next one begins.
+fn close_gaps(source: &Source<'_>, component: &Component, sections: &mut [Section]) {
+    for i in 1..sections.len() {
+        let (start, end) = (sections[i].start_mm, sections[i - 1].end_mm);
+        if (start - end).abs() > 1e-6 {
+            source.assume(
+                component,
+                format!(
+                    "sections do not join at u = {start} mm ({} of {:.6} mm): the one before ends there",
+                    if start > end { "gap" } else { "overlap" },
+                    (start - end).abs()
+                ),
+            );
+        }
+        sections[i - 1].end_mm = start;
+    }
+}
+
+/// A shaft without sections: one as thick as what sits on it, and long enough.
+pub fn demand_sections(
+    source: &Source<'_>,
+    component: &Component,
+    shaft: &mut Shaft,
+    bores_mm: &[f64],
+) {
+    let [least, most] = shaft
+        .points_mm
+        .iter()
+        .fold([f64::MAX, f64::MIN], |[a, b], &u| [a.min(u), b.max(u)]);
+    if shaft.sections.is_empty() {
+        let outer = bores_mm.iter().copied().fold(f64::MAX, f64::min);
+        let outer_mm = if outer < 1e6 { outer } else { 30.0 };
+        let [start_mm, end_mm] = if least < most {
+            [least, most]
+        } else {
+            [0.0, 100.0]
+        };
+        source.assume(
+            component,
+            format!("no sections given: {outer_mm} mm thick from u = {start_mm} to {end_mm} mm"),
+        );
+        shaft.sections.push(Section {
+            start_mm,
+            end_mm,
+            outer_mm,
+            inner_mm: 0.0,
+        });
+    }
+    let ends = [
+        shaft.sections.first().map(|s| s.start_mm),
+        shaft.sections.last().map(|s| s.end_mm),
+    ];
+    if let [Some(start), Some(end)] = ends {
+        for u in [least, most] {
+            if u.abs() < 1e9 && (u < start - SAME_MM || u > end + SAME_MM) {
+                source.assume(component, format!("something stands at u = {u} mm, beyond its sections ({start} to {end} mm): the last section goes on to there"));
+            }
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! Values of a model with their units. Whoever asks for an attribute leaves a trace: what nobody has asked for is listed as
+//! not represented, so that nothing is dropped in silence.
+
+use crate::error::RexsError;
+use crate::ledger::Ledger;
+use crate::model::{Attribute, Component, Model, Value};
+use crate::units::{self, Unit};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// A model and the list of what became of it.
+#[derive(Debug)]
+pub struct Source<'a> {
+    /// The model.
+    pub model: &'a Model,
+    ledger: &'a RefCell<Ledger>,
+    used: &'a RefCell<BTreeSet<(i64, String)>>,
+}
+
+impl<'a> Source<'a> {
+    /// A model whose values go to a list.
+    pub fn new(
+        model: &'a Model,
+        ledger: &'a RefCell<Ledger>,
+        used: &'a RefCell<BTreeSet<(i64, String)>>,
+    ) -> Self {
+        Self {
+            model,
+            ledger,
+            used,
+        }
+    }
+
+    /// Something was assumed.
+    pub fn assume(&self, component: &Component, text: impl Into<String>) {
+        self.ledger.borrow_mut().assume(&component.words(), text);
+    }
+
+    /// Something is not represented.
+    pub fn leave_out(&self, component: &Component, text: impl Into<String>) {
+        self.ledger.borrow_mut().leave_out(&component.words(), text);
+    }
+
+    /// A component's own value stands in a file.
+    pub fn take(&self, component: &Component, text: impl Into<String>) {
+        self.ledger.borrow_mut().take(&component.words(), text);
+    }
+
+    fn attribute<'c>(&self, component: &'c Component, id: &str) -> Option<&'c Attribute> {
+        let attribute = component.attribute(id).filter(|a| !a.value.is_empty())?;
+        self.used.borrow_mut().insert((component.id, id.to_owned()));
+        Some(attribute)
+    }
+
+    /// Whether a component has an attribute; asking does not use it.
+    pub fn has(&self, component: &Component, id: &str) -> bool {
+        component.attribute(id).is_some_and(|a| !a.value.is_empty())
+    }
+
+    fn wrong(
+        &self,
+        component: &Component,
+        a: &Attribute,
+        found: String,
+        allowed: String,
+    ) -> RexsError {
+        RexsError::Attribute {
+            line: a.line,
+            component: component.words(),
+            attribute: a.id.clone(),
+            found,
+            allowed,
+        }
+    }
+
+    /// Factor from the unit of the file to the wanted one. `standard` is that of the schema, for files that leave it out.
+    fn factor(
+        &self,
+        component: &Component,
+        a: &Attribute,
+        wanted: Unit,
+        standard: Unit,
+    ) -> Result<f64, RexsError> {
+        let absent = a.unit.is_empty() || a.unit.eq_ignore_ascii_case("none");
+        if absent && wanted.dimension != units::Dimension::One {
+            self.assume(
+                component,
+                format!("{}: no unit given, taken as {}", a.id, standard.name),
+            );
+            return Ok(standard.si / wanted.si);
+        }
+        if a.unit == wanted.name {
+            return Ok(1.0);
+        }
+        let found = units::read(&a.unit).filter(|(dimension, _)| *dimension == wanted.dimension);
+        found.map(|(_, si)| si / wanted.si).ok_or_else(|| {
+            self.wrong(
+                component,
+                a,
+                format!("the unit is `{}`", a.unit),
+                format!("allowed are {}", units::names(wanted.dimension)),
+            )
+        })
+    }
+
+    fn parsed(&self, component: &Component, a: &Attribute, text: &str) -> Result<f64, RexsError> {
+        let plain = text.trim();
+        let comma = || match (plain.contains('.'), plain.matches(',').count()) {
+            (false, 1) => plain.replace(',', ".").parse().ok(),
+            _ => None,
+        };
+        let value: Option<f64> = plain.parse().ok().or_else(comma);
+        value.filter(|v| v.is_finite()).ok_or_else(|| {
+            self.wrong(
+                component,
+                a,
+                format!("`{plain}` is no number"),
+                "allowed is a finite number".to_owned(),
+            )
+        })
+    }
+
+    /// A number in a unit; none where the attribute is missing or empty.
+    ///
+    /// # Errors
+    /// [`RexsError::Attribute`] for another unit or no number.
+    pub fn number(
+        &self,
+        component: &Component,
+        id: &str,
+        unit: Unit,
+    ) -> Result<Option<f64>, RexsError> {
+        self.number_in(component, id, unit, unit)
+    }
+
+    /// A number whose unit is `standard` in the schema.
+    ///
+    /// # Errors
+    /// As of [`Self::number`].
+    pub fn number_in(
+        &self,
+        component: &Component,
+        id: &str,
+        unit: Unit,
+        standard: Unit,
+    ) -> Result<Option<f64>, RexsError> {
+        let Some(a) = self.attribute(component, id) else {
+            return Ok(None);
+        };
+        let text = match &a.value {
+            Value::Scalar(text) => text,
+            Value::List(items) if items.len() == 1 => &items[0],
+            _ => {
+                let allowed = "allowed is one number".to_owned();
+                return Err(self.wrong(component, a, "an array".to_owned(), allowed));
+            }
+        };
+        let value = self.parsed(component, a, text)? * self.factor(component, a, unit, standard)?;
+        self.take(
+            component,
+            format!("{id} {text} {}", a.unit).trim().to_owned(),
+        );
+        Ok(Some(value))
+    }
+
+    /// A number that must be there.
+    ///
+    /// # Errors
+    /// [`RexsError::Missing`] beside those of [`Self::number`].
+    pub fn need(&self, component: &Component, id: &str, unit: Unit) -> Result<f64, RexsError> {
+        self.number(component, id, unit)?
+            .ok_or_else(|| RexsError::Missing {
+                component: component.words(),
+                what: format!("{id} is missing"),
+            })
+    }
+
+    /// A list of numbers.
+    ///
+    /// # Errors
+    /// As of [`Self::number`].
+    pub fn list(
+        &self,
+        component: &Component,
+        id: &str,
+        unit: Unit,
+    ) -> Result<Option<Vec<f64>>, RexsError> {
+        let Some(a) = self.attribute(component, id) else {
+            return Ok(None);
+        };
+        let texts: Vec<&String> = match &a.value {
+            Value::Scalar(text) => vec![text],
+            Value::List(items) => items.iter().collect(),
+            Value::Rows(rows) => rows.iter().flatten().collect(),
+        };
+        // `0,0,1` and `0; 0; 1` in one text are lists, too.
+        let split: Vec<&str> = match (&a.value, texts.first()) {
+            (Value::Scalar(_), Some(text)) => text
+                .split([';', ' ', ','])
+                .filter(|part| !part.is_empty())
+                .collect(),
+            _ => texts.iter().map(|text| text.as_str()).collect(),
+        };
+        let factor = self.factor(component, a, unit, unit)?;
+        let values: Result<Vec<f64>, _> = split
+            .iter()
+            .map(|t| Ok(self.parsed(component, a, t)? * factor))
+            .collect();
+        self.take(
+            component,
+            format!("{id} [{}] {}", split.join(", "), a.unit)
+                .trim()
+                .to_owned(),
+        );
+        values.map(Some)
+    }
+
+    /// Three numbers.
+    ///
+    /// # Errors
+    /// [`RexsError::Attribute`] for another count.
+    pub fn vector(&self, component: &Component, id: &str) -> Result<Option<[f64; 3]>, RexsError> {
+        let Some(values) = self.list(component, id, units::MM)? else {
+            return Ok(None);
+        };
+        match values.as_slice() {
+            &[x, y, z] => Ok(Some([x, y, z])),
+            _ => Err(RexsError::Attribute {
+                line: component.attribute(id).and_then(|a| a.line),
+                component: component.words(),
+                attribute: id.to_owned(),
+                found: format!("{} numbers", values.len()),
+                allowed: "allowed are three".to_owned(),
+            }),
+        }
+    }
+
+    /// A text.
+    pub fn text(&self, component: &Component, id: &str) -> Option<String> {
+        let a = self.attribute(component, id)?;
+        let Value::Scalar(text) = &a.value else {
+            return None;
+        };
+        self.take(component, format!("{id} {text}"));
+        Some(text.trim().to_owned())
+    }
+
+    /// A whole number.
+    ///
+    /// # Errors
+    /// As of [`Self::number`].
+    pub fn integer(&self, component: &Component, id: &str) -> Result<Option<i64>, RexsError> {
+        let Some(value) = self.number(component, id, units::ONE)? else {
+            return Ok(None);
+        };
+        if value.fract() != 0.0 || value.abs() > 1e9 {
+            return Err(RexsError::Attribute {
+                line: component.attribute(id).and_then(|a| a.line),
+                component: component.words(),
+                attribute: id.to_owned(),
+                found: format!("`{value}`"),
+                allowed: "allowed is a whole number".to_owned(),
+            });
+        }
+        Ok(Some(value as i64))
+    }
+
+    /// A yes or no; `true`, `1`, `yes`, `ja` and their opposites.
+    ///
+    /// # Errors
+    /// [`RexsError::Attribute`] for another word.
+    pub fn flag(&self, component: &Component, id: &str) -> Result<Option<bool>, RexsError> {
+        let Some(text) = self.text(component, id) else {
+            return Ok(None);
+        };
+        match text.to_lowercase().as_str() {
+            "true" | "1" | "1.0" | "yes" | "ja" => Ok(Some(true)),
+            "false" | "0" | "0.0" | "no" | "nein" => Ok(Some(false)),
+            _ => Err(RexsError::Attribute {
+                line: component.attribute(id).and_then(|a| a.line),
+                component: component.words(),
+                attribute: id.to_owned(),
+                found: format!("`{text}`"),
+                allowed: "allowed are true and false".to_owned(),
+            }),
+        }
+    }
+
+    /// Lists what nobody has asked for.
+    pub fn list_unused(&self) {
+        let used = self.used.borrow();
+        for component in &self.model.components {
+            let unused = component
+                .attributes
+                .iter()
+                .filter(|a| !used.contains(&(component.id, a.id.clone())));
+            for a in unused {
+                let value = match &a.value {
+                    Value::Scalar(text) if text.is_empty() => "empty".to_owned(),
+                    Value::Scalar(text) => text.chars().take(60).collect(),
+                    Value::List(items) if items.len() <= 4 => format!("[{}]", items.join(", ")),
+                    Value::List(items) => format!("{} values", items.len()),
+                    Value::Rows(rows) => format!("{} rows", rows.len()),
+                };
+                self.leave_out(
+                    component,
+                    format!("{} {value} {}", a.id, a.unit).trim().to_owned(),
+                );
+            }
+        }
+    }
+}

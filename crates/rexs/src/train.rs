@@ -1,0 +1,422 @@
+//! The gearbox of a model: shafts with what stands on them, stages, and how the power flows.
+
+use crate::bearing::{self, Bearing};
+use crate::coupling::{self, Coupling};
+use crate::error::RexsError;
+use crate::gear::{self, Gear};
+use crate::loads::{self, AddedMass, Load};
+use crate::model::Component;
+use crate::placement::frame;
+use crate::power_flow::{Flow, Link};
+use crate::shaft::{self, Shaft};
+use crate::source::Source;
+use crate::structure::{Stage, Structure};
+use crate::text::{Names, file_stem};
+use crate::train_finish::{finish_gears, finish_shafts, power};
+use crate::train_places::{place_shafts, settle_middles};
+use crate::units::MM;
+
+/// A gear on its shaft.
+#[derive(Debug, Clone)]
+pub struct SeatedGear {
+    /// The gear.
+    pub gear: Gear,
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Middle of the face along u \[mm\].
+    pub mid_mm: f64,
+}
+
+/// A cylindrical stage.
+#[derive(Debug, Clone)]
+pub struct Mesh {
+    /// Name in the scene.
+    pub name: String,
+    /// Places of the two gears in [`Train::gears`].
+    pub gears: [usize; 2],
+    /// Its link in the flow of power.
+    pub link: usize,
+}
+
+/// A bevel gear, which passes its torque on.
+#[derive(Debug, Clone)]
+pub struct BevelSeat {
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Place along u \[mm\].
+    pub u_mm: f64,
+    /// Its link, and which side of it.
+    pub link: (usize, usize),
+    /// Name.
+    pub name: String,
+}
+
+/// A gearbox in one load case.
+#[derive(Debug)]
+pub struct Train {
+    /// Shafts.
+    pub shafts: Vec<Shaft>,
+    /// Gears.
+    pub gears: Vec<SeatedGear>,
+    /// Stages.
+    pub meshes: Vec<Mesh>,
+    /// Bevel gears.
+    pub bevels: Vec<BevelSeat>,
+    /// Bearings.
+    pub bearings: Vec<Bearing>,
+    /// Couplings.
+    pub couplings: Vec<Coupling>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Additional masses.
+    pub masses: Vec<AddedMass>,
+    /// Links of the flow of power: meshes, couplings, bevel stages.
+    pub links: Vec<Link>,
+    /// Speeds and torques about z.
+    pub flow: Flow,
+}
+
+impl Train {
+    /// A shaft.
+    pub fn shaft(&self, id: i64) -> Option<&Shaft> {
+        self.shafts.iter().find(|s| s.id == id)
+    }
+
+    /// A shaft, to be changed.
+    pub fn shaft_mut(&mut self, id: i64) -> Option<&mut Shaft> {
+        self.shafts.iter_mut().find(|s| s.id == id)
+    }
+}
+
+/// Reads the gearbox.
+///
+/// # Errors
+/// Those of [`Source`], and what a gearbox cannot do without.
+pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Train, RexsError> {
+    let mut names = Names::default();
+    let mut files = Names::default();
+    let mut train = Train {
+        shafts: Vec::new(),
+        gears: Vec::new(),
+        meshes: Vec::new(),
+        bevels: Vec::new(),
+        bearings: Vec::new(),
+        couplings: Vec::new(),
+        loads: Vec::new(),
+        masses: Vec::new(),
+        links: Vec::new(),
+        flow: Flow::default(),
+    };
+    for component in source.model.of_kind(&["shaft"]) {
+        if let Some(role) = structure
+            .planetary_role(component.id)
+            .filter(|r| r.starts_with("planet_") && *r != "planet_carrier_shaft")
+        {
+            source.leave_out(
+                component,
+                format!("{role}: planetary stages are not in the scene"),
+            );
+            continue;
+        }
+        let place = frame(source, component)?;
+        let name = names.unique(&component.name, component.id);
+        train
+            .shafts
+            .push(shaft::read(source, structure, component, name, place)?);
+    }
+    seat_gears(source, structure, &mut train, &mut names, &mut files, stem)?;
+    join_stages(source, structure, &mut train, &mut names)?;
+    place_shafts(source, structure, &mut train)?;
+    settle_middles(source, &mut train)?;
+    bearings_and_couplings(source, structure, &mut train, &mut names, &mut files)?;
+    on_shafts(source, structure, &mut train, &mut names)?;
+    finish_shafts(source, &mut train);
+    finish_gears(source, &mut train);
+    train.flow = power(source, &train);
+    Ok(train)
+}
+
+fn seat_gears(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+    files: &mut Names,
+    stem: &str,
+) -> Result<(), RexsError> {
+    for component in source
+        .model
+        .of_kind(&["ring_gear", "worm_gear", "worm_wheel"])
+    {
+        source.leave_out(
+            component,
+            format!("{}s have no model", component.kind.replace('_', " ")),
+        );
+    }
+    for component in source.model.of_kind(&["cylindrical_gear"]) {
+        let name = names.unique(&component.name, component.id);
+        let file = files.unique(&format!("{stem}_{}", file_stem(&name)), component.id);
+        let file = format!("{}.toml", file_stem(&file));
+        let gear = gear::read(source, structure, component, name, file)?;
+        let shafts = structure.partners(component.id, &["shaft"]);
+        let seat = shafts.iter().find(|&&id| train.shaft(id).is_some());
+        let start = source.number(component, "u_coordinate_on_shaft", MM)?;
+        let mid_mm = start.map_or(f64::NAN, |u| u + 0.5 * gear.face_width_mm);
+        // A gear that sits on nothing is a file all the same.
+        train.gears.push(SeatedGear {
+            gear,
+            shaft: seat.copied().unwrap_or(-1),
+            mid_mm,
+        });
+        if seat.is_none() {
+            source.leave_out(
+                component,
+                "on no shaft of the scene: its file is written, the scene does not have it",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn join_stages(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+) -> Result<(), RexsError> {
+    for Stage { id, gears } in structure.stages() {
+        let (Some(stage), Some(g1), Some(g2)) = (
+            source.model.component(id),
+            source.model.component(gears[0]),
+            source.model.component(gears[1]),
+        ) else {
+            continue;
+        };
+        match stage.kind.as_str() {
+            "cylindrical_stage" => {
+                let place = |id: i64| {
+                    train
+                        .gears
+                        .iter()
+                        .position(|g| g.gear.id == id && g.shaft >= 0)
+                };
+                let [Some(a), Some(b)] = gears.map(place) else {
+                    source.leave_out(
+                        stage,
+                        format!(
+                            "between {} and {}, of which the scene does not have both",
+                            g1.words(),
+                            g2.words()
+                        ),
+                    );
+                    continue;
+                };
+                let [first, second] = [&train.gears[a], &train.gears[b]];
+                demand_mates(stage, [&first.gear, &second.gear])?;
+                train.links.push(Link {
+                    shafts: [first.shaft, second.shaft],
+                    ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
+                });
+                train.meshes.push(Mesh {
+                    name: names.unique(
+                        if stage.name.is_empty() {
+                            "stage"
+                        } else {
+                            &stage.name
+                        },
+                        stage.id,
+                    ),
+                    gears: [a, b],
+                    link: train.links.len() - 1,
+                });
+            }
+            "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
+            _ => source.leave_out(
+                stage,
+                format!("{}s have no model in scenes", stage.kind.replace('_', " ")),
+            ),
+        }
+    }
+    Ok(())
+}
+
+fn demand_mates(stage: &Component, [a, b]: [&Gear; 2]) -> Result<(), RexsError> {
+    let differ = |what: &str, x: f64, y: f64| RexsError::Missing {
+        component: stage.words(),
+        what: format!(
+            "{what} of {} and {} do not go together: {x} and {y}",
+            a.name, b.name
+        ),
+    };
+    if (a.module_mm - b.module_mm).abs() > 1e-6 * a.module_mm {
+        return Err(differ("modules", a.module_mm, b.module_mm));
+    }
+    if (a.helix_deg + b.helix_deg).abs() > 1e-6 {
+        return Err(differ(
+            "helix angles (which must be opposite)",
+            a.helix_deg,
+            b.helix_deg,
+        ));
+    }
+    if (a.pressure_angle_deg - b.pressure_angle_deg).abs() > 1e-6 {
+        return Err(differ(
+            "pressure angles",
+            a.pressure_angle_deg,
+            b.pressure_angle_deg,
+        ));
+    }
+    Ok(())
+}
+
+fn bevel_stage(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    stage: &Component,
+    gears: [&Component; 2],
+) -> Result<(), RexsError> {
+    let teeth = [
+        crate::bevel::teeth(source, gears[0])?,
+        crate::bevel::teeth(source, gears[1])?,
+    ];
+    let mut seats = Vec::new();
+    let mut sense = 1.0;
+    for gear in gears {
+        let shafts = structure.partners(gear.id, &["shaft"]);
+        let Some(&shaft) = shafts.iter().find(|&&id| train.shaft(id).is_some()) else {
+            continue;
+        };
+        // The apex at +u turns the cone round.
+        if source.text(gear, "bevel_cone_orientation").as_deref() == Some("positive") {
+            sense = -sense;
+        }
+        let start = source
+            .number(gear, "u_coordinate_on_shaft", MM)?
+            .unwrap_or(0.0);
+        let width = source.number(gear, "face_width", MM)?.unwrap_or(0.0);
+        seats.push((shaft, start + 0.5 * width, gear.name.clone()));
+    }
+    let [(a, ..), (b, ..)] = seats.as_slice() else {
+        source.leave_out(stage, "its gears sit on no shafts of the scene");
+        return Ok(());
+    };
+    source.leave_out(stage, "no mesh of the scene: its torque acts on both shafts as a load, its radial and axial forces do not; the pair file can be named by a mesh by hand");
+    // Equal speeds of the pitch cones in their common line, seen from apex to heel.
+    train.links.push(Link {
+        shafts: [*a, *b],
+        ratio: -sense * teeth[0] as f64 / teeth[1] as f64,
+    });
+    let link = train.links.len() - 1;
+    for (side, (shaft, u_mm, name)) in seats.into_iter().enumerate() {
+        train.bevels.push(BevelSeat {
+            shaft,
+            u_mm,
+            link: (link, side),
+            name,
+        });
+    }
+    Ok(())
+}
+
+fn bearings_and_couplings(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+    files: &mut Names,
+) -> Result<(), RexsError> {
+    let units = source.model.of_kind(&["gear_unit"]);
+    let mut shift_index = 1;
+    for unit in units {
+        shift_index = source.integer(unit, "gear_shift_index")?.unwrap_or(1);
+    }
+    for component in source.model.of_kind(&bearing::KINDS) {
+        let name = names.unique(&component.name, component.id);
+        let file = files.unique(&format!("bearing_{}", file_stem(&name)), component.id);
+        let found = bearing::read(
+            source,
+            structure,
+            component,
+            name,
+            format!("{}.toml", file_stem(&file)),
+        )?;
+        let Some(mut found) = found else { continue };
+        let own = frame(source, component)?;
+        let mut on_shaft = false;
+        for side in 0..2 {
+            let Some(shaft) = train.shaft(found.sides[side]) else {
+                let kind = source
+                    .model
+                    .component(found.sides[side])
+                    .map_or("", |c| c.kind.as_str());
+                on_shaft |= kind == "shaft";
+                found.u_mm[side] = None;
+                continue;
+            };
+            if found.u_mm[side].is_none() {
+                let by_vector = own.and_then(|own| Some(shaft.frame?.u_of(own.origin_mm)));
+                source.assume(
+                    component,
+                    format!(
+                        "no place on {} given: {}",
+                        shaft.name,
+                        by_vector.map_or("u = 0".to_owned(), |u| format!(
+                            "u = {u} mm, from its support vector"
+                        ))
+                    ),
+                );
+                found.u_mm[side] = Some(by_vector.unwrap_or(0.0));
+            }
+        }
+        if on_shaft || found.u_mm == [None, None] {
+            source.leave_out(component, "on no shaft of the scene");
+        } else {
+            train.bearings.push(found);
+        }
+    }
+    for component in source.model.of_kind(&coupling::KINDS) {
+        let name = names.unique(&component.name, component.id);
+        let Some(mut found) = coupling::read(source, structure, component, name, shift_index)?
+        else {
+            continue;
+        };
+        if found.sides.iter().any(|&id| train.shaft(id).is_none()) {
+            source.leave_out(component, "does not join two shafts of the scene: a gear is fixed to its shaft, a casing is the ground");
+            continue;
+        }
+        found.u_mm = found.u_mm.map(|u| Some(u.unwrap_or(0.0)));
+        train.links.push(Link {
+            shafts: found.sides,
+            ratio: 1.0,
+        });
+        train.couplings.push(found);
+    }
+    for component in source.model.of_kind(&coupling::JOINTS) {
+        source.leave_out(component, "joints of shaft and hub are rigid in the scene");
+    }
+    Ok(())
+}
+
+fn on_shafts(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+    names: &mut Names,
+) -> Result<(), RexsError> {
+    for component in source.model.of_kind(&["external_load", "additional_mass"]) {
+        let shafts = structure.partners(component.id, &["shaft"]);
+        let Some(&shaft) = shafts.iter().find(|&&id| train.shaft(id).is_some()) else {
+            source.leave_out(component, "on no shaft of the scene");
+            continue;
+        };
+        if component.kind == "external_load" {
+            let name = names.unique(&component.name, component.id);
+            train
+                .loads
+                .push(loads::read(source, component, name, shaft)?);
+        } else if let Some(mass) = loads::added_mass(source, component, shaft)? {
+            train.masses.push(mass);
+        }
+    }
+    Ok(())
+}
