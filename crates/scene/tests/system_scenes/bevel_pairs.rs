@@ -16,7 +16,15 @@ fn at_speed() -> String {
         "speed_rpm = 3000.0",
     );
     let scene = changed(&scene, "speed_rpm = 0.0\n", "");
-    changed(&scene, "end_s = 0.08", "end_s = 0.04")
+    changed(
+        &changed(
+            &scene,
+            "end_s = 0.01, to = 100.0",
+            "end_s = 0.003, to = 100.0",
+        ),
+        "end_s = 0.08",
+        "end_s = 0.026",
+    )
 }
 
 fn run(scene: &str) -> SystemResult {
@@ -99,14 +107,14 @@ fn a_pair_of_another_shaft_angle_turns_at_its_ratio() {
         "cardan_deg = [0.0, 90.0]",
         "cardan_deg = [0.0, 70.0]",
     );
-    let scene = changed(&scene, "end_s = 0.04", "end_s = 0.03");
+    let scene = changed(&scene, "end_s = 0.026", "end_s = 0.01");
     let loaded = load(&scene, folder.path()).unwrap();
     let result = Desk::new().run(RunJob::from_scene(loaded).unwrap());
     let read = |name: &str| result.rows.read(name).unwrap();
     let gear = read("bodies/gear/turn_rad");
     let turned = gear[gear.len() - 1] - gear[0];
     // Less what the teeth give way under the load, 33 um over a lever of 25 mm.
-    assert!((turned + 1.5 * TAU).abs() < 3e-3, "{turned}");
+    assert!((turned + 0.5 * TAU).abs() < 3e-3, "{turned}");
     assert!(
         read("elements/mesh/apart")
             .iter()
