@@ -37,6 +37,19 @@ pub enum BevelError {
         /// Height above the pitch cone.
         height_mm: f64,
     },
+    /// The envelope is singular towards the tip.
+    #[error(
+        "the {flank} flank is folded at cone distance {cone_mm:.3} mm, {height_mm:+.3} mm from the pitch cone: the envelope of the tool is singular between \
+         there and the pitch cone. That is no undercut, the settings do not fit the blank: check blade angle, ratio of roll, offset and the signs"
+    )]
+    SingularEnvelope {
+        /// Member and side.
+        flank: String,
+        /// Place along the pitch cone.
+        cone_mm: f64,
+        /// Height above the pitch cone.
+        height_mm: f64,
+    },
     /// Teeth end in a point.
     #[error(
         "the {member}'s teeth are pointed: at cone distance {cone_mm:.3} mm their top is {thickness_mm:.4} mm thick, allowed is {least_mm:.4} mm and more"

@@ -176,6 +176,12 @@ fn check_envelope(flank: &Flank) -> Result<(), BevelError> {
         // From the pitch cone outwards: beyond a singular place the surface turns back.
         let look = |height: f64, found: Result<Located, BevelError>| match found {
             Ok(found) if found.point.area() * sign > 0.0 => Ok(found),
+            // Towards the root the envelope turns back by undercut, towards the tip because the settings fold it.
+            _ if height > 0.0 => Err(BevelError::SingularEnvelope {
+                flank: flank.name(),
+                cone_mm: 1e3 * cone,
+                height_mm: 1e3 * height,
+            }),
             _ => Err(BevelError::Undercut {
                 flank: flank.name(),
                 cone_mm: 1e3 * cone,

@@ -281,8 +281,8 @@ pub fn bring_up_to_date(model: &mut Model, ledger: &mut Ledger) -> Result<(), Re
         if parts.any(|part| part.is_err()) || !(major == 2 || (major == 1 && minor <= 7)) {
             return Err(unknown());
         }
-        let is_known = PUBLISHED.contains(&stated.as_str()) || (major == 2 && minor == 0);
-        if !is_known {
+        let known = PUBLISHED.contains(&stated.as_str()) || (major, minor) == (2, 0);
+        if !known {
             ledger.assume(
                 "the file",
                 format!("version {stated} is newer than those that are known: read as 2.0.0"),

@@ -129,10 +129,8 @@ impl RowFaults {
                     side,
                     row: at,
                     waves,
-                } if at == number => {
-                    if waves.radial_m != 0.0 || waves.axial_m != 0.0 {
-                        found.race_mut(side).waves.push(waves);
-                    }
+                } if at == number && (waves.radial_m != 0.0 || waves.axial_m != 0.0) => {
+                    found.race_mut(side).waves.push(waves);
                 }
                 Fault::OffSizeBall {
                     row: at,

@@ -397,3 +397,34 @@ fn bad_teeth_are_refused_with_their_place() {
         Err(BevelError::NoFlankPoint { .. })
     ));
 }
+
+/// A formate gear of 35 teeth: whether the pinion of 13 is undercut at its toe depends on the contact that is asked for.
+#[test]
+fn the_mate_of_a_formate_gear_is_undercut_by_what_is_asked() {
+    let path = format!(
+        "{}/../../fe_models/bevel_13_35.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.replacen("settings = \"basic\"", "settings = \"formate\"", 1);
+    let checked = |text: String| {
+        let document = gearmesh_geometry::input::InputDocument::new("pair.toml", text);
+        let file = gearmesh_bevel::PairFile::from_document(&document).unwrap();
+        let member = &file.members[0];
+        let design = file.design().unwrap();
+        design.teeth[0].check(member.least_top_land_m, member.point_width_m)
+    };
+    let error = checked(text.clone()).unwrap_err();
+    assert!(
+        matches!(error, BevelError::Undercut { height_mm, .. } if (-0.6..-0.3).contains(&height_mm)),
+        "{error}"
+    );
+    let along_the_profile = text
+        .replacen(
+            "path_angle_deg = [100.0, 80.0]",
+            "path_angle_deg = [90.0, 90.0]",
+            1,
+        )
+        .replacen("[8.0, 8.0]", "[12.0, 12.0]", 1);
+    assert!(checked(along_the_profile).is_ok());
+}

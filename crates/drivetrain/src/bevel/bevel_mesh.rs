@@ -21,6 +21,8 @@ use crate::slice_plane::{Matrix6, on_turn};
 
 /// Pitches of the pinion to either side of the plane of the axes within which teeth are looked at.
 const REACH: f64 = 3.5;
+/// Flanks that stand farther open than this share of a pitch do not touch soon, and are passed over.
+const FAR: f64 = 0.2;
 /// How far the shaft angle may be off \[rad\], and the apexes apart over the mean cone distance.
 const MOST_TILT_RAD: f64 = 0.05;
 const MOST_APART: f64 = 0.1;
@@ -216,7 +218,7 @@ impl BevelMesh {
                     pose.displacement_m
                 },
             };
-            let Some(point) = nearest(&[placed(0), placed(1)], guess) else {
+            let Some(point) = nearest(&[placed(0), placed(1)], guess, FAR * self.pitch_m()) else {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);

@@ -20,7 +20,7 @@ use gearmesh_bevel::{FlankPatch, PatchPoint};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 /// Newton steps at most.
-const MOST_STEPS: usize = 25;
+const MOST_STEPS: usize = 15;
 /// Longest step of a coordinate, flanks being 1 long.
 const LONGEST: f64 = 0.3;
 /// Steps below end the iteration: what is left is of the order of its square.
@@ -267,11 +267,22 @@ impl Limit {
 /// Slack of limits: rounding.
 const SLACK: f64 = 1e-9;
 
-/// Nearest points of two flanks with tips, toes and heels, from a guess. None where the flanks do not face each other.
-pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2]) -> Option<Nearest> {
-    // From the middle of a cell straight to the other flank: both points then belong together.
-    let foot = solve(bodies, [guess[0].map(Some), [None; 2]], guess);
-    let guess = foot.map_or(guess, |foot| foot.at);
+/// Nearest points of two flanks with tips, toes and heels, from a guess. None where the flanks do not face each other, or
+/// stand farther apart than `far_m` at the guess.
+pub(crate) fn nearest(
+    bodies: &[Placed<'_>; 2],
+    guess: [[f64; 2]; 2],
+    far_m: f64,
+) -> Option<Nearest> {
+    // From the middle of a cell straight to the other flank: both points then belong together. Flanks on which neither
+    // middle has a foot do not face each other.
+    let foot = |held: Held| solve(bodies, held, guess);
+    let guess =
+        foot([guess[0].map(Some), [None; 2]]).or_else(|| foot([[None; 2], guess[1].map(Some)]))?;
+    if guess.gap_m > far_m {
+        return None;
+    }
+    let (foot, guess) = (guess, guess.at);
     let inside = solve(bodies, FREE, guess);
     let within = |at: &[[f64; 2]; 2], but: &[Limit]| {
         let mut others = LIMITS.iter().filter(|limit| !but.contains(limit));
@@ -299,13 +310,30 @@ pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2]) -> Option<
         (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
         (a, b) => a.or(b),
     };
-    let mut found = None;
-    for limit in LIMITS {
-        let mut own = None;
-        for member in limit.members() {
-            own = larger(own, limit.hold(member, FREE), &[limit]);
+    // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap shrinks;
+    // the others only where none of them holds.
+    let passed = |limit: &Limit| match (inside, limit) {
+        (Some(found), limit) => limit.excess(&found.at) > SLACK,
+        (None, Limit::Tip(member)) => {
+            foot.slope(*member, 1) < 0.0 || foot.slope(1 - member, 1) > 0.0
         }
-        found = least(found, own);
+        (None, Limit::End(end)) => {
+            let sign = 2.0 * *end as f64 - 1.0;
+            sign * foot.slope(0, 0) < 0.0 || sign * foot.slope(1, 0) < 0.0
+        }
+    };
+    let mut found = None;
+    for now in [true, false] {
+        for limit in LIMITS.into_iter().filter(|limit| passed(limit) == now) {
+            let mut own = None;
+            for member in limit.members() {
+                own = larger(own, limit.hold(member, FREE), &[limit]);
+            }
+            found = least(found, own);
+        }
+        if found.is_some() {
+            break;
+        }
     }
     // Not held back by an end: there is a contact inside, which the first guess has missed.
     let missed = elsewhere

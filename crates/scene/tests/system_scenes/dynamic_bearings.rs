@@ -194,6 +194,23 @@ fn a_resumed_run_is_the_same() {
     }
 }
 
+/// The same of balls in equilibrium at speed, whose places begin each search.
+#[test]
+fn a_resumed_run_on_balls_in_equilibrium_is_the_same() {
+    let folder = folder();
+    let short = changed(SCENE, "end_s = 2e-3", "end_s = 3e-4");
+    let [model, load] = ["[bearing.model]", "[[load]]"].map(|part| short.find(part).unwrap());
+    let resting = format!(
+        "{}model = {{ kind = \"quasi-static\", file = \"balls.toml\", radial_damping_N_s_per_mm = 1.0, element_loads = true }}\n{}",
+        &short[..model],
+        &short[load..]
+    );
+    let (whole, _) = finish(&resting, folder.path(), false);
+    let (stopped, legs) = finish(&resting, folder.path(), true);
+    assert!(legs >= 30, "{legs}");
+    assert_same(&whole, &stopped);
+}
+
 /// `start = "equilibrium"`: the shaft begins where it rests on balls in equilibrium at speed, and every ball with its load there.
 #[test]
 fn a_run_begins_in_equilibrium() {

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod bearing_kinds;
+mod bevel_pairs;
 #[path = "../common/mod.rs"]
 mod common;
 mod dynamic_bearings;

@@ -76,3 +76,59 @@ fn the_gear_rig_of_seed_002_meshes_at_250_hz() {
         );
     }
 }
+
+/// Seed 000's pair at 500 N and 6000 rpm, a fiftieth of a second and less: without load but the preload all balls of a row bear alike, as many newtons as 500 N/(18 sin α) and their
+/// centrifugal force ask for, with and without cage; balls go round as they roll, cages with them.
+#[test]
+fn the_pair_of_seed_000_runs_with_and_without_cage() {
+    let whole = text("spindle_6000_rpm.toml");
+    let whole = changed(&whole, "end_s = 0.1", "end_s = 0.01");
+    let whole = changed(&whole, "force_N = 300.0", "force_N = 0.0");
+    let bare = &whole[..whole.find("[bearing.model.cage]").unwrap()];
+    let mut orbits = Vec::new();
+    for (scene, caged) in [(&whole[..], true), (bare, false)] {
+        let result = finish(scene);
+        let late = |name: &str| {
+            let values = result.rows.read(name).unwrap();
+            values[values.len() / 2..].to_vec()
+        };
+        let loads: Vec<[f64; 2]> = (1..=36)
+            .map(|ball| {
+                ["inner", "outer"]
+                    .map(|race| mean(&late(&format!("elements/pair/ball_{ball}_{race}_N"))))
+            })
+            .collect();
+        let all = |race: usize| mean(&loads.iter().map(|load| load[race]).collect::<Vec<_>>());
+        for load in &loads {
+            for (race, value) in load.iter().enumerate() {
+                assert!(
+                    (value / all(race) - 1.0).abs() < 0.01,
+                    "{load:?} {}",
+                    all(race)
+                );
+            }
+        }
+        assert!(
+            all(1) > all(0) + 1.0 && (80.0..110.0).contains(&all(0)),
+            "{} {}",
+            all(0),
+            all(1)
+        );
+        let orbit = mean(&late("elements/pair/orbit_speed_rad_per_s"));
+        orbits.push(orbit);
+        if caged {
+            for row in 1..=2 {
+                let cage = mean(&late(&format!(
+                    "bodies/pair_cage_{row}/angular_velocity_z_rad_per_s"
+                )));
+                assert!((cage / orbit - 1.0).abs() < 0.05, "{cage} {orbit}");
+            }
+        }
+    }
+    // Rolling at the contact angle of 17.3 degrees, a little more at speed.
+    let rolling =
+        0.5 * 200.0 * std::f64::consts::PI * (1.0 - 9.525 / 70.0 * 17.3_f64.to_radians().cos());
+    for orbit in orbits {
+        assert!((orbit / rolling - 1.0).abs() < 0.01, "{orbit} {rolling}");
+    }
+}
