@@ -18,9 +18,9 @@ pub struct Tooth {
 /// What the checks of a tooth found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothCheck {
-    /// Thinnest top land along the circle [m].
+    /// Thinnest top land along the circle \[m\].
     pub least_top_m: f64,
-    /// Narrowest bottom of the slot, normal to the tooth [m].
+    /// Narrowest bottom of the slot, normal to the tooth \[m\].
     pub least_slot_m: f64,
 }
 
@@ -51,13 +51,13 @@ impl Tooth {
         }
     }
 
-    /// Angle from the tooth's middle to a flank's mean point, counter-clockwise about the axis [rad].
+    /// Angle from the tooth's middle to a flank's mean point, counter-clockwise about the axis \[rad\].
     pub fn half_angle_rad(&self, side: FlankSide) -> f64 {
         let radius = self.blank.mean_cone_m * self.blank.pitch_angle_rad.sin();
         side.facing(self.blank.hand) * 0.5 * self.blank.mean_thickness_m / radius
     }
 
-    /// Angle that the tooth covers at a place [rad].
+    /// Angle that the tooth covers at a place \[rad\].
     ///
     /// # Errors
     /// [`BevelError::NoFlankPoint`].
@@ -114,7 +114,7 @@ impl Tooth {
         Ok(found)
     }
 
-    /// Width of the blade's point that leaves the slot's bottom as it is [m]: its width normal to the tooth between
+    /// Width of the blade's point that leaves the slot's bottom as it is \[m\]: its width normal to the tooth between
     /// the points of blades without edge
     /// radius, seen in the plane of the crown gear that cuts it.
     ///
@@ -154,7 +154,7 @@ fn along(blank: &MemberBlank, i: usize) -> f64 {
 }
 
 /// Spiral angle at a point: that of the flank's trace on the cone through it, against the cone's generator; positive
-/// for a right hand [rad].
+/// for a right hand \[rad\].
 pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
     let [generator, up] = cone_directions(&flank.blank, &located.point.r);
     let [trace, _] = flank.directions(&located.point);
@@ -162,7 +162,7 @@ pub fn spiral_angle_rad(flank: &Flank, located: &Located) -> f64 {
     trace.dot(&around).atan2(trace.dot(&generator))
 }
 
-/// Normal pressure angle at a point: of the normal against the cone through it [rad].
+/// Normal pressure angle at a point: of the normal against the cone through it \[rad\].
 pub fn pressure_angle_rad(flank: &Flank, located: &Located) -> f64 {
     let [_, up] = cone_directions(&flank.blank, &located.point.r);
     (-located.point.n.dot(&up)).clamp(-1.0, 1.0).asin()

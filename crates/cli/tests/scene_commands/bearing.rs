@@ -177,7 +177,7 @@ fn a_page_shows_the_loads() {
 #[test]
 fn faults_at_rest() {
     let desk = Desk::new();
-    let with = |name: &str, fault: &str| desk.file(name, &format!("{B218}[[fault]]\n{fault}"));
+    let with = |name: &str, fault: &str| desk.file(name, format!("{B218}[[fault]]\n{fault}"));
     let load = |file: &std::path::Path| {
         ["bearing", argument(file), "--load-N", "0,0,17800"].map(str::to_owned)
     };

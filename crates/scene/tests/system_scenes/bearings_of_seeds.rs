@@ -36,10 +36,10 @@ fn the_rotor_of_seed_002_turns_in_its_bearings() {
         )));
         // Pockets leave 0.2 mm on 20 mm, over a tenth of a second.
         assert!((cage / orbit - 1.0).abs() < 0.02, "{side}: {cage} {orbit}");
-        // Under 8 N balls lag by 3 %.
+        // Under 8 N friction is small: balls lag behind rolling, and never lead it.
         if side == "motor side" {
             assert!(
-                (orbit / train - 1.0).abs() < 0.05,
+                orbit < 1.001 * train && orbit > 0.95 * train,
                 "{side}: {orbit} {train}"
             );
         }
