@@ -10,7 +10,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearmesh_geometry::definition::{Blank, Openings, Web};
+use gearmesh_geometry::blank::{Blank, Openings, Web};
 use gearmesh_geometry::{ProfileCurve, ToothGeometry};
 
 use crate::error::{DrivetrainError, positive};

@@ -6,7 +6,7 @@ mod mesh_common;
 use std::f64::consts::PI;
 
 use gearmesh_drivetrain::GearInertia;
-use gearmesh_geometry::definition::{Blank, Holes, Openings, Slots, Web};
+use gearmesh_geometry::blank::{Blank, Holes, Openings, Slots, Web};
 use mesh_common::*;
 
 const STEEL_DENSITY: f64 = 7850.0;

@@ -5,7 +5,7 @@
 //! t = ρ/tan(φ/2) away from the corner, and its centre lies ρ/sin(φ/2) away on the bisector. It fits where the lengths
 //! t taken from both ends of every side do not pass the side's own length.
 
-use crate::definition::{Blank, Contour, Web};
+use crate::blank::{Blank, Contour, Web};
 use std::f64::consts::PI;
 
 /// Lengths below are none \[m\].
@@ -308,7 +308,7 @@ pub fn beyond_layers(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::definition::ContourPoint;
+    use crate::blank::ContourPoint;
 
     fn blank(fillets: [f64; 3]) -> Blank {
         let point = |radius_m, z_m, fillet_radius_m| ContourPoint {

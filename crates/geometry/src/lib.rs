@@ -4,7 +4,7 @@
 //!
 //! | step | type | file |
 //! | --- | --- | --- |
-//! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs` |
+//! | read a gear file (TOML, units in the keys) | [`GearDefinition`] | `gear_file.rs`, `gear_file/`, `definition.rs`, `blank.rs` |
 //! | rack, involute and trochoid of one tooth | [`ToothGeometry`] | `tooth.rs`, `fillet.rs` |
 //! | that tooth's outline by arc length | [`ProfileCurve`] | `profile_curve.rs` |
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
@@ -16,6 +16,7 @@
 //! z is the gear axis and zero at mid-face, tooth 0 is centred on +x, teeth are numbered counter-clockwise seen
 //! from +z, the *right* flank of a tooth faces clockwise. Formulas are derived in docs/theory/geometry.md.
 
+pub mod blank;
 pub mod body_outline;
 pub mod definition;
 pub mod fillet;
@@ -29,10 +30,12 @@ pub mod profile_curve;
 mod tip_in_fillet;
 pub mod tooth;
 
+pub use blank::{
+    Blank, Contour, ContourPoint, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
+};
 pub use definition::{
-    Blank, Contour, ContourPoint, CrackDefinition, Flank, GaugeDefinition, GearDefinition, Holes,
-    HubSupport, LengthUnit, Material, MeshSettings, MeshedBody, ModeRange, Openings,
-    ReductionSettings, RootPosition, Slots, Symmetry, ToothDefinition, Web,
+    CrackDefinition, Flank, GaugeDefinition, GearDefinition, HubSupport, Material, MeshSettings,
+    ModeRange, ReductionSettings, RootPosition, Symmetry, ToothDefinition,
 };
 pub use gearmesh_elements::Element;
 pub use input::InputError;

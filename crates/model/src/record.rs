@@ -292,20 +292,10 @@ impl<'a> Fields<'a> {
         unit: &str,
         what: &str,
     ) -> Result<(), FileError> {
-        let frame = std::mem::take(&mut self.frame);
-        let name = self.at(name);
-        match &mut self.way {
-            Way::Write(tree) => {
-                let array = array(Values::F64(values.clone()), axes, unit, what);
-                tree.put(name, array.in_frame(frame));
-            }
-            Way::Read(tree, path) => {
-                let shape = shape(tree, path, &name, axes)?;
-                *values = tree.take_f64(path, &name, &shape)?;
-            }
-            Way::List(list) => list.push(listed(name, &form(axes, "number"), unit, what)),
+        if matches!(self.way, Way::Write(_)) {
+            return self.bulk(name, &mut values.clone(), axes, unit, what);
         }
-        Ok(())
+        self.bulk(name, values, axes, unit, what)
     }
 
     /// A large array of numbers: as [`Fields::numbers`], but moved when it is written, so that it is not held twice.
@@ -320,12 +310,19 @@ impl<'a> Fields<'a> {
         unit: &str,
         what: &str,
     ) -> Result<(), FileError> {
-        let Way::Write(tree) = &mut self.way else {
-            return self.numbers(name, values, axes, unit, what);
-        };
         let frame = std::mem::take(&mut self.frame);
-        let array = array(Values::F64(std::mem::take(values)), axes, unit, what);
-        tree.put(format!("{}{name}", self.group), array.in_frame(frame));
+        let name = self.at(name);
+        match &mut self.way {
+            Way::Write(tree) => {
+                let array = array(Values::F64(std::mem::take(values)), axes, unit, what);
+                tree.put(name, array.in_frame(frame));
+            }
+            Way::Read(tree, path) => {
+                let shape = shape(tree, path, &name, axes)?;
+                *values = tree.take_f64(path, &name, &shape)?;
+            }
+            Way::List(list) => list.push(listed(name, &form(axes, "number"), unit, what)),
+        }
         Ok(())
     }
 
@@ -400,26 +397,12 @@ impl<'a> Fields<'a> {
         &mut self,
         group: &str,
         records: &mut Vec<R>,
-        mut parts: impl FnMut(&mut R, &mut Self) -> Result<(), FileError>,
+        parts: impl FnMut(&mut R, &mut Self) -> Result<(), FileError>,
     ) -> Result<(), FileError> {
-        match &self.way {
-            Way::Write(_) => {}
-            Way::Read(tree, _) => {
-                let count = tree.children(&self.at(group)).len();
-                records.resize_with(count, R::default);
-            }
-            Way::List(_) => {
-                let mut one = R::default();
-                return self.group(&format!("{group}/I"), |fields| parts(&mut one, fields));
-            }
-        }
-        for (i, record) in records.iter_mut().enumerate() {
-            self.group(&format!("{group}/{i}"), |fields| parts(record, fields))?;
-        }
-        Ok(())
+        self.numbered((group, "I", 1), records, |_| true, parts)
     }
 
-    /// Records in groups whose names are numbers of four digits, beside other parts of the group.
+    /// The same in groups whose names are numbers of four digits, `NNNN` in the documentation, beside other parts.
     ///
     /// # Errors
     /// Those of their parts.
@@ -427,23 +410,36 @@ impl<'a> Fields<'a> {
         &mut self,
         group: &str,
         records: &mut Vec<R>,
+        parts: impl FnMut(&mut R, &mut Self) -> Result<(), FileError>,
+    ) -> Result<(), FileError> {
+        let is_number = |name: &String| name.bytes().all(|byte| byte.is_ascii_digit());
+        self.numbered((group, "NNNN", 4), records, is_number, parts)
+    }
+
+    /// Numbers have so many digits at least; `is_record` tells the records among the parts of the group.
+    fn numbered<R: Default>(
+        &mut self,
+        (group, listed, digits): (&str, &str, usize),
+        records: &mut Vec<R>,
+        is_record: impl Fn(&String) -> bool,
         mut parts: impl FnMut(&mut R, &mut Self) -> Result<(), FileError>,
     ) -> Result<(), FileError> {
         match &self.way {
             Way::Write(_) => {}
             Way::Read(tree, _) => {
-                let is_number = |name: &String| name.bytes().all(|byte| byte.is_ascii_digit());
                 let names = tree.children(&self.at(group));
-                let count = names.into_iter().filter(is_number).count();
+                let count = names.into_iter().filter(is_record).count();
                 records.resize_with(count, R::default);
             }
             Way::List(_) => {
                 let mut one = R::default();
-                return self.group(&format!("{group}/NNNN"), |fields| parts(&mut one, fields));
+                let name = format!("{group}/{listed}");
+                return self.group(&name, |fields| parts(&mut one, fields));
             }
         }
         for (i, record) in records.iter_mut().enumerate() {
-            self.group(&format!("{group}/{i:04}"), |fields| parts(record, fields))?;
+            let name = format!("{group}/{i:0digits$}");
+            self.group(&name, |fields| parts(record, fields))?;
         }
         Ok(())
     }

@@ -373,16 +373,7 @@ impl FlankKinematics for BevelMesh {
     }
 
     fn locate(&mut self, pose: &Pose) -> Result<(), DrivetrainError> {
-        let tilt = pose.axis_2()[2].clamp(-1.0, 1.0).acos() - self.shaft_angle_rad;
-        let apart = pose.displacement_m.norm();
-        if !(tilt.abs() <= MOST_TILT_RAD && apart <= MOST_APART * self.mean_cone_m) {
-            return Err(DrivetrainError::BevelAxes {
-                shaft_deg: (tilt + self.shaft_angle_rad).to_degrees(),
-                designed_deg: self.shaft_angle_rad.to_degrees(),
-                apart_mm: 1e3 * apart,
-                allowed_mm: 1e3 * MOST_APART * self.mean_cone_m,
-            });
-        }
+        self.check_axes(pose)?;
         self.at = Some(*pose);
         Ok(())
     }
@@ -399,7 +390,7 @@ impl FlankKinematics for BevelMesh {
         side: Flank,
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
-        self.clone().locate(pose)?;
+        self.check_axes(pose)?;
         self.find(pose, side, &mut Vec::new(), found);
         Ok(())
     }
@@ -449,6 +440,21 @@ impl FlankKinematics for BevelMesh {
 }
 
 impl BevelMesh {
+    /// Whether the axes stand as flanks can follow.
+    fn check_axes(&self, pose: &Pose) -> Result<(), DrivetrainError> {
+        let tilt = pose.axis_2()[2].clamp(-1.0, 1.0).acos() - self.shaft_angle_rad;
+        let apart = pose.displacement_m.norm();
+        if !(tilt.abs() <= MOST_TILT_RAD && apart <= MOST_APART * self.mean_cone_m) {
+            return Err(DrivetrainError::BevelAxes {
+                shaft_deg: (tilt + self.shaft_angle_rad).to_degrees(),
+                designed_deg: self.shaft_angle_rad.to_degrees(),
+                apart_mm: 1e3 * apart,
+                allowed_mm: 1e3 * MOST_APART * self.mean_cone_m,
+            });
+        }
+        Ok(())
+    }
+
     fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
         self.found[side as usize].get(contact)
     }

@@ -3,7 +3,8 @@
 use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_fillets};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::definition::{Blank, Contour, LengthUnit, MeshedBody, ToothDefinition, Web};
+use crate::blank::{Blank, Contour, LengthUnit, MeshedBody, Web};
+use crate::definition::ToothDefinition;
 use crate::input::{InputDocument, InputError};
 use crate::kinds;
 use crate::tooth::ToothGeometry;

@@ -1,8 +1,8 @@
 //! `[[blank.web]]` and `blank.hub_z_mm`: hub and web by their axial contour, with fillets in its corners.
 
 use super::{MM, TableKeys};
+use crate::blank::{Blank, Contour, ContourPoint, Web};
 use crate::body_outline::body_outline;
-use crate::definition::{Blank, Contour, ContourPoint, Web};
 use crate::input::InputError;
 use schemars::JsonSchema;
 use serde::Deserialize;

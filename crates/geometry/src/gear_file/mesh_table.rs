@@ -1,8 +1,9 @@
 //! `[mesh]`: element sizes, by default in proportion to the module.
 
 use super::{MM, TableKeys};
+use crate::blank::Blank;
 use crate::body_outline::beyond_layers;
-use crate::definition::{Blank, MeshSettings, ToothDefinition};
+use crate::definition::{MeshSettings, ToothDefinition};
 use crate::input::{InputDocument, InputError};
 use gearmesh_elements::Element;
 use schemars::JsonSchema;

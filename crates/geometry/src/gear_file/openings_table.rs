@@ -1,7 +1,7 @@
 //! `[blank.slots]` and `[blank.holes]`: openings of the body.
 
 use super::{MM, TableKeys};
-use crate::definition::{Holes, Openings, Slots};
+use crate::blank::{Holes, Openings, Slots};
 use crate::input::{InputDocument, InputError};
 use schemars::JsonSchema;
 use serde::Deserialize;
