@@ -12,7 +12,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::study::{PairCases, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
 use std::path::Path;
@@ -142,12 +142,10 @@ fn scene(path: &Path, scene: SceneFile) -> Result<(), Failure> {
     Ok(())
 }
 
-/// All scenes of a study are read, the first one is built with its gears.
+/// All scenes of a study are read, the scene as it is is built with its gears, whose columns are known then.
 fn study(path: &Path, study: &Study) -> Result<(), Failure> {
-    let made = StudyScenes::new(study)?;
-    if let Some(scene) = made.scenes.first() {
-        scene.clone().load()?.build()?;
-    }
+    let made = StudyScenes::new(study, Path::new(""))?;
+    made.check_columns(study, &PairCases::default())?;
     console::data(format!(
         "{}: study `{}`, sound: {} cases, {} columns of {}",
         path.display(),
