@@ -3,6 +3,7 @@
 mod csv_rows;
 mod former_keys;
 mod kinds;
+mod near_names;
 mod number_ranges;
 mod number_table;
 mod readable_file;
@@ -14,6 +15,7 @@ pub use csv_rows::{CsvRows, shown_field};
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
 pub use kinds::{Kinds, read_kind};
+pub use near_names::nearest;
 pub use number_ranges::NumberRange;
 pub use number_table::NumberTable;
 pub use readable_file::{
@@ -375,6 +377,15 @@ mod tests {
         assert_eq!(
             text,
             "g.toml:2: unknown field `colour`, expected `blank` or `gauge`"
+        );
+    }
+
+    #[test]
+    fn a_key_written_otherwise_is_answered_with_the_nearest() {
+        let text = complaint("[blank]\nkind = 'solid'\nwebthickness_mm = 5.0\n").to_string();
+        assert!(
+            text.ends_with("; did you mean `web_thickness_mm`?"),
+            "{text}"
         );
     }
 

@@ -21,16 +21,55 @@ pub fn teeth(source: &Source<'_>, gear: &Component) -> Result<i64, RexsError> {
     })
 }
 
-/// Text of the pair file; none where the stage lacks what it needs, which is told.
+/// What a bevel stage says of its pair; of two values the pinion's first, which has the fewer teeth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BevelStage {
+    /// Which of the stage's gears is the pinion: 0 or 1.
+    pub pinion: usize,
+    /// Teeth.
+    pub teeth: [i64; 2],
+    /// Transverse module at the heel \[mm\].
+    pub outer_module_mm: f64,
+    /// Face widths \[mm\].
+    pub face_widths_mm: [f64; 2],
+    /// Angle between the axes \[deg\].
+    pub shaft_angle_deg: f64,
+    /// Normal pressure angle \[deg\].
+    pub pressure_angle_deg: f64,
+    /// Amount of the mean spiral angle \[deg\]; zero for straight teeth.
+    pub spiral_angle_deg: f64,
+    /// Whether the spiral of the pinion is a right hand; that of its mate is the other one.
+    pub is_right_hand: bool,
+}
+
+impl BevelStage {
+    /// Cone distance of the middle of the face \[mm\].
+    #[must_use]
+    pub fn mean_cone_distance_mm(&self) -> f64 {
+        let [pinion_cone, _] = self.pitch_angles_rad();
+        let outer = 0.5 * self.outer_module_mm * self.teeth[0] as f64 / pinion_cone.sin();
+        outer - 0.5 * self.face_widths_mm[0].min(self.face_widths_mm[1])
+    }
+
+    /// Pitch angles \[rad\]: tan δ₁ = sin Σ/(z₂/z₁ + cos Σ), δ₂ = Σ − δ₁.
+    #[must_use]
+    pub fn pitch_angles_rad(&self) -> [f64; 2] {
+        let sum = self.shaft_angle_deg.to_radians();
+        let ratio = self.teeth[1] as f64 / self.teeth[0] as f64;
+        let pinion = sum.sin().atan2(ratio + sum.cos());
+        [pinion, sum - pinion]
+    }
+}
+
+/// Reads a bevel stage; none where it lacks what a pair needs, which is told.
 ///
 /// # Errors
 /// Those of [`Source`].
-pub fn pair_file(
+pub fn read(
     source: &Source<'_>,
-    structure: &Structure,
     stage: &Component,
     gears: [&Component; 2],
-) -> Result<Option<String>, RexsError> {
+) -> Result<Option<BevelStage>, RexsError> {
     let z = [teeth(source, gears[0])?, teeth(source, gears[1])?];
     let order = if z[0] <= z[1] { [0, 1] } else { [1, 0] };
     let [pinion, gear] = order.map(|i| gears[i]);
@@ -92,7 +131,42 @@ pub fn pair_file(
                 20.0
             }),
     };
-    let is_spiral = spiral.abs() > 1e-6;
+    let hands = [pinion, gear].map(|g| source.text(g, "spiral_angle_pitch_direction"));
+    let is_right_hand = spiral.abs() > 1e-6
+        && match hands.each_ref().map(Option::as_deref) {
+            [Some(hand), _] => hand == "right",
+            [None, Some(hand)] => hand == "left",
+            [None, None] => {
+                source.assume(pinion, "no spiral_angle_pitch_direction given: left");
+                false
+            }
+        };
+    Ok(Some(BevelStage {
+        pinion: order[0],
+        teeth,
+        outer_module_mm: outer,
+        face_widths_mm: [width_1, width_2],
+        shaft_angle_deg: shaft_angle,
+        pressure_angle_deg: pressure,
+        spiral_angle_deg: spiral.abs(),
+        is_right_hand,
+    }))
+}
+
+/// Text of the pair file; none where the stage lacks what it needs, which is told.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn pair_file(
+    source: &Source<'_>,
+    structure: &Structure,
+    stage: &Component,
+    gears: [&Component; 2],
+) -> Result<Option<String>, RexsError> {
+    let Some(pair) = read(source, stage, gears)? else {
+        return Ok(None);
+    };
+    let is_spiral = pair.spiral_angle_deg > 1e-6;
     let mut text = format!(
         "title = {}\n\n[bevel]\nteeth = [{}, {}]\nouter_module_mm = {}\nface_width_mm = {}\nshaft_angle_deg = {}\npressure_angle_deg = {}\n",
         quoted(if stage.name.is_empty() {
@@ -100,22 +174,16 @@ pub fn pair_file(
         } else {
             &stage.name
         }),
-        teeth[0],
-        teeth[1],
-        number(outer),
-        numbers(&[width_1, width_2]),
-        number(shaft_angle),
-        number(pressure)
+        pair.teeth[0],
+        pair.teeth[1],
+        number(pair.outer_module_mm),
+        numbers(&pair.face_widths_mm),
+        number(pair.shaft_angle_deg),
+        number(pair.pressure_angle_deg)
     );
     if is_spiral {
-        let hand = source
-            .text(pinion, "spiral_angle_pitch_direction")
-            .unwrap_or_else(|| {
-                source.assume(pinion, "no spiral_angle_pitch_direction given: left");
-                "left".to_owned()
-            });
-        let mean_cone =
-            0.5 * outer * (teeth[0] as f64).hypot(teeth[1] as f64) - 0.5 * width_1.min(width_2);
+        let hand = if pair.is_right_hand { "right" } else { "left" };
+        let mean_cone = pair.mean_cone_distance_mm();
         let cutter = source
             .number(stage, "cutter_radius", MM)?
             .filter(|r| *r > 0.0)
@@ -128,7 +196,7 @@ pub fn pair_file(
             });
         text.push_str(&format!(
             "form = \"spiral\"\nspiral_angle_deg = {}\npinion_hand = \"{hand}\"\ncutter_radius_mm = {}\n",
-            number(spiral.abs()),
+            number(pair.spiral_angle_deg),
             number(cutter)
         ));
         text.push_str("\n[pinion]\nsettings = \"basic\"\n\n[gear]\nsettings = \"basic\"\n");

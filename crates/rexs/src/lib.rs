@@ -6,6 +6,8 @@
 
 pub mod bearing;
 pub mod bevel;
+pub mod bevel_force;
+pub mod bevel_loads;
 pub mod container;
 pub mod coupling;
 pub mod error;

@@ -1,6 +1,7 @@
 //! The text of the scene of a gearbox at rest under its loads.
 
 use crate::bearing::AxialSupport;
+use crate::bevel_loads::{BevelLoad, bevel_loads};
 use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -47,10 +48,14 @@ pub fn scene(
     for shaft in &train.shafts {
         shaft_table(&mut text, train, shaft, &groups);
     }
-    let supports = axial_supports(source, train);
+    let bevel_loads = bevel_loads(source, train);
+    let supports = axial_supports(source, train, &bevel_loads);
     bearings(&mut text, train, &supports);
     couplings(&mut text, train);
     drive(&mut text, source, train, &groups);
+    bevel_loads
+        .iter()
+        .for_each(|load| text.push_str(&load.text()));
     meshes(&mut text, train);
     text
 }
@@ -153,8 +158,11 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
 
 /// Whether each bearing holds its shaft along the axis in this load case. One-way supports do where the load pushes
 /// against them; springs know no one way.
-fn axial_supports(source: &Source<'_>, train: &Train) -> Vec<bool> {
+fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad]) -> Vec<bool> {
     let mut axial_n: BTreeMap<i64, f64> = BTreeMap::new();
+    for load in bevel_loads {
+        *axial_n.entry(load.shaft).or_insert(0.0) += load.axial_n;
+    }
     let mut is_known = true;
     for mesh in &train.meshes {
         let Some(torques) = train.flow.link_nm.get(mesh.link).copied().flatten() else {

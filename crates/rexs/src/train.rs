@@ -1,6 +1,7 @@
 //! The gearbox of a model: shafts with what stands on them, stages, and how the power flows.
 
 use crate::bearing::{self, Bearing};
+use crate::bevel::{self, BevelStage};
 use crate::coupling::{self, Coupling};
 use crate::error::RexsError;
 use crate::gear::{self, Gear};
@@ -41,6 +42,8 @@ pub struct Mesh {
 /// A bevel gear, which passes its torque on.
 #[derive(Debug, Clone)]
 pub struct BevelSeat {
+    /// The gear: component.
+    pub gear: i64,
     /// Shaft: component.
     pub shaft: i64,
     /// Place along u \[mm\].
@@ -49,6 +52,8 @@ pub struct BevelSeat {
     pub link: (usize, usize),
     /// Name.
     pub name: String,
+    /// What the stage says; none where it says too little.
+    pub stage: Option<BevelStage>,
 }
 
 /// A gearbox in one load case.
@@ -276,8 +281,8 @@ fn bevel_stage(
     gears: [&Component; 2],
 ) -> Result<(), RexsError> {
     let teeth = [
-        crate::bevel::teeth(source, gears[0])?,
-        crate::bevel::teeth(source, gears[1])?,
+        bevel::teeth(source, gears[0])?,
+        bevel::teeth(source, gears[1])?,
     ];
     let mut seats = Vec::new();
     let mut sense = 1.0;
@@ -294,25 +299,27 @@ fn bevel_stage(
             .number(gear, "u_coordinate_on_shaft", MM)?
             .unwrap_or(0.0);
         let width = source.number(gear, "face_width", MM)?.unwrap_or(0.0);
-        seats.push((shaft, start + 0.5 * width, gear.name.clone()));
+        seats.push((gear.id, shaft, start + 0.5 * width, gear.name.clone()));
     }
-    let [(a, ..), (b, ..)] = seats.as_slice() else {
+    let [(_, a, ..), (_, b, ..)] = seats.as_slice() else {
         source.leave_out(stage, "its gears sit on no shafts of the scene");
         return Ok(());
     };
-    source.leave_out(stage, "no mesh of the scene: its torque acts on both shafts as a load, its radial and axial forces do not; the pair file can be named by a mesh by hand");
     // Equal speeds of the pitch cones in their common line, seen from apex to heel.
     train.links.push(Link {
         shafts: [*a, *b],
         ratio: -sense * teeth[0] as f64 / teeth[1] as f64,
     });
     let link = train.links.len() - 1;
-    for (side, (shaft, u_mm, name)) in seats.into_iter().enumerate() {
+    let found = bevel::read(source, stage, gears)?;
+    for (side, (gear, shaft, u_mm, name)) in seats.into_iter().enumerate() {
         train.bevels.push(BevelSeat {
+            gear,
             shaft,
             u_mm,
             link: (link, side),
             name,
+            stage: found.clone(),
         });
     }
     Ok(())

@@ -25,6 +25,7 @@ pub enum SceneFile {
 struct Marks {
     pair: Option<IgnoredAny>,
     body: Option<IgnoredAny>,
+    shaft: Option<IgnoredAny>,
     tooth: Option<IgnoredAny>,
     scene: Option<IgnoredAny>,
     parameter: Option<IgnoredAny>,
@@ -36,7 +37,7 @@ struct Marks {
 /// What a TOML file is meant as; the kind decides which complaints its reader sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InputKind {
-    /// Has `[pair]` or `[[body]]`.
+    /// Has `[pair]`, `[[body]]` or `[[shaft]]`.
     Scene,
     /// Has `scene` or `[[parameter]]`.
     Study,
@@ -56,7 +57,7 @@ impl InputKind {
     pub fn of(document: &InputDocument) -> Result<Self, InputError> {
         let marks: Marks = document.glance()?;
         let any = |marks: &[&Option<IgnoredAny>]| marks.iter().any(|mark| mark.is_some());
-        Ok(if any(&[&marks.pair, &marks.body]) {
+        Ok(if any(&[&marks.pair, &marks.body, &marks.shaft]) {
             Self::Scene
         } else if any(&[&marks.tooth]) {
             Self::Gear
@@ -88,19 +89,19 @@ impl SceneFile {
     /// As [`SceneFile::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let marks: Marks = document.glance()?;
-        match (marks.pair, marks.body) {
+        match (marks.pair, marks.body.or(marks.shaft)) {
             (Some(_), None) => Ok(Self::Pair(Box::new(Scene::from_document(document, folder)?))),
             (None, Some(_)) => Ok(Self::System(Box::new(SystemScene::from_document(document, folder)?))),
             (Some(_), Some(_)) => Err(document.error(
                 "body",
-                "a scene has [pair] (one gear pair, static positions) or [[body]] (a multibody system), not both",
+                "a scene has [pair] (one gear pair, static positions) or [[body]] and [[shaft]] (a multibody system), not both",
             )),
             (None, None) if marks.tooth.is_some() => {
                 Err(document.error("tooth", "this is a gear file; a scene has [pair] or [[body]]"))
             }
             (None, None) => Err(document.error(
                 "",
-                "no scene: it has neither [pair] (one gear pair, static positions) nor [[body]] (a multibody system)",
+                "no scene: it has neither [pair] (one gear pair, static positions) nor [[body]] or [[shaft]] (a multibody system)",
             )),
         }
     }

@@ -80,3 +80,178 @@ fn what_cannot_be_imported_is_told_with_the_line() {
     let answer = gearmesh(&["import", "nothing.rexs", "-o", argument(&desk.path("out"))]);
     refused(&answer, 2, &["nothing.rexs"]);
 }
+
+/// A component of a REXS file with its attributes.
+fn component(id: usize, kind: &str, name: &str, attributes: &[(&str, &str, &str)]) -> String {
+    let attributes: String = (attributes.iter())
+        .map(|(key, unit, value)| {
+            format!("<attribute id=\"{key}\" unit=\"{unit}\">{value}</attribute>")
+        })
+        .collect();
+    format!("<component id=\"{id}\" type=\"{kind}\" name=\"{name}\">{attributes}</component>\n")
+}
+
+/// Seed 001's pair on two shafts that cross, each overhung on two bearings, as a REXS file.
+fn bevel_gearbox() -> String {
+    let mut parts = component(1, "gear_unit", "unit", &[]);
+    let mut relations = Vec::new();
+    let mut relate = |kind: &str, refs: &[(usize, &str)]| {
+        let refs: String = (refs.iter())
+            .map(|(id, role)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
+            .collect();
+        let id = relations.len() + 1;
+        relations.push(format!(
+            "<relation id=\"{id}\" type=\"{kind}\">{refs}</relation>\n"
+        ));
+    };
+    parts += &component(2, "gear_casing", "casing", &[]);
+    relate("assembly", &[(1, "assembly"), (2, "part")]);
+    let vector = |v: [i32; 3]| v.map(|x| format!("<c>{x}</c>")).concat();
+    for (i, (name, u, hand)) in [("pinion", [1, 0, 0], "left"), ("gear", [0, 1, 0], "right")]
+        .into_iter()
+        .enumerate()
+    {
+        let [shaft, section, gear, load] = [10, 20, 30, 40].map(|k| k + i);
+        let array = |v: [i32; 3]| format!("<array>{}</array>", vector(v));
+        let place = [
+            ("reference_component_for_position", "none", "1".to_owned()),
+            ("support_vector", "mm", array([0, 0, 0])),
+            ("u_axis_vector", "mm", array(u)),
+            ("w_axis_vector", "mm", array([0, 0, 1])),
+        ];
+        let place: Vec<_> = place
+            .iter()
+            .map(|(k, unit, v)| (*k, *unit, &v[..]))
+            .collect();
+        parts += &component(shaft, "shaft", &format!("{name} shaft"), &place);
+        let of_section = [
+            ("length", "mm", "200"),
+            ("outer_diameter_begin", "mm", "40"),
+            ("outer_diameter_end", "mm", "40"),
+            ("inner_diameter_begin", "mm", "0"),
+            ("inner_diameter_end", "mm", "0"),
+        ];
+        parts += &component(section, "shaft_section", "", &of_section);
+        // The mean point stands 42 mm off the apex, 29.6984 mm along the axis; the face is 15 mm wide.
+        let of_gear = [
+            ("number_of_teeth", "none", "20"),
+            ("u_coordinate_on_shaft", "mm", "22.1985"),
+            ("face_width", "mm", "15"),
+            ("outer_pitch_diameter", "mm", "70"),
+            ("mean_spiral_angle", "deg", "35"),
+            ("spiral_angle_pitch_direction", "none", hand),
+            ("bevel_cone_orientation", "none", "negative"),
+        ];
+        parts += &component(gear, "bevel_gear", name, &of_gear);
+        let mut of_load = vec![
+            ("u_coordinate_on_shaft", "mm", "200"),
+            ("transmits_torque", "none", "true"),
+        ];
+        if i == 0 {
+            of_load.push(("torque_around_u_axis", "N m", "100"));
+        }
+        parts += &component(load, "external_load", &format!("{name} torque"), &of_load);
+        relate("assembly", &[(1, "assembly"), (shaft, "part")]);
+        relate("assembly", &[(shaft, "assembly"), (section, "part")]);
+        relate("assembly", &[(shaft, "assembly"), (gear, "part")]);
+        relate("assembly", &[(shaft, "assembly"), (load, "part")]);
+        for (k, (place, axial)) in [("70", "both_directions"), ("150", "no")]
+            .into_iter()
+            .enumerate()
+        {
+            let bearing = 50 + 10 * i + k;
+            let of_bearing = [
+                ("u_coordinate_on_shaft_inner_side", "mm", place),
+                ("axial_force_absorption", "none", axial),
+                ("radial_force_absorption", "none", "true"),
+                ("radial_stiffness", "N / mm", "1e6"),
+            ];
+            parts += &component(
+                bearing,
+                "concept_bearing",
+                &format!("{name} {place}"),
+                &of_bearing,
+            );
+            relate(
+                "side",
+                &[
+                    (bearing, "assembly"),
+                    (shaft, "inner_part"),
+                    (2, "outer_part"),
+                ],
+            );
+        }
+    }
+    let of_stage = [
+        ("shaft_angle", "deg", "90"),
+        ("nominal_design_pressure_angle_on_drive_side", "deg", "20"),
+    ];
+    parts += &component(70, "bevel_stage", "stage", &of_stage);
+    relate("assembly", &[(1, "assembly"), (70, "part")]);
+    relate("stage", &[(70, "stage"), (30, "gear_1"), (31, "gear_2")]);
+    format!(
+        "<model version=\"1.7\" applicationId=\"test\" applicationVersion=\"1\" date=\"2026-11-22T12:00:00+00:00\">\n\
+         <relations>\n{}</relations>\n<components>\n{parts}</components>\n</model>\n",
+        relations.concat()
+    )
+}
+
+/// Seed 001 at 100 N m: 3367 N along the circle, 2725 and -609 N along and across the axes. The left-hand pinion turns counter-clockwise, seen
+/// from its back, and is pulled to the apex.
+#[test]
+fn bearings_of_a_bevel_stage_carry_its_forces() {
+    let desk = Desk::new();
+    let model = desk.file("bevel.rexs", bevel_gearbox());
+    let folder = desk.path("imported");
+    succeeds(&["import", argument(&model), "-o", argument(&folder)]);
+    let list = std::fs::read_to_string(folder.join("import.md")).unwrap();
+    assert!(
+        list.contains("radial and axial forces act on the shaft"),
+        "{list}"
+    );
+    let output = desk.path("result.h5");
+    succeeds(&[
+        "run",
+        argument(&folder.join("bevel.toml")),
+        "-o",
+        argument(&output),
+    ]);
+    let result = SystemResult::open(&output).unwrap();
+    let force = |bearing: &str| {
+        ["x", "y", "z"].map(|axis| {
+            let column = format!("elements/{bearing}/force_world_{axis}_N");
+            *result.rows.read(&column).unwrap().last().unwrap()
+        })
+    };
+    let half = 0.5f64.sqrt();
+    let mean_m = 42e-3 * half;
+    let tangential = 100.0 / mean_m;
+    let (along, across) = (
+        35f64.to_radians().tan(),
+        20f64.to_radians().tan() / 35f64.to_radians().cos(),
+    );
+    // On the pinion: towards the apex, off the mate, against its turn.
+    let [x, y, z] =
+        [half * (across - along), -half * (across + along), -1.0].map(|share| share * tangential);
+    assert!((x + 609.0).abs() < 3.0 && (y + 2725.0).abs() < 3.0 && (z + 3367.0).abs() < 1.0);
+    // Moments about the near bearing, 70 mm from the apex; the other one is 80 mm further.
+    let arm = mean_m - 70e-3;
+    let far = [0.0, -(arm * y - mean_m * x) / 80e-3, -arm * z / 80e-3];
+    let near = [-x, -y - far[1], -z - far[2]];
+    // On the gear the opposite at the same point; its axis is y.
+    let far_gear = [(arm * x - mean_m * y) / 80e-3, 0.0, arm * z / 80e-3];
+    let near_gear = [x - far_gear[0], y, z - far_gear[2]];
+    for (bearing, expected) in [
+        ("pinion 70", near),
+        ("pinion 150", far),
+        ("gear 70", near_gear),
+        ("gear 150", far_gear),
+    ] {
+        let found = force(bearing);
+        let off: f64 = (found.iter().zip(expected))
+            .map(|(f, e)| (f - e).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        assert!(off < 5.0, "{bearing}: {found:?} {expected:?}");
+    }
+}

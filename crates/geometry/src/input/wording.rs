@@ -1,5 +1,7 @@
 //! serde's complaints in the words of a person who writes gear files, not Rust.
 
+use super::near_names::nearest;
+
 /// The key that a complaint is about, as a dotted path, and what is wrong with it; `path` and `message` are serde's.
 ///
 /// A message that is not known here stays as it is.
@@ -16,7 +18,7 @@ pub(super) fn in_plain_words(mut path: Vec<String>, message: &str) -> (String, S
     {
         // The message names the key already.
         path.pop();
-        match unit_hint(message) {
+        match hint(message) {
             Some(hint) => format!("{message}; {hint}"),
             None => message.to_string(),
         }
@@ -86,15 +88,21 @@ fn allowed_type(allowed: &str) -> &str {
     }
 }
 
-/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem.
-fn unit_hint(message: &str) -> Option<String> {
+/// For serde's "unknown field `a_m`, expected one of `a_mm`, ...": the expected key with the same stem, else the one that is written most alike.
+fn hint(message: &str) -> Option<String> {
     let rest = message.strip_prefix("unknown field `")?;
     let (found, expected) = rest.split_once('`')?;
-    let stem = found.rsplit_once('_').map_or(found, |(stem, _)| stem);
-    expected
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .find(|name| name.rsplit_once('_').map_or(*name, |(s, _)| s) == stem || *name == stem)
-        .map(|name| format!("did you mean `{name}`? The unit is part of the key"))
+    if expected.ends_with("which is missing") {
+        return None;
+    }
+    let expected: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+    let stem_of = |name: &str| name.rsplit_once('_').map_or(name, |(stem, _)| stem).len();
+    let stem = &found[..stem_of(found)];
+    let same = |name: &&&str| name[..stem_of(name)] == *stem || **name == stem;
+    match expected.iter().find(same) {
+        Some(name) => Some(format!(
+            "did you mean `{name}`? The unit is part of the key"
+        )),
+        None => nearest(found, &expected).map(|name| format!("did you mean `{name}`?")),
+    }
 }

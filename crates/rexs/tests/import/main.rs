@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
 mod bad_files;
+mod bevel_force;
 mod containers;
 mod dialects;
 mod power;

@@ -1,7 +1,7 @@
 //! Names of a scene's parts: what a name may be, and names that the scene does not know.
 
 use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{InputDocument, nearest};
 
 /// Longest name, in characters.
 const LONGEST: usize = 100;
@@ -50,18 +50,10 @@ fn name_problem(name: &str) -> Option<String> {
     ))
 }
 
-/// Similarity (Jaro-Winkler, 0 to 1) from which a known name is offered as the one that was meant.
-const SIMILAR: f64 = 0.8;
-
 /// What to say of a name that is not among the known ones: the nearest, and all of them.
 pub(crate) fn unknown<S: AsRef<str>>(what: &str, found: &str, known: &[S]) -> String {
-    let nearest = known
-        .iter()
-        .map(|name| (strsim::jaro_winkler(found, name.as_ref()), name.as_ref()))
-        .filter(|(similarity, _)| *similarity >= SIMILAR)
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let hint = nearest
-        .map(|(_, name)| format!("did you mean `{name}`? "))
+    let hint = nearest(found, known)
+        .map(|name| format!("did you mean `{name}`? "))
         .unwrap_or_default();
     let list: Vec<String> = known
         .iter()

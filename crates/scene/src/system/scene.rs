@@ -37,6 +37,7 @@ pub struct SystemTables {
     /// Acceleration of weight, world axes; no weight where not given.
     pub gravity_m_per_s2: Option<[f64; 3]>,
     /// Bodies.
+    #[serde(default)]
     pub body: Vec<BodyTable>,
     /// Joints.
     #[serde(default)]
@@ -122,8 +123,8 @@ impl SystemScene {
         let document = document.with_former(SYSTEM);
         let tables: SystemTables = document.parse()?;
         super::names::check_names(&document)?;
-        if tables.body.is_empty() {
-            return Err(document.error("body", "is empty; a scene has at least one body"));
+        if tables.body.is_empty() && tables.shaft.is_empty() {
+            return Err(document.error("body", "is empty; a scene has at least one body or shaft"));
         }
         let run = tables.run.check(&document)?;
         let solver = tables.solver.check(&document, &run)?;

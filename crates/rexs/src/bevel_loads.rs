@@ -1,0 +1,120 @@
+//! What the gears of bevel stages put on their shafts: forces and moments at the stations where they stand.
+
+use crate::bevel_force::{Line, MeanForce, mean_force};
+use crate::placement::{add, cross, dot};
+use crate::shaft::Shaft;
+use crate::source::Source;
+use crate::text::{number, numbers, quoted};
+use crate::train::{BevelSeat, Train};
+
+/// Force and moment of one gear on its shaft, world axes. The torque about the axis is not in it.
+#[derive(Debug, Clone)]
+pub struct BevelLoad {
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Its force along the shaft's z \[N\].
+    pub axial_n: f64,
+    /// Body of the station.
+    body: String,
+    name: String,
+    force_n: [f64; 3],
+    moment_nm: [f64; 3],
+}
+
+/// The loads of all bevel stages whose torque is known and whose axes cross; of the others only the torque acts, which is told.
+pub fn bevel_loads(source: &Source<'_>, train: &Train) -> Vec<BevelLoad> {
+    let mut loads = Vec::new();
+    for seats in train.bevels.chunks_exact(2) {
+        let found = force(train, seats);
+        for seat in seats {
+            let Some(component) = source.model.component(seat.gear) else {
+                continue;
+            };
+            match found {
+                Some(_) => source.assume(component, "no mesh in the scene: its torque, radial and axial forces act on the shaft at the middle of the face, without friction"),
+                None => source.leave_out(component, "no mesh in the scene: its torque acts on the shaft, its radial and axial forces do not, for the axes of the stage do not cross at its shaft angle, or its torque or teeth are not known"),
+            }
+        }
+        let Some((force, pinion)) = found else {
+            continue;
+        };
+        for (side, seat) in seats.iter().enumerate() {
+            let sign = if side == pinion { 1.0 } else { -1.0 };
+            loads.extend(on_shaft(
+                train,
+                seat,
+                force.point_mm,
+                force.on_pinion_n.map(|x| sign * x),
+            ));
+        }
+    }
+    loads
+}
+
+/// The force, and which of the two seats is the pinion's.
+fn force(train: &Train, seats: &[BevelSeat]) -> Option<(MeanForce, usize)> {
+    let [first, second] = seats else { return None };
+    let pair = first.stage.as_ref()?;
+    let pinion = pair.pinion;
+    let link = train.flow.link_nm.get(first.link.0).copied().flatten()?;
+    let line = |seat: &BevelSeat| {
+        let shaft = train.shaft(seat.shaft)?;
+        let frame = shaft.frame?;
+        Some(Line {
+            point_mm: frame.point([seat.u_mm, 0.0, 0.0]),
+            direction: z_of(shaft),
+        })
+    };
+    let mut lines = [line(first)?, line(second)?];
+    if pinion == 1 {
+        lines.reverse();
+    }
+    // What the shaft brings to the link, the link takes from the shaft.
+    Some((mean_force(pair, lines, -link[pinion])?, pinion))
+}
+
+fn z_of(shaft: &Shaft) -> [f64; 3] {
+    let axis = shaft.frame.map_or([1.0, 0.0, 0.0], |frame| frame.axes[0]);
+    axis.map(|x| shaft.sign() * x)
+}
+
+fn on_shaft(
+    train: &Train,
+    seat: &BevelSeat,
+    point_mm: [f64; 3],
+    force_n: [f64; 3],
+) -> Option<BevelLoad> {
+    let shaft = train.shaft(seat.shaft)?;
+    let z = z_of(shaft);
+    let station_mm = shaft.frame?.point([seat.u_mm, 0.0, 0.0]);
+    let arm_m = add(point_mm, station_mm, -1.0).map(|x| 1e-3 * x);
+    let moment = cross(arm_m, force_n);
+    Some(BevelLoad {
+        shaft: seat.shaft,
+        axial_n: dot(force_n, z),
+        body: shaft.body(seat.u_mm),
+        name: seat.name.clone(),
+        force_n,
+        moment_nm: add(moment, z, -dot(moment, z)),
+    })
+}
+
+impl BevelLoad {
+    /// Its tables in the scene.
+    pub fn text(&self) -> String {
+        let table = |what: &str, key: &str, vector: [f64; 3]| {
+            let amount = dot(vector, vector).sqrt();
+            if amount < 1e-9 {
+                return String::new();
+            }
+            format!(
+                "\n[[load]]\nname = {}\nbody = {}\n{key} = {}\nalong = {}\n",
+                quoted(&format!("{what} at {}", self.name)),
+                quoted(&self.body),
+                number(amount),
+                numbers(&vector.map(|x| x / amount))
+            )
+        };
+        table("force", "force_N", self.force_n) + &table("moment", "torque_Nm", self.moment_nm)
+    }
+}
