@@ -143,7 +143,9 @@ impl BaseScene {
         SceneFile::from_document(InputDocument::new(name, text), &self.folder).map_err(|error| {
             match added {
                 // The key is what the scene did not have: the fault lies with it.
-                Some((parameter, key)) => of_key(parameter, key, &refusal(key, &error.problem)),
+                Some((parameter, key)) => {
+                    of_key(parameter, key, &format!("is refused: {}", error.problem))
+                }
                 None => VaryError::Scene(error),
             }
         })
@@ -187,8 +189,13 @@ impl BaseScene {
         let (made, made_path) = if is_model {
             let name = format!("{} changed", document.file);
             let gear = GearDefinition::from_document(&InputDocument::new(name, &text));
-            let gear =
-                gear.map_err(|e| of_key(first.1, &whole(first.0), &refusal(first.0, &e.problem)))?;
+            let gear = gear.map_err(|e| {
+                of_key(
+                    first.1,
+                    &whole(first.0),
+                    &format!("is refused: {}", e.problem),
+                )
+            })?;
             (
                 MadeFile::Model(Box::new(gear)),
                 out.join(format!("models/{digest}.h5")),
@@ -213,23 +220,6 @@ fn of_key(parameter: &str, key: &str, problem: &str) -> VaryError {
         parameter: parameter.to_owned(),
         problem: format!("`{key}` {problem}"),
     }
-}
-
-/// What to say of a key that a file did not have and does not take.
-fn refusal(key: &str, problem: &str) -> String {
-    let last = key.rsplit('.').next().unwrap_or(key);
-    // What a reader of keys offers stands between accents.
-    let offered = problem
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .filter(|word| *word != last);
-    let nearest = offered
-        .map(|word| (strsim::jaro_winkler(last, word), word))
-        .filter(|(similarity, _)| *similarity > 0.8)
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let hint = nearest.map_or_else(String::new, |(_, word)| format!("; did you mean `{word}`?"));
-    format!("is refused: {problem}{hint}")
 }
 
 fn is_hdf5(path: &Path) -> bool {
