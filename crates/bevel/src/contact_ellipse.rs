@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix2, Vector3};
 
+use crate::assembly::Placement;
+use crate::blank::MemberBlank;
 use crate::contact_point::Touch;
 
 /// Relative curvature at a contact and the ellipse on which the flanks are nearer than a marking thickness.
@@ -32,6 +34,29 @@ impl ContactEllipse {
             curvatures_per_m: order.map(|i| eigen.eigenvalues[i]),
             axes: order.map(|i| t * eigen.eigenvectors[(0, i)] + u * eigen.eigenvectors[(1, i)]),
         }
+    }
+
+    /// The ellipse of a marking thickness on a member's flank: half axes as steps of cone distance L and height h \[m\]; none
+    /// where the flanks are nearer than the marking all along.
+    pub fn on_flank_m(
+        &self,
+        marking_m: f64,
+        touch: &Touch,
+        member: (&Placement, &MemberBlank, usize),
+    ) -> Option<[[f64; 2]; 2]> {
+        let lengths = self.half_lengths_m(marking_m);
+        if !lengths.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let (placement, blank, number) = member;
+        let axis = placement.axis();
+        let arm = touch.points[number].r - placement.apex_m;
+        let outwards = (arm - axis * axis.dot(&arm)).normalize();
+        // L and h are linear in the place along the axis and the radius.
+        Some([0, 1].map(|k| {
+            let way = self.axes[k] * lengths[k];
+            blank.cone_place(axis.dot(&way), outwards.dot(&way))
+        }))
     }
 
     /// Half lengths, long and short, where the gap reaches a marking thickness: √(2t/κ) \[m\]; infinite where κ ≤ 0.

@@ -32,3 +32,4 @@ pub mod stress_picture;
 pub mod study;
 pub mod system_table;
 pub mod tca;
+mod tca_page;

@@ -73,10 +73,10 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             None => Default::default(),
         },
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
+        Command::Tca(a) => (vec![a.pair.clone()], some(&a.report)),
         Command::Bearing(a) => (vec![a.bearing.clone()], some(&a.report)),
         Command::BearingFrequencies(_)
         | Command::Bevel(_)
-        | Command::Tca(_)
         | Command::Compliance(_)
         | Command::Plan(_)
         | Command::Compare(_)

@@ -25,8 +25,10 @@ pub struct Section {
     /// Width that touches over the slice's width at the reference displacement, above zero: it changes with the overlap of the faces, and of helical
     /// teeth on the rigid path with the part that is on it.
     pub share: f64,
-    /// Its derivative by the increments of the pose.
+    /// Its derivative by the increments of the pose, and that of ln `stiffness`.
     pub share_gradient: Vector6,
+    /// Stiffness of the contact over that which the law states, for families whose curvature changes along the path; 1 elsewhere.
+    pub stiffness: f64,
     /// Length of a slice's part that touches, along the contact line \[m\].
     pub length_m: f64,
     /// Relative radius of curvature across the contact line \[m\], and its growth ∂(ln ρ)/∂ξ on gear 1 and gear 2.

@@ -389,6 +389,7 @@ impl MeshKinematics {
             roll_gradient: ideal.roll_gradient,
             share: frame.zone.width_m / width_m,
             share_gradient: rate * frame.displacement_gradient,
+            stiffness: 1.0,
             length_m: 0.0,
             radius_m: 0.0,
             radius_growth: [0.0; 2],

@@ -10,6 +10,7 @@
 //! | the body's axial contour with fillets | [`body_outline`] | `body_outline.rs` |
 //! | material removed from the ideal flank | [`Microgeometry`] | `microgeometry.rs`, `microgeometry/` |
 //! | material removed from single flanks: errors and faults | [`flank_error::FlankError`] | `flank_error.rs` |
+//! | two bodies that touch in a point, after Hertz | [`point_contact::PointContact`] | `point_contact.rs`, `elliptic.rs` |
 //! | two gears at a centre distance | [`GearPair`] | `pair.rs`, `tip_in_fillet.rs` |
 //!
 //! Everything is in SI units; millimetres, degrees and micrometres exist only in the gear file. Frames and signs:
@@ -19,6 +20,7 @@
 pub mod blank;
 pub mod body_outline;
 pub mod definition;
+pub mod elliptic;
 pub mod fillet;
 pub mod flank_error;
 pub mod gear_file;
@@ -26,6 +28,7 @@ pub mod input;
 pub mod involute;
 pub mod microgeometry;
 pub mod pair;
+pub mod point_contact;
 pub mod profile_curve;
 mod tip_in_fillet;
 pub mod tooth;

@@ -17,6 +17,7 @@
 //! policy in the page forbids every request. All texts are escaped.
 
 mod field_picture;
+mod flank_chart;
 mod line_chart;
 mod markup;
 mod packed;
@@ -27,6 +28,7 @@ mod table;
 mod text;
 
 pub use field_picture::{FieldPicture, FieldValues, ViewWindow};
+pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
@@ -150,6 +152,8 @@ pub enum Block {
     PolarChart(PolarChart),
     /// A path in a plane.
     PathChart(PathChart),
+    /// A tooth flank with what touches on it.
+    FlankChart(FlankChart),
 }
 
 macro_rules! block_from {
@@ -169,7 +173,8 @@ block_from!(
     SpectrumChart,
     FieldPicture,
     PolarChart,
-    PathChart
+    PathChart,
+    FlankChart
 );
 
 /// A heading and what stands under it.
@@ -308,6 +313,7 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
         Block::Table(table) => table.render(html)?,
         Block::PolarChart(chart) => chart.render(html)?,
         Block::PathChart(chart) => chart.render(html)?,
+        Block::FlankChart(chart) => chart.render(html)?,
         Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {
             render_figure(html, "spectrum", chart.title(), &chart.payload()?)?
@@ -396,6 +402,10 @@ mod tests {
                     .series(evil, vec![1.0]),
             )
             .push(PathChart::new(evil, evil, vec![[1.0, 2.0]]))
+            .push(
+                FlankChart::new(evil, vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+                    .line(evil, vec![[0.1, 0.1]]),
+            )
             .push(spectrum)
             .push(picture);
         let html = Page::new(evil)

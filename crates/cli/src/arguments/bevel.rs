@@ -19,6 +19,9 @@ pub struct BevelArguments {
 pub struct TcaArguments {
     /// Bevel pair file
     pub pair: PathBuf,
+    /// Page with pictures: contact pattern, transmission error, ease-off
+    #[arg(long, value_name = "PAGE.html")]
+    pub report: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

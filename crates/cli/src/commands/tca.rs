@@ -1,7 +1,7 @@
 //! `gearmesh tca`: tooth contact analysis of a bevel pair.
 
 use crate::arguments::TcaArguments;
-use crate::commands::bevel;
+use crate::commands::{bevel, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::{
@@ -16,6 +16,15 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let flanks = design.flanks(file.pinion_flank);
     let found = tooth_contact(flanks, &file.blank, &file.tca).map_err(Failure::work)?;
     let moved = sensitivity(flanks, &file.blank, &file.tca.error).map_err(Failure::work)?;
+    if let Some(path) = &a.report {
+        let analysed = tca_page::Analysed {
+            file: &file,
+            flanks,
+            contact: &found,
+            moved: &moved,
+        };
+        tca_page::write(&analysed, a, path)?;
+    }
     if a.json {
         console::json(&figures(&file, &found, &moved));
     } else {
@@ -24,7 +33,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn kind(kind: ContactKind) -> String {
+pub(super) fn kind(kind: ContactKind) -> String {
     match kind {
         ContactKind::Flanks => "flanks".to_owned(),
         ContactKind::Edge { member, edge } => {
@@ -34,7 +43,7 @@ fn kind(kind: ContactKind) -> String {
 }
 
 /// Names, and how the mean contact moves along the tooth and up the flank: mm per mm, mm per mrad.
-fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
+pub(super) fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
     [
         ("offset, mm per mm", s.offset),
         ("pinion axial, mm per mm", s.pinion_axial),

@@ -50,6 +50,49 @@ fn blank_and_contact_of_seed_001() {
     }
 }
 
+/// The page draws both flanks with an ellipse for each position that leads, and takes no other name.
+#[test]
+fn the_page_of_a_contact_analysis_has_its_pattern() {
+    let desk = Desk::new();
+    let file = desk.file(
+        "pair.toml",
+        std::fs::read_to_string(shipped("bevel_20_20.toml")).unwrap(),
+    );
+    let page = desk.file("page.html", "");
+    let asked = [
+        "tca",
+        argument(&file),
+        "--json",
+        "--report",
+        argument(&page),
+    ];
+    let json = succeeds(&asked).json();
+    let html = std::fs::read_to_string(&page).unwrap();
+    for part in [
+        "Contact pattern",
+        "Flank: convex of the gear",
+        "Flank: concave of the pinion",
+        ">toe</text>",
+        "Ease-off",
+        "pinion axial, mm per mm",
+    ] {
+        assert!(html.contains(part), "`{part}` is not in the page");
+    }
+    let path = json["path"].as_array().unwrap();
+    let ellipses = path.iter().filter(|p| {
+        let lengths = p["ellipse_half_lengths_mm"].as_array();
+        p["first"] == true && lengths.is_some_and(|l| l.iter().all(|x| x.is_number()))
+    });
+    let drawn = html.matches("fill-opacity=\"0.13\"").count();
+    assert_eq!(drawn, 2 * ellipses.count());
+    assert!(drawn > 20, "{drawn}");
+    let other = desk.file("page.pdf", "");
+    let wrong = ["tca", argument(&file), "--report", argument(&other)];
+    refused(&gearmesh(&wrong), 2, &["--report", "`pdf`", "html"]);
+    let same = ["tca", argument(&file), "--report", argument(&file)];
+    refused(&gearmesh(&same), 2, &[]);
+}
+
 #[test]
 fn what_cannot_be_cut_is_refused() {
     let desk = Desk::new();

@@ -7,11 +7,12 @@ use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use gearmesh_bevel::{FlankPatch, FlankSide, PairBlank, PairDesign};
-use gearmesh_contact::{RelativeCurvature, SliceLayout, SurfaceCurvature};
+use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
+use super::hertz_stiffness::{curvature, local_stiffness, principal, stiffness_per_pa};
 use super::nearest_points::{Nearest, Placed, nearest, nearest_within};
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::pose_derivatives::{PoseDerivatives, gradient};
@@ -62,6 +63,8 @@ pub struct BevelMesh {
     is_apart: [bool; 2],
     /// Points of flanks that were computed.
     points: Cell<u64>,
+    /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
+    hertz: Option<[f64; 2]>,
 }
 
 impl Side {
@@ -177,6 +180,7 @@ impl BevelMesh {
             found: [Vec::new(), Vec::new()],
             is_apart: [false; 2],
             points: Cell::new(0),
+            hertz: None,
         };
         let capacity = mesh.capacity();
         mesh.found = [0, 1].map(|_| Vec::with_capacity(capacity));
@@ -212,6 +216,19 @@ impl BevelMesh {
             principal(&tensor, &normal, &first)
         });
         RelativeCurvature::new(normal, curvatures)
+    }
+
+    /// Lets the stiffness of contacts follow their curvature, from [`Self::hertz_stiffness`] at the mean points.
+    #[must_use]
+    pub fn with_hertz(mut self) -> Self {
+        self.hertz = Some(Flank::ALL.map(|side| stiffness_per_pa(&self.mean_curvature(side))));
+        self
+    }
+
+    /// K of F = K δ^1.5 where the mean points of a side touch \[N/m^1.5\], after Hertz, with E* \[Pa\].
+    #[must_use]
+    pub fn hertz_stiffness(&self, side: Flank, contact_modulus_pa: f64) -> f64 {
+        contact_modulus_pa * stiffness_per_pa(&self.mean_curvature(side))
     }
 
     /// Points of flanks that were computed so far at all poses: the effort of the search.
@@ -309,6 +326,12 @@ impl BevelMesh {
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
             self.push(pose, candidate.teeth, (&point, &motion), found);
+            if let (Some(mean), true) = (&self.hertz, point.gap_m < 0.0) {
+                let (local, gradient) = local_stiffness(&bodies, &point, &motion);
+                let last = found.sections.len() - 1;
+                found.sections[last].stiffness = local / mean[flank as usize];
+                found.sections[last].share_gradient = gradient;
+            }
             list.push(motion);
         }
         // The nearest pair first: the transmission error is its gap.
@@ -353,6 +376,7 @@ impl BevelMesh {
             roll_gradient: [Vector6::zeros(); 2],
             share: 1.0,
             share_gradient: Vector6::zeros(),
+            stiffness: 1.0,
             length_m: self.layout.width_m(),
             radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
             radius_growth: [0.0; 2],
@@ -392,6 +416,7 @@ impl BevelMesh {
             roll_gradient: [row(1), row(3)],
             share: 1.0,
             share_gradient: Vector6::zeros(),
+            stiffness: 1.0,
             length_m: self.layout.width_m(),
             radius_m: 1.0 / curvature(point).principal_per_m[1],
             radius_growth: [0.0; 2],
@@ -406,37 +431,6 @@ impl BevelMesh {
             gap_rate_m_per_s: gradient.dot(&pose.rates()),
             gradient,
         });
-    }
-}
-
-/// Relative curvature of the surfaces at a contact.
-fn curvature(point: &Nearest) -> RelativeCurvature {
-    let surfaces = [0, 1].map(|m: usize| {
-        let p = &point.points[m];
-        principal(&p.curvature(), &point.normal, &p.dr[0].normalize())
-    });
-    RelativeCurvature::new(point.normal, surfaces)
-}
-
-/// Principal curvatures of a tensor in the plane across a normal.
-fn principal(
-    tensor: &Matrix3<f64>,
-    normal: &Vector3<f64>,
-    near: &Vector3<f64>,
-) -> SurfaceCurvature {
-    let x = (near - normal * normal.dot(near)).normalize();
-    let y = normal.cross(&x);
-    let (xx, yy, xy) = (
-        x.dot(&(tensor * x)),
-        y.dot(&(tensor * y)),
-        x.dot(&(tensor * y)),
-    );
-    let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
-    let spread = half.hypot(xy);
-    let angle = 0.5 * xy.atan2(half);
-    SurfaceCurvature {
-        principal_per_m: [mean + spread, mean - spread],
-        first: angle.cos() * x + angle.sin() * y,
     }
 }
 

@@ -7,11 +7,13 @@
 //! | the same for teeth that do not face each other there | `bounding_spheres.rs` |
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
+//! | stiffness from the curvatures there | `hertz_stiffness.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
 mod bevel_mesh;
 mod bounding_spheres;
+mod hertz_stiffness;
 mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;

@@ -38,7 +38,7 @@ pub(crate) struct Placed<'a> {
 }
 
 impl Placed<'_> {
-    fn point(&self, at: [f64; 2]) -> PatchPoint {
+    pub(crate) fn point(&self, at: [f64; 2]) -> PatchPoint {
         self.points.set(self.points.get() + 1);
         let own = self.patch.point(at);
         let m = &self.rotation;
@@ -90,7 +90,7 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
-    fn new(held: Held, at: [[f64; 2]; 2], points: [PatchPoint; 2]) -> Self {
+    pub(crate) fn new(held: Held, at: [[f64; 2]; 2], points: [PatchPoint; 2]) -> Self {
         let [p, q] = &points;
         let normal = match kind(&held) {
             Kind::Face(1) => q.n,

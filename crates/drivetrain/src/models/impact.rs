@@ -23,8 +23,17 @@ impl PowerStiffness {
     /// # Errors
     /// [`DrivetrainError::Value`] if K is not positive or e below 1.
     pub fn n_per_mm_e(value: f64, exponent: f64) -> Result<Self, DrivetrainError> {
+        positive("impact mesh", "the stiffness in N/mm^e", value)?;
+        Self::n_per_m_e(value * 1e3_f64.powf(exponent), exponent)
+    }
+
+    /// K in N/m^e.
+    ///
+    /// # Errors
+    /// As [`Self::n_per_mm_e`].
+    pub fn n_per_m_e(n_per_m_e: f64, exponent: f64) -> Result<Self, DrivetrainError> {
         let owner = "impact mesh";
-        positive(owner, "the stiffness in N/mm^e", value)?;
+        positive(owner, "the stiffness in N/m^e", n_per_m_e)?;
         if !(exponent >= 1.0 && exponent.is_finite()) {
             return Err(DrivetrainError::Value {
                 owner,
@@ -34,7 +43,7 @@ impl PowerStiffness {
             });
         }
         Ok(Self {
-            n_per_m_e: value * 1e3_f64.powf(exponent),
+            n_per_m_e,
             exponent,
         })
     }
@@ -96,8 +105,9 @@ impl TeethModel for Impact {
             let full = [self.full_depth_m, self.damping_n_s_per_m];
             let (damping, damping_slope) = step(depth, [0.0, 0.0], full);
             // One but for a helical slice that is partly on the path.
-            let share = flanks.section(contact).share;
-            let slices = self.slices / share;
+            let section = flanks.section(contact);
+            let share = section.share;
+            let slices = self.slices / (share * section.stiffness);
             let force = (elastic - damping * rate) / slices;
             let stored = elastic * depth / (self.stiffness.exponent + 1.0) / slices;
             loads.stored_j += stored;

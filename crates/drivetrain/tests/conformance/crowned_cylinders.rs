@@ -163,6 +163,7 @@ impl FlankKinematics for CrownedCylinders {
             roll_gradient: [gradient_of(0), gradient_of(1)],
             share: 1.0,
             share_gradient: Vector6::zeros(),
+            stiffness: 1.0,
             length_m: self.layout.width_m(),
             radius_m: 1.0 / self.curvatures[1],
             radius_growth: [0.0; 2],

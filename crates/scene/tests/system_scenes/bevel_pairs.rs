@@ -149,6 +149,18 @@ fn what_bevel_pairs_do_not_know_is_refused() {
             &["is not used by a bevel pair; remove it"],
         ),
         (
+            "exponent = 1.5",
+            "exponent = 1.5, hertz = {}",
+            "hertz = {}",
+            &["stiffness_N_per_mm_e", "is not used with `hertz`"],
+        ),
+        (
+            "stiffness_N_per_mm_e = 7.2e5, exponent = 1.5",
+            "hertz = { poisson = 0.5 }",
+            "poisson = 0.5",
+            &["0 up to, not including, 0.5"],
+        ),
+        (
             "bevel_pair = \"bevel_20_20.toml\"",
             "bevel_pair = \"nowhere.toml\"",
             "",

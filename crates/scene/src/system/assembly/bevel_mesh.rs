@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use gearmesh_bevel::{BevelError, PairFile};
-use gearmesh_drivetrain::{BevelMesh, FlankKinematics, GearMesh};
+use gearmesh_drivetrain::{BevelMesh, FlankKinematics, GearMesh, PowerStiffness};
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, InputError};
 
 use super::bodies::Bodies;
@@ -132,19 +133,40 @@ impl SceneBevel<'_> {
 
     fn mesh(
         &self,
-        kinematics: BevelMesh,
+        mut kinematics: BevelMesh,
         model: &ImpactTable,
         sides: &[Flank],
     ) -> Result<GearMesh, InputError> {
         let fault = |error| self.keys.error("", error);
-        let stiffness = stated_impact(model, &self.model_keys)?;
-        let law = impact_law(model, &self.model_keys, stiffness, 1)?;
+        let laws = match self.hertz(model)? {
+            Some(modulus_pa) => {
+                kinematics = kinematics.with_hertz();
+                Flank::ALL.map(|side| {
+                    let k = kinematics.hertz_stiffness(side, modulus_pa);
+                    impact_law(
+                        model,
+                        &self.model_keys,
+                        PowerStiffness::n_per_m_e(k, 1.5),
+                        1,
+                    )
+                })
+            }
+            None => {
+                let (k, e) = stated_impact(model, &self.model_keys)?;
+                let stated = || PowerStiffness::n_per_mm_e(k, e);
+                Flank::ALL.map(|_| impact_law(model, &self.model_keys, stated(), 1))
+            }
+        };
+        let [right, left] = laws;
+        let laws = [right?, left?];
+        let law = |side: Flank| laws[side as usize];
         let [first, others @ ..] = sides else {
             return Err(self.teeth_keys.error("flanks", "names no flanks"));
         };
-        let mut mesh = GearMesh::of_flanks(Box::new(kinematics), *first, law).map_err(fault)?;
+        let mut mesh =
+            GearMesh::of_flanks(Box::new(kinematics), *first, law(*first)).map_err(fault)?;
         for side in others {
-            mesh = mesh.with_side(*side, law).map_err(fault)?;
+            mesh = mesh.with_side(*side, law(*side)).map_err(fault)?;
         }
         let friction = self.teeth.friction.as_ref();
         let friction = friction
@@ -156,6 +178,31 @@ impl SceneBevel<'_> {
         })
     }
 
+    /// E* of both gears \[Pa\] where the law follows Hertz.
+    fn hertz(&self, model: &ImpactTable) -> Result<Option<f64>, InputError> {
+        let Some(table) = &model.hertz else {
+            return Ok(None);
+        };
+        let keys = &self.model_keys;
+        for (key, given) in [
+            ("stiffness_N_per_mm_e", model.stiffness_N_per_mm_e.is_some()),
+            ("exponent", model.exponent.is_some()),
+        ] {
+            if given {
+                let problem = "is not used with `hertz`, which gives K and e = 1.5 from the curvatures; remove one of the two";
+                return Err(keys.error(key, problem));
+            }
+        }
+        let young = table.young_GPa.unwrap_or(206.0);
+        let poisson = table.poisson.unwrap_or(0.3);
+        let positive = young > 0.0 && young.is_finite();
+        keys.require("hertz.young_GPa", young, positive, "more than 0")?;
+        let ok = (0.0..0.5).contains(&poisson);
+        keys.require("hertz.poisson", poisson, ok, "0 up to, not including, 0.5")?;
+        let steel = (young * 1e9, poisson);
+        Ok(Some(contact_modulus_pa(steel, steel)))
+    }
+
     /// What is computed, in words for the plan.
     fn effects(&self, file: &PairFile, parts: &mut Parts) {
         let name = |what: &str| format!("mesh `{}`: {what}", self.table.name);
@@ -165,10 +212,14 @@ impl SceneBevel<'_> {
             file.blank.data.backlash_m / UM
         );
         parts.effect(name("backlash"), both.then_some(backlash));
-        let damping = match &self.table.model {
-            MeshModel::Impact(model) => model.damping_N_s_per_mm,
-            _ => None,
+        let MeshModel::Impact(model) = &self.table.model else {
+            return;
         };
+        if model.hertz.is_some() {
+            let law = "F = K d^1.5, K from the curvatures at each contact";
+            parts.effect(name("hertz"), Some(law.to_string()));
+        }
+        let damping = model.damping_N_s_per_mm;
         parts.effect(
             name("damping"),
             damping.map(|_| "STEP of the depth".to_string()),

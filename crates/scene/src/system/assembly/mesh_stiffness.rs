@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gearmesh_contact::SliceLayout;
 use gearmesh_drivetrain::models::iso6336::blank_factor;
-use gearmesh_drivetrain::{Impact, MeshSpring, PowerStiffness, SingleStiffness};
+use gearmesh_drivetrain::{DrivetrainError, Impact, MeshSpring, PowerStiffness, SingleStiffness};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{Flank, InputError};
 
@@ -34,14 +34,14 @@ pub(super) fn stated_impact(
     Ok((k, e))
 }
 
-/// The law of `impact` with K in N/mm^e and e.
+/// The law of `impact` with its stiffness.
 pub(super) fn impact_law(
     table: &ImpactTable,
     keys: &TableKeys<'_>,
-    (k, e): (f64, f64),
+    stiffness: Result<PowerStiffness, DrivetrainError>,
     slices: usize,
 ) -> Result<Impact, InputError> {
-    let stiffness = PowerStiffness::n_per_mm_e(k, e).map_err(|error| keys.error("", error))?;
+    let stiffness = stiffness.map_err(|error| keys.error("", error))?;
     let (damping, depth_m) = match (table.damping_N_s_per_mm, table.full_damping_depth_um) {
         // Without damping the depth has no meaning.
         (None, None) => (0.0, UM),
@@ -61,6 +61,10 @@ impl SceneMesh<'_> {
     /// K in N/mm^e and e of `impact`.
     fn impact_stiffness(&self, table: &ImpactTable) -> Result<(f64, f64), InputError> {
         let keys = &self.model_keys;
+        if table.hertz.is_some() {
+            let problem = "is for bevel pairs, whose flanks touch in points; state stiffness_N_per_mm_e and exponent, or take `stiffness`";
+            return Err(keys.error("hertz", problem));
+        }
         if let Some(e) = table.exponent {
             keys.require("exponent", e, (1.0..=5.0).contains(&e), "1 to 5")?;
         }
@@ -78,12 +82,9 @@ impl SceneMesh<'_> {
 
     /// The law of `impact`.
     pub(super) fn impact(&self, table: &ImpactTable, slices: usize) -> Result<Impact, InputError> {
-        impact_law(
-            table,
-            &self.model_keys,
-            self.impact_stiffness(table)?,
-            slices,
-        )
+        let (k, e) = self.impact_stiffness(table)?;
+        let stiffness = PowerStiffness::n_per_mm_e(k, e);
+        impact_law(table, &self.model_keys, stiffness, slices)
     }
 
     /// c_γα of `iso6336` \[N/m²\] where no curve gives it, and how it was found.

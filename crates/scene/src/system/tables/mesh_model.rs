@@ -119,12 +119,25 @@ pub struct ImpactTable {
     pub exponent: Option<f64>,
     /// Instead of a stated one: the stiffness of the pair itself, from its static curve at one torque.
     pub stiffness: Option<PairStiffnessTable>,
+    /// Instead of a stated one, bevel pairs: K and e = 1.5 after Hertz from both flanks' curvatures at each contact.
+    pub hertz: Option<HertzTable>,
     /// Largest damping, none where not given.
     pub damping_N_s_per_mm: Option<f64>,
     /// With damping: depth from which it acts in full.
     pub full_damping_depth_um: Option<f64>,
     /// Slices across the face width, 1 where not given.
     pub slices: Option<usize>,
+}
+
+/// `gear_mesh.model.hertz`: material of both gears.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[allow(non_snake_case)]
+pub struct HertzTable {
+    /// Young's modulus, 206 where not given (steel).
+    pub young_GPa: Option<f64>,
+    /// Poisson's ratio, 0.3 where not given.
+    pub poisson: Option<f64>,
 }
 
 /// Keys of `kind = "iso6336"`.
