@@ -26,6 +26,7 @@ pub mod builder;
 pub mod checkpoint;
 mod constraints;
 mod convergence;
+mod damped_newton;
 mod dense_lu;
 mod derivatives;
 pub mod eigen;

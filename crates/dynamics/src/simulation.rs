@@ -276,22 +276,31 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), DynamicsError> {
         loop {
             let h = self.step_s;
-            let outcome = self.integrator.attempt(
+            let mut outcome = self.integrator.attempt(
                 &mut self.system,
                 &self.now,
                 &mut self.other,
                 h,
                 &self.params,
             );
+            if matches!(outcome, Err(StepFailure::NoConvergence { .. })) && self.is_shortest(h) {
+                outcome = self.integrator.attempt_damped(
+                    &mut self.system,
+                    &self.now,
+                    &mut self.other,
+                    h,
+                    &self.params,
+                );
+            }
             self.count_effort();
             let limits = match (self.params.step, outcome) {
                 (StepControl::Fixed { .. }, Ok(())) => return self.accept(h, h),
                 (StepControl::Fixed { .. }, Err(failure)) => {
                     return Err(self.refusal(failure, FIXED_ADVICE));
                 }
-                (StepControl::Adaptive(limits), Err(failure)) => {
+                (StepControl::Adaptive(_), Err(failure)) => {
                     self.info.unconverged += 1;
-                    if 0.25 * h < limits.least_step_s {
+                    if self.is_shortest(h) {
                         return Err(self.refusal(failure, ADAPTIVE_ADVICE));
                     }
                     self.change_step(0.25 * h)?;
@@ -324,6 +333,14 @@ impl Simulation {
                 h
             };
             return self.accept(h, next);
+        }
+    }
+
+    /// Whether no shorter step may be tried.
+    fn is_shortest(&self, step_s: f64) -> bool {
+        match self.params.step {
+            StepControl::Fixed { .. } => true,
+            StepControl::Adaptive(limits) => 0.25 * step_s < limits.least_step_s,
         }
     }
 
