@@ -47,16 +47,21 @@ impl ForceElement for Floor {
     }
 }
 
-/// A block slides to rest after v²/(2 F/m), stays there, and creeps under a push below the limit as the law says, v = s·(P/F)/√(1 − (P/F)²). Whole corrections
-/// of Newton's method go to and fro between sliding one way and the other.
-#[test]
-fn a_block_on_a_rough_floor_comes_to_rest_in_steps_that_are_long_for_it() {
+/// The block, on its way at 1 m/s.
+fn sliding() -> System {
     let mut builder = System::builder();
     let mut body = Body::rigid("block", 1.0, [1.0; 3]);
     body.velocity_m_per_s = Vector3::new(0.8, 0.6, 0.0);
     let id = builder.body(body).unwrap();
     builder.element(Floor { body: [id] });
-    let mut simulation = Simulation::new(builder.build().unwrap(), Params::fixed(1e-3)).unwrap();
+    builder.build().unwrap()
+}
+
+/// A block slides to rest after v²/(2 F/m), stays there, and creeps under a push below the limit as the law says, v = s·(P/F)/√(1 − (P/F)²). Whole corrections
+/// of Newton's method go to and fro between sliding one way and the other.
+#[test]
+fn a_block_on_a_rough_floor_comes_to_rest_in_steps_that_are_long_for_it() {
+    let mut simulation = Simulation::new(sliding(), Params::fixed(1e-3)).unwrap();
     let mut at_rest = [Vector3::zeros(); 2];
     let mut look = |end_s: f64| {
         simulation
@@ -81,4 +86,18 @@ fn a_block_on_a_rough_floor_comes_to_rest_in_steps_that_are_long_for_it() {
         "{creep} {expected} m/s"
     );
     assert!(iterations < 5.0, "{iterations} iterations a step");
+}
+
+/// Steps found by damped iterations leave nothing behind that a checkpoint does not hold.
+#[test]
+fn a_run_resumed_after_every_step_is_the_same_to_the_last_bit() {
+    let params = Params::fixed(1e-3);
+    let mut whole = Simulation::new(sliding(), params).unwrap();
+    let mut parts = Simulation::new(sliding(), params).unwrap();
+    for _ in 0..300 {
+        whole.step().unwrap();
+        parts.step().unwrap();
+        parts = Simulation::resume(sliding(), params, &parts.checkpoint()).unwrap();
+    }
+    assert_eq!(whole.checkpoint(), parts.checkpoint());
 }
