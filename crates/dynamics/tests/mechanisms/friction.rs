@@ -101,3 +101,60 @@ fn a_run_resumed_after_every_step_is_the_same_to_the_last_bit() {
     }
     assert_eq!(whole.checkpoint(), parts.checkpoint());
 }
+
+/// Friction that falls from 5 to 1 N within this slip \[m/s\].
+const FALL_M_PER_S: f64 = 1e-4;
+
+/// A floor that holds better than it brakes: −(1 + 4/(1 + v²/w²)) v/√(v² + s²).
+struct StickyFloor {
+    body: [BodyId; 1],
+}
+
+impl ForceElement for StickyFloor {
+    fn name(&self) -> &str {
+        "sticky floor"
+    }
+
+    fn bodies(&self) -> &[BodyId] {
+        &self.body
+    }
+
+    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
+        let first = loads.starts()[0];
+        let v = view.body(self.body[0]).velocity_m_per_s;
+        let root = (v.norm_squared() + TURN_M_PER_S.powi(2)).sqrt();
+        let share = 1.0 / (1.0 + v.norm_squared() / FALL_M_PER_S.powi(2));
+        let limit = 1.0 + 4.0 * share;
+        loads.add_force(first, (v * (-limit / root)).as_slice());
+        let outer = v * v.transpose();
+        let turning = (Matrix3::identity() - outer / (root * root)) * (-limit / root);
+        let falling = outer * (8.0 * (share / FALL_M_PER_S).powi(2) / root);
+        let by_velocity = turning + falling;
+        for row in 0..3 {
+            for column in 0..3 {
+                loads.add_by_velocity(first + row, first + column, by_velocity[(row, column)]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Friction that falls with the slip by more than h/m of a step has equations between whose solutions iterations get stuck: the step is made in parts, and whole again
+/// afterwards.
+#[test]
+fn a_block_that_sticks_comes_to_rest_in_parts_of_a_step() {
+    let mut builder = System::builder();
+    let mut body = Body::rigid("block", 1.0, [1.0; 3]);
+    body.velocity_m_per_s = Vector3::new(0.32, 0.24, 0.0);
+    let id = builder.body(body).unwrap();
+    builder.element(StickyFloor { body: [id] });
+    let params = Params::fixed(1e-3);
+    let mut simulation = Simulation::new(builder.build().unwrap(), params).unwrap();
+    simulation.run(0.45, |_| ControlFlow::Continue(())).unwrap();
+    let way = simulation.state().positions_m[0].norm();
+    let info = simulation.info();
+    assert!((way - 0.08).abs() < 2e-5, "{way} m");
+    assert!(info.unconverged > 0 && info.unconverged < 20, "{info:?}");
+    assert!(info.steps < 800, "{info:?}");
+    assert!(simulation.state().velocity[0].abs() < 1e-7);
+}
