@@ -26,30 +26,6 @@ const MOST: usize = 60;
 /// Smallest share of a correction.
 const LEAST: f64 = 1e-6;
 
-/// An iterate and its correction, to which shorter trials come back.
-pub(crate) struct Kept {
-    increment: Vec<f64>,
-    velocity: Vec<f64>,
-    acceleration: Vec<f64>,
-    lambda: Vec<f64>,
-    delta: Vec<f64>,
-    mu: Vec<f64>,
-}
-
-impl Kept {
-    /// For so many degrees of freedom and joint equations.
-    pub(crate) fn new(n: usize, m: usize) -> Self {
-        Self {
-            increment: vec![0.0; n],
-            velocity: vec![0.0; n],
-            acceleration: vec![0.0; n],
-            lambda: vec![0.0; m],
-            delta: vec![0.0; n],
-            mu: vec![0.0; m],
-        }
-    }
-}
-
 impl Integrator {
     /// As `attempt`, by damped iterations.
     pub(crate) fn attempt_damped(

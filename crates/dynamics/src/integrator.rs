@@ -19,10 +19,10 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::convergence::{Convergence, Measured, Progress};
-use crate::damped_newton::Kept;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::joint::Joint;
+use crate::kept_iterate::KeptIterate;
 use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::{Saddle, SaddleForm};
@@ -96,7 +96,7 @@ pub(crate) struct Integrator {
     right: Vec<f64>,
     right_joints: Vec<f64>,
     secants: Secants,
-    pub kept: Kept,
+    pub kept: KeptIterate,
     pub effort: Effort,
 }
 
@@ -123,7 +123,7 @@ impl Integrator {
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
             secants: Secants::new(&system.masses(), m),
-            kept: Kept::new(n, m),
+            kept: KeptIterate::new(n, m),
             effort: Effort::default(),
         }
     }

@@ -38,6 +38,7 @@ mod inertia;
 pub mod initial;
 mod integrator;
 pub mod joint;
+mod kept_iterate;
 mod krylov;
 mod matrix;
 mod metric;
