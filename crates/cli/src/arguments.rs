@@ -208,6 +208,9 @@ pub struct ExportArguments {
     /// windows, modes and shapes; of both: ratings
     #[arg(long)]
     pub table: Option<String>,
+    /// Print which tables were written, their rows and columns, as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gearmesh check`.
@@ -215,6 +218,9 @@ pub struct ExportArguments {
 pub struct CheckArguments {
     /// Gear file, bearing file, scene, study, S-N table, record (or its folder), model or result
     pub file: PathBuf,
+    /// Print what the file is as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gearmesh study`.

@@ -103,6 +103,12 @@ fn check_says_what_a_file_is() {
     ] {
         assert!(text.contains(part), "`{part}` is not in {text}");
     }
+    let found = succeeds(&["check", argument(&gear), "--json"]).json();
+    assert_eq!(
+        (found["kind"].as_str(), found["sound"].as_bool()),
+        (Some("gear"), Some(true))
+    );
+    assert!((found["tip_radius_mm"].as_f64().unwrap() - 30.3).abs() < 1e-9);
     let model = succeeds(&["check", argument(&workshop().thin)]).stdout;
     assert!(
         model.contains("reduced gear, sound") && model.contains("small thin rim"),
@@ -111,7 +117,7 @@ fn check_says_what_a_file_is() {
     let (result, _) = run_scene(&desk, "");
     let text = succeeds(&["check", argument(&result)]).stdout;
     assert!(
-        text.contains("result of `small pair`, 2 torques x 24 angles, sound"),
+        text.contains("result of `small pair`, sound: 2 torques x 24 angles"),
         "{text}"
     );
     let text = succeeds(&["check", argument(&desk.path("scene.toml"))]).stdout;
