@@ -48,7 +48,10 @@ pub(crate) fn schema(kind: &str) -> PyResult<String> {
 ///
 /// Notes are numbers that look like those of another unit. Raises InputError with the place of what is wrong.
 #[pyfunction]
-pub(crate) fn check_gear(text: &str, file: &str) -> PyResult<(String, usize, [f64; 4], Vec<String>)> {
+pub(crate) fn check_gear(
+    text: &str,
+    file: &str,
+) -> PyResult<(String, usize, [f64; 4], Vec<String>)> {
     let document = InputDocument::new(file, text);
     let gear = GearDefinition::from_document(&document).map_err(input_error)?;
     let profile = &gear.profile;
@@ -67,7 +70,11 @@ pub(crate) fn check_gear(text: &str, file: &str) -> PyResult<(String, usize, [f6
 ///
 /// Files that the scene names are not opened. Raises InputError with the place of what is wrong.
 #[pyfunction]
-pub(crate) fn check_scene(text: &str, file: &str, folder: PathBuf) -> PyResult<(&'static str, String)> {
+pub(crate) fn check_scene(
+    text: &str,
+    file: &str,
+    folder: PathBuf,
+) -> PyResult<(&'static str, String)> {
     let document = InputDocument::new(file, text);
     let scene = SceneFile::from_document(document, &folder).map_err(input_error)?;
     let kind = match &scene {

@@ -7,9 +7,10 @@ use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::FileError;
 use gearmesh_reduction::ReductionError;
 use gearmesh_scene::RunError;
-use gearmesh_scene::study::StudyError;
 use gearmesh_scene::system_run::SystemRunError;
-use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{
+    PyFileNotFoundError, PyMemoryError, PyOSError, PyRuntimeError, PyValueError,
+};
 use pyo3::prelude::*;
 
 pyo3::create_exception!(
@@ -75,16 +76,6 @@ pub(crate) fn system_error(error: SystemRunError) -> PyErr {
     match error {
         SystemRunError::Input(complaint) => input_error(complaint),
         SystemRunError::File(error) => file_error(error),
-        error => blamed(error.is_input(), &error),
-    }
-}
-
-/// Of a study.
-pub(crate) fn study_error(error: StudyError) -> PyErr {
-    match error {
-        StudyError::Input(complaint) => input_error(complaint),
-        StudyError::Run(error) => system_error(error),
-        StudyError::File(error) => file_error(error),
         error => blamed(error.is_input(), &error),
     }
 }

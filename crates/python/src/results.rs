@@ -34,9 +34,7 @@ impl NativeResult {
 /// Opens a result file of either kind.
 #[pyfunction]
 pub(crate) fn open_result(py: Python<'_>, path: PathBuf) -> PyResult<NativeResult> {
-    let result = py
-        .detach(|| ResultFile::open(&path))
-        .map_err(file_error)?;
+    let result = py.detach(|| ResultFile::open(&path)).map_err(file_error)?;
     Ok(NativeResult(result))
 }
 

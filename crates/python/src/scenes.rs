@@ -7,7 +7,9 @@ use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::pair::Scene;
 use gearmesh_scene::system::{SystemPlan, SystemScene};
-use gearmesh_scene::system_run::{Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job};
+use gearmesh_scene::system_run::{
+    Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
+};
 use gearmesh_scene::{SceneFile, load, run as run_pair_scene};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -21,7 +23,12 @@ const CHECKPOINTS: Duration = Duration::from_secs(10);
 
 /// What a scene will compute, in lines for people. Raises InputError for what a run would refuse.
 #[pyfunction]
-pub(crate) fn plan(py: Python<'_>, text: String, file: String, folder: PathBuf) -> PyResult<Vec<String>> {
+pub(crate) fn plan(
+    py: Python<'_>,
+    text: String,
+    file: String,
+    folder: PathBuf,
+) -> PyResult<Vec<String>> {
     py.detach(move || match read(text, file, folder)? {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene).map_err(run_error)?;

@@ -84,9 +84,9 @@ fn install(from: &Path, to: &Path) -> Result<(), XtaskError> {
 /// Removes a file that need not be there.
 fn remove(file: &Path) -> Result<(), XtaskError> {
     match fs::remove_file(file) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error).map_err(XtaskError::io(
-            || format!("removing {}", file.display()),
-        )),
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(error).map_err(XtaskError::io(|| format!("removing {}", file.display())))
+        }
         _ => Ok(()),
     }
 }
