@@ -214,3 +214,24 @@ def test_a_study_goes_on_where_it_was(tmp_path):
 
 def test_the_schema_is_that_of_the_program():
     assert json.loads(gm.schema("gear"))["title"] == "gearmesh gear"
+
+
+def test_pandas_reads_the_tables(result):
+    curves = result.to_pandas()
+    assert np.array_equal(curves["te_m"].to_numpy(), result["te_m"].ravel())
+    assert list(curves["torque_Nm"].unique()) == [50.0, 100.0]
+    torques = result.to_pandas("torques")
+    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(np.ptp(result["te_m"], axis=1), rel=1e-12)
+    with pytest.raises(KeyError, match="it has curves, contact, torques"):
+        result.to_pandas("curve")
+
+
+def test_xarray_names_axes_and_shares_the_memory(result):
+    data = result.to_xarray()
+    assert data["te_m"].dims == ("torque_Nm", "angle_rad")
+    assert data["te_m"].attrs["units"] == "m"
+    chosen = data["te_m"].sel(torque_Nm=100.0)
+    assert np.array_equal(chosen, result["te_m"][1])
+    assert np.shares_memory(data["force_N"].to_numpy(), result["force_N"])
+    rows = gm.Scene(PENDULUM).run().to_xarray()
+    assert rows["time_s"].dims == ("time_s",) and rows.sizes["time_s"] == 201
