@@ -54,7 +54,7 @@ pub enum Command {
     Signal(SignalArguments),
     /// Check a gear file, bearing file, scene, study, S-N table, record, model or result
     Check(CheckArguments),
-    /// Run a multibody scene again and again with some of its keys changed
+    /// Run a scene again and again with some of its keys changed
     Study(StudyArguments),
     /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness,
     /// life

@@ -37,7 +37,7 @@ fn help_names_all_commands() {
                            averages
       check                Check a gear file, bearing file, scene, study, S-N table, record, model or
                            result
-      study                Run a multibody scene again and again with some of its keys changed
+      study                Run a scene again and again with some of its keys changed
       bearing              Find where a rolling bearing comes to rest under a load: load on every ball
                            or roller, pressures, stiffness, life
       bearing-frequencies  Print the frequencies of a rolling bearing: cage, ball or roller, passing of

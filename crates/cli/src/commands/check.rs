@@ -12,7 +12,7 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::study::{PairCases, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
 use serde_json::{Map, Value, json};
@@ -194,12 +194,10 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
     }
 }
 
-/// All scenes of a study are read, the first one is built with its gears.
+/// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.
 fn study(study: &Study) -> Result<Finding, Failure> {
-    let made = StudyScenes::new(study)?;
-    if let Some(scene) = made.scenes.first() {
-        scene.clone().load()?.build()?;
-    }
+    let made = StudyScenes::new(study, Path::new(""))?;
+    made.check_columns(study, &PairCases::default())?;
     let (cases, columns) = (made.cases.len(), study.tables.columns.len());
     let of = &study.tables.scene;
     Ok(Finding::new("study", Some(&study.tables.title)).sized(
