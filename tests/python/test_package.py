@@ -1,4 +1,4 @@
-"""The package gearmesh: from the definition of a gear to curves, in one process. Coarse gears: the numbers are the program's."""
+"""The package gearmesh: from the definition of a gear to curves, in one process. Coarse gears."""
 
 import json
 import os

@@ -25,7 +25,8 @@ class Bar:
                 from tqdm.auto import tqdm
             except ImportError:
                 return
-            self._bar = tqdm(desc=title, leave=False, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}", total=1.0)
+            form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
+            self._bar = tqdm(desc=title, leave=False, bar_format=form, total=1.0)
             self.call = self._move
 
     def _move(self, stage: str, done: float, total: float) -> None:

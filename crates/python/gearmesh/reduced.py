@@ -76,9 +76,9 @@ def reduce(
     """Meshes a gear and condenses it to the compliance of its flanks; seconds to minutes.
 
     gear: a Gear, a gear file or its tables. path: the model file; without it the file lies in the cache
-    (GEARMESH_CACHE, else ~/.cache/gearmesh) under a digest of the gear file's text and the program's version, and a gear
-    that is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for
-    the mesh error of compliance and gauges.
+    (GEARMESH_CACHE, else ~/.cache/gearmesh) under a digest of the gear file's text and the program's version; a gear that
+    is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for the
+    mesh error of compliance and gauges.
 
     Raises InputError, WorkError, MemoryError, OSError; Ctrl-C ends the wait, and no model is written.
     """
@@ -89,7 +89,8 @@ def reduce(
     meshed_elsewhere = gear.tables["blank"]["kind"] == "mesh"
     if path is None:
         if meshed_elsewhere:
-            raise _native.InputError('path: blank.kind = "mesh" reads another file; name the model that is made of it')
+            problem = 'path: blank.kind = "mesh" reads another file; name the model that is made of it'
+            raise _native.InputError(problem)
         path = _cache() / f"{_digest(gear, error_estimate)}.h5"
         if path.exists() and not again:
             return ReducedGear(path)

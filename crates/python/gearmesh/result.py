@@ -201,7 +201,8 @@ class Result:
             return f"<Result {self.title!r}: {head}>"
         lines = [f"<Result {self.title!r}: {len(self['angle_rad'])} positions at each torque"]
         for row, torque in zip(self["te_m"], self["torque_Nm"]):
-            lines.append(f"  {torque:g} N m: TE mean {1e6 * row.mean():.3f} um, peak to peak {1e6 * np.ptp(row):.3f} um")
+            mean_um, range_um = 1e6 * row.mean(), 1e6 * np.ptp(row)
+            lines.append(f"  {torque:g} N m: TE mean {mean_um:.3f} um, peak to peak {range_um:.3f} um")
         if len(lines) > 7:
             lines[6:] = [f"  ... {len(lines) - 6} torques more"]
         return "\n".join(lines) + ">"

@@ -17,7 +17,7 @@ GearModel = Union[ReducedGear, str, "os.PathLike[str]"]
 
 
 class Scene:
-    """A scene of either kind (docs/scene.md, docs/reference/scene.md), checked: a gear pair at rest, or a multibody system.
+    """A scene of either kind (docs/scene.md), checked: a gear pair at rest, or a multibody system.
 
     source: a scene file, or its tables as a dict. folder: where files lie that the scene names; that of the file, or
     the working directory. Raises FileNotFoundError, InputError with file, line and key.

@@ -19,7 +19,7 @@ pub(crate) fn toml_from_json(json: &str) -> PyResult<String> {
     toml::to_string(&table).map_err(|error| InputError::new_err(error.to_string()))
 }
 
-/// JSON text of a TOML document; file is the name that complaints give it. Raises InputError for a text that is no TOML.
+/// JSON text of a TOML document; file is its name in complaints. Raises InputError for a text that is no TOML.
 #[pyfunction]
 pub(crate) fn json_from_toml(text: &str, file: &str) -> PyResult<String> {
     let table: toml::Table = InputDocument::new(file, text)

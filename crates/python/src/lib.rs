@@ -14,8 +14,8 @@
 //! | compute stiffness, displacements and strains of the body in a mesh file | `stiffness`, `solve`, `strain` |
 //! | compute its mass, natural frequencies and shapes | `mass`, `natural_modes` |
 //!
-//! Wrong input raises `InputError`, a `ValueError`; failed work `WorkError`, a `RuntimeError`; a refusing disk `OSError`;
-//! all with the message of the Rust side. Long work runs beside Python (`watched.rs`).
+//! Wrong input raises `InputError`, a `ValueError`; failed work `WorkError`, a `RuntimeError`; a refusing disk
+//! `OSError`; all with the message of the Rust side. Long work runs beside Python (`watched.rs`).
 
 mod documents;
 mod errors;
