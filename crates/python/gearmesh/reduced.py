@@ -77,8 +77,8 @@ def reduce(
 
     gear: a Gear, a gear file or its tables. path: the model file; without it the file lies in the cache
     (GEARMESH_CACHE, else ~/.cache/gearmesh) under a digest of the gear file's text and the program's version; a gear
-    that is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for the
-    mesh error of compliance and gauges.
+    that is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for
+    the mesh error of compliance and gauges.
 
     Raises InputError, WorkError, MemoryError, OSError; Ctrl-C ends the wait, and no model is written.
     """
