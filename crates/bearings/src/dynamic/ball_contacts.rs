@@ -121,7 +121,7 @@ impl DynamicBearing {
         ]
     }
 
-    /// Force of a race on a ball; none where they do not touch.
+    /// Sets the force of a race on a ball; none where they do not touch, and `found` is as it was.
     pub(super) fn at_race(
         &self,
         row: &BallRow,
@@ -129,7 +129,8 @@ impl DynamicBearing {
         ring: &Ring<'_>,
         ball: &Ball,
         tangents: bool,
-    ) -> Option<SurfaceForce> {
+        found: &mut SurfaceForce,
+    ) -> Option<()> {
         if let Some(effort) = &self.effort {
             count(&effort.races);
         }
@@ -163,7 +164,7 @@ impl DynamicBearing {
         if let Some(effort) = &self.effort {
             count(&effort.contacts);
         }
-        Some(surface_force(
+        surface_force(
             &touch,
             |rate| match &self.effects.contact {
                 None => {
@@ -175,7 +176,9 @@ impl DynamicBearing {
             &ring.carrier.against(ball),
             law,
             tangents,
-        ))
+            found,
+        );
+        Some(())
     }
 
     /// The spall of a ball against a race.
@@ -191,14 +194,15 @@ impl DynamicBearing {
         Some(Patch { shape, direction })
     }
 
-    /// Force of a cage on the ball in its pocket.
+    /// Sets the force of a cage on the ball in its pocket; none where it feels nothing.
     pub(super) fn in_pocket(
         &self,
         (row, place, ball_of_row): (&BallRow, usize, usize),
         cage: &Carrier<'_>,
         ball: &Ball,
         tangents: bool,
-    ) -> Option<SurfaceForce> {
+        found: &mut SurfaceForce,
+    ) -> Option<()> {
         let (_, pockets) = &self.effects.cages[place];
         if let Some(effort) = &self.effort {
             count(&effort.pockets);
@@ -217,12 +221,14 @@ impl DynamicBearing {
         let law = pockets.traction.as_ref().map(|traction| {
             move |load: f64, slip: f64| traction.slip(&row.inner.contact, load, slip)
         });
-        Some(surface_force(
+        surface_force(
             &touch,
             |rate| pockets.rebound.damped(&elastic, rate),
             &cage.against(ball),
             law,
             tangents,
-        ))
+            found,
+        );
+        Some(())
     }
 }

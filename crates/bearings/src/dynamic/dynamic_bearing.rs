@@ -241,6 +241,7 @@ impl ForceElement for DynamicBearing {
         let rings = self.rings(view, [loads.starts()[0], loads.starts()[1]]);
         let per_ball = self.per_ball();
         let mut power = Power::default();
+        let mut found = SurfaceForce::NONE;
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, turning) = self.faults(view, row, ball_of_row, number);
@@ -256,14 +257,16 @@ impl ForceElement for DynamicBearing {
                 power.dissipated_w += found.dissipated_w;
             };
             for ring in &rings {
-                if let Some(found) = self.at_race(row, &faults, ring, &ball, tangents) {
+                let touches = self.at_race(row, &faults, ring, &ball, tangents, &mut found);
+                if touches.is_some() {
                     add(&ring.carrier, &found, loads);
                 }
             }
             if let Some((body, _)) = self.effects.cages.get(place) {
                 let cage = Carrier::new(view.body(*body), loads.starts()[2 + place]);
                 let which = (row, place, ball_of_row);
-                if let Some(found) = self.in_pocket(which, &cage, &ball, tangents) {
+                let touches = self.in_pocket(which, &cage, &ball, tangents, &mut found);
+                if touches.is_some() {
                     add(&cage, &found, loads);
                 }
             }
@@ -347,8 +350,11 @@ impl ForceElement for DynamicBearing {
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, _) = self.faults(view, row, ball_of_row, number);
-            let [outer, inner] =
-                [&rings[0], &rings[1]].map(|ring| self.at_race(row, &faults, ring, &ball, false));
+            let [outer, inner] = [&rings[0], &rings[1]].map(|ring| {
+                let mut found = SurfaceForce::NONE;
+                let touches = self.at_race(row, &faults, ring, &ball, false, &mut found);
+                touches.map(|()| found)
+            });
             if let Some(inner) = &inner {
                 force -= inner.force;
                 let arm = ball.place_m - rings[1].middle;
@@ -361,7 +367,9 @@ impl ForceElement for DynamicBearing {
             if let Some((body, _)) = self.effects.cages.get(place) {
                 let cage = Carrier::new(view.body(*body), 0);
                 let which = (row, place, ball_of_row);
-                if let Some(found) = self.in_pocket(which, &cage, &ball, false) {
+                let mut found = SurfaceForce::NONE;
+                let touches = self.in_pocket(which, &cage, &ball, false, &mut found);
+                if touches.is_some() {
                     for axis in 0..3 {
                         out[first_cage + per_cage * place + axis] -= found.force[axis];
                     }
