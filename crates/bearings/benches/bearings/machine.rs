@@ -3,7 +3,7 @@
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::dynamic::{
     FluidTraction, LandContact, LandFilm, LandGuide, LandSide, PocketShape, Pockets, Rebound,
-    StatedContact, Traction,
+    StatedContact, Traction, TriangleSize,
 };
 use gearmesh_bearings::quasi_static::Row;
 use gearmesh_bearings::{
@@ -88,8 +88,8 @@ pub fn rolling_rad_per_s(bearing: &QuasiStaticBearing, pose: &RingPose) -> f64 {
 }
 
 impl Machine {
-    /// Bearings with cages on one shaft that is driven: film at the races, pockets and lands as in fe_models/spindle_6000_rpm.toml.
-    pub fn spindle(bearings: usize) -> Self {
+    /// Bearings with cages on one shaft that is driven, their races tori or triangles: film at the races, pockets and lands as in fe_models/spindle_6000_rpm.toml.
+    pub fn spindle(bearings: usize, surface: Option<TriangleSize>) -> Self {
         let bearing = bearing(ANGULAR);
         let pose = pose(&bearing, PRELOAD_N);
         let mut builder = System::builder();
@@ -146,6 +146,7 @@ impl Machine {
                     eyring_stress_pa: 5e6,
                     film_thickness_m: 3e-7,
                 })),
+                surface,
                 cages: vec![(cage, pockets)],
                 ..DynamicEffects::default()
             };

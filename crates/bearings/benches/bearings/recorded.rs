@@ -79,7 +79,7 @@ pub fn repeated(times: usize, machine: impl Fn() -> Machine, step_s: f64, end_s:
 }
 
 /// Processor time of this process so far, all threads, as Linux counts it; NaN elsewhere.
-fn cpu_s() -> f64 {
+pub fn cpu_s() -> f64 {
     let Ok(threads) = std::fs::read_dir("/proc/self/task") else {
         return f64::NAN;
     };

@@ -124,7 +124,7 @@ impl DynamicBearing {
     /// Sets the force of a race on a ball; none where they do not touch, and `found` is as it was.
     pub(super) fn at_race(
         &self,
-        row: &BallRow,
+        (row, place): (&BallRow, usize),
         faults: &Faults<'_>,
         ring: &Ring<'_>,
         ball: &Ball,
@@ -137,9 +137,13 @@ impl DynamicBearing {
         let mut groove = row.groove(ring.side);
         let w = ball.place_m - ring.middle;
         let own;
-        let touch = match faults.row {
-            None => groove_touch(groove, &w, &ring.axis)?,
-            Some(of_row) => {
+        let touch = match (self.meshes.get(place), faults.row) {
+            (Some(meshes), _) => {
+                let mesh = &meshes[usize::from(ring.side == Side::Inner)];
+                mesh.touch(&w, &ring.axes, ball.radius_m)?
+            }
+            (None, None) => groove_touch(groove, &w, &ring.axis)?,
+            (None, Some(of_row)) => {
                 own = of_row.groove_for(faults.ball, groove);
                 groove = &own;
                 let (race, patch) = (of_row.race(ring.side), self.patch(of_row, faults, ring));

@@ -60,6 +60,7 @@ pub fn bearings(workspace: &Workspace, options: &Options) -> Result<ExitCode, Xt
         evaluations: of("evaluation"),
         cages: of("cage"),
         shafts: of("shaft"),
+        surfaces: of("surface"),
         ours: besides(&of("beside")),
         theirs: besides(&theirs),
     });

@@ -13,6 +13,7 @@ pub struct Page {
     pub evaluations: Vec<Value>,
     pub cages: Vec<Value>,
     pub shafts: Vec<Value>,
+    pub surfaces: Vec<Value>,
     pub ours: Vec<Beside>,
     pub theirs: Vec<Beside>,
 }
@@ -84,6 +85,7 @@ pub fn page(page: &Page) -> String {
     evaluations(&mut text, &page.evaluations);
     cages(&mut text, &page.cages);
     shafts(&mut text, &page.shafts);
+    surfaces(&mut text, &page.surfaces);
     beside(&mut text, &page.ours, &page.theirs);
     text
 }
@@ -95,7 +97,7 @@ fn number(line: &Value, key: &str) -> f64 {
 fn evaluations(text: &mut String, lines: &[Value]) {
     text.push_str(
         "## One evaluation in equilibrium\n\nModel `quasi-static`, 14 balls, five coordinates of the ring: loads with their tangent. *Warm*: from the balls' places of the evaluation \
-         before, as in a run. Means of 1000 calls; the fastest and the median of 50 of them. Asked for: under 20 µs warm.\n\n\
+         before, as in a run. Means of 20 000 calls; the fastest and the median of nine of them. Asked for: under 20 µs warm.\n\n\
          | rpm | start | fastest µs | median µs |\n| ---: | --- | ---: | ---: |\n",
     );
     for line in lines {
@@ -156,6 +158,35 @@ fn shafts(text: &mut String, lines: &[Value]) {
             108.0 * number(line, "bearings"),
             number(line, "cpu_s"),
             number(line, "cpu_s") / number(&lines[0], "cpu_s"),
+        );
+    }
+}
+
+fn surfaces(text: &mut String, lines: &[Value]) {
+    text.push_str(
+        "\n## Races as triangles\n\nThe first 2 ms of the same run on tori and on meshes of triangles (`surface`), steps of 5 µs; *apart*: largest difference of a ball's load from that \
+         on the tori, in percent of the mean load. Making the meshes is not in the time.\n\n\
+         | edges across, along µm | ms a step | times the tori | iterations a step | apart % |\n| --- | ---: | ---: | ---: | ---: |\n",
+    );
+    let loads = |line: &Value| -> Vec<f64> {
+        let values = line["inner_N"].as_array().into_iter().flatten();
+        values.filter_map(Value::as_f64).collect()
+    };
+    for line in lines {
+        let edges = match number(line, "across_um") {
+            0.0 => "tori".to_owned(),
+            across => format!("{across}, {}", number(line, "along_um")),
+        };
+        let (own, tori) = (loads(line), loads(&lines[0]));
+        let misses = own.iter().zip(&tori).map(|(a, b)| (a - b).abs());
+        let mean = tori.iter().sum::<f64>() / tori.len() as f64;
+        let _ = writeln!(
+            text,
+            "| {edges} | {:.3} | {:.1} | {:.1} | {:.3} |",
+            1e3 * number(line, "cpu_s") / number(line, "steps"),
+            number(line, "cpu_s") / number(&lines[0], "cpu_s"),
+            number(line, "iterations") / number(line, "steps"),
+            100.0 * misses.fold(0.0, f64::max) / mean
         );
     }
 }
