@@ -6,10 +6,15 @@ use crate::jet::Jet;
 const ALONG: usize = 12;
 const UP: usize = 20;
 
+/// Coefficients below are rounding of the values that were interpolated, and left out (of angles: 1e-16 m on a gear).
+const ROUNDING: f64 = 1e-15;
+
 /// f(x, y) = Σ c_ij T_i(x) T_j(y) on −1 … 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chebyshev2 {
     coefficients: [[f64; UP]; ALONG],
+    /// Coefficients of each row up to the last one above rounding.
+    used: [usize; ALONG],
 }
 
 impl Chebyshev2 {
@@ -38,52 +43,55 @@ impl Chebyshev2 {
                 }
             }
         }
-        Ok(Self { coefficients })
+        let used = coefficients.map(|row| {
+            let last = row.iter().rposition(|c| c.abs() > ROUNDING);
+            last.map_or(0, |last| last + 1)
+        });
+        Ok(Self { coefficients, used })
     }
 
     /// Value.
     pub(crate) fn value(&self, x: f64, y: f64) -> f64 {
-        let [along, ..] = polynomials::<ALONG>(x);
-        let [up, ..] = polynomials::<UP>(y);
-        let rows = self.coefficients.iter().zip(along);
-        rows.map(|(row, t)| t * dot(row, &up)).sum()
+        self.jet(x, y).v
     }
 
     /// Value and derivatives by x and y.
     pub(crate) fn jet(&self, x: f64, y: f64) -> Jet {
-        let [along, along_1, along_2] = polynomials::<ALONG>(x);
-        let [up, up_1, up_2] = polynomials::<UP>(y);
+        let along = polynomials::<ALONG>(x);
+        let up = polynomials::<UP>(y);
         let mut jet = Jet::constant(0.0);
-        for (i, row) in self.coefficients.iter().enumerate() {
-            let of_up = dot(row, &up);
-            let by_up = dot(row, &up_1);
-            jet.v += along[i] * of_up;
-            jet.d[0] += along_1[i] * of_up;
-            jet.d[1] += along[i] * by_up;
-            jet.dd[0] += along_2[i] * of_up;
-            jet.dd[1] += along_1[i] * by_up;
-            jet.dd[2] += along[i] * dot(row, &up_2);
+        for ((row, used), [t, d, dd]) in self.coefficients.iter().zip(self.used).zip(along) {
+            // The row's function of y and its derivatives, side by side for the processor's vectors.
+            let mut of_up = [0.0; 3];
+            for (c, values) in row.iter().zip(&up).take(used) {
+                for (sum, value) in of_up.iter_mut().zip(values) {
+                    *sum += c * value;
+                }
+            }
+            let [f, by_y, by_yy] = of_up;
+            jet.v += t * f;
+            jet.d[0] += d * f;
+            jet.d[1] += t * by_y;
+            jet.dd[0] += dd * f;
+            jet.dd[1] += d * by_y;
+            jet.dd[2] += t * by_yy;
         }
         jet
     }
 }
 
-fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// T_0 … T_(N−1) and their first and second derivatives: T_(i+1) = 2x T_i − T_(i−1).
-fn polynomials<const N: usize>(x: f64) -> [[f64; N]; 3] {
-    let [mut t, mut d, mut dd] = [[0.0; N]; 3];
-    t[0] = 1.0;
-    if N > 1 {
-        t[1] = x;
-        d[1] = 1.0;
-    }
+/// T_0 … T_(N−1), each with its first and second derivative: T_(i+1) = 2x T_i − T_(i−1).
+fn polynomials<const N: usize>(x: f64) -> [[f64; 3]; N] {
+    let mut list = [[0.0; 3]; N];
+    list[0] = [1.0, 0.0, 0.0];
+    list[1] = [x, 1.0, 0.0];
     for i in 2..N {
-        t[i] = 2.0 * x * t[i - 1] - t[i - 2];
-        d[i] = 2.0 * t[i - 1] + 2.0 * x * d[i - 1] - d[i - 2];
-        dd[i] = 4.0 * d[i - 1] + 2.0 * x * dd[i - 1] - dd[i - 2];
+        let ([t, d, dd], [before, before_d, before_dd]) = (list[i - 1], list[i - 2]);
+        list[i] = [
+            2.0 * x * t - before,
+            2.0 * t + 2.0 * x * d - before_d,
+            4.0 * d + 2.0 * x * dd - before_dd,
+        ];
     }
-    [t, d, dd]
+    list
 }

@@ -74,6 +74,15 @@ pub fn reduced(
     Ok(outcome?)
 }
 
+/// Reduces a gear whose body a study varies; what went wrong in words.
+pub fn reduced_for_study(gear: &GearDefinition) -> Result<ReducedGear, String> {
+    let outcome = match gear.blank.meshed() {
+        Some(body) => reduced_import(gear, body),
+        None => reduced(gear, true).map(|(model, _)| model),
+    };
+    outcome.map_err(|failure| failure.message)
+}
+
 /// Reads, checks and reduces a gear that was meshed elsewhere.
 pub fn reduced_import(gear: &GearDefinition, body: &MeshedBody) -> Result<ReducedGear, Failure> {
     let bar = StageBar::new(&gear.name);

@@ -37,7 +37,11 @@ fn help_names_all_commands() {
                            averages
       check                Check a gear file, bearing file, scene, study, S-N table, record, model or
                            result
-      study                Run a multibody scene again and again with some of its keys changed
+      study                Run a scene again and again with some of its keys changed
+      accuracy             Say what accuracy costs in time, for columns of a scene: error against time
+                           of every knob
+      optimise             Seek the relief, crowning or other keys that make the objectives of a gear
+                           pair least
       bearing              Find where a rolling bearing comes to rest under a load: load on every ball
                            or roller, pressures, stiffness, life
       bearing-frequencies  Print the frequencies of a rolling bearing: cage, ball or roller, passing of
@@ -72,6 +76,8 @@ fn help_names_all_commands() {
         "report",
         "check",
         "study",
+        "optimise",
+        "accuracy",
         "schema",
         "demo",
         "export",
@@ -103,6 +109,12 @@ fn check_says_what_a_file_is() {
     ] {
         assert!(text.contains(part), "`{part}` is not in {text}");
     }
+    let found = succeeds(&["check", argument(&gear), "--json"]).json();
+    assert_eq!(
+        (found["kind"].as_str(), found["sound"].as_bool()),
+        (Some("gear"), Some(true))
+    );
+    assert!((found["tip_radius_mm"].as_f64().unwrap() - 30.3).abs() < 1e-9);
     let model = succeeds(&["check", argument(&workshop().thin)]).stdout;
     assert!(
         model.contains("reduced gear, sound") && model.contains("small thin rim"),
@@ -111,7 +123,7 @@ fn check_says_what_a_file_is() {
     let (result, _) = run_scene(&desk, "");
     let text = succeeds(&["check", argument(&result)]).stdout;
     assert!(
-        text.contains("result of `small pair`, 2 torques x 24 angles, sound"),
+        text.contains("result of `small pair`, sound: 2 torques x 24 angles"),
         "{text}"
     );
     let text = succeeds(&["check", argument(&desk.path("scene.toml"))]).stdout;

@@ -62,10 +62,25 @@ fn a_wrong_study_is_refused_and_a_failed_case_is_told() {
         "column.toml",
         changed(STUDY, "angular_velocity_z", "speed_z"),
     );
-    assert_eq!(answer.code, Some(1));
+    refused(
+        &answer,
+        2,
+        &[
+            "column.toml:3",
+            "bodies/wheel/speed_z",
+            "the scene has `time_s`",
+        ],
+    );
+    assert!(!out.exists());
+    // A run that ends before the figures begin.
+    let late = changed(STUDY, "columns =", "from_s = 1.5\ncolumns =");
+    let answer = run("late.toml", late);
+    assert_eq!(answer.code, Some(1), "{answer:#?}");
     assert!(answer.stderr.contains("2 of 2 cases failed"), "{answer:#?}");
     assert!(
-        answer.stdout.contains("no column `bodies/wheel/speed_z"),
+        answer
+            .stdout
+            .contains("torque = 4.0 failed: from_s = 1.5 is after the end"),
         "{}",
         answer.stdout
     );

@@ -22,6 +22,7 @@ mod markup;
 mod packed;
 mod path_chart;
 mod polar_chart;
+mod scatter_chart;
 mod spectrum_chart;
 mod table;
 mod text;
@@ -30,6 +31,7 @@ pub use field_picture::{FieldPicture, FieldValues, ViewWindow};
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
+pub use scatter_chart::{PointSeries, ScatterChart};
 pub use spectrum_chart::{SpectrumChart, SpectrumSeries};
 pub use table::{Align, KeyFigures, Table};
 pub use text::Text;
@@ -150,6 +152,8 @@ pub enum Block {
     PolarChart(PolarChart),
     /// A path in a plane.
     PathChart(PathChart),
+    /// Points over two axes.
+    ScatterChart(ScatterChart),
 }
 
 macro_rules! block_from {
@@ -169,7 +173,8 @@ block_from!(
     SpectrumChart,
     FieldPicture,
     PolarChart,
-    PathChart
+    PathChart,
+    ScatterChart
 );
 
 /// A heading and what stands under it.
@@ -308,6 +313,7 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
         Block::Table(table) => table.render(html)?,
         Block::PolarChart(chart) => chart.render(html)?,
         Block::PathChart(chart) => chart.render(html)?,
+        Block::ScatterChart(chart) => chart.render(html)?,
         Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {
             render_figure(html, "spectrum", chart.title(), &chart.payload()?)?

@@ -6,7 +6,10 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::study::{Study, StudyOutcome, StudyScenes, run_study};
+use gearmesh_scene::SceneFile;
+use gearmesh_scene::study::{
+    SelectedValue, Study, StudyOptions, StudyOutcome, StudyScenes, run_study,
+};
 
 /// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
 const SCENE: &str = include_str!("../../../tests/support/wheel.toml");
@@ -25,14 +28,13 @@ fn run_in(folder: &Path, parameters: &str) -> (Result<StudyOutcome, String>, usi
     let mut study = study(parameters);
     study.folder = folder.to_owned();
     let told = Mutex::new(0);
-    let outcome = run_study(
-        &study,
-        &folder.join("out"),
-        &AtomicBool::new(false),
-        &|_, count| {
-            *told.lock().unwrap() = count;
-        },
-    );
+    let options = StudyOptions {
+        folder: &folder.join("out"),
+        stop: &AtomicBool::new(false),
+        progress: &|_, count| *told.lock().unwrap() = count,
+        reduce: &|_| Err("no gear varies".to_owned()),
+    };
+    let outcome = run_study(&study, &options);
     (
         outcome.map_err(|e| e.to_string()),
         told.into_inner().unwrap(),
@@ -52,7 +54,9 @@ fn every_case_has_the_speed_of_its_torque() {
     assert_eq!((outcome.cases.len(), runs), (4, 3));
     assert_eq!(outcome.cases[0].file, outcome.cases[2].file);
     for (case, torque) in outcome.cases.iter().zip([2.0, 4.0, 2.0, -1.0]) {
-        let figures = case.figures.as_ref().unwrap()[0].figures;
+        let SelectedValue::Series(figures) = case.figures.as_ref().unwrap()[0].value else {
+            unreachable!("a run in time has a series");
+        };
         let [first, last] = [0.5_f64, 1.0].map(|time| torque / 0.5 * time);
         assert!(
             (figures.least - first.min(last)).abs() < 1e-9,
@@ -139,9 +143,14 @@ fn microgeometry_of_a_body_is_varied() {
     let text = std::fs::read_to_string(models.join("study_17_25.toml")).unwrap();
     let scenes = |text: &str| {
         let document = InputDocument::new("study.toml", text);
-        StudyScenes::new(&Study::from_document(document, &models).unwrap())
+        StudyScenes::new(
+            &Study::from_document(document, &models).unwrap(),
+            Path::new(""),
+        )
     };
-    let relieved = scenes(&text).unwrap().scenes.pop().unwrap();
+    let Some(SceneFile::System(relieved)) = scenes(&text).unwrap().scenes.pop() else {
+        unreachable!("a multibody scene");
+    };
     let built = relieved.load().unwrap().build().unwrap();
     let note = built
         .notes
@@ -156,30 +165,37 @@ fn microgeometry_of_a_body_is_varied() {
     let told = scenes(&slip).err().unwrap().to_string();
     assert!(
         told.contains(
-            "`body.0.microgeometry.tip_releif_um` is not in the scene: body.0.microgeometry has"
-        ) && told.contains("not `tip_releif_um`"),
+            "`body.0.microgeometry.tip_releif_um` is refused: unknown field `tip_releif_um`"
+        ) && told.ends_with("did you mean `tip_relief_um`?"),
         "{told}"
     );
 }
 
-/// A column that is not there fails its case, and says which there are.
+/// A column that is not there is told before the first case, with the nearest and all that there are.
 #[test]
 fn a_column_that_is_not_there_names_those_that_are() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
-    let text = "title = \"s\"\nscene = \"scene.toml\"\ncolumns = [\"speed\"]\nparameter = []\n";
+    let column = SPEED.replace("velocity", "velocty");
+    let text = format!(
+        "title = \"s\"\nscene = \"scene.toml\"\ncolumns = [\"{column}\"]\nparameter = []\n"
+    );
     let study =
         Study::from_document(InputDocument::new("study.toml", text), folder.path()).unwrap();
     let out = folder.path().join("out");
-    let outcome = run_study(&study, &out, &AtomicBool::new(false), &|_, _| ()).unwrap();
-    let told = outcome.cases[0].figures.clone().unwrap_err();
+    let options = StudyOptions {
+        folder: &out,
+        stop: &AtomicBool::new(false),
+        progress: &|_, _| (),
+        reduce: &|_| Err("no gear varies".to_owned()),
+    };
+    let told = run_study(&study, &options).unwrap_err();
+    assert!(told.is_input());
+    let told = told.to_string();
+    let nearest = format!("did you mean `{SPEED}`?");
     assert!(
-        told.contains("no column `speed`; it has time_s, ") && told.contains(SPEED),
+        told.starts_with("study.toml:3: columns.0: there is no column") && told.contains(&nearest),
         "{told}"
     );
-    let table = std::fs::read_to_string(out.join("study.csv")).unwrap();
-    assert!(
-        table.lines().nth(1).unwrap().contains("no column"),
-        "{table}"
-    );
+    assert!(!out.exists());
 }

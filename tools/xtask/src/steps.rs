@@ -57,6 +57,8 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         "tests/python",
     ]);
     set_environment(&mut python_tests, venv);
+    // The step of the Rust tests builds it.
+    python_tests.env("GEARMESH_PROGRAM", program()?);
 
     let rust_tests = || rust_tests(workspace, venv, extent, &[]);
     let lints = cargo(&[
@@ -139,6 +141,11 @@ pub fn demo(
 /// [`XtaskError::Failed`] where it does not build.
 pub fn build_program(workspace: &Workspace, venv: &Venv) -> Result<PathBuf, XtaskError> {
     run_checked(cargo(workspace, venv).args(["build", "--workspace", "--bin", "gearmesh"]))?;
+    program()
+}
+
+/// Where the program `gearmesh` is, once built.
+fn program() -> Result<PathBuf, XtaskError> {
     Ok(python_module::build_dir()?.join("gearmesh"))
 }
 

@@ -11,15 +11,89 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
+use gearmesh_scene::optimise::{Evaluator, Optimisation};
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::study::{PairCases, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
+use serde_json::{Map, Value, json};
 use std::path::Path;
+
+/// What a sound file is.
+struct Finding {
+    /// Kind of file, as a word.
+    kind: &'static str,
+    /// What it calls itself; none where it has no name.
+    name: Option<String>,
+    /// What is said behind `sound`.
+    size: Option<String>,
+    /// Counts and the like by name.
+    facts: Map<String, Value>,
+    /// Further lines for people.
+    lines: Vec<String>,
+    /// What is wrong with a file that can be read all the same.
+    problem: Option<String>,
+}
+
+impl Finding {
+    fn new(kind: &'static str, name: Option<&str>) -> Self {
+        Self {
+            kind,
+            name: name.map(str::to_owned),
+            size: None,
+            facts: Map::new(),
+            lines: Vec::new(),
+            problem: None,
+        }
+    }
+
+    /// Adds what is said behind `sound`, and the same as values by name.
+    fn sized(mut self, size: String, facts: Value) -> Self {
+        self.size = Some(size);
+        if let Value::Object(facts) = facts {
+            self.facts.extend(facts);
+        }
+        self
+    }
+
+    fn print(&self, path: &Path) {
+        let of = if self.kind == "result" { " of" } else { "" };
+        let name = (self.name.as_ref()).map_or(String::new(), |name| format!("{of} `{name}`"));
+        let verdict = self.problem.as_ref().map_or("sound", |_| "not sound");
+        let size = (self.size.as_ref()).map_or(String::new(), |size| format!(": {size}"));
+        let (path, kind) = (path.display(), self.kind);
+        console::data(format!("{path}: {kind}{name}, {verdict}{size}"));
+        self.lines.iter().for_each(console::data);
+    }
+
+    fn print_json(&self, path: &Path) {
+        let mut all = json!({
+            "file": path,
+            "kind": self.kind,
+            "name": self.name,
+            "sound": self.problem.is_none(),
+        });
+        if let Value::Object(all) = &mut all {
+            all.extend(self.facts.clone());
+        }
+        console::json(&all);
+    }
+}
 
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
-    let path = &arguments.file;
+    let found = found(&arguments.file)?;
+    if arguments.json {
+        found.print_json(&arguments.file);
+    } else {
+        found.print(&arguments.file);
+    }
+    found
+        .problem
+        .map_or(Ok(()), |text| Err(Failure::work(text)))
+}
+
+fn found(path: &Path) -> Result<Finding, Failure> {
     let ends_in = |ending: &str| {
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(ending))
@@ -37,90 +111,73 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let document = InputDocument::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     match InputKind::of(&document)? {
-        InputKind::Scene => scene(path, SceneFile::from_document(document, folder)?),
-        InputKind::Study => study(path, &Study::from_document(document, folder)?),
-        InputKind::SnTable => sn_table(path, &document),
+        InputKind::Scene => scene(SceneFile::from_document(document, folder)?),
+        InputKind::Study => study(&Study::from_document(document, folder)?),
+        InputKind::Optimisation => optimisation(&Optimisation::from_document(document, folder)?),
+        InputKind::SnTable => sn_table(&document),
         InputKind::Record => record(folder),
-        InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(path, &document),
-        InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(path, &document),
-        InputKind::Gear => gear(path, &document),
+        InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(&document),
+        InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(&document),
+        InputKind::Gear => gear(&document),
     }
 }
 
-fn bevel_pair(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
     bevel::design(&file)?;
-    console::data(format!(
-        "{}: bevel pair `{}`, sound",
-        path.display(),
-        file.title
-    ));
-    Ok(())
+    Ok(Finding::new("bevel pair", Some(&file.title)))
 }
 
-fn bearing(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
     let found = BearingFromFile::from_document(document)?;
     QuasiStaticBearing::new(&found.definition).map_err(Failure::work)?;
-    console::data(format!(
-        "{}: bearing `{}`, sound",
-        path.display(),
-        found.definition.name
-    ));
     found.notes.iter().for_each(console::note);
-    Ok(())
+    Ok(Finding::new("bearing", Some(&found.definition.name)))
 }
 
-fn model(path: &Path) -> Result<(), Failure> {
+fn model(path: &Path) -> Result<Finding, Failure> {
     let model = read_reduced_gear(path).map_err(Failure::input)?;
-    console::data(format!("{}: reduced gear, sound", path.display()));
-    reduce::summary(&model).into_iter().for_each(console::data);
-    Ok(())
+    let mut finding = Finding::new("reduced gear", None);
+    finding.lines = reduce::summary(&model);
+    Ok(finding)
 }
 
-fn result(path: &Path) -> Result<(), Failure> {
+fn result(path: &Path) -> Result<Finding, Failure> {
     let result = match ResultFile::open(path).map_err(Failure::input)? {
         ResultFile::Pair(result) => {
-            console::data(format!(
-                "{}: result of `{}`, {} torques x {} angles, sound",
-                path.display(),
-                result.title,
-                result.torque_nm.len(),
-                result.angles()
+            let (torques, angles) = (result.torque_nm.len(), result.angles());
+            return Ok(Finding::new("result", Some(&result.title)).sized(
+                format!("{torques} torques x {angles} angles"),
+                json!({ "torques": torques, "angles": angles }),
             ));
-            return Ok(());
         }
         ResultFile::System(result) => result,
     };
     let (columns, rows) = (result.rows.columns().len(), result.rows.rows());
     let size = if rows > 0 {
-        format!(", {columns} columns x {rows} rows")
+        format!("{}, {columns} columns x {rows} rows", result.kind)
     } else {
-        String::new()
+        result.kind.to_string()
     };
-    let problem = result.problem();
-    let verdict = problem.as_ref().map_or("sound", |_| "not sound");
-    console::data(format!(
-        "{}: result of `{}`, {}{size}, {verdict}",
-        path.display(),
-        result.head.title,
-        result.kind
-    ));
-    let lines = system_table::table(&result)?;
-    lines.into_iter().skip(1).for_each(console::data);
-    problem.map_or(Ok(()), |text| Err(Failure::work(text)))
+    let run = result.kind.to_string();
+    let mut finding = Finding::new("result", Some(&result.head.title)).sized(
+        size,
+        json!({ "run": run, "columns": columns, "rows": rows, "problem": result.problem() }),
+    );
+    finding.problem = result.problem();
+    finding.lines = (system_table::table(&result)?.into_iter())
+        .skip(1)
+        .collect();
+    Ok(finding)
 }
 
-fn scene(path: &Path, scene: SceneFile) -> Result<(), Failure> {
+fn scene(scene: SceneFile) -> Result<Finding, Failure> {
     match scene {
         SceneFile::Pair(scene) => {
             let loaded = load(*scene)?;
             loaded.scene.notes.iter().for_each(console::note);
             console::unit_slips(loaded.unit_slips());
-            console::data(format!(
-                "{}: scene `{}`, sound",
-                path.display(),
-                loaded.scene.title
-            ));
+            Ok(Finding::new("scene", Some(&loaded.scene.title)))
         }
         SceneFile::System(scene) => {
             let loaded = scene.load()?;
@@ -128,38 +185,45 @@ fn scene(path: &Path, scene: SceneFile) -> Result<(), Failure> {
             console::unit_slips(loaded.unit_slips());
             let built = loaded.build()?;
             RunJob::from_scene(loaded.clone())?;
-            console::data(format!(
-                "{}: scene `{}`, sound: {} bodies, {} joints and motions, {} force elements",
-                path.display(),
-                loaded.scene.title,
-                built.bodies.len(),
-                built.joints.len(),
-                built.elements.len()
-            ));
             built.notes.iter().for_each(console::note);
+            let (bodies, joints) = (built.bodies.len(), built.joints.len());
+            let elements = built.elements.len();
+            Ok(Finding::new("scene", Some(&loaded.scene.title)).sized(
+                format!("{bodies} bodies, {joints} joints and motions, {elements} force elements"),
+                json!({ "bodies": bodies, "joints": joints, "elements": elements }),
+            ))
         }
     }
-    Ok(())
 }
 
-/// All scenes of a study are read, the first one is built with its gears.
-fn study(path: &Path, study: &Study) -> Result<(), Failure> {
-    let made = StudyScenes::new(study)?;
-    if let Some(scene) = made.scenes.first() {
-        scene.clone().load()?.build()?;
-    }
-    console::data(format!(
-        "{}: study `{}`, sound: {} cases, {} columns of {}",
-        path.display(),
-        study.tables.title,
-        made.cases.len(),
-        study.tables.columns.len(),
-        study.tables.scene.display()
-    ));
-    Ok(())
+/// The scene is loaded with the variables in the middle of their bounds.
+fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
+    Evaluator::new(problem)?;
+    let tables = &problem.tables;
+    let (variables, objectives) = (tables.variable.len(), tables.objective.len());
+    let of = &tables.scene;
+    Ok(Finding::new("optimisation", Some(&tables.title)).sized(
+        format!(
+            "{variables} variables, {objectives} objectives of {}",
+            of.display()
+        ),
+        json!({ "variables": variables, "objectives": objectives, "scene": of }),
+    ))
 }
 
-fn sn_table(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+/// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.
+fn study(study: &Study) -> Result<Finding, Failure> {
+    let made = StudyScenes::new(study, Path::new(""))?;
+    made.check_columns(study, &PairCases::default())?;
+    let (cases, columns) = (made.cases.len(), study.tables.columns.len());
+    let of = &study.tables.scene;
+    Ok(Finding::new("study", Some(&study.tables.title)).sized(
+        format!("{cases} cases, {columns} columns of {}", of.display()),
+        json!({ "cases": cases, "columns": columns, "scene": of }),
+    ))
+}
+
+fn sn_table(document: &InputDocument) -> Result<Finding, Failure> {
     let curve = sn_curve(document)?;
     let points = curve.points();
     let [first, last] = [points.first(), points.last()].map(|point| {
@@ -167,46 +231,48 @@ fn sn_table(path: &Path, document: &InputDocument) -> Result<(), Failure> {
             format!("{} MPa at {:e} cycles", 1e-6 * p.amplitude_pa, p.cycles)
         })
     });
-    console::data(format!(
-        "{}: S-N table, sound: {} points, {first} to {last}",
-        path.display(),
-        points.len()
-    ));
-    Ok(())
+    let count = points.len();
+    Ok(Finding::new("S-N table", None).sized(
+        format!("{count} points, {first} to {last}"),
+        json!({ "points": count }),
+    ))
 }
 
 /// A record is a folder.
-fn record(folder: &Path) -> Result<(), Failure> {
+fn record(folder: &Path) -> Result<Finding, Failure> {
     let record = ReferenceRecord::read(folder).map_err(Failure::input)?;
     let columns: Vec<&str> = record.columns.iter().map(|c| &c.name[..]).collect();
-    console::data(format!(
-        "{}: record `{}` ({}), sound: {} angles, {}",
-        folder.display(),
-        record.title,
-        record.kind,
-        record.angle_rad.len(),
-        columns.join(", ")
-    ));
-    Ok(())
+    let angles = record.angle_rad.len();
+    Ok(Finding::new("record", Some(&record.title)).sized(
+        format!("{}, {angles} angles, {}", record.kind, columns.join(", ")),
+        json!({ "of": record.kind.to_string(), "angles": angles, "columns": columns }),
+    ))
 }
 
-fn gear(path: &Path, document: &InputDocument) -> Result<(), Failure> {
+fn gear(document: &InputDocument) -> Result<Finding, Failure> {
     let gear = GearDefinition::from_document(document)?;
     offline::judge_gear(&gear, document)?;
     let p = &gear.profile;
-    console::data(format!("{}: gear `{}`, sound", path.display(), gear.name));
-    console::data(format!(
-        "radii mm: tip {:.4}, reference {:.4}, base {:.4}, form {:.4}, root {:.4}{}",
-        p.tip_radius_m * 1e3,
-        p.reference_radius_m * 1e3,
-        p.base_radius_m * 1e3,
-        gearmesh_geometry::involute::radius_m(p.form_roll_rad, p.base_radius_m) * 1e3,
-        p.root_radius_m * 1e3,
-        if p.undercut { "; undercut" } else { "" }
-    ));
+    let form_radius_m = gearmesh_geometry::involute::radius_m(p.form_roll_rad, p.base_radius_m);
+    let radii_mm = [
+        ("tip", p.tip_radius_m),
+        ("reference", p.reference_radius_m),
+        ("base", p.base_radius_m),
+        ("form", form_radius_m),
+        ("root", p.root_radius_m),
+    ]
+    .map(|(name, radius_m)| (name, 1e3 * radius_m));
+    let mut finding = Finding::new("gear", Some(&gear.name));
+    let words = radii_mm.map(|(name, mm)| format!("{name} {mm:.4}"));
+    let undercut = if p.undercut { "; undercut" } else { "" };
+    (finding.lines).push(format!("radii mm: {}{undercut}", words.join(", ")));
+    for (name, mm) in radii_mm {
+        (finding.facts).insert(format!("{name}_radius_mm"), json!(mm));
+    }
+    (finding.facts).insert("undercut".into(), json!(p.undercut));
     if p.helix_angle_rad != 0.0 {
         let width = gear.tooth.face_width_m;
-        console::data(format!(
+        finding.lines.push(format!(
             "helix: {} hand, {:.4} deg at the reference circle, {:.4} deg at the base circle; transverse module {:.5} mm, transverse pressure angle {:.4} deg, overlap ratio over the face width {:.4}, virtual teeth {:.2}",
             p.hand(),
             p.helix_angle_rad.abs().to_degrees(),
@@ -216,11 +282,21 @@ fn gear(path: &Path, document: &InputDocument) -> Result<(), Failure> {
             p.overlap_ratio(width),
             p.virtual_teeth()
         ));
+        (finding.facts).insert(
+            "helix".into(),
+            json!({
+                "hand": p.hand().to_string(),
+                "reference_angle_deg": p.helix_angle_rad.abs().to_degrees(),
+                "base_angle_deg": p.base_helix_angle_rad().abs().to_degrees(),
+                "overlap_ratio": p.overlap_ratio(width),
+                "virtual_teeth": p.virtual_teeth(),
+            }),
+        );
     }
     if gear.blank.openings().is_some() && gear.sectors() == 1 {
         console::warning(
             "the openings do not divide the teeth: the body does not repeat, and every tooth is solved",
         );
     }
-    Ok(())
+    Ok(finding)
 }

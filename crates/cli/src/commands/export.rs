@@ -10,6 +10,7 @@ use gearmesh_report::export::{
     ExportError, Table, csv_text, mat_bytes, pair_tables, parquet_bytes, study_table, system_tables,
 };
 use gearmesh_scene::ResultFile;
+use serde_json::json;
 use std::path::Path;
 
 /// Runs the command.
@@ -42,6 +43,15 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
         (".mat", None) => tables.iter().collect(),
         _ => vec![first],
     };
+    if a.json {
+        let tables: Vec<_> = (written.iter())
+            .map(|table| {
+                let heads: Vec<&str> = table.columns.iter().map(|c| &c.0[..]).collect();
+                json!({ "name": table.name, "rows": table.rows(), "columns": heads })
+            })
+            .collect();
+        console::json(&json!({ "file": a.output, "tables": tables }));
+    }
     for table in &written {
         let columns = table.columns.len();
         console::note(format!(

@@ -1,14 +1,18 @@
-//! `gearmesh study`: a multibody scene again and again with some of its keys changed.
+//! `gearmesh study`: a scene again and again with some of its keys changed.
 
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::offline;
 use gearmesh_report::{short, usual_unit};
-use gearmesh_scene::study::{CaseResult, Selected, Study, run_study};
-use gearmesh_scene::system_run::stem;
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study, StudyOptions, run_study};
+use gearmesh_scene::system_run::{Figures, stem};
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
+
+/// Cases of a gear pair beyond which the table tells the extremes only.
+const MOST_LINES: usize = 50;
 
 /// Runs the command.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
@@ -19,7 +23,15 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
         bar.advance(done as f64, count as f64);
     };
     let stop = interrupt::on_demand();
-    let outcome = run_study(&study, &arguments.output, &stop.asked, &progress);
+    let outcome = run_study(
+        &study,
+        &StudyOptions {
+            folder: &arguments.output,
+            stop: &stop.asked,
+            progress: &progress,
+            reduce: &offline::reduced_for_study,
+        },
+    );
     bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
     let outcome = outcome?;
     if outcome.stopped {
@@ -54,49 +66,149 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
 /// The figures for people.
 fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
     let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
-    let width = names
-        .iter()
-        .map(|name| name.chars().count())
-        .max()
-        .unwrap_or(0)
-        .max(4);
-    let mut lines = vec![format!(
-        "{}, from {} s on",
-        study.tables.title, study.tables.from_s
-    )];
+    let widest = names.iter().map(|name| name.chars().count()).max();
+    let width = widest.unwrap_or(0).max(4);
+    let found = cases.iter().find_map(|case| case.figures.as_ref().ok());
+    let is_pair = found.is_some_and(|columns| columns.iter().any(|c| c.torque_nm.is_some()));
+    let from = match study.tables.from_s {
+        _ if is_pair => String::new(),
+        from_s => format!(", from {from_s} s on"),
+    };
+    let mut lines = vec![format!("{}{from}", study.tables.title)];
     for (k, column) in study.tables.columns.iter().enumerate() {
-        let found = cases.iter();
-        let found = found.filter_map(|result| result.figures.as_ref().ok());
-        // Of no case where all have failed.
-        let unit = found.clone().next().map_or("", |columns| &columns[k].unit);
-        let stem = stem(column, unit);
-        let largest = found.fold(0.0_f64, |most, columns| {
-            let figures = columns[k].figures;
-            most.max(figures.least.abs()).max(figures.largest.abs())
-        });
-        let (factor, unit) = usual_unit(unit, largest);
-        lines.push(format!("{stem} {unit}").trim_end().to_owned());
-        lines.push(format!(
-            "{:width$} {:>11} {:>11} {:>11} {:>11}",
-            "case", "mean", "deviation", "pk-pk", "largest"
-        ));
-        for (name, result) in names.iter().zip(cases) {
-            lines.push(match &result.figures {
-                Ok(columns) => {
-                    let figures = columns[k].figures;
-                    format!(
-                        "{name:width$} {:>11} {:>11} {:>11} {:>11}",
-                        short(factor * figures.mean),
-                        short(factor * figures.deviation),
-                        short(factor * figures.peak_to_peak()),
-                        short(factor * figures.largest)
-                    )
-                }
-                Err(problem) => format!("{name:width$} failed: {problem}"),
-            });
+        if is_pair && cases.len() > MOST_LINES {
+            pair_extremes(study, cases, (column, k), &mut lines);
+        } else if is_pair {
+            pair_column(study, cases, (column, k), (&names, width), &mut lines);
+        } else {
+            series_column(cases, (column, k), (&names, width), &mut lines);
         }
     }
     lines
+}
+
+/// The least and the largest value of a column of a gear pair at each torque, and where they were found.
+fn pair_extremes(
+    study: &Study,
+    cases: &[CaseResult],
+    (column, place): (&str, usize),
+    lines: &mut Vec<String>,
+) {
+    let count = study.tables.columns.len();
+    let sound = || {
+        cases
+            .iter()
+            .filter_map(|case| Some((case, case.figures.as_ref().ok()?)))
+    };
+    let rows = sound().map(|(_, columns)| columns.len() / count).max();
+    lines.push(format!(
+        "{column}, {} cases; each is in study.csv",
+        cases.len()
+    ));
+    for row in 0..rows.unwrap_or(0) {
+        let values = sound().filter_map(|(case, columns)| {
+            let one = columns.get(row * count + place)?;
+            let SelectedValue::Single(value) = one.value else {
+                return None;
+            };
+            Some((value, one.torque_nm.unwrap_or_default(), case.case.name()))
+        });
+        let mut values: Vec<_> = values.collect();
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let (Some(least), Some(largest)) = (values.first(), values.last()) {
+            for (word, (value, torque, name)) in [("least", least), ("largest", largest)] {
+                let value = short(*value);
+                lines.push(format!(
+                    "{:>11} {word:7} {value:>11}  {name}",
+                    format!("{torque} N m")
+                ));
+            }
+        }
+    }
+}
+
+/// A column of a gear pair: a line for each case, a number for each torque.
+fn pair_column(
+    study: &Study,
+    cases: &[CaseResult],
+    (column, place): (&str, usize),
+    (names, width): (&[String], usize),
+    lines: &mut Vec<String>,
+) {
+    let count = study.tables.columns.len();
+    let of_column = |columns: &[Selected]| -> Vec<Selected> {
+        columns.iter().skip(place).step_by(count).cloned().collect()
+    };
+    let mut torques: Vec<f64> = Vec::new();
+    lines.push(column.to_owned());
+    for (name, result) in names.iter().zip(cases) {
+        let columns = match &result.figures {
+            Ok(columns) => of_column(columns),
+            Err(problem) => {
+                lines.push(format!("{name:width$} failed: {problem}"));
+                continue;
+            }
+        };
+        let own: Vec<f64> = columns.iter().filter_map(|c| c.torque_nm).collect();
+        // Told again where a case has other torques.
+        if own != torques {
+            let heads = own
+                .iter()
+                .map(|torque| format!(" {:>11}", format!("{torque} N m")));
+            lines.push(format!("{:width$}{}", "case", heads.collect::<String>()));
+            torques = own;
+        }
+        let cells = columns.iter().map(|one| match one.value {
+            SelectedValue::Single(value) => format!(" {:>11}", short(value)),
+            SelectedValue::Series(figures) => format!(" {:>11}", short(figures.mean)),
+        });
+        lines.push(format!("{name:width$}{}", cells.collect::<String>()));
+    }
+}
+
+/// A column of a multibody run: a line of figures for each case.
+fn series_column(
+    cases: &[CaseResult],
+    (column, place): (&str, usize),
+    (names, width): (&[String], usize),
+    lines: &mut Vec<String>,
+) {
+    let figures_of = |columns: &[Selected]| match columns[place].value {
+        SelectedValue::Series(figures) => figures,
+        SelectedValue::Single(value) => Figures::of(&[value]),
+    };
+    let found = cases.iter();
+    let found = found.filter_map(|result| result.figures.as_ref().ok());
+    // Of no case where all have failed.
+    let unit = found
+        .clone()
+        .next()
+        .map_or("", |columns| &columns[place].unit);
+    let stem = stem(column, unit);
+    let largest = found.fold(0.0_f64, |most, columns| {
+        most.max(figures_of(columns).magnitude())
+    });
+    let (factor, unit) = usual_unit(unit, largest);
+    lines.push(format!("{stem} {unit}").trim_end().to_owned());
+    lines.push(format!(
+        "{:width$} {:>11} {:>11} {:>11} {:>11}",
+        "case", "mean", "deviation", "pk-pk", "largest"
+    ));
+    for (name, result) in names.iter().zip(cases) {
+        lines.push(match &result.figures {
+            Ok(columns) => {
+                let figures = figures_of(columns);
+                format!(
+                    "{name:width$} {:>11} {:>11} {:>11} {:>11}",
+                    short(factor * figures.mean),
+                    short(factor * figures.deviation),
+                    short(factor * figures.peak_to_peak()),
+                    short(factor * figures.largest)
+                )
+            }
+            Err(problem) => format!("{name:width$} failed: {problem}"),
+        });
+    }
 }
 
 /// The figures of a case for machines.
@@ -104,11 +216,21 @@ fn figures(result: &CaseResult) -> Value {
     let settings = result.case.settings.iter();
     let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
     let columns = |columns: &Vec<Selected>| {
-        let figures = columns.iter().map(|Selected { column, unit, figures }| {
-            json!({
-                "name": column, "unit": unit, "mean": figures.mean, "deviation": figures.deviation, "least": figures.least,
-                "largest": figures.largest,
-            })
+        let figures = columns.iter().map(|one| {
+            let mut cell = json!({"name": one.column, "unit": one.unit});
+            if let Some(torque) = one.torque_nm {
+                cell["torque_Nm"] = json!(torque);
+            }
+            match one.value {
+                SelectedValue::Single(value) => cell["value"] = json!(value),
+                SelectedValue::Series(figures) => {
+                    cell["mean"] = json!(figures.mean);
+                    cell["deviation"] = json!(figures.deviation);
+                    cell["least"] = json!(figures.least);
+                    cell["largest"] = json!(figures.largest);
+                }
+            }
+            cell
         });
         figures.collect::<Vec<_>>()
     };

@@ -279,7 +279,7 @@ fn check_knows_studies_tables_and_records() {
     );
     says(
         "reference/pair_a",
-        &["record `", "(computed), sound: ", "te_um_"],
+        &["record `", "sound: computed, ", "te_um_"],
     );
     says("reference/pair_a/record.toml", &["record `"]);
     let desk = Desk::new();

@@ -88,7 +88,7 @@ fn studies() {
     let folder = root().join("fe_models");
     fuzz_text("study", 60, &shipped(InputKind::Study), |text| {
         if let Ok(study) = Study::from_document(document(text), &folder) {
-            let _ = StudyScenes::new(&study);
+            let _ = StudyScenes::new(&study, &folder);
         }
     });
 }

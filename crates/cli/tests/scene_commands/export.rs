@@ -149,6 +149,18 @@ fn curves_and_contact_of_a_pair() {
         "{answer:#?}"
     );
     assert_eq!(read_csv(&output)["te_m"], result.te_m);
+    let told = succeeds(&["export", argument(&file), "-o", argument(&output), "--json"]).json();
+    let table = &told["tables"][0];
+    assert_eq!(
+        (table["name"].as_str(), table["rows"].as_u64()),
+        (Some("curves"), Some(result.te_m.len() as u64))
+    );
+    assert!(
+        table["columns"]
+            .as_array()
+            .unwrap()
+            .contains(&"te_m".into())
+    );
     let wrong = [
         "export",
         argument(&file),

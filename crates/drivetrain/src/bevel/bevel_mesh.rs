@@ -3,6 +3,7 @@
 //! Frames of the gears: origin in the pitch apex, z towards the heel, the middle of tooth 0 on +x at the mean point. Each
 //! pair of teeth makes one patch, a point that is nearest.
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use gearmesh_bevel::{FlankPatch, FlankSide, PairBlank, PairDesign};
@@ -11,7 +12,8 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
-use super::nearest_points::{Nearest, Placed, nearest};
+use super::nearest_points::{Nearest, Placed, nearest, nearest_within};
+use super::nominal_contacts::{Guess, NominalContacts};
 use super::pose_derivatives::{PoseDerivatives, gradient};
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
@@ -23,6 +25,10 @@ use crate::slice_plane::{Matrix6, on_turn};
 const REACH: f64 = 3.5;
 /// Flanks that stand farther open than this share of a pitch do not touch soon, and are passed over.
 const FAR: f64 = 0.2;
+/// So do those that stand open by this share of a pitch more than the nearest ones.
+const NEAR: f64 = 0.03;
+/// Pairs of teeth that are looked at.
+const MOST_PAIRS: usize = 2 * REACH as usize + 1;
 /// How far the shaft angle may be off \[rad\], and the apexes apart over the mean cone distance.
 const MOST_TILT_RAD: f64 = 0.05;
 const MOST_APART: f64 = 0.1;
@@ -34,6 +40,7 @@ const LINE_CONTACT: f64 = 1e-5;
 struct Side {
     patches: [FlankPatch; 2],
     spheres: [BoundingSpheres; 2],
+    nominal: NominalContacts,
     /// Azimuth of the mean points of tooth 0 \[rad\].
     azimuths_rad: [f64; 2],
     /// Lever of the normal at the mean point of gear 1 and gear 2 \[m\].
@@ -53,6 +60,8 @@ pub struct BevelMesh {
     found: [Vec<PoseDerivatives>; 2],
     /// Whether any flanks were near enough for their spheres to meet.
     is_apart: [bool; 2],
+    /// Points of flanks that were computed.
+    points: Cell<u64>,
 }
 
 impl Side {
@@ -68,19 +77,81 @@ impl Side {
             FlankPatch::of_tooth(&design.teeth[member], &blank.members[1 - member], side)
         };
         let patches = [patch(0)?, patch(1)?];
+        let spheres = [0, 1].map(|m: usize| BoundingSpheres::new(&patches[m]));
+        let azimuths_rad = [0, 1].map(|m: usize| patches[m].azimuth_rad(patches[m].mean));
+        let levers_m = [0, 1].map(|m: usize| patches[m].lever_m());
+        let [pitch_1, pitch_2] = blank.data.teeth.map(|z| TAU / z as f64);
+        let count = Cell::new(0);
+        let nominal = NominalContacts::new(pitch_1, REACH, |angle_1| {
+            let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
+            let turns = [0, 1].map(|m: usize| angles[m] - azimuths_rad[m]);
+            let rotation = nominal_rotation(blank.data.shaft_angle_rad, turns);
+            let bodies = placed(
+                &patches,
+                [Matrix3::identity(), rotation],
+                Vector3::zeros(),
+                &count,
+            );
+            (
+                rotation,
+                searched(&bodies, &spheres, FAR * pitch_2 * levers_m[1]),
+            )
+        });
         Ok(Self {
-            spheres: [0, 1].map(|m: usize| BoundingSpheres::new(&patches[m])),
-            azimuths_rad: [0, 1].map(|m: usize| patches[m].azimuth_rad(patches[m].mean)),
-            levers_m: [0, 1].map(|m: usize| patches[m].lever_m()),
             patches,
+            spheres,
+            nominal,
+            azimuths_rad,
+            levers_m,
         })
     }
+}
+
+/// Both flanks of a side in the frame of gear 1.
+fn placed<'a>(
+    patches: &'a [FlankPatch; 2],
+    rotations: [Matrix3<f64>; 2],
+    displacement_m: Vector3<f64>,
+    points: &'a Cell<u64>,
+) -> [Placed<'a>; 2] {
+    let origins_m = [Vector3::zeros(), displacement_m];
+    [0, 1].map(|m: usize| Placed {
+        patch: &patches[m],
+        rotation: rotations[m],
+        origin_m: origins_m[m],
+        points,
+    })
+}
+
+/// Nearest points without a guess, beginning at the two nearest of all bounding spheres.
+fn searched(
+    bodies: &[Placed<'_>; 2],
+    spheres: &[BoundingSpheres; 2],
+    far_m: f64,
+) -> Option<Nearest> {
+    let [first, second] = bodies;
+    let guess = BoundingSpheres::meet(
+        [&spheres[0], &spheres[1]],
+        [&first.rotation, &second.rotation],
+        second.origin_m,
+    )?;
+    nearest(bodies, guess, far_m)
+}
+
+/// Gear 2's axes in gear 1's where the pair stands as designed and the gears have turned by these angles.
+fn nominal_rotation(shaft_angle_rad: f64, turns_rad: [f64; 2]) -> Matrix3<f64> {
+    let (sin, cos) = shaft_angle_rad.sin_cos();
+    // x towards gear 1's axis, y against gear 1's.
+    let axes = Matrix3::new(-cos, 0.0, sin, 0.0, -1.0, 0.0, sin, 0.0, cos);
+    about_z(-turns_rad[0]) * axes * about_z(turns_rad[1])
 }
 
 /// A pair of teeth that may touch.
 struct Candidate {
     teeth: [usize; 2],
     turns_rad: [f64; 2],
+    /// Of gear 1's mean point from the plane of the axes.
+    angle_1_rad: f64,
     /// Gap that the mean points would have \[m\].
     mean_gap_m: f64,
 }
@@ -105,6 +176,7 @@ impl BevelMesh {
             at: None,
             found: [Vec::new(), Vec::new()],
             is_apart: [false; 2],
+            points: Cell::new(0),
         };
         let capacity = mesh.capacity();
         mesh.found = [0, 1].map(|_| Vec::with_capacity(capacity));
@@ -121,10 +193,7 @@ impl BevelMesh {
     /// \[rad\]; both tooth 0 are at turn 0 in the plane of the axes.
     #[must_use]
     pub fn nominal_pose(&self, turns_rad: [f64; 2]) -> Pose {
-        let (sin, cos) = self.shaft_angle_rad.sin_cos();
-        // x towards gear 1's axis, y against gear 1's.
-        let axes = Matrix3::new(-cos, 0.0, sin, 0.0, -1.0, 0.0, sin, 0.0, cos);
-        let rotation = about_z(-turns_rad[0]) * axes * about_z(turns_rad[1]);
+        let rotation = nominal_rotation(self.shaft_angle_rad, turns_rad);
         Pose::at_rest(Vector3::zeros(), rotation)
     }
 
@@ -143,6 +212,12 @@ impl BevelMesh {
             principal(&tensor, &normal, &first)
         });
         RelativeCurvature::new(normal, curvatures)
+    }
+
+    /// Points of flanks that were computed so far at all poses: the effort of the search.
+    #[must_use]
+    pub fn computed_points(&self) -> u64 {
+        self.points.get()
     }
 
     /// Levers of the normal at the mean points about the axes of gear 1 and gear 2 \[m\], those of right flanks.
@@ -178,6 +253,7 @@ impl BevelMesh {
                     (tooth_2 as i64).rem_euclid(teeth[1] as i64),
                 ]
                 .map(|tooth| tooth as usize),
+                angle_1_rad: angle_1,
                 turns_rad: [tooth_1 as f64 * pitches[0], tooth_2 * pitches[1]],
                 mean_gap_m: sigma * behind * lever,
             }
@@ -196,29 +272,39 @@ impl BevelMesh {
         list.clear();
         let side = &self.sides[flank as usize];
         found.action_m_per_u = [0.0; 2];
-        for candidate in self.candidates(pose, flank) {
+        let mut guesses: [Option<Guess>; MOST_PAIRS] = [None; MOST_PAIRS];
+        let candidates = || self.candidates(pose, flank).zip(0..MOST_PAIRS);
+        for (candidate, number) in candidates() {
+            let back = about_z(-candidate.turns_rad[0]);
+            let rotation = back * pose.rotation * about_z(candidate.turns_rad[1]);
+            let angle = candidate.angle_1_rad;
+            guesses[number] = side
+                .nominal
+                .guess(angle, &(back * pose.displacement_m), &rotation);
+        }
+        // What guesses may miss at most, for a gap changes by no more than the axes move: only of those that stand so far open
+        // is nothing computed.
+        let moved_m = pose.displacement_m.norm()
+            + self.mean_cone_m * (angle_of(&pose.axis_2()) - self.shaft_angle_rad).abs();
+        let gaps = guesses.iter().flatten().map(|guess| guess.gap_m);
+        let least_m = gaps.fold(f64::INFINITY, f64::min).max(0.0);
+        let far_m = FAR * self.pitch_m();
+        let looked_m = far_m.min(least_m + NEAR * self.pitch_m()) + 2.0 * moved_m;
+        for (candidate, number) in candidates() {
+            let guess = &guesses[number];
+            if guess.is_some_and(|guess| guess.gap_m > looked_m) {
+                continue;
+            }
             let rotations = [
                 about_z(candidate.turns_rad[0]),
                 pose.rotation * about_z(candidate.turns_rad[1]),
             ];
-            let meet = BoundingSpheres::meet(
-                [&side.spheres[0], &side.spheres[1]],
-                [&rotations[0], &rotations[1]],
-                pose.displacement_m,
-            );
-            let Some(guess) = meet else {
-                continue;
-            };
-            let placed = |m: usize| Placed {
-                patch: &side.patches[m],
-                rotation: rotations[m],
-                origin_m: if m == 0 {
-                    Vector3::zeros()
-                } else {
-                    pose.displacement_m
-                },
-            };
-            let Some(point) = nearest(&[placed(0), placed(1)], guess, FAR * self.pitch_m()) else {
+            let bodies = placed(&side.patches, rotations, pose.displacement_m, &self.points);
+            let guessed = guess.as_ref().and_then(|guess| {
+                let mut limits = side.nominal.limits(guess);
+                limits.find_map(|limits| nearest_within(&bodies, limits, guess.at))
+            });
+            let Some(point) = guessed.or_else(|| searched(&bodies, &side.spheres, far_m)) else {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
@@ -354,6 +440,11 @@ fn principal(
     }
 }
 
+/// Angle of a gear's axis from gear 1's \[rad\].
+fn angle_of(axis: &Vector3<f64>) -> f64 {
+    axis[2].clamp(-1.0, 1.0).acos()
+}
+
 fn about_z(angle_rad: f64) -> Matrix3<f64> {
     *Rotation3::from_axis_angle(&Vector3::z_axis(), angle_rad).matrix()
 }
@@ -364,7 +455,7 @@ impl FlankKinematics for BevelMesh {
     }
 
     fn capacity(&self) -> usize {
-        2 * REACH as usize + 1
+        MOST_PAIRS
     }
 
     /// That of the mean points along the normal.
@@ -442,7 +533,7 @@ impl FlankKinematics for BevelMesh {
 impl BevelMesh {
     /// Whether the axes stand as flanks can follow.
     fn check_axes(&self, pose: &Pose) -> Result<(), DrivetrainError> {
-        let tilt = pose.axis_2()[2].clamp(-1.0, 1.0).acos() - self.shaft_angle_rad;
+        let tilt = angle_of(&pose.axis_2()) - self.shaft_angle_rad;
         let apart = pose.displacement_m.norm();
         if !(tilt.abs() <= MOST_TILT_RAD && apart <= MOST_APART * self.mean_cone_m) {
             return Err(DrivetrainError::BevelAxes {

@@ -3,7 +3,8 @@
 //! | what | file |
 //! | --- | --- |
 //! | kinematics of the pair | `bevel_mesh.rs` |
-//! | first guess of where flanks touch | `bounding_spheres.rs` |
+//! | guess of where flanks touch: from the pair as designed | `nominal_contacts.rs` |
+//! | the same for teeth that do not face each other there | `bounding_spheres.rs` |
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //!
@@ -12,6 +13,7 @@
 mod bevel_mesh;
 mod bounding_spheres;
 mod nearest_points;
+mod nominal_contacts;
 mod pose_derivatives;
 
 pub use bevel_mesh::BevelMesh;

@@ -23,8 +23,9 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 const MOST_STEPS: usize = 15;
 /// Longest step of a coordinate, flanks being 1 long.
 const LONGEST: f64 = 0.3;
-/// Steps below end the iteration: what is left is of the order of its square.
-const CLOSE: f64 = 1e-8;
+/// A step below ends the iteration: what is left is of the order of its square, and points at its end follow from those at
+/// its start by their derivatives.
+const CLOSE: f64 = 1e-7;
 
 /// A patch in space: r = R r_own + origin.
 #[derive(Clone, Copy)]
@@ -32,10 +33,13 @@ pub(crate) struct Placed<'a> {
     pub patch: &'a FlankPatch,
     pub rotation: Matrix3<f64>,
     pub origin_m: Vector3<f64>,
+    /// Counts the points that are computed.
+    pub points: &'a Cell<u64>,
 }
 
 impl Placed<'_> {
     fn point(&self, at: [f64; 2]) -> PatchPoint {
+        self.points.set(self.points.get() + 1);
         let own = self.patch.point(at);
         let m = &self.rotation;
         PatchPoint {
@@ -177,6 +181,19 @@ pub(crate) fn equations(
     (residual, slopes)
 }
 
+/// A point a tiny step along its patch, to the square of the step.
+fn shifted(p: &PatchPoint, by: [f64; 2]) -> PatchPoint {
+    let [x, y] = by;
+    PatchPoint {
+        r: p.r
+            + (p.dr[0] + 0.5 * (p.ddr[0] * x + p.ddr[1] * y)) * x
+            + (p.dr[1] + 0.5 * (p.ddr[1] * x + p.ddr[2] * y)) * y,
+        dr: [0, 1].map(|k: usize| p.dr[k] + p.ddr[k] * x + p.ddr[k + 1] * y),
+        n: (p.n + p.dn[0] * x + p.dn[1] * y).normalize(),
+        ..*p
+    }
+}
+
 /// Newton's method for one set of held coordinates.
 fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
     let domain = FlankPatch::domain();
@@ -210,7 +227,8 @@ fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<N
             }
         }
         if most < CLOSE {
-            let points = place(&at);
+            let points =
+                [0, 1].map(|m: usize| shifted(&points[m], [-step[2 * m], -step[2 * m + 1]]));
             let facing = points[0].n.dot(&points[1].n) < 0.0;
             return facing.then(|| Nearest::new(held, at, points));
         }
@@ -246,14 +264,6 @@ impl Limit {
         }
     }
 
-    /// Members whose coordinate it may hold. Toes, and heels, of both lie nearly on one another: only one of them holds.
-    fn members(self) -> std::ops::Range<usize> {
-        match self {
-            Self::Tip(member) => member..member + 1,
-            Self::End(_) => 0..2,
-        }
-    }
-
     /// Holds the coordinate of a member.
     fn hold(self, member: usize, mut held: Held) -> Held {
         match self {
@@ -267,6 +277,94 @@ impl Limit {
 /// Slack of limits: rounding.
 const SLACK: f64 = 1e-9;
 
+/// What holds a contact: a tip, toes or heels, a tip and an end, or nothing inside both flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Limits {
+    tip: Option<usize>,
+    end: Option<usize>,
+}
+
+impl Limits {
+    const NONE: Self = Self {
+        tip: None,
+        end: None,
+    };
+    const ONE: [Self; 4] = [
+        Self::new(Some(0), None),
+        Self::new(Some(1), None),
+        Self::new(None, Some(0)),
+        Self::new(None, Some(1)),
+    ];
+
+    const fn new(tip: Option<usize>, end: Option<usize>) -> Self {
+        Self { tip, end }
+    }
+
+    /// Those that hold coordinates of a contact.
+    pub(crate) fn of(held: &Held) -> Self {
+        let end = held.iter().find_map(|own| own[0]);
+        Self {
+            tip: (0..2).find(|m| held[*m][1].is_some()),
+            end: end.map(|end| usize::from(end > 0.5)),
+        }
+    }
+
+    fn holds(self, limit: Limit) -> bool {
+        match limit {
+            Limit::Tip(member) => self.tip == Some(member),
+            Limit::End(end) => self.end == Some(end),
+        }
+    }
+
+    /// Whether a contact stands within all of these.
+    fn none_passed(self, at: &[[f64; 2]; 2]) -> bool {
+        let mut own = LIMITS.iter().filter(|limit| self.holds(**limit));
+        own.all(|limit| limit.excess(at) <= SLACK)
+    }
+
+    /// Whether a contact stands within all others.
+    fn others_hold(self, at: &[[f64; 2]; 2]) -> bool {
+        let mut others = LIMITS.iter().filter(|limit| !self.holds(**limit));
+        others.all(|limit| limit.excess(at) <= SLACK)
+    }
+
+    /// The contact that they hold. Toes and heels of both members hold together: the gap is the larger one of the two.
+    fn contact(
+        self,
+        bodies: &[Placed<'_>; 2],
+        start: [[f64; 2]; 2],
+        elsewhere: &Cell<Option<Nearest>>,
+    ) -> Option<Nearest> {
+        let tips = self.tip.map_or(FREE, |tip| Limit::Tip(tip).hold(tip, FREE));
+        let one = |held: Held| {
+            let found = solve(bodies, held, start).filter(|found| self.others_hold(&found.at));
+            let (back, on) = (
+                found.filter(Nearest::is_held_back),
+                found.filter(|f| !f.is_held_back()),
+            );
+            elsewhere.set(elsewhere.get().or(on));
+            back
+        };
+        let Some(end) = self.end else {
+            return one(tips);
+        };
+        let [a, b] = [0, 1].map(|member| one(Limit::End(end).hold(member, tips)));
+        match (a, b) {
+            (Some(a), Some(b)) => Some(if b.gap_m > a.gap_m { b } else { a }),
+            (a, b) => a.or(b),
+        }
+    }
+}
+
+/// Nearest points with stated limits, from a guess nearby; none where others hold.
+pub(crate) fn nearest_within(
+    bodies: &[Placed<'_>; 2],
+    limits: Limits,
+    guess: [[f64; 2]; 2],
+) -> Option<Nearest> {
+    limits.contact(bodies, guess, &Cell::new(None))
+}
+
 /// Nearest points of two flanks with tips, toes and heels, from a guess. None where the flanks do not face each other, or
 /// stand farther apart than `far_m` at the guess.
 pub(crate) fn nearest(
@@ -277,59 +375,38 @@ pub(crate) fn nearest(
     // From the middle of a cell straight to the other flank: both points then belong together. Flanks on which neither
     // middle has a foot do not face each other.
     let foot = |held: Held| solve(bodies, held, guess);
-    let guess =
+    let foot =
         foot([guess[0].map(Some), [None; 2]]).or_else(|| foot([[None; 2], guess[1].map(Some)]))?;
-    if guess.gap_m > far_m {
+    if foot.gap_m > far_m {
         return None;
     }
-    let (foot, guess) = (guess, guess.at);
-    let inside = solve(bodies, FREE, guess);
-    let within = |at: &[[f64; 2]; 2], but: &[Limit]| {
-        let mut others = LIMITS.iter().filter(|limit| !but.contains(limit));
-        others.all(|limit| limit.excess(at) <= SLACK)
-    };
-    if let Some(found) = inside.filter(|found| within(&found.at, &[])) {
+    let inside = solve(bodies, FREE, foot.at);
+    if let Some(found) = inside.filter(|found| Limits::NONE.others_hold(&found.at)) {
         return Some(found);
     }
-    let start = inside.map_or(guess, |found| found.at);
-    // Toes and heels of both members hold together: the gap is the larger one of the two.
+    let start = inside.map_or(foot.at, |found| found.at);
     let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
-    let larger = |best: Option<Nearest>, held: Held, limits: &[Limit]| {
-        let found = solve(bodies, held, start).filter(|found| within(&found.at, limits));
-        let (back, on) = (
-            found.filter(Nearest::is_held_back),
-            found.filter(|f| !f.is_held_back()),
-        );
-        elsewhere.set(elsewhere.get().or(on));
-        match (back, best) {
-            (Some(a), Some(b)) => Some(if a.gap_m > b.gap_m { a } else { b }),
-            (a, b) => a.or(b),
-        }
-    };
     let least = |a: Option<Nearest>, b: Option<Nearest>| match (a, b) {
         (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
         (a, b) => a.or(b),
     };
     // Those that the contact of the surfaces has passed first, or, where none was found, those towards which the gap shrinks;
     // the others only where none of them holds.
-    let passed = |limit: &Limit| match (inside, limit) {
-        (Some(found), limit) => limit.excess(&found.at) > SLACK,
-        (None, Limit::Tip(member)) => {
-            foot.slope(*member, 1) < 0.0 || foot.slope(1 - member, 1) > 0.0
-        }
-        (None, Limit::End(end)) => {
-            let sign = 2.0 * *end as f64 - 1.0;
+    let passed = |limits: Limits| match (inside, limits.tip, limits.end) {
+        (Some(found), ..) => !limits.none_passed(&found.at),
+        (None, Some(member), _) => foot.slope(member, 1) < 0.0 || foot.slope(1 - member, 1) > 0.0,
+        (None, None, end) => {
+            let sign = 2.0 * end.unwrap_or(0) as f64 - 1.0;
             sign * foot.slope(0, 0) < 0.0 || sign * foot.slope(1, 0) < 0.0
         }
     };
     let mut found = None;
     for now in [true, false] {
-        for limit in LIMITS.into_iter().filter(|limit| passed(limit) == now) {
-            let mut own = None;
-            for member in limit.members() {
-                own = larger(own, limit.hold(member, FREE), &[limit]);
-            }
-            found = least(found, own);
+        for limits in Limits::ONE
+            .into_iter()
+            .filter(|limits| passed(*limits) == now)
+        {
+            found = least(found, limits.contact(bodies, start, &elsewhere));
         }
         if found.is_some() {
             break;
@@ -340,19 +417,15 @@ pub(crate) fn nearest(
         .get()
         .filter(|_| found.is_none() && inside.is_none());
     let missed = missed.and_then(|from| solve(bodies, FREE, from.at));
-    let found = found.or(missed.filter(|found| within(&found.at, &[])));
+    let found = found.or(missed.filter(|found| Limits::NONE.others_hold(&found.at)));
     if found.is_some() {
         return found;
     }
     let mut found = None;
     for tip in [0, 1] {
-        let tips = Limit::Tip(tip).hold(tip, FREE);
-        for end in [Limit::End(0), Limit::End(1)] {
-            let mut own = None;
-            for member in end.members() {
-                own = larger(own, end.hold(member, tips), &[Limit::Tip(tip), end]);
-            }
-            found = least(found, own);
+        for end in [0, 1] {
+            let limits = Limits::new(Some(tip), Some(end));
+            found = least(found, limits.contact(bodies, start, &Cell::new(None)));
         }
     }
     found

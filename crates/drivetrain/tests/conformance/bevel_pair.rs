@@ -136,7 +136,7 @@ fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
                     .map(|i| {
                         let turn_1 = i as f64 * pitch / POSITIONS as f64;
                         let turn_2 =
-                            pair.turn_2(&error, turn_1 - azimuths[0], side, 0.0) + azimuths[1];
+                            pair.turn_2(&error, turn_1 - azimuths[0], side, 1e9) + azimuths[1];
                         -facing * (turn_2 + ratio * turn_1)
                     })
                     .collect();
@@ -159,7 +159,7 @@ fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
                     // misses can only bring the gear further.
                     let turn_1 = i as f64 * pitch / POSITIONS as f64 - azimuths[0];
                     let on_edge = off > 1e-8 && {
-                        let turn_2 = pair.turn_2(&error, turn_1, side, 0.0);
+                        let turn_2 = pair.turn_2(&error, turn_1, side, 1e9);
                         let mut there = FlankContacts::default();
                         let pose = pair.pose(&error, [turn_1, turn_2]);
                         pair.mesh.contacts_at(&pose, side, &mut there).unwrap();
@@ -328,4 +328,31 @@ fn bevel_gaps_go_on_from_flank_to_edge_to_corner() {
         }
     }
     assert!(followed > 4 * steps, "{followed}");
+}
+
+/// Points of flanks that are computed at a pose, both sides of the teeth together.
+#[test]
+fn a_pose_of_a_bevel_pair_takes_few_points() {
+    for (name, most) in [
+        ("bevel_20_20.toml", 90.0),
+        ("bevel_13_35.toml", 130.0),
+        ("bevel_31_36.toml", 130.0),
+    ] {
+        let pair = pair(name);
+        let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
+        let ratio = pair.blank.data.teeth[0] as f64 / pair.blank.data.teeth[1] as f64;
+        let error = assembly([10e-6, -20e-6, 30e-6, 1e-4]);
+        let back = pair.turn_2(&error, 0.0, Flank::Right, -20e-6);
+        let (poses, before) = (200, pair.mesh.computed_points());
+        for i in 0..poses {
+            let turn = 2.0 * pitch * f64::from(i) / f64::from(poses);
+            let pose = pair.pose(&error, [turn, back - ratio * turn]);
+            for side in Flank::ALL {
+                let mut found = FlankContacts::default();
+                pair.mesh.contacts_at(&pose, side, &mut found).unwrap();
+            }
+        }
+        let mean = (pair.mesh.computed_points() - before) as f64 / f64::from(poses);
+        assert!(mean < most, "{name}: {mean} points a pose");
+    }
 }

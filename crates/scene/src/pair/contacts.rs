@@ -10,6 +10,7 @@ use gearmesh_geometry::InputError;
 use gearmesh_model::ReducedGear;
 use gearmesh_recovery::LoadedSlice;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The slices of a scene over the overlap of the faces.
 ///
@@ -17,9 +18,9 @@ use std::borrow::Cow;
 /// [`InputError`] for faces side by side and for slices that the models do not resolve.
 pub(super) fn slice_layout(
     scene: &Scene,
-    models: &[ReducedGear; 2],
+    models: &[Arc<ReducedGear>; 2],
 ) -> Result<SliceLayout, InputError> {
-    let models = [&models[0], &models[1]];
+    let models = [&*models[0], &*models[1]];
     SliceLayout::resolved(models, scene.axial_offset_m, scene.slices).map_err(|e| {
         let key = match e {
             ContactError::Slices { .. } => "mesh.model.slices",

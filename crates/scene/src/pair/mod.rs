@@ -1,6 +1,6 @@
 //! Scenes of one gear pair: static positions over a range of driver angles. `scene_file.rs` reads and checks,
 //! `plan.rs` says what will be computed, `flank_effects.rs` makes errors and eccentricities of it,
-//! `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
+//! `model_shelf.rs` keeps models that many scenes share, `taken_misalignment.rs` takes the axes from a gearbox's result, `run.rs` computes, `contacts.rs` says where the
 //! teeth touch, `coverage.rs` says how much of each period that sees, `result.rs` keeps, `result_record.rs` stores, `rating.rs` judges,
 //! `warnings.rs` tells where the model's assumptions are strained.
 
@@ -8,6 +8,7 @@ mod contact_places;
 mod contacts;
 mod coverage;
 mod flank_effects;
+mod model_shelf;
 pub mod plan;
 pub mod rating;
 pub mod result;
@@ -18,8 +19,9 @@ pub mod taken_misalignment;
 pub mod warnings;
 
 pub use contact_places::ContactPlaces;
+pub use model_shelf::{ModelShelf, ShelvedModel};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};
 pub use result_record::RESULT_FORMAT;
-pub use run::{LoadedScene, RunError, load, run};
+pub use run::{LoadedScene, RunError, load, load_from, run};
 pub use scene_file::Scene;

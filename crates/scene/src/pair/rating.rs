@@ -4,6 +4,7 @@ use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
 use gearmesh_model::ReducedGear;
 use gearmesh_rating::{NominalRating, TurningPoints};
+use std::sync::Arc;
 
 use super::result::{SceneResult, StrainSeries};
 use super::scene_file::Scene;
@@ -41,7 +42,7 @@ pub(super) struct RatedPair<'a> {
     pub scene: &'a Scene,
     pub pair: &'a GearPair,
     pub gears: [&'a GearDefinition; 2],
-    pub models: &'a [ReducedGear; 2],
+    pub models: &'a [Arc<ReducedGear>; 2],
     /// Gauges that are read: gear (1 or 2) and index in its model.
     pub gauges: &'a [(usize, usize)],
 }

@@ -3,6 +3,7 @@
 use super::contact_places::ContactPlaces;
 use super::contacts;
 use super::flank_effects;
+use super::model_shelf::ModelShelf;
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
@@ -16,11 +17,12 @@ use gearmesh_contact::{
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::{GearDefinition, GearPair, InputError};
-use gearmesh_model::{FileError, ReducedGear, ReducedGearError, read_reduced_gear, utc_now};
+use gearmesh_model::{FileError, ReducedGear, ReducedGearError, utc_now};
 use gearmesh_recovery::GaugeReader;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Why a scene could not be run.
@@ -53,7 +55,7 @@ pub struct LoadedScene {
     /// The scene.
     pub scene: Scene,
     /// Reduced models of gear 1 and gear 2.
-    pub models: [ReducedGear; 2],
+    pub models: [Arc<ReducedGear>; 2],
     /// Kinematics and microgeometry.
     pub lines: ContactLines,
     /// Slices over the overlap of the faces.
@@ -78,8 +80,16 @@ pub struct LoadedScene {
 ///
 /// # Errors
 /// [`RunError`] when a model is missing or broken, the gears do not run together, or a gauge does not exist.
-pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
-    let read = |key: &str, path: &Path| -> Result<(ReducedGear, GearDefinition), RunError> {
+pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
+    load_from(scene, &ModelShelf::default())
+}
+
+/// The same with models of a shelf, which reads those only that it does not have: for many scenes of the same gears.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
+    let read = |key: &str, path: &Path| -> Result<(Arc<ReducedGear>, GearDefinition), RunError> {
         if !path.exists() {
             let problem = format!(
                 "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
@@ -88,7 +98,7 @@ pub fn load(mut scene: Scene) -> Result<LoadedScene, RunError> {
             );
             return Err(scene.document.error(key, problem).into());
         }
-        let model = read_reduced_gear(path)?;
+        let model = shelf.model(path)?.model;
         let gear = model.input.definition_in(path.display())?.clone();
         Ok((model, gear))
     };

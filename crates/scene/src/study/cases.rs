@@ -1,29 +1,23 @@
 //! Running the cases of a study and reading their figures.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::Duration;
 
-use gearmesh_geometry::InputError;
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_model::{FileError, write_text};
+use gearmesh_geometry::{GearDefinition, InputError};
+use gearmesh_model::{FileError, ReducedGear, write_reduced_gear, write_text};
 use rayon::prelude::*;
 
-use super::study_file::{Case, Study};
-use super::varied_scene::varied;
+use super::design::Case;
+use super::pair_cases::PairCases;
+use super::study_file::Study;
+use super::table::table;
+use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
+use super::{pair_columns, system_cases};
+use crate::pair::RunError;
+use crate::scene_file::SceneFile;
 use crate::system::{Run, SystemScene};
-use crate::system_run::{
-    ColumnStatistics, Figures, Outcome, RunJob, RunOptions, SystemResult, SystemRunError, run,
-};
-
-/// Wall time between checkpoints of a case.
-const CHECKPOINTS: Duration = Duration::from_secs(60);
-
-/// Wall time between two looks at a case that another study has in hand.
-const WAITING: Duration = Duration::from_millis(200);
-
-/// Digits of the digest in a file's name.
-const NAME_DIGITS: usize = 16;
+use crate::system_run::{Figures, SystemRunError};
 
 /// Why a study could not be run.
 #[derive(Debug, thiserror::Error)]
@@ -31,12 +25,28 @@ pub enum StudyError {
     /// The study or a scene that it makes.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A case that is not the input's fault.
+    /// A multibody case.
     #[error(transparent)]
     Run(#[from] SystemRunError),
-    /// The table could not be written.
+    /// A case of a gear pair.
+    #[error(transparent)]
+    Pair(#[from] RunError),
+    /// A file could not be written or read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A gear that a case needs could not be reduced.
+    #[error("{gear} for {}: {problem}", path.display())]
+    Reduction {
+        /// Name of the gear.
+        gear: String,
+        /// The model that was to be made.
+        path: PathBuf,
+        /// What went wrong.
+        problem: String,
+    },
+    /// The user has asked to stop.
+    #[error("stopped on demand")]
+    Stopped,
     /// The folder could not be made.
     #[error("cannot make the folder {}: {source}", path.display())]
     Folder {
@@ -54,20 +64,32 @@ impl StudyError {
         match self {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
-            Self::File(_) | Self::Folder { .. } => false,
+            Self::Pair(error) => error.is_input(),
+            Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }
     }
 }
 
-/// Figures of one column over the time that the study looks at.
+/// What a study says of a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SelectedValue {
+    /// Figures over time or over equilibria.
+    Series(Figures),
+    /// A single number.
+    Single(f64),
+}
+
+/// One column of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selected {
     /// Name with unit.
     pub column: String,
     /// Unit.
     pub unit: String,
-    /// Mean, deviation, extremes.
-    pub figures: Figures,
+    /// Of a gear pair the torque on gear 2 \[N·m\].
+    pub torque_nm: Option<f64>,
+    /// What was found.
+    pub value: SelectedValue,
 }
 
 /// A case and what came out.
@@ -75,9 +97,9 @@ pub struct Selected {
 pub struct CaseResult {
     /// What was changed.
     pub case: Case,
-    /// Its result file; none if the run failed.
+    /// The file of its result or figures; none if it failed.
     pub file: Option<PathBuf>,
-    /// Figures of the study's columns, or why there are none: a case that fails does not end the study.
+    /// The study's columns, or why there are none: a case that fails does not end the study.
     pub figures: Result<Vec<Selected>, String>,
 }
 
@@ -88,87 +110,166 @@ pub struct StudyOutcome {
     pub cases: Vec<CaseResult>,
     /// Stopped on demand; the same command goes on.
     pub stopped: bool,
+    /// Gears that were reduced on the way.
+    pub reduced: usize,
+}
+
+/// How to run a study.
+pub struct StudyOptions<'a> {
+    /// Where files go.
+    pub folder: &'a Path,
+    /// Set from outside: stop after the cases at hand.
+    pub stop: &'a AtomicBool,
+    /// Told how many of how many cases are done.
+    pub progress: &'a (dyn Fn(usize, usize) + Sync),
+    /// Meshes and reduces a gear: this side never does it itself.
+    pub reduce: &'a (dyn Fn(&GearDefinition) -> Result<ReducedGear, String> + Sync),
 }
 
 /// The scenes that the cases of a study come to.
 pub struct StudyScenes {
     /// The cases.
     pub cases: Vec<Case>,
+    /// The scene as it is.
+    pub base: SceneFile,
     /// The scenes, each once.
-    pub scenes: Vec<SystemScene>,
+    pub scenes: Vec<SceneFile>,
+    /// Files that they need and that the study makes.
+    pub files: MadeFiles,
     /// Scene of each case.
     scene_of: Vec<usize>,
 }
 
 impl StudyScenes {
-    /// Makes the scenes of all cases: a wrong key is told before the first run, not after it.
+    /// Makes the scenes of all cases: a wrong key is told before the first run, not after it. `out`: the folder of the
+    /// study, of which only the name is used.
     ///
     /// # Errors
     /// [`InputError`] for the first scene that is wrong.
-    pub fn new(study: &Study) -> Result<Self, InputError> {
+    pub fn new(study: &Study, out: &Path) -> Result<Self, InputError> {
         let path = study.folder.join(&study.tables.scene);
-        let scene = InputDocument::read(&path)?;
-        let scene_folder = path.parent().unwrap_or(Path::new(""));
+        let parameters = study.tables.parameter.iter();
+        let keys = parameters.flat_map(|p| p.keys.iter().map(String::as_str));
+        let base_scene = BaseScene::read(&path, keys)?;
+        let mut files = MadeFiles::new();
         let cases = study.cases();
-        let mut scenes: Vec<SystemScene> = Vec::new();
+        let mut made = |case: &Case| {
+            let scene = base_scene.scene(case, &mut files, out);
+            let scene = scene.map_err(|error| blamed(study, error))?;
+            demand_runnable(study, &scene)?;
+            Ok::<_, InputError>(scene)
+        };
+        let base = made(&Case::default())?;
+        let mut scenes: Vec<SceneFile> = Vec::new();
         let mut scene_of = Vec::with_capacity(cases.len());
+        let mut places: BTreeMap<String, usize> = BTreeMap::new();
         for case in &cases {
-            let made = varied(study, &scene, case, scene_folder)?;
-            match made.run {
-                Run::Transient { .. } => {}
-                Run::Static { .. } if study.tables.from_s == 0.0 => {}
-                Run::Static { .. } => {
-                    return Err(study.document.error(
-                        "from_s",
-                        "belongs to runs in time; the scene's run is \"static\": its figures are those of all its equilibria",
-                    ));
-                }
-                _ => {
-                    let problem = "must be \"transient\" or \"static\" in the scene of a study";
-                    return Err(made.document.error("run.kind", problem));
-                }
-            }
-            let same = |other: &SystemScene| other.document.text == made.document.text;
-            let place = scenes.iter().position(same).unwrap_or(scenes.len());
+            let scene = made(case)?;
+            let place = *places
+                .entry(text_of(&scene).to_owned())
+                .or_insert(scenes.len());
             if place == scenes.len() {
-                scenes.push(made);
+                scenes.push(scene);
             }
             scene_of.push(place);
         }
         Ok(Self {
             cases,
+            base,
             scenes,
+            files,
             scene_of,
         })
     }
+
+    /// Checks the columns that the study asks for: those of the scene as it is.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a column that is not there, with near names, and for a scene that cannot be loaded.
+    pub fn check_columns(&self, study: &Study, pairs: &PairCases) -> Result<(), StudyError> {
+        let known = match &self.base {
+            SceneFile::Pair(scene) => pair_columns::names(&pairs.load(scene)?),
+            SceneFile::System(scene) => system_cases::column_names(scene)?,
+        };
+        for (number, column) in study.tables.columns.iter().enumerate() {
+            if let Err(problem) = pair_columns::place(column, &known) {
+                return Err(study
+                    .document
+                    .error(&format!("columns.{number}"), problem)
+                    .into());
+            }
+        }
+        Ok(())
+    }
 }
 
-/// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder. `progress` is
-/// told how many of how many are done.
+fn text_of(scene: &SceneFile) -> &str {
+    match scene {
+        SceneFile::Pair(scene) => &scene.document.text,
+        SceneFile::System(scene) => &scene.document.text,
+    }
+}
+
+/// Whose fault it is that a case comes to no scene.
+fn blamed(study: &Study, error: VaryError) -> InputError {
+    match error {
+        VaryError::Scene(error) => error,
+        VaryError::Key { parameter, problem } => {
+            let parameters = &study.tables.parameter;
+            let number = parameters.iter().position(|p| p.name == parameter);
+            let at = format!("parameter.{}.keys", number.unwrap_or_default());
+            study.document.error(&at, problem)
+        }
+    }
+}
+
+fn demand_runnable(study: &Study, scene: &SceneFile) -> Result<(), InputError> {
+    let no_time = |what: &str| {
+        let problem = format!("belongs to runs in time; {what}");
+        Err(study.document.error("from_s", problem))
+    };
+    match scene {
+        SceneFile::System(scene) => match scene.run {
+            Run::Transient { .. } => Ok(()),
+            Run::Static { .. } if study.tables.from_s == 0.0 => Ok(()),
+            Run::Static { .. } => no_time(
+                "the scene's run is \"static\": its figures are those of all its equilibria",
+            ),
+            _ => {
+                let problem = "must be \"transient\" or \"static\" in the scene of a study";
+                Err(scene.document.error("run.kind", problem))
+            }
+        },
+        SceneFile::Pair(_) if study.tables.from_s > 0.0 => {
+            no_time("a gear pair is looked at at rest")
+        }
+        SceneFile::Pair(_) => Ok(()),
+    }
+}
+
+/// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder.
 ///
 /// # Errors
 /// [`StudyError`] for the study as a whole; that of a case stands with the case.
-pub fn run_study(
-    study: &Study,
-    folder: &Path,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Result<StudyOutcome, StudyError> {
+pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutcome, StudyError> {
+    let folder = options.folder;
+    let scenes = StudyScenes::new(study, folder)?;
+    let pairs = PairCases::default();
+    scenes.check_columns(study, &pairs)?;
+    make_folder(folder)?;
+    let reduced = make_files(&scenes.files, options)?;
     let StudyScenes {
         cases,
         scenes,
         scene_of,
-    } = StudyScenes::new(study)?;
-    std::fs::create_dir_all(folder).map_err(|source| StudyError::Folder {
-        path: folder.to_owned(),
-        source,
-    })?;
+        ..
+    } = scenes;
     let (done, count) = (AtomicUsize::new(0), scenes.len());
-    let outcomes: Vec<Result<Option<PathBuf>, StudyError>> = scenes
+    let outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>> = scenes
         .into_par_iter()
         .map(|scene| {
-            let outcome = run_case(scene, folder, stop);
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, count);
+            let outcome = run_case(study, scene, &pairs, options);
+            (options.progress)(done.fetch_add(1, Ordering::Relaxed) + 1, count);
             outcome
         })
         .collect();
@@ -177,7 +278,7 @@ pub fn run_study(
     for (case, place) in cases.into_iter().zip(scene_of) {
         let (file, figures) = match &outcomes[place] {
             Ok(None) => continue,
-            Ok(Some(file)) => (Some(file.clone()), selected(study, file)),
+            Ok(Some((file, found))) => (Some(file.clone()), found.clone()),
             Err(error) => (None, Err(error.to_string())),
         };
         results.push(CaseResult {
@@ -192,154 +293,70 @@ pub fn run_study(
     Ok(StudyOutcome {
         cases: results,
         stopped,
+        reduced,
     })
 }
 
-/// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
-fn run_case(
-    scene: SystemScene,
-    folder: &Path,
-    stop: &AtomicBool,
-) -> Result<Option<PathBuf>, StudyError> {
-    loop {
-        match run_unless_there(scene.clone(), folder, stop) {
-            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
-                std::thread::sleep(WAITING);
-            }
-            outcome => return outcome,
-        }
-    }
-}
+/// The study's columns, or why a result does not give them.
+type Found = Result<Vec<Selected>, String>;
 
-/// Runs a case unless its result is there already; none if it was stopped.
-fn run_unless_there(
-    scene: SystemScene,
-    folder: &Path,
-    stop: &AtomicBool,
-) -> Result<Option<PathBuf>, StudyError> {
-    if stop.load(Ordering::Relaxed) {
+/// Runs a case unless it is there already; none if it was stopped.
+fn run_case(
+    study: &Study,
+    scene: SceneFile,
+    pairs: &PairCases,
+    options: &StudyOptions<'_>,
+) -> Result<Option<(PathBuf, Found)>, StudyError> {
+    if options.stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let job = RunJob::from_scene(scene.load()?)?;
-    let identity = job.head.identity();
-    let name: String = identity.chars().take(NAME_DIGITS).collect();
-    let file = folder.join(format!("{name}.h5"));
-    if SystemResult::open(&file).is_ok_and(|result| result.head.identity() == identity) {
-        return Ok(Some(file));
-    }
-    let options = RunOptions {
-        output: &file,
-        restart: false,
-        checkpoint_interval: CHECKPOINTS,
-        stop,
-        progress: &|_| (),
-    };
-    match run(job, &options)? {
-        Outcome::Finished => Ok(Some(file)),
-        Outcome::Stopped => Ok(None),
-    }
-}
-
-/// Figures of the study's columns over its time, or what keeps them from being read.
-fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
-    let say = |error: FileError| error.to_string();
-    let result = SystemResult::open(file).map_err(say)?;
-    if let Some(problem) = result.problem() {
-        return Err(problem);
-    }
-    let mut first = 0;
-    // Equilibria have no time.
-    if study.tables.from_s > 0.0 {
-        let times = result.rows.read("time_s").map_err(say)?;
-        // Half a step of the clock's rounding belongs to the first row.
-        first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));
-        if first == times.len() {
-            return Err(format!(
-                "from_s = {} is after the end of the run at {} s",
-                study.tables.from_s,
-                times.last().copied().unwrap_or_default()
-            ));
+    match scene {
+        SceneFile::System(scene) => {
+            let scene: SystemScene = *scene;
+            let file = system_cases::run_case(scene, options.folder, options.stop)?;
+            Ok(file.map(|file| {
+                let found = system_cases::selected(study, &file);
+                (file, found)
+            }))
+        }
+        SceneFile::Pair(scene) => {
+            let (file, figures) = pairs.figures_in(&scene, options.folder)?;
+            Ok(Some((file, figures.selected(&study.tables.columns))))
         }
     }
-    let figures = |name: &String| {
-        let mut columns = result.rows.columns().iter();
-        let Some(column) = columns.find(|column| column.name == *name) else {
-            let known: Vec<&str> = result.rows.columns().iter().map(|c| &c.name[..]).collect();
-            return Err(format!(
-                "the result has no column `{name}`; it has {}",
-                known.join(", ")
-            ));
-        };
-        let values = result.rows.read(name).map_err(say)?;
-        let mut statistics = ColumnStatistics::new(1);
-        values[first..]
-            .iter()
-            .for_each(|value| statistics.add(&[*value]));
-        Ok(Selected {
-            column: name.clone(),
-            unit: column.unit.clone(),
-            figures: statistics.figures()[0],
-        })
-    };
-    study.tables.columns.iter().map(figures).collect()
 }
 
-/// `study.csv`: a line for each case and column.
-fn table(study: &Study, results: &[CaseResult]) -> String {
-    let parameters = study
-        .tables
-        .parameter
-        .iter()
-        .map(|parameter| &parameter.name[..]);
-    let mut head: Vec<String> = parameters.clone().map(quoted).collect();
-    let figures = [
-        "column",
-        "mean",
-        "deviation",
-        "least",
-        "largest",
-        "file",
-        "failure",
-    ];
-    head.extend(figures.map(str::to_owned));
-    let mut text = head.join(",") + "\n";
-    for result in results {
-        let setting = |name: &str| {
-            let mut settings = result.case.settings.iter();
-            let found = settings.find(|setting| setting.parameter == name);
-            found.map_or_else(String::new, |setting| match &setting.value {
-                toml::Value::String(word) => quoted(word),
-                value => value.to_string(),
-            })
-        };
-        let settings: String = parameters.clone().map(|name| setting(name) + ",").collect();
-        let file = result.file.as_deref().and_then(Path::file_name);
-        let file = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        match &result.figures {
-            Ok(columns) => {
-                for Selected {
-                    column, figures, ..
-                } in columns
-                {
-                    let [mean, deviation] = [figures.mean, figures.deviation];
-                    let [least, largest] = [figures.least, figures.largest];
-                    let column = quoted(column);
-                    text += &format!(
-                        "{settings}{column},{mean:e},{deviation:e},{least:e},{largest:e},{file},\n"
-                    );
-                }
+fn make_folder(path: &Path) -> Result<(), StudyError> {
+    std::fs::create_dir_all(path).map_err(|source| StudyError::Folder {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Makes what the cases need and what is not there yet; how many gears were reduced.
+pub(super) fn make_files(
+    files: &MadeFiles,
+    options: &StudyOptions<'_>,
+) -> Result<usize, StudyError> {
+    let mut reduced = 0;
+    for (path, made) in files {
+        // Named by what is in it: what is there is right.
+        if path.exists() {
+            continue;
+        }
+        make_folder(path.parent().unwrap_or(options.folder))?;
+        match made {
+            MadeFile::Text(text) => write_text(path, text)?,
+            MadeFile::Model(gear) => {
+                let model = (options.reduce)(gear).map_err(|problem| StudyError::Reduction {
+                    gear: gear.name.clone(),
+                    path: path.clone(),
+                    problem,
+                })?;
+                write_reduced_gear(path, &model)?;
+                reduced += 1;
             }
-            Err(problem) => text += &format!("{settings},,,,,{file},{}\n", quoted(problem)),
         }
     }
-    text
-}
-
-/// A text as a cell of a comma separated file.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    Ok(reduced)
 }

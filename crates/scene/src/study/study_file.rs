@@ -7,20 +7,28 @@ use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::design::{self, Case, Design};
+use super::scatter::{NormalTable, SpacedTable, UniformTable};
+
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyTables {
     /// Title in prints.
     pub title: String,
-    /// The scene that is varied, relative to this file; a multibody scene whose run is "transient" or "static".
+    /// The scene that is varied, relative to this file: a gear pair, or a multibody scene whose run is "transient" or
+    /// "static".
     pub scene: PathBuf,
     /// How the parameters are combined; "one-at-a-time" where not given.
     #[serde(default)]
     pub design: Design,
-    /// Columns of the result whose figures are listed.
+    /// With design = "latin-hypercube" or "random": how many cases.
+    pub samples: Option<usize>,
+    /// With design = "latin-hypercube" or "random": other seeds give other samples; 0 where not given.
+    pub seed: Option<u64>,
+    /// Columns whose figures are listed: of a gear pair those that docs/scene.md names, otherwise columns of the result.
     pub columns: Vec<String>,
-    /// The figures are those from this time on; 0 where not given.
+    /// Multibody scenes: the figures are those from this time on; 0 where not given.
     #[serde(default)]
     pub from_s: f64,
     /// What varies.
@@ -34,11 +42,87 @@ pub struct ParameterTable {
     /// Name in the table.
     pub name: String,
     /// Keys of the scene that all take the value: dotted paths, items of lists by number from 0:
-    /// "gear_mesh.0.exponent".
+    /// "gear_mesh.0.exponent". "pair.gear_1:blank.web_thickness_mm" is the key blank.web_thickness_mm of the gear file
+    /// that pair.gear_1 names.
     pub keys: Vec<String>,
     /// Numbers or texts, one case each.
-    #[schemars(with = "Vec<ValueSchema>")]
-    pub values: Vec<toml::Value>,
+    #[schemars(with = "Option<Vec<ValueSchema>>")]
+    pub values: Option<Vec<toml::Value>>,
+    /// Numbers at equal steps, instead of values.
+    pub spaced: Option<SpacedTable>,
+    /// Sampled designs: any number of a range, instead of values.
+    pub uniform: Option<UniformTable>,
+    /// Sampled designs: normally distributed numbers, instead of values.
+    pub normal: Option<NormalTable>,
+}
+
+impl ParameterTable {
+    /// The values that are stated; none of a scatter.
+    #[must_use]
+    pub fn listed(&self) -> Vec<toml::Value> {
+        match (&self.values, self.spaced) {
+            (Some(values), _) => values.clone(),
+            (None, Some(spaced)) => spaced
+                .values()
+                .into_iter()
+                .map(toml::Value::Float)
+                .collect(),
+            (None, None) => Vec::new(),
+        }
+    }
+
+    /// The value below which this share of all lies; of stated ones, in their order, each has the same share.
+    #[must_use]
+    pub fn at_probability(&self, probability: f64) -> toml::Value {
+        let drawn = (self.uniform.map(|uniform| uniform.quantile(probability)))
+            .or_else(|| self.normal.map(|normal| normal.quantile(probability)));
+        if let Some(value) = drawn {
+            return toml::Value::Float(rounded(value));
+        }
+        let listed = self.listed();
+        let place = (probability * listed.len() as f64) as usize;
+        listed[place.min(listed.len() - 1)].clone()
+    }
+
+    /// What is wrong with it in a design: the key, and why.
+    fn problem(&self, design: Design) -> Option<(&'static str, String)> {
+        if self.keys.is_empty() {
+            return Some(("keys", "is empty; give at least one".to_owned()));
+        }
+        let stated = [
+            ("values", self.values.is_some()),
+            ("spaced", self.spaced.is_some()),
+            ("uniform", self.uniform.is_some()),
+            ("normal", self.normal.is_some()),
+        ];
+        let mut stated = stated.into_iter().filter(|(_, is)| *is).map(|(key, _)| key);
+        let Some(first) = stated.next() else {
+            let problem = "states no values; give one of values, spaced, uniform, normal";
+            return Some(("", problem.to_owned()));
+        };
+        if let Some(second) = stated.next() {
+            return Some((
+                second,
+                format!("there is `{first}` already; remove one of the two"),
+            ));
+        }
+        if matches!(first, "uniform" | "normal") && !design.is_sampled() {
+            let problem = "is a scatter, which needs design = \"latin-hypercube\" or \"random\"";
+            return Some((first, problem.to_owned()));
+        }
+        if self.values.as_ref().is_some_and(Vec::is_empty) {
+            return Some(("values", "is empty; give at least one".to_owned()));
+        }
+        let problem = (self.spaced.and_then(SpacedTable::problem))
+            .or_else(|| self.uniform.and_then(UniformTable::problem))
+            .or_else(|| self.normal.and_then(NormalTable::problem));
+        problem.map(|problem| (first, problem))
+    }
+}
+
+/// To six digits: numbers that are drawn stand in tables and names.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// What a value may be.
@@ -49,48 +133,6 @@ enum ValueSchema {
     Number(f64),
     Text(String),
     Truth(bool),
-}
-
-/// How the parameters are combined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Design {
-    /// The scene as it is, then each parameter by itself.
-    #[default]
-    OneAtATime,
-    /// Every combination.
-    Grid,
-}
-
-/// One parameter at one value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
-    /// Name of the parameter.
-    pub parameter: String,
-    /// Keys of the scene that take the value.
-    pub keys: Vec<String>,
-    /// The value.
-    pub value: toml::Value,
-}
-
-/// What is changed in one run; nothing in the scene as it is.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Case {
-    /// The settings.
-    pub settings: Vec<Setting>,
-}
-
-impl Case {
-    /// `load = -900.0, speed = 250.0`, or `as it is`.
-    #[must_use]
-    pub fn name(&self) -> String {
-        if self.settings.is_empty() {
-            return "as it is".to_owned();
-        }
-        let settings = self.settings.iter();
-        let words = settings.map(|setting| format!("{} = {}", setting.parameter, setting.value));
-        words.collect::<Vec<_>>().join(", ")
-    }
 }
 
 /// A study, checked as far as the scene is not needed.
@@ -141,15 +183,16 @@ impl Study {
                 return Err(document.error(&at("name"), problem));
             }
             names.push(&parameter.name);
-            for (key, is_empty) in [
-                ("keys", parameter.keys.is_empty()),
-                ("values", parameter.values.is_empty()),
-            ] {
-                if is_empty {
-                    return Err(document.error(&at(key), "is empty; give at least one"));
-                }
+            if let Some((key, problem)) = parameter.problem(tables.design) {
+                let key = if key.is_empty() {
+                    format!("parameter.{i}")
+                } else {
+                    at(key)
+                };
+                return Err(document.error(&key, problem));
             }
         }
+        demand_samples(&tables, &document)?;
         let study = Self {
             tables,
             document,
@@ -158,7 +201,7 @@ impl Study {
         let count = study.case_count();
         if count.is_none_or(|count| count > MOST_CASES) {
             let problem = format!(
-                "asks for more than {MOST_CASES} runs; take fewer values, or design = \"one-at-a-time\""
+                "asks for more than {MOST_CASES} runs; take fewer values or samples, or design = \"one-at-a-time\""
             );
             return Err(study.document.error("parameter", problem));
         }
@@ -166,45 +209,46 @@ impl Study {
     }
 
     fn case_count(&self) -> Option<usize> {
-        let mut counts = self.tables.parameter.iter().map(|p| p.values.len());
+        let mut counts = self.tables.parameter.iter().map(|p| p.listed().len());
         match self.tables.design {
             Design::OneAtATime => Some(1 + counts.sum::<usize>()),
             Design::Grid => counts.try_fold(1_usize, usize::checked_mul),
+            Design::LatinHypercube | Design::Random => self.tables.samples,
         }
     }
 
     /// The runs, in the order of the table.
     #[must_use]
     pub fn cases(&self) -> Vec<Case> {
-        let settings = |parameter: &ParameterTable| {
-            let setting = |value: &toml::Value| Setting {
-                parameter: parameter.name.clone(),
-                keys: parameter.keys.clone(),
-                value: value.clone(),
-            };
-            parameter.values.iter().map(setting).collect::<Vec<_>>()
-        };
-        let parameters = self.tables.parameter.iter().map(settings);
-        match self.tables.design {
-            Design::OneAtATime => {
-                let single = |setting| Case {
-                    settings: vec![setting],
-                };
-                let varied = parameters.flatten().map(single);
-                std::iter::once(Case::default()).chain(varied).collect()
-            }
-            Design::Grid => parameters.fold(vec![Case::default()], |cases, settings| {
-                let extended = cases.iter().flat_map(|case| {
-                    settings.iter().map(|setting| {
-                        let mut case = case.clone();
-                        case.settings.push(setting.clone());
-                        case
-                    })
-                });
-                extended.collect()
-            }),
+        let StudyTables {
+            design,
+            parameter,
+            samples,
+            seed,
+            ..
+        } = &self.tables;
+        let drawn = (samples.unwrap_or_default(), seed.unwrap_or_default());
+        design::cases(*design, parameter, drawn)
+    }
+}
+
+/// `samples` and `seed` stand where cases are drawn, and nowhere else.
+fn demand_samples(tables: &StudyTables, document: &InputDocument) -> Result<(), InputError> {
+    let sampled = tables.design.is_sampled();
+    for (key, stated) in [
+        ("samples", tables.samples.is_some()),
+        ("seed", tables.seed.is_some()),
+    ] {
+        if stated && !sampled {
+            let problem = "belongs to design = \"latin-hypercube\" and \"random\"; remove it";
+            return Err(document.error(key, problem));
         }
     }
+    if sampled && !tables.samples.is_some_and(|samples| samples > 0) {
+        let problem = "must be stated with this design: how many cases, 1 or more";
+        return Err(document.error("samples", problem));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

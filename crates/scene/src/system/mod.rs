@@ -20,6 +20,7 @@ pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };
+pub(crate) use names::unknown;
 pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;
 pub use scene::{SystemScene, SystemTables};

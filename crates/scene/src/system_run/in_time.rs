@@ -90,13 +90,8 @@ impl<'a> Tape<'a> {
         if samples > MOST_ROWS {
             return Err(refused("there are too many rows"));
         }
-        let time = Column {
-            name: "time_s".to_owned(),
-            unit: "s".to_owned(),
-            description: "time".to_owned(),
-        };
         let start = system.start();
-        let recorder = Recorder::new(system, start, selection, vec![time], Course::InTime);
+        let recorder = Recorder::new(system, start, selection, vec![time()], Course::InTime);
         let columns = recorder.columns().len();
         Ok(Self {
             run,
@@ -325,4 +320,13 @@ const NOTES: &str = "notes";
 fn notes_of(tree: &mut DataTree, path: &Path) -> Result<Vec<String>, FileError> {
     let notes = tree.take_text(path, NOTES)?;
     Ok(notes.lines().map(str::to_owned).collect())
+}
+
+/// The first column of a run in time.
+pub(super) fn time() -> Column {
+    Column {
+        name: "time_s".to_owned(),
+        unit: "s".to_owned(),
+        description: "time".to_owned(),
+    }
 }

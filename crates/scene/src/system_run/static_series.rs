@@ -7,7 +7,7 @@ use gearmesh_model::Column;
 use std::sync::atomic::Ordering;
 
 use super::error::SystemRunError;
-use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob};
+use super::job::{Advance, Outcome, RunHead, RunOptions, StaticJob, StaticPoint};
 use super::part_folder::PartFolder;
 use super::rating;
 use super::recorder::{Course, Moment, Recorder, Selection};
@@ -24,7 +24,7 @@ pub(super) fn run_static(
     options: &RunOptions<'_>,
 ) -> Result<Outcome, SystemRunError> {
     let points = &job.points;
-    let abscissas = abscissas(points.iter().any(|point| point.angle_rad.is_some()));
+    let abscissas = abscissas_of(points);
     let start = nominal.start();
     let mut recorder = Recorder::new(nominal, start, selection, abscissas, Course::Static);
     let columns = recorder.columns().to_vec();
@@ -101,7 +101,9 @@ pub(super) fn run_static(
     Ok(Outcome::Finished)
 }
 
-fn abscissas(varied: bool) -> Vec<Column> {
+/// The first columns of a series.
+pub(super) fn abscissas_of(points: &[StaticPoint]) -> Vec<Column> {
+    let varied = points.iter().any(|point| point.angle_rad.is_some());
     let column = |name: &str, unit: &str, description: &str| Column {
         name: name.to_owned(),
         unit: unit.to_owned(),

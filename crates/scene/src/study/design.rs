@@ -1,0 +1,173 @@
+//! How the values of a study's parameters are combined to cases.
+//!
+//! | design | cases |
+//! | --- | --- |
+//! | `one-at-a-time` | the scene as it is, then each value by itself |
+//! | `grid` | every combination |
+//! | `latin-hypercube` | as many as `samples` says; each parameter has one of them in each of as many shares of equal probability, in a random order (McKay, Beckman, Conover, Technometrics 21 (1979) 239-245) |
+//! | `random` | as many as `samples` says, drawn one by one; more samples leave the first ones as they were |
+//!
+//! What is random depends on the seed and on the parameter's name alone: a further parameter changes none of the others.
+
+use fastrand::Rng;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::study_file::ParameterTable;
+
+/// How the parameters are combined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Design {
+    /// The scene as it is, then each parameter by itself.
+    #[default]
+    OneAtATime,
+    /// Every combination.
+    Grid,
+    /// Samples that fill the ranges evenly.
+    LatinHypercube,
+    /// Samples drawn independently.
+    Random,
+}
+
+impl Design {
+    /// Whether cases are drawn and not listed.
+    #[must_use]
+    pub fn is_sampled(self) -> bool {
+        matches!(self, Self::LatinHypercube | Self::Random)
+    }
+}
+
+/// One parameter at one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Keys of the scene that take the value.
+    pub keys: Vec<String>,
+    /// The value.
+    pub value: toml::Value,
+}
+
+/// What is changed in one run; nothing in the scene as it is.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Case {
+    /// The settings.
+    pub settings: Vec<Setting>,
+}
+
+impl Case {
+    /// `load = -900.0, speed = 250.0`, or `as it is`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if self.settings.is_empty() {
+            return "as it is".to_owned();
+        }
+        let settings = self.settings.iter();
+        let words = settings.map(|setting| format!("{} = {}", setting.parameter, setting.value));
+        words.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The cases of a design, in the order of the table; `samples` and `seed` where they are drawn.
+pub(super) fn cases(
+    design: Design,
+    parameters: &[ParameterTable],
+    (samples, seed): (usize, u64),
+) -> Vec<Case> {
+    let setting = |parameter: &ParameterTable, value: toml::Value| Setting {
+        parameter: parameter.name.clone(),
+        keys: parameter.keys.clone(),
+        value,
+    };
+    let listed = parameters.iter().map(|parameter| {
+        let values = parameter.listed().into_iter();
+        values
+            .map(|value| setting(parameter, value))
+            .collect::<Vec<_>>()
+    });
+    match design {
+        Design::OneAtATime => {
+            let single = |setting| Case {
+                settings: vec![setting],
+            };
+            let varied = listed.flatten().map(single);
+            std::iter::once(Case::default()).chain(varied).collect()
+        }
+        Design::Grid => listed.fold(vec![Case::default()], |cases, settings| {
+            let extended = cases.iter().flat_map(|case| {
+                settings.iter().map(|setting| {
+                    let mut case = case.clone();
+                    case.settings.push(setting.clone());
+                    case
+                })
+            });
+            extended.collect()
+        }),
+        Design::LatinHypercube | Design::Random => {
+            let mut cases = vec![Case::default(); samples];
+            for parameter in parameters {
+                let drawn = probabilities(design, samples, seeded(seed, &parameter.name));
+                for (case, probability) in cases.iter_mut().zip(drawn) {
+                    let value = parameter.at_probability(probability);
+                    case.settings.push(setting(parameter, value));
+                }
+            }
+            cases
+        }
+    }
+}
+
+/// Random numbers that belong to a name: FNV-1a of it, mixed with the seed.
+pub(crate) fn seeded(seed: u64, name: &str) -> Rng {
+    let start = 0xcbf2_9ce4_8422_2325_u64 ^ seed;
+    let mixed = name.bytes().fold(start, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    Rng::with_seed(mixed)
+}
+
+/// Cumulative probabilities, one a sample, strictly between 0 and 1.
+pub(crate) fn probabilities(design: Design, samples: usize, mut rng: Rng) -> Vec<f64> {
+    let inside = |p: f64| p.clamp(1e-12, 1.0 - 1e-12);
+    if design == Design::Random {
+        return (0..samples).map(|_| inside(rng.f64())).collect();
+    }
+    let mut shares: Vec<usize> = (0..samples).collect();
+    rng.shuffle(&mut shares);
+    let place = |share: usize, rng: &mut Rng| inside((share as f64 + rng.f64()) / samples as f64);
+    shares
+        .into_iter()
+        .map(|share| place(share, &mut rng))
+        .collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hypercube_has_one_sample_in_each_share() {
+        let drawn = probabilities(Design::LatinHypercube, 50, seeded(3, "relief"));
+        let mut shares: Vec<usize> = drawn.iter().map(|p| (p * 50.0) as usize).collect();
+        assert!(shares.windows(2).any(|w| w[0] > w[1]));
+        shares.sort_unstable();
+        assert_eq!(shares, (0..50).collect::<Vec<_>>());
+        assert_eq!(
+            drawn,
+            probabilities(Design::LatinHypercube, 50, seeded(3, "relief"))
+        );
+        assert_ne!(
+            drawn,
+            probabilities(Design::LatinHypercube, 50, seeded(4, "relief"))
+        );
+    }
+
+    #[test]
+    fn more_random_samples_leave_the_first_as_they_were() {
+        let few = probabilities(Design::Random, 5, seeded(1, "x"));
+        let many = probabilities(Design::Random, 9, seeded(1, "x"));
+        assert_eq!(few[..], many[..5]);
+    }
+}

@@ -1,0 +1,132 @@
+//! The columns of a study of a gear pair: one number for each torque.
+
+use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
+
+use crate::pair::{LoadedScene, SceneResult};
+use crate::system::unknown;
+
+/// Harmonics of the mesh frequency that are listed.
+const HARMONICS: usize = 10;
+
+/// A column: one number for each torque of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairColumn {
+    /// Name with unit.
+    pub name: String,
+    /// The number at each torque, in the unit of the name.
+    pub values: Vec<f64>,
+}
+
+/// Unit of a column by the end of its name.
+#[must_use]
+pub fn unit_of(name: &str) -> &'static str {
+    let units = [
+        ("_N_per_mm_um", "N/(mm µm)"),
+        ("_um", "µm"),
+        ("_MPa", "MPa"),
+        ("_ustrain", "µε"),
+        ("_N", "N"),
+    ];
+    let found = units.into_iter().find(|(end, _)| name.ends_with(end));
+    found.map_or("1", |(_, unit)| unit)
+}
+
+fn harmonics_of(loaded: &LoadedScene) -> usize {
+    // Of a pitch sampled n times the first (n − 1)/2 are told apart.
+    HARMONICS.min((loaded.scene.points_per_pitch - 1) / 2)
+}
+
+/// Names of all columns of a scene, in the order of [`columns`].
+#[must_use]
+pub fn names(loaded: &LoadedScene) -> Vec<String> {
+    let mut names: Vec<String> = [
+        "te_mean_um",
+        "te_peak_to_peak_um",
+        "te_unloaded_peak_to_peak_um",
+    ]
+    .map(str::to_owned)
+    .into();
+    names.extend((1..=harmonics_of(loaded)).map(|k| format!("te_harmonic_{k}_um")));
+    names.extend(
+        [
+            "k_h_beta",
+            "pressure_largest_MPa",
+            "stiffness_secant_mean_N_per_mm_um",
+            "stiffness_tangent_mean_N_per_mm_um",
+            "stiffness_tangent_peak_to_peak_N_per_mm_um",
+            "axial_force_1_mean_N",
+        ]
+        .map(str::to_owned),
+    );
+    for &(gear, index) in &loaded.gauges {
+        let gauge = &loaded.models[gear - 1].gauges[index].name;
+        for method in [1, 2] {
+            let of = format!("strain_gear{gear}_{gauge}_method{method}");
+            names.extend(["range", "largest"].map(|what| format!("{of}_{what}_ustrain")));
+        }
+    }
+    names
+}
+
+/// The place of a column among the names.
+///
+/// # Errors
+/// What to say of a name that is not among them, with the nearest.
+pub fn place(name: &str, names: &[String]) -> Result<usize, String> {
+    let found = names.iter().position(|known| known == name);
+    found.ok_or_else(|| unknown("column", name, names))
+}
+
+/// All columns of a result of the scene.
+#[must_use]
+pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<PairColumn> {
+    let torques = 0..result.torque_nm.len();
+    let width_mm = 1e3 * loaded.layout.reference.width_m;
+    let per_width = 1e-6 / width_mm;
+    let of_each = |of: &dyn Fn(usize) -> f64| torques.clone().map(of).collect::<Vec<f64>>();
+    let mean = |values: &[f64], k: usize| fourier(result.averaged(values, k), 0).0;
+    let range = |values: &[f64]| {
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        largest - values.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    let mut values = vec![
+        of_each(&|k| 1e6 * mean(&result.te_m, k)),
+        of_each(&|k| 1e6 * range(result.curve(&result.te_m, k))),
+        of_each(&|_| 1e6 * range(&result.unloaded_m)),
+    ];
+    let harmonics = harmonics_of(loaded);
+    let pitches = result.contact_coverage.averaged_pitches();
+    let spectra: Vec<Vec<(f64, f64)>> = (torques.clone())
+        .map(|k| mesh_harmonics(result.averaged(&result.te_m, k), pitches, harmonics).1)
+        .collect();
+    for harmonic in 0..harmonics {
+        values.push(of_each(&|k| {
+            1e6 * spectra[k].get(harmonic).map_or(0.0, |line| line.0)
+        }));
+    }
+    let block = result.pressure_pa.len() / result.torque_nm.len().max(1);
+    let pressure = |k: usize| {
+        let own = &result.pressure_pa[k * block..(k + 1) * block];
+        1e-6 * own.iter().copied().fold(0.0, f64::max)
+    };
+    values.extend([
+        result.k_h_beta.clone(),
+        of_each(&pressure),
+        of_each(&|k| per_width * mean(&result.secant_n_per_m, k)),
+        of_each(&|k| per_width * mean(&result.tangent_n_per_m, k)),
+        of_each(&|k| per_width * range(result.curve(&result.tangent_n_per_m, k))),
+        of_each(&|k| mean(&result.axial_force_1_n, k)),
+    ]);
+    for series in &result.strain {
+        for strain in [&series.method_1, &series.method_2] {
+            values.push(of_each(&|k| 1e6 * range(result.curve(strain, k))));
+            let largest = |k: usize| {
+                let curve = result.curve(strain, k).iter().copied();
+                1e6 * curve.fold(f64::NEG_INFINITY, f64::max)
+            };
+            values.push(of_each(&largest));
+        }
+    }
+    let column = |(name, values)| PairColumn { name, values };
+    names(loaded).into_iter().zip(values).map(column).collect()
+}

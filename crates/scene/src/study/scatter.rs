@@ -1,0 +1,128 @@
+//! Where the numbers of a parameter come from, when they are not listed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// `uniform`: every number of a range is as likely.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UniformTable {
+    /// Least value.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+}
+
+/// `normal`: a normal distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalTable {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+}
+
+/// `spaced`: numbers at equal steps.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpacedTable {
+    /// First value.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// How many, both ends included.
+    pub count: usize,
+}
+
+impl UniformTable {
+    /// The number below which this share of all lies.
+    #[must_use]
+    pub fn quantile(self, probability: f64) -> f64 {
+        self.from + (self.to - self.from) * probability
+    }
+
+    pub(crate) fn problem(self) -> Option<String> {
+        let ordered = self.from.is_finite() && self.to.is_finite() && self.from < self.to;
+        (!ordered).then(|| {
+            format!(
+                "found {} to {}, allowed is from below to",
+                self.from, self.to
+            )
+        })
+    }
+}
+
+impl NormalTable {
+    /// The number below which this share of all lies.
+    #[must_use]
+    pub fn quantile(self, probability: f64) -> f64 {
+        match Normal::new(self.mean, self.deviation) {
+            Ok(normal) => normal.inverse_cdf(probability),
+            // Refused when the file was read.
+            Err(_) => f64::NAN,
+        }
+    }
+
+    pub(crate) fn problem(self) -> Option<String> {
+        let fit = self.mean.is_finite() && self.deviation.is_finite() && self.deviation > 0.0;
+        (!fit).then(|| {
+            format!(
+                "found a deviation of {}, allowed is more than 0",
+                self.deviation
+            )
+        })
+    }
+}
+
+impl SpacedTable {
+    /// The numbers.
+    #[must_use]
+    pub fn values(self) -> Vec<f64> {
+        let last = self.count.saturating_sub(1).max(1) as f64;
+        // Each from its own end: both ends are exact.
+        let at = |share: f64| self.from * (1.0 - share) + self.to * share;
+        (0..self.count).map(|k| at(k as f64 / last)).collect()
+    }
+
+    pub(crate) fn problem(self) -> Option<String> {
+        let fit =
+            self.from.is_finite() && self.to.is_finite() && (2..=10_000).contains(&self.count);
+        (!fit).then(|| {
+            format!(
+                "found {} values, allowed are 2 to 10000 between finite ends",
+                self.count
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Quantiles of the standard normal distribution: Abramowitz and Stegun, Handbook of Mathematical Functions, table 26.5.
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        let normal = NormalTable {
+            mean: 10.0,
+            deviation: 2.0,
+        };
+        for (probability, z) in [(0.5, 0.0), (0.975, 1.95996), (0.001, -3.09023)] {
+            assert!((normal.quantile(probability) - (10.0 + 2.0 * z)).abs() < 2e-5);
+        }
+        let uniform = UniformTable {
+            from: -1.0,
+            to: 3.0,
+        };
+        assert_eq!(uniform.quantile(0.25), 0.0);
+        let spaced = SpacedTable {
+            from: 0.0,
+            to: 0.3,
+            count: 4,
+        };
+        assert_eq!((spaced.values()[0], spaced.values()[3]), (0.0, 0.3));
+    }
+}

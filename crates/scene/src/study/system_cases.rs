@@ -1,0 +1,119 @@
+//! The cases of a multibody study: a result file each, and its figures.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use gearmesh_model::FileError;
+
+use super::cases::{Selected, SelectedValue, StudyError};
+use super::study_file::Study;
+use crate::system::SystemScene;
+use crate::system_run::{
+    Figures, Outcome, RunJob, RunOptions, SystemResult, SystemRunError, recorded_columns, run,
+};
+
+/// Wall time between checkpoints of a case.
+const CHECKPOINTS: Duration = Duration::from_secs(60);
+
+/// Wall time between two looks at a case that another study has in hand.
+const WAITING: Duration = Duration::from_millis(200);
+
+/// Digits of the digest in a file's name.
+const NAME_DIGITS: usize = 16;
+
+/// The columns that a run of the scene will have.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be built.
+pub(super) fn column_names(scene: &SystemScene) -> Result<Vec<String>, StudyError> {
+    let job = RunJob::from_scene(scene.clone().load()?)?;
+    let columns = recorded_columns(&job).into_iter();
+    Ok(columns.map(|column| column.name).collect())
+}
+
+/// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
+pub(super) fn run_case(
+    scene: SystemScene,
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<PathBuf>, StudyError> {
+    loop {
+        match run_unless_there(scene.clone(), folder, stop) {
+            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
+                std::thread::sleep(WAITING);
+            }
+            outcome => return outcome,
+        }
+    }
+}
+
+/// Runs a case unless its result is there already; none if it was stopped.
+fn run_unless_there(
+    scene: SystemScene,
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<PathBuf>, StudyError> {
+    if stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let job = RunJob::from_scene(scene.load()?)?;
+    let identity = job.head.identity();
+    let name: String = identity.chars().take(NAME_DIGITS).collect();
+    let file = folder.join(format!("{name}.h5"));
+    if SystemResult::open(&file).is_ok_and(|result| result.head.identity() == identity) {
+        return Ok(Some(file));
+    }
+    let options = RunOptions {
+        output: &file,
+        restart: false,
+        checkpoint_interval: CHECKPOINTS,
+        stop,
+        progress: &|_| (),
+    };
+    match run(job, &options)? {
+        Outcome::Finished => Ok(Some(file)),
+        Outcome::Stopped => Ok(None),
+    }
+}
+
+/// Figures of the study's columns over its time, or what keeps them from being read.
+pub(super) fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
+    let say = |error: FileError| error.to_string();
+    let result = SystemResult::open(file).map_err(say)?;
+    if let Some(problem) = result.problem() {
+        return Err(problem);
+    }
+    let mut first = 0;
+    // Equilibria have no time.
+    if study.tables.from_s > 0.0 {
+        let times = result.rows.read("time_s").map_err(say)?;
+        // Half a step of the clock's rounding belongs to the first row.
+        first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));
+        if first == times.len() {
+            return Err(format!(
+                "from_s = {} is after the end of the run at {} s",
+                study.tables.from_s,
+                times.last().copied().unwrap_or_default()
+            ));
+        }
+    }
+    let figures = |name: &String| {
+        let mut columns = result.rows.columns().iter();
+        let Some(column) = columns.find(|column| column.name == *name) else {
+            let known: Vec<&str> = result.rows.columns().iter().map(|c| &c.name[..]).collect();
+            return Err(format!(
+                "the result has no column `{name}`; it has {}",
+                known.join(", ")
+            ));
+        };
+        let values = result.rows.read(name).map_err(say)?;
+        Ok(Selected {
+            column: name.clone(),
+            unit: column.unit.clone(),
+            torque_nm: None,
+            value: SelectedValue::Series(Figures::of(&values[first..])),
+        })
+    };
+    study.tables.columns.iter().map(figures).collect()
+}

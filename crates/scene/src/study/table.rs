@@ -1,0 +1,87 @@
+//! `study.csv`: what a study found, for other programs.
+
+use std::path::Path;
+
+use super::cases::{CaseResult, Selected, SelectedValue};
+use super::study_file::Study;
+
+/// A line for each case and column; of gear pairs for each case and torque, with the columns side by side.
+pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
+    let found = results
+        .iter()
+        .find_map(|result| result.figures.as_ref().ok());
+    let is_pair = found.is_some_and(|columns| columns.iter().any(|c| c.torque_nm.is_some()));
+    let columns: Vec<&str> = if is_pair {
+        let own = study.tables.columns.iter().map(String::as_str);
+        std::iter::once("torque_Nm").chain(own).collect()
+    } else {
+        vec!["column", "mean", "deviation", "least", "largest"]
+    };
+    let parameters = study.tables.parameter.iter().map(|p| &p.name[..]);
+    let head = parameters
+        .chain(columns.iter().copied())
+        .chain(["file", "failure"]);
+    let mut text = head.map(quoted).collect::<Vec<_>>().join(",") + "\n";
+    for result in results {
+        let settings = settings(study, result);
+        let file = result.file.as_deref().and_then(Path::file_name);
+        let file = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        match &result.figures {
+            Ok(selected) if is_pair => {
+                for row in selected.chunks(study.tables.columns.len().max(1)) {
+                    let torque = row[0].torque_nm.unwrap_or_default();
+                    let values: String = row.iter().map(|c| number(c) + ",").collect();
+                    text += &format!("{settings}{torque},{values}{file},\n");
+                }
+            }
+            Ok(selected) => {
+                for one in selected {
+                    let column = quoted(&one.column);
+                    text += &format!("{settings}{column},{},{file},\n", number(one));
+                }
+            }
+            Err(problem) => {
+                let empty = ",".repeat(columns.len());
+                text += &format!("{settings}{empty}{file},{}\n", quoted(problem));
+            }
+        }
+    }
+    text
+}
+
+fn number(selected: &Selected) -> String {
+    match selected.value {
+        SelectedValue::Single(value) => format!("{value:e}"),
+        SelectedValue::Series(f) => {
+            format!(
+                "{:e},{:e},{:e},{:e}",
+                f.mean, f.deviation, f.least, f.largest
+            )
+        }
+    }
+}
+
+/// The value of each parameter, empty where the case leaves it as it is, each with a comma behind it.
+fn settings(study: &Study, result: &CaseResult) -> String {
+    let of = |name: &str| {
+        let mut settings = result.case.settings.iter();
+        let found = settings.find(|setting| setting.parameter == name);
+        found.map_or_else(String::new, |setting| match &setting.value {
+            toml::Value::String(word) => quoted(word),
+            value => value.to_string(),
+        })
+    };
+    let parameters = study.tables.parameter.iter();
+    parameters
+        .map(|parameter| of(&parameter.name) + ",")
+        .collect()
+}
+
+/// A text as a cell of a comma separated file.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
