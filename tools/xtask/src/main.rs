@@ -15,6 +15,7 @@ mod rust_tests;
 mod steps;
 mod system_libs;
 mod venv;
+mod wheel;
 mod workspace;
 
 use std::process::ExitCode;
@@ -41,6 +42,8 @@ Usage: cargo xtask <COMMAND>
   accuracy-cost [--quick] [--program PATH]
                   error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
                   the quick page into out/accuracy-cost-quick.md
+  wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
+                  --quick     the development build instead, to try the wheel out
   prepare         only makes what the others need
   help            this text
 
@@ -74,6 +77,7 @@ enum Command {
     BenchChain(bench::Options),
     BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
+    Wheel(wheel::Build),
     Prepare,
     Help,
 }
@@ -101,12 +105,15 @@ impl Command {
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
+            ("wheel", []) => Ok(Self::Wheel(wheel::Build::Release)),
+            ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
-            | ("test" | "rust-tests" | "prepare" | "bench" | "accuracy-cost", ["--help" | "-h"]) => {
-                Ok(Self::Help)
-            }
-            ("test" | "rust-tests" | "prepare", rest) => {
+            | (
+                "test" | "rust-tests" | "prepare" | "wheel" | "bench" | "accuracy-cost",
+                ["--help" | "-h"],
+            ) => Ok(Self::Help),
+            ("test" | "rust-tests" | "prepare" | "wheel", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
             ("bench", _) => Err(
@@ -155,6 +162,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             steps::rust_tests(&workspace, &venv, steps::Extent::Full, &names)?;
             Ok(ExitCode::SUCCESS)
         }
+        Command::Wheel(build) => wheel::wheel(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare
         | Command::Help
@@ -178,6 +186,14 @@ mod tests {
     fn test_runs_everything_unless_told_to_be_fast() {
         assert_eq!(parse("test"), Ok(Command::Test(steps::Extent::Full)));
         assert_eq!(parse("test --fast"), Ok(Command::Test(steps::Extent::Fast)));
+    }
+
+    #[test]
+    fn a_wheel_is_a_release_unless_it_is_to_be_quick() {
+        let quick = Ok(Command::Wheel(wheel::Build::Quick));
+        assert_eq!(parse("wheel"), Ok(Command::Wheel(wheel::Build::Release)));
+        assert_eq!(parse("wheel --quick"), quick);
+        assert!(parse("wheel --slow").is_err());
     }
 
     #[test]
