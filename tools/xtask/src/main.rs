@@ -38,6 +38,7 @@ Usage: cargo xtask <COMMAND>
                   --quick     the two smallest meshes only, into out/offline-quick.md
                   --program   measures this program, with the Python in GEARMESH_PYTHON, and builds nothing
   bench chain     time of a step over the number of bodies beside Exudyn, into docs/benchmarks/chain.md
+  bench bearings  time and error of bearings in equilibrium and of balls that move, beside Exudyn, into docs/benchmarks/bearings.md
   accuracy-cost [--quick] [--program PATH]
                   error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
                   the quick page into out/accuracy-cost-quick.md
@@ -74,6 +75,7 @@ enum Command {
     Demo(Vec<String>),
     BenchOffline(bench::Options),
     BenchChain(bench::Options),
+    BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
     Wheel(wheel::Build),
     Prepare,
@@ -99,6 +101,7 @@ impl Command {
                 bench_options("bench offline", rest).map(Self::BenchOffline)
             }
             ("bench", ["chain"]) => Ok(Self::BenchChain(bench::Options::default())),
+            ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
@@ -113,9 +116,10 @@ impl Command {
             ("test" | "rust-tests" | "prepare" | "wheel", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
-            ("bench", _) => {
-                Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
-            }
+            ("bench", _) => Err(
+                "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
+                    .into(),
+            ),
             (other, _) => Err(format!("unknown command `{other}`")),
         }
     }
@@ -147,6 +151,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
     match &command {
         Command::BenchOffline(options) => return bench::offline(&workspace, options),
         Command::BenchChain(options) => return bench::chain(&workspace, options),
+        Command::BenchBearings(options) => return bench::bearings(&workspace, options),
         Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
         _ => {}
     }
@@ -163,6 +168,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::Help
         | Command::BenchOffline(_)
         | Command::BenchChain(_)
+        | Command::BenchBearings(_)
         | Command::AccuracyCost(_) => Ok(ExitCode::SUCCESS),
     }
 }
@@ -246,7 +252,10 @@ mod tests {
         );
         assert_eq!(
             parse("bench online"),
-            Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
+            Err(
+                "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
+                    .into()
+            )
         );
     }
 
