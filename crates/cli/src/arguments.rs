@@ -56,6 +56,10 @@ pub enum Command {
     Check(CheckArguments),
     /// Run a scene again and again with some of its keys changed
     Study(StudyArguments),
+    /// Say what accuracy costs in time, for columns of a scene: error against time of every knob
+    Accuracy(AccuracyArguments),
+    /// Seek the relief, crowning or other keys that make the objectives of a gear pair least
+    Optimise(OptimiseArguments),
     /// Find where a rolling bearing comes to rest under a load: load on every ball or roller, pressures, stiffness,
     /// life
     Bearing(BearingArguments),
@@ -223,6 +227,39 @@ pub struct CheckArguments {
     pub json: bool,
 }
 
+/// `gearmesh accuracy`.
+#[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    /// Scene: a gear pair, or a multibody run that is transient or static
+    pub scene: PathBuf,
+    /// What is to be exact: columns of a study of the pair, or COLUMN:FIGURE of a multibody result, with mean,
+    /// deviation, peak-to-peak, largest or least
+    #[arg(long, required = true, value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Multibody runs: figures from this time on
+    #[arg(long, default_value = "0")]
+    pub from_s: f64,
+    /// Page with the picture of error against time
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gearmesh optimise`.
+#[derive(Debug, Args)]
+pub struct OptimiseArguments {
+    /// File with the scene, what is sought, what scatters, what is to be small
+    pub file: PathBuf,
+    /// Folder for front.csv, tried.csv and the page optimise.html
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Print figures as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `gearmesh study`.
 #[derive(Debug, Args)]
 pub struct StudyArguments {
@@ -266,6 +303,8 @@ pub enum SchemaKind {
     Scene,
     /// Parameter studies
     Study,
+    /// Optimisations
+    Optimise,
     /// Gears
     Gear,
     /// Rolling bearings

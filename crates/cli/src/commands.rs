@@ -1,5 +1,6 @@
 //! One file per command.
 
+pub mod accuracy;
 pub mod bearing;
 pub mod bearing_frequencies;
 mod bearing_page;
@@ -17,6 +18,7 @@ pub mod init;
 pub mod mesh;
 pub mod mesh_axes;
 pub mod modes;
+pub mod optimise;
 pub mod periods;
 pub mod plan;
 pub mod ratings;

@@ -72,6 +72,14 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             Some(a) => (vec![a.result.clone()], some(&a.output)),
             None => Default::default(),
         },
+        Command::Accuracy(a) => (vec![a.scene.clone()], some(&a.output)),
+        Command::Optimise(a) => {
+            let names = ["front.csv", "tried.csv", "optimise.html"];
+            (
+                vec![a.file.clone()],
+                names.map(|name| a.output.join(name)).into(),
+            )
+        }
         Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
         Command::Tca(a) => (vec![a.pair.clone()], some(&a.report)),
         Command::Bearing(a) => (vec![a.bearing.clone()], some(&a.report)),

@@ -38,6 +38,10 @@ fn help_names_all_commands() {
       check                Check a gear file, bearing file, scene, study, S-N table, record, model or
                            result
       study                Run a scene again and again with some of its keys changed
+      accuracy             Say what accuracy costs in time, for columns of a scene: error against time
+                           of every knob
+      optimise             Seek the relief, crowning or other keys that make the objectives of a gear
+                           pair least
       bearing              Find where a rolling bearing comes to rest under a load: load on every ball
                            or roller, pressures, stiffness, life
       bearing-frequencies  Print the frequencies of a rolling bearing: cage, ball or roller, passing of
@@ -72,6 +76,8 @@ fn help_names_all_commands() {
         "report",
         "check",
         "study",
+        "optimise",
+        "accuracy",
         "schema",
         "demo",
         "export",

@@ -22,6 +22,7 @@ use crate::convergence::{Convergence, Measured, Progress};
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::joint::Joint;
+use crate::kept_iterate::KeptIterate;
 use crate::matrix::Matrix;
 use crate::rotation;
 use crate::saddle::{Saddle, SaddleForm};
@@ -35,7 +36,7 @@ use crate::unknown::UnknownKind;
 const SLOW: f64 = 0.2;
 
 /// Where corrections no longer shrink, they are accepted up to this multiple of the floor of rounding.
-const STALLED: f64 = 100.0;
+pub(crate) const STALLED: f64 = 100.0;
 
 /// All that the scheme carries from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,12 +90,13 @@ pub(crate) struct Integrator {
     turned: Matrix,
     /// T of every body.
     turns: Vec<Matrix3<f64>>,
-    increment: Vec<f64>,
-    delta: Vec<f64>,
-    mu: Vec<f64>,
+    pub increment: Vec<f64>,
+    pub delta: Vec<f64>,
+    pub mu: Vec<f64>,
     right: Vec<f64>,
     right_joints: Vec<f64>,
     secants: Secants,
+    pub kept: KeptIterate,
     pub effort: Effort,
 }
 
@@ -121,6 +123,7 @@ impl Integrator {
             right: vec![0.0; n],
             right_joints: vec![0.0; m],
             secants: Secants::new(&system.masses(), m),
+            kept: KeptIterate::new(n, m),
             effort: Effort::default(),
         }
     }
@@ -140,8 +143,7 @@ impl Integrator {
         params: &Params,
     ) -> Result<(), StepFailure> {
         let h = step_s;
-        let (scheme, mass_factor) = (self.scheme, self.scheme.mass_factor());
-        let square = scheme.beta * h * h;
+        let square = self.scheme.beta * h * h;
         self.predict(system, from, to, h);
         let angles = system.joints.iter().map(Joint::largest_angle_rad);
         self.convergence.begin(angles.fold(0.0, f64::max));
@@ -173,29 +175,9 @@ impl Integrator {
                 self.secants.reset();
                 stale = false;
             }
-            for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
-                *right = -square * residual;
-            }
-            for (right, violation) in self.right_joints.iter_mut().zip(&self.equations.violation) {
-                *right = -violation;
-            }
-            self.saddle.solve(
-                &self.right,
-                &self.right_joints,
-                &mut self.delta,
-                &mut self.mu,
-            );
+            self.correct(square);
             self.secants.improve(&mut self.delta, &mut self.mu);
-            for (i, delta) in self.delta.iter().enumerate() {
-                self.increment[i] += delta;
-                to.state.velocity[i] += scheme.gamma / (h * scheme.beta) * delta;
-                to.acceleration[i] += mass_factor / square * delta;
-            }
-            for (lambda, mu) in to.lambda.iter_mut().zip(&self.mu) {
-                *lambda += mu / square;
-            }
-            to.state
-                .set_moved(&from.state, &self.increment, &system.layout);
+            self.apply(system, from, to, h);
             let Measured {
                 ratio,
                 largest,
@@ -238,8 +220,40 @@ impl Integrator {
         Err(StepFailure::Singular)
     }
 
+    /// Newton's correction at the evaluated iterate, by the factors at hand.
+    pub(crate) fn correct(&mut self, square: f64) {
+        for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
+            *right = -square * residual;
+        }
+        for (right, violation) in self.right_joints.iter_mut().zip(&self.equations.violation) {
+            *right = -violation;
+        }
+        self.saddle.solve(
+            &self.right,
+            &self.right_joints,
+            &mut self.delta,
+            &mut self.mu,
+        );
+    }
+
+    /// Adds the correction at hand to the iterate.
+    pub(crate) fn apply(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
+        let scheme = self.scheme;
+        let square = scheme.beta * h * h;
+        for (i, delta) in self.delta.iter().enumerate() {
+            self.increment[i] += delta;
+            to.state.velocity[i] += scheme.gamma / (h * scheme.beta) * delta;
+            to.acceleration[i] += scheme.mass_factor() / square * delta;
+        }
+        for (lambda, mu) in to.lambda.iter_mut().zip(&self.mu) {
+            *lambda += mu / square;
+        }
+        to.state
+            .set_moved(&from.state, &self.increment, &system.layout);
+    }
+
     /// First guess: v̇ and λ stay.
-    fn predict(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
+    pub(crate) fn predict(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
         let s = self.scheme;
         to.lambda.copy_from_slice(&from.lambda);
         to.acceleration.copy_from_slice(&from.acceleration);
@@ -255,7 +269,7 @@ impl Integrator {
         to.state.time_s = from.state.time_s + h;
     }
 
-    fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         system: &mut System,
         to: &Point,
@@ -272,7 +286,7 @@ impl Integrator {
     }
 
     /// Assembles and factorises Newton's matrix at the present iterate; `false` if it is singular.
-    fn factor(&mut self, system: &System, h: f64) -> bool {
+    pub(crate) fn factor(&mut self, system: &System, h: f64) -> bool {
         let (s, equations) = (self.scheme, &mut self.equations);
         self.turned.copy_from(&equations.gradient);
         for (start, t) in system.layout.starts().zip(&mut self.turns) {
@@ -300,7 +314,7 @@ impl Integrator {
     }
 
     /// The latest correction against what it may be.
-    fn measure(
+    pub(crate) fn measure(
         &mut self,
         system: &System,
         from: &Point,
@@ -323,7 +337,7 @@ impl Integrator {
         self.convergence.measure(&system.kept, &step)
     }
 
-    fn finish(&self, from: &Point, to: &mut Point, h: f64) {
+    pub(crate) fn finish(&self, from: &Point, to: &mut Point, h: f64) {
         let s = self.scheme;
         for i in 0..to.algorithmic.len() {
             to.algorithmic[i] = ((1.0 - s.alpha_f) * to.acceleration[i]

@@ -276,22 +276,48 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), DynamicsError> {
         loop {
             let h = self.step_s;
-            let outcome = self.integrator.attempt(
+            let mut outcome = self.integrator.attempt(
                 &mut self.system,
                 &self.now,
                 &mut self.other,
                 h,
                 &self.params,
             );
+            if matches!(outcome, Err(StepFailure::NoConvergence { .. })) && self.is_shortest(h) {
+                outcome = self.integrator.attempt_damped(
+                    &mut self.system,
+                    &self.now,
+                    &mut self.other,
+                    h,
+                    &self.params,
+                );
+            }
             self.count_effort();
             let limits = match (self.params.step, outcome) {
-                (StepControl::Fixed { .. }, Ok(())) => return self.accept(h, h),
+                (StepControl::Fixed { step_s }, Ok(())) => {
+                    let again = h < step_s && self.steps_alike + 1 >= PARTS;
+                    let next = if again { PARTS as f64 * h } else { h };
+                    return self.accept(h, next);
+                }
+                (
+                    StepControl::Fixed { step_s },
+                    Err(failure @ StepFailure::NoConvergence { .. }),
+                ) => {
+                    self.info.unconverged += 1;
+                    let part = h / PARTS as f64;
+                    let often = self.info.steps < RARE * self.info.unconverged;
+                    if part < LEAST_PART * step_s || often {
+                        return Err(self.refusal(failure, FIXED_ADVICE));
+                    }
+                    self.change_step(part)?;
+                    continue;
+                }
                 (StepControl::Fixed { .. }, Err(failure)) => {
                     return Err(self.refusal(failure, FIXED_ADVICE));
                 }
-                (StepControl::Adaptive(limits), Err(failure)) => {
+                (StepControl::Adaptive(_), Err(failure)) => {
                     self.info.unconverged += 1;
-                    if 0.25 * h < limits.least_step_s {
+                    if self.is_shortest(h) {
                         return Err(self.refusal(failure, ADAPTIVE_ADVICE));
                     }
                     self.change_step(0.25 * h)?;
@@ -324,6 +350,14 @@ impl Simulation {
                 h
             };
             return self.accept(h, next);
+        }
+    }
+
+    /// Whether no shorter step may be tried.
+    fn is_shortest(&self, step_s: f64) -> bool {
+        match self.params.step {
+            StepControl::Fixed { .. } => true,
+            StepControl::Adaptive(limits) => 0.25 * step_s < limits.least_step_s,
         }
     }
 
@@ -428,6 +462,14 @@ impl Simulation {
         }
     }
 }
+
+/// A fixed step at which no solution is found is made in so many parts, and each of those again, down to this share. After as many steps of one length
+/// the step is that many times longer again.
+const PARTS: u64 = 4;
+const LEAST_PART: f64 = 1.0 / 256.0;
+
+/// A step that has more often no solution than once in so many is too long.
+const RARE: u64 = 20;
 
 /// An adaptive step grows by this factor at once, where it could grow by more: a change costs a factorisation and stirs the reactions.
 const GROWTH: f64 = 1.5;

@@ -11,11 +11,13 @@
 //!
 //! [`page`] knows nothing of gears: it draws what it is given.
 
+pub mod accuracy_page;
 pub mod comparison;
 mod comparison_table;
 mod contact_pattern;
 pub mod export;
 pub mod min_max;
+pub mod optimise_page;
 pub mod overlay;
 pub mod page;
 pub mod pair_orders;

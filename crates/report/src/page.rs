@@ -23,6 +23,7 @@ mod markup;
 mod packed;
 mod path_chart;
 mod polar_chart;
+mod scatter_chart;
 mod spectrum_chart;
 mod table;
 mod text;
@@ -32,6 +33,7 @@ pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
 pub use path_chart::PathChart;
 pub use polar_chart::PolarChart;
+pub use scatter_chart::{PointSeries, ScatterChart};
 pub use spectrum_chart::{SpectrumChart, SpectrumSeries};
 pub use table::{Align, KeyFigures, Table};
 pub use text::Text;
@@ -154,6 +156,8 @@ pub enum Block {
     PathChart(PathChart),
     /// A tooth flank with what touches on it.
     FlankChart(FlankChart),
+    /// Points over two axes.
+    ScatterChart(ScatterChart),
 }
 
 macro_rules! block_from {
@@ -174,7 +178,8 @@ block_from!(
     FieldPicture,
     PolarChart,
     PathChart,
-    FlankChart
+    FlankChart,
+    ScatterChart
 );
 
 /// A heading and what stands under it.
@@ -314,6 +319,7 @@ fn render_block(html: &mut String, block: &Block) -> Result<(), PageError> {
         Block::PolarChart(chart) => chart.render(html)?,
         Block::PathChart(chart) => chart.render(html)?,
         Block::FlankChart(chart) => chart.render(html)?,
+        Block::ScatterChart(chart) => chart.render(html)?,
         Block::LineChart(chart) => render_figure(html, "line", chart.title(), &chart.payload()?)?,
         Block::SpectrumChart(chart) => {
             render_figure(html, "spectrum", chart.title(), &chart.payload()?)?

@@ -7,11 +7,14 @@
 //!
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
 //! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs
-//! multibody systems, [`study`] runs one of them again and again with keys that vary.
+//! multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
+//! them, [`accuracy`] says what exactness costs in time.
 
+pub mod accuracy;
 mod former_forms;
 mod microgeometry_words;
 mod named_files;
+pub mod optimise;
 pub mod pair;
 pub mod periods;
 pub mod rating;

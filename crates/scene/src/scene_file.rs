@@ -28,6 +28,7 @@ struct Marks {
     tooth: Option<IgnoredAny>,
     scene: Option<IgnoredAny>,
     parameter: Option<IgnoredAny>,
+    objective: Option<IgnoredAny>,
     cycles: Option<IgnoredAny>,
     stress_amplitude_MPa: Option<IgnoredAny>,
     angle_origin: Option<IgnoredAny>,
@@ -38,6 +39,8 @@ struct Marks {
 pub enum InputKind {
     /// Has `[pair]` or `[[body]]`.
     Scene,
+    /// Has `[[objective]]`.
+    Optimisation,
     /// Has `scene` or `[[parameter]]`.
     Study,
     /// Has `cycles` or `stress_amplitude_MPa`.
@@ -60,6 +63,8 @@ impl InputKind {
             Self::Scene
         } else if any(&[&marks.tooth]) {
             Self::Gear
+        } else if any(&[&marks.objective]) {
+            Self::Optimisation
         } else if any(&[&marks.scene, &marks.parameter]) {
             Self::Study
         } else if any(&[&marks.cycles, &marks.stress_amplitude_MPa]) {

@@ -2,6 +2,7 @@
 
 use schemars::{JsonSchema, Schema, schema_for};
 
+use crate::optimise::OptimiseTables;
 use crate::pair::scene_file::SceneTable;
 use crate::study::StudyTables;
 use crate::system::SystemTables;
@@ -21,6 +22,11 @@ enum SceneTables {
 /// the keys of one mesh model, is said in the descriptions and checked when the scene is read.
 pub fn scene() -> Schema {
     schema_for!(SceneTables)
+}
+
+/// JSON Schema of files for optimisations.
+pub fn optimise() -> Schema {
+    schema_for!(OptimiseTables)
 }
 
 /// JSON Schema of study files.

@@ -11,6 +11,7 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
+use gearmesh_scene::optimise::{Evaluator, Optimisation};
 use gearmesh_scene::rating::sn_curve;
 use gearmesh_scene::study::{PairCases, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
@@ -112,6 +113,7 @@ fn found(path: &Path) -> Result<Finding, Failure> {
     match InputKind::of(&document)? {
         InputKind::Scene => scene(SceneFile::from_document(document, folder)?),
         InputKind::Study => study(&Study::from_document(document, folder)?),
+        InputKind::Optimisation => optimisation(&Optimisation::from_document(document, folder)?),
         InputKind::SnTable => sn_table(&document),
         InputKind::Record => record(folder),
         InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(&document),
@@ -192,6 +194,21 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
             ))
         }
     }
+}
+
+/// The scene is loaded with the variables in the middle of their bounds.
+fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
+    Evaluator::new(problem)?;
+    let tables = &problem.tables;
+    let (variables, objectives) = (tables.variable.len(), tables.objective.len());
+    let of = &tables.scene;
+    Ok(Finding::new("optimisation", Some(&tables.title)).sized(
+        format!(
+            "{variables} variables, {objectives} objectives of {}",
+            of.display()
+        ),
+        json!({ "variables": variables, "objectives": objectives, "scene": of }),
+    ))
 }
 
 /// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.

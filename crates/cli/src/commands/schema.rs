@@ -24,6 +24,10 @@ pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
     let (contents, kind) = match arguments.kind {
         SchemaKind::Scene => (Keys(gearmesh_scene::schema::scene().to_value()), "scene"),
         SchemaKind::Study => (Keys(gearmesh_scene::schema::study().to_value()), "study"),
+        SchemaKind::Optimise => (
+            Keys(gearmesh_scene::schema::optimise().to_value()),
+            "optimise",
+        ),
         SchemaKind::Bearing => (
             Keys(gearmesh_bearings::bearing_file::schema().to_value()),
             "bearing",

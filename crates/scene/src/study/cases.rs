@@ -44,6 +44,9 @@ pub enum StudyError {
         /// What went wrong.
         problem: String,
     },
+    /// The user has asked to stop.
+    #[error("stopped on demand")]
+    Stopped,
     /// The folder could not be made.
     #[error("cannot make the folder {}: {source}", path.display())]
     Folder {
@@ -62,7 +65,7 @@ impl StudyError {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
             Self::Pair(error) => error.is_input(),
-            Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } => false,
+            Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }
     }
 }

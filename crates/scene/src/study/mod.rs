@@ -28,8 +28,10 @@ pub use cases::{
     run_study,
 };
 pub use design::{Case, Design, Setting};
+pub(crate) use design::{probabilities, seeded};
 pub use pair_cases::{PairCases, PairFigures};
 pub use pair_columns::PairColumn;
+pub(crate) use pair_columns::{columns, names as column_names, place as column_place};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

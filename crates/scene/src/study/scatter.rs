@@ -43,7 +43,7 @@ impl UniformTable {
         self.from + (self.to - self.from) * probability
     }
 
-    pub(super) fn problem(self) -> Option<String> {
+    pub(crate) fn problem(self) -> Option<String> {
         let ordered = self.from.is_finite() && self.to.is_finite() && self.from < self.to;
         (!ordered).then(|| {
             format!(
@@ -65,7 +65,7 @@ impl NormalTable {
         }
     }
 
-    pub(super) fn problem(self) -> Option<String> {
+    pub(crate) fn problem(self) -> Option<String> {
         let fit = self.mean.is_finite() && self.deviation.is_finite() && self.deviation > 0.0;
         (!fit).then(|| {
             format!(
@@ -86,7 +86,7 @@ impl SpacedTable {
         (0..self.count).map(|k| at(k as f64 / last)).collect()
     }
 
-    pub(super) fn problem(self) -> Option<String> {
+    pub(crate) fn problem(self) -> Option<String> {
         let fit =
             self.from.is_finite() && self.to.is_finite() && (2..=10_000).contains(&self.count);
         (!fit).then(|| {

@@ -83,6 +83,12 @@ impl BaseScene {
         })
     }
 
+    /// Name of the scene's file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.document.file
+    }
+
     /// The value that stands at a key of the scene; none where the scene does not state it.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<toml::Value> {

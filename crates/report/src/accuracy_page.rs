@@ -1,0 +1,112 @@
+//! The page of `gearmesh accuracy`: error against time, what to take, every setting that was run.
+
+use gearmesh_scene::accuracy::{Accuracy, Goal, Tried, words};
+
+use crate::page::{Align, Axis, Page, PointSeries, ScatterChart, Section, Table, Text};
+use crate::short;
+
+/// A goal in words.
+#[must_use]
+pub fn goal_in_words(goal: Goal) -> String {
+    match goal {
+        Goal::Within(error) => format!("{} %", short(100.0 * error)),
+        Goal::Interactive(seconds) => format!("interactive, {seconds} s"),
+    }
+}
+
+/// The page of an outcome; `scene` names it.
+#[must_use]
+pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
+    let point = |one: &Tried| [one.seconds, 100.0 * one.error()];
+    let of = |alone: bool| -> Vec<&Tried> {
+        let others = found.tried.iter().filter(|one| is_drawn(one));
+        others.filter(|one| one.alone.is_some() == alone).collect()
+    };
+    let labels = |tried: &[&Tried]| {
+        tried
+            .iter()
+            .map(|one| words(&found.knobs, &one.rungs))
+            .collect()
+    };
+    let series = |name: &str, tried: Vec<&Tried>| {
+        PointSeries::new(name, tried.iter().map(|one| point(one)).collect()).labels(labels(&tried))
+    };
+    let chart = ScatterChart::new(
+        "Largest error of the columns against wall time",
+        Axis::new("wall time", "s"),
+        Axis::new("largest error", "%"),
+    )
+    .logarithmic(true, true)
+    .series(series("one knob lowered", of(true)))
+    .series(series("knobs together", of(false)))
+    .series(series("not beaten", unbeaten(found)).joined());
+    let reference = &found.tried[0];
+    let told = format!(
+        "Errors are those against the reference, every knob at its top, which takes {} s. {} settings were run. What no knob changes, such as the meshes of the gears, is in none of the errors.",
+        short(reference.seconds),
+        found.tried.len()
+    );
+    let mut section = Section::new("What accuracy costs").push(Text::paragraph(told));
+    if found.tried.iter().any(is_drawn) {
+        section = section.push(chart);
+    }
+    for advice in &found.advice {
+        let text = format!(
+            "# {}: error {} %, {} s, {} times faster than the reference\n{}",
+            goal_in_words(advice.goal),
+            short(100.0 * advice.tried.error()),
+            short(advice.tried.seconds),
+            short(reference.seconds / advice.tried.seconds),
+            advice.toml.join("\n")
+        );
+        section = section.push(Text::preformatted(text));
+    }
+    let mut page = Page::new(format!("What accuracy costs: {scene}"))
+        .section(section)
+        .section(Section::new("Every setting").push(table(found)));
+    if !found.left_out.is_empty() || !found.failed.is_empty() {
+        let mut section = Section::new("What was not varied");
+        for line in found.left_out.iter().chain(&found.failed) {
+            section = section.push(Text::paragraph(line.clone()));
+        }
+        page = page.section(section);
+    }
+    page.footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
+}
+
+/// A logarithmic axis has no zero: the reference, and what has no error against it, are not drawn.
+fn is_drawn(one: &Tried) -> bool {
+    one.error() > 0.0
+}
+
+/// Settings that no other one beats in error and time, by time.
+fn unbeaten(found: &Accuracy) -> Vec<&Tried> {
+    let mut tried: Vec<&Tried> = found.tried.iter().filter(|one| is_drawn(one)).collect();
+    tried.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let mut least = f64::INFINITY;
+    tried.retain(|one| {
+        let better = one.error() < least;
+        least = least.min(one.error());
+        better
+    });
+    tried
+}
+
+fn table(found: &Accuracy) -> Table {
+    let mut table = Table::new("Settings, by what differs from the reference")
+        .column("setting", Align::Left)
+        .column("wall time s", Align::Right)
+        .column("iterations", Align::Right);
+    for column in &found.columns {
+        table = table.column(format!("error of {column} %"), Align::Right);
+    }
+    for one in &found.tried {
+        let numbers = [short(one.seconds), short(one.iterations)].into_iter();
+        let errors = one.errors.iter().map(|error| short(100.0 * error));
+        let cells = std::iter::once(words(&found.knobs, &one.rungs))
+            .chain(numbers)
+            .chain(errors);
+        table.push_row(cells);
+    }
+    table
+}

@@ -1,0 +1,352 @@
+//! Which settings are tried, and which one to take.
+//!
+//! The reference has every knob at its top. From it each knob goes down alone: what it costs and what it saves. Errors that
+//! add up and times that multiply then say which of all combinations may lie on the front; those are run, and what is told of
+//! them is measured, not foretold.
+
+use toml::Value;
+
+use super::bench::{Bench, Measured};
+use super::knobs::{Knob, case_of};
+use crate::study::StudyError;
+
+/// Combinations that are run after the knobs by themselves.
+const MOST_COMBINATIONS: usize = 16;
+
+/// Combinations that are looked at without being run.
+const MOST_FORETOLD: usize = 200_000;
+
+/// A setting that was run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tried {
+    /// Rung of each knob.
+    pub rungs: Vec<usize>,
+    /// Knob that alone stands lower than in the reference; none of the reference and of combinations.
+    pub alone: Option<usize>,
+    /// Wall time \[s\].
+    pub seconds: f64,
+    /// Iterations.
+    pub iterations: f64,
+    /// Largest error of each column, relative to the reference.
+    pub errors: Vec<f64>,
+}
+
+impl Tried {
+    /// The largest error of all columns.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// What a user may want.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// The cheapest setting within this error.
+    Within(f64),
+    /// The most exact setting that answers within this time \[s\].
+    Interactive(f64),
+}
+
+/// The setting to take for a goal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Advice {
+    /// The goal.
+    pub goal: Goal,
+    /// The setting, run once more.
+    pub tried: Tried,
+    /// Keys and values, a line each, to paste.
+    pub toml: Vec<String>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Accuracy {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// The knobs.
+    pub knobs: Vec<Knob>,
+    /// What was not varied, and why.
+    pub left_out: Vec<String>,
+    /// Everything that was run; the reference first.
+    pub tried: Vec<Tried>,
+    /// Settings that failed: what they are and why.
+    pub failed: Vec<String>,
+    /// What to take.
+    pub advice: Vec<Advice>,
+}
+
+/// An answer that a user waits for without losing the thread \[s\].
+const INTERACTIVE_S: f64 = 0.1;
+
+/// Runs a scene in all settings worth a look. `progress` is told what was run, and how many are known to come.
+///
+/// # Errors
+/// [`StudyError`] for a scene whose reference cannot be run, and on a stop.
+pub fn accuracy(
+    bench: &Bench<'_>,
+    progress: &dyn Fn(usize, usize),
+) -> Result<Accuracy, StudyError> {
+    let (knobs, left_out) = bench.knobs()?;
+    let top: Vec<usize> = knobs.iter().map(|knob| knob.rungs.len() - 1).collect();
+    let reference = bench.measure(&case_of(&knobs, &top))?;
+    let columns = bench.names();
+    let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
+    let mut found = Accuracy {
+        tried: vec![tried(top.clone(), None, &reference, judge(&reference))],
+        columns: columns.clone(),
+        left_out,
+        failed: Vec::new(),
+        advice: Vec::new(),
+        knobs,
+    };
+    let mut singles = Vec::new();
+    for (number, knob) in found.knobs.iter().enumerate() {
+        for rung in 0..knob.rungs.len() - 1 {
+            let mut rungs = top.clone();
+            rungs[number] = rung;
+            singles.push((rungs, Some(number)));
+        }
+    }
+    let count = singles.len() + MOST_COMBINATIONS;
+    let mut done = 0;
+    let mut attempt = |found: &mut Accuracy, (rungs, alone): (Vec<usize>, Option<usize>)| {
+        stopped(bench)?;
+        match bench.measure(&case_of(&found.knobs, &rungs)) {
+            Ok(measured) => {
+                let one = tried(rungs, alone, &measured, judge(&measured));
+                found.tried.push(one);
+            }
+            Err(error) => {
+                stopped(bench)?;
+                found
+                    .failed
+                    .push(format!("{}: {error}", words(&found.knobs, &rungs)));
+            }
+        }
+        done += 1;
+        progress(done, count);
+        Ok::<(), StudyError>(())
+    };
+    for single in singles {
+        attempt(&mut found, single)?;
+    }
+    for rungs in foretold_front(&found, &top) {
+        attempt(&mut found, (rungs, None))?;
+    }
+    for goal in [
+        Goal::Within(0.01),
+        Goal::Within(0.001),
+        Goal::Interactive(INTERACTIVE_S),
+    ] {
+        if let Some(rungs) = choice(&found.tried, goal) {
+            // Once more, as the user will: what is told is what it does.
+            let measured = bench.measure(&case_of(&found.knobs, &rungs))?;
+            let errors = judge(&measured);
+            found.advice.push(Advice {
+                goal,
+                toml: to_paste(&found.knobs, &rungs),
+                tried: tried(rungs, None, &measured, errors),
+            });
+        }
+    }
+    Ok(found)
+}
+
+fn stopped(bench: &Bench<'_>) -> Result<(), StudyError> {
+    if bench.is_stopped() {
+        return Err(StudyError::Stopped);
+    }
+    Ok(())
+}
+
+fn tried(rungs: Vec<usize>, alone: Option<usize>, measured: &Measured, errors: Vec<f64>) -> Tried {
+    Tried {
+        rungs,
+        alone,
+        seconds: measured.seconds,
+        iterations: measured.iterations,
+        errors,
+    }
+}
+
+/// Largest error of each column over its torques, relative to the largest amount that the reference has there.
+fn errors(values: &[f64], reference: &[f64], columns: usize) -> Vec<f64> {
+    let each = reference.len() / columns.max(1);
+    let chunks = values
+        .chunks(each.max(1))
+        .zip(reference.chunks(each.max(1)));
+    let error = |(values, reference): (&[f64], &[f64])| {
+        let pairs = values.iter().zip(reference);
+        // What is nothing in the reference has no relative error: all of it is one.
+        let relative = |(value, reference): (&f64, &f64)| match *reference {
+            0.0 if *value == 0.0 => 0.0,
+            0.0 => 1.0,
+            known => (value - known).abs() / known.abs(),
+        };
+        pairs.map(relative).fold(0.0, f64::max)
+    };
+    chunks.map(error).collect()
+}
+
+/// A setting in words: what differs from the reference.
+#[must_use]
+pub fn words(knobs: &[Knob], rungs: &[usize]) -> String {
+    let lowered = knobs
+        .iter()
+        .zip(rungs)
+        .filter(|(knob, rung)| **rung + 1 < knob.rungs.len());
+    let words = lowered.map(|(knob, rung)| format!("{} = {}", knob.name, knob.rungs[*rung].label));
+    let words: Vec<String> = words.collect();
+    if words.is_empty() {
+        return "reference".to_owned();
+    }
+    words.join(", ")
+}
+
+/// Combinations that may lie on the front of error against time, by errors that add up and times that multiply.
+fn foretold_front(found: &Accuracy, top: &[usize]) -> Vec<Vec<usize>> {
+    let reference = &found.tried[0];
+    // Of each knob its rungs with error and share of the time; those that failed are left out.
+    let effect = |knob: usize, rung: usize| {
+        if rung == top[knob] {
+            return Some((0.0, 1.0));
+        }
+        let single = found
+            .tried
+            .iter()
+            .find(|one| one.alone == Some(knob) && one.rungs[knob] == rung);
+        single.map(|one| (one.error(), one.seconds / reference.seconds))
+    };
+    // Rungs, error, share of the time.
+    let mut all: Vec<(Vec<usize>, f64, f64)> = vec![(Vec::new(), 0.0, 1.0)];
+    for (knob, last) in top.iter().enumerate() {
+        let mut longer = Vec::new();
+        for (rungs, error, share) in &all {
+            for rung in 0..=*last {
+                if let Some((more, faster)) = effect(knob, rung) {
+                    let rungs = rungs.iter().copied().chain([rung]).collect();
+                    longer.push((rungs, error + more, share * faster));
+                }
+            }
+        }
+        all = longer;
+        if all.len() > MOST_FORETOLD {
+            all = undominated(all);
+        }
+    }
+    let front = undominated(all);
+    let is_new = |rungs: &Vec<usize>| !found.tried.iter().any(|one| one.rungs == *rungs);
+    let fresh: Vec<Vec<usize>> = front.into_iter().map(|one| one.0).filter(is_new).collect();
+    let count = fresh.len().min(MOST_COMBINATIONS);
+    // Evenly over the front.
+    (0..count)
+        .map(|k| {
+            fresh[if count < 2 {
+                0
+            } else {
+                k * (fresh.len() - 1) / (count - 1)
+            }]
+            .clone()
+        })
+        .collect()
+}
+
+fn undominated(mut all: Vec<(Vec<usize>, f64, f64)>) -> Vec<(Vec<usize>, f64, f64)> {
+    all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
+    let mut least = f64::INFINITY;
+    all.retain(|one| {
+        let better = one.2 < least;
+        least = least.min(one.2);
+        better
+    });
+    all
+}
+
+/// The measured setting that serves a goal best, the reference among them; none where none answers in time.
+fn choice(tried: &[Tried], goal: Goal) -> Option<Vec<usize>> {
+    let sound = || tried.iter();
+    let by = |a: f64, b: f64| a.total_cmp(&b);
+    let best = match goal {
+        Goal::Within(error) => {
+            (sound().filter(|one| one.error() <= error)).min_by(|a, b| by(a.seconds, b.seconds))
+        }
+        Goal::Interactive(seconds) => {
+            (sound().filter(|one| one.seconds <= seconds)).min_by(|a, b| by(a.error(), b.error()))
+        }
+    };
+    best.map(|one| one.rungs.clone())
+}
+
+/// Keys and values of a setting.
+fn to_paste(knobs: &[Knob], rungs: &[usize]) -> Vec<String> {
+    let settings = knobs
+        .iter()
+        .zip(rungs)
+        .flat_map(|(knob, rung)| &knob.rungs[*rung].settings);
+    let line = |(key, value): &(String, Value)| format!("{key} = {value}");
+    settings.map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::Rung;
+
+    fn setting(rungs: [usize; 2], alone: Option<usize>, seconds: f64, error: f64) -> Tried {
+        Tried {
+            rungs: rungs.into(),
+            alone,
+            seconds,
+            iterations: 1.0,
+            errors: vec![error],
+        }
+    }
+
+    /// Two knobs of two rungs: lowered alone each saves time, so that both together are foretold to save more; a third
+    /// that only costs is in no combination.
+    #[test]
+    fn combinations_are_those_that_may_pay() {
+        let knob = |name: &str| Knob {
+            name: name.to_owned(),
+            rungs: ["low", "high"]
+                .map(|label| Rung {
+                    label: label.to_owned(),
+                    settings: Vec::new(),
+                })
+                .into(),
+        };
+        let mut found = Accuracy {
+            columns: vec!["x".to_owned()],
+            knobs: vec![knob("a"), knob("b")],
+            left_out: Vec::new(),
+            tried: vec![
+                setting([1, 1], None, 8.0, 0.0),
+                setting([0, 1], Some(0), 4.0, 0.01),
+                setting([1, 0], Some(1), 2.0, 0.02),
+            ],
+            failed: Vec::new(),
+            advice: Vec::new(),
+        };
+        assert_eq!(foretold_front(&found, &[1, 1]), [vec![0, 0]]);
+        // What costs time and exactness is not worth a run.
+        found.tried[1].seconds = 9.0;
+        assert!(foretold_front(&found, &[1, 1]).is_empty());
+
+        let tried = &found.tried;
+        assert_eq!(choice(tried, Goal::Within(0.03)), Some(vec![1, 0]));
+        assert_eq!(choice(tried, Goal::Within(0.001)), Some(vec![1, 1]));
+        assert_eq!(choice(tried, Goal::Interactive(3.0)), Some(vec![1, 0]));
+        assert_eq!(choice(tried, Goal::Interactive(1.0)), None);
+    }
+
+    #[test]
+    fn an_error_is_the_largest_over_the_torques() {
+        let reference = [10.0, -20.0, 1.0, 0.0];
+        assert_eq!(errors(&[11.0, -20.0, 1.0, 0.0], &reference, 2), [0.1, 0.0]);
+        assert_eq!(
+            errors(&[10.0, -25.0, 1.0, 1e-9], &reference, 2),
+            [0.25, 1.0]
+        );
+    }
+}
