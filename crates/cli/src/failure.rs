@@ -91,20 +91,10 @@ impl From<gearmesh_scene::study::StudyError> for Failure {
 
 impl From<gearmesh_reduction::ReductionError> for Failure {
     fn from(error: gearmesh_reduction::ReductionError) -> Self {
-        use gearmesh_mesh::MeshError;
-        use gearmesh_reduction::ReductionError;
-        match error {
-            ReductionError::EmptyGauge { .. }
-            | ReductionError::NoDensity
-            | ReductionError::ModesInPlaneStrain
-            | ReductionError::NoModes { .. }
-            | ReductionError::Mesh(
-                MeshError::NoCut { .. }
-                | MeshError::Quality { .. }
-                | MeshError::MeshedElsewhere { .. },
-            ) => Self::input(error),
-            ReductionError::Imported(ref cause) if cause.is_input() => Self::input(error),
-            _ => Self::work(error),
+        if error.is_input() {
+            Self::input(error)
+        } else {
+            Self::work(error)
         }
     }
 }

@@ -12,7 +12,7 @@ pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
 pub enum PythonError {
     /// No interpreter found.
     #[error(
-        "no Python environment: no folder above the program {searched} has `.venv/bin/python`; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
+        "no Python environment: no folder above the program {searched} has `.venv/bin/python`, and there is no `python` beside it; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
     )]
     NotFound {
         /// Where the search began.
@@ -45,7 +45,8 @@ pub struct PythonEnvironment {
 }
 
 impl PythonEnvironment {
-    /// Finds the interpreter: `GEARMESH_PYTHON`, else the `.venv/bin/python` nearest above the program's own file.
+    /// Finds the interpreter: `GEARMESH_PYTHON`, else the `.venv/bin/python` nearest above the program's own file, else
+    /// `python` beside the program, where a wheel has put both.
     ///
     /// Never one in or above the working directory: work in a downloaded folder must not run what that folder brings.
     ///
@@ -61,11 +62,18 @@ impl PythonEnvironment {
         program
             .ancestors()
             .map(|dir| dir.join(".venv/bin/python"))
+            .chain([program.with_file_name("python")])
             .find(|path| path.exists())
             .map(|interpreter| Self { interpreter })
             .ok_or_else(|| PythonError::NotFound {
                 searched: program.display().to_string(),
             })
+    }
+
+    /// The interpreter at a path.
+    #[must_use]
+    pub fn at(interpreter: PathBuf) -> Self {
+        Self { interpreter }
     }
 
     /// The interpreter's path.

@@ -3,9 +3,43 @@
 use std::io::ErrorKind;
 
 use gearmesh_fe::FeError;
+use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_model::FileError;
-use pyo3::PyErr;
-use pyo3::exceptions::{PyFileNotFoundError, PyMemoryError, PyOSError, PyValueError};
+use gearmesh_reduction::ReductionError;
+use gearmesh_scene::RunError;
+use gearmesh_scene::system_run::SystemRunError;
+use pyo3::exceptions::{
+    PyFileNotFoundError, PyMemoryError, PyOSError, PyRuntimeError, PyValueError,
+};
+use pyo3::prelude::*;
+
+pyo3::create_exception!(
+    gearmesh,
+    InputError,
+    PyValueError,
+    "The input is wrong: the message says what was found, where, and what is allowed.\n\nWhere a file or a text is to \
+     blame it has the attributes file (str), line (int or None), key (dotted path, str) and problem (str)."
+);
+pyo3::create_exception!(
+    gearmesh,
+    WorkError,
+    PyRuntimeError,
+    "The input was read, the work failed: no equilibrium, no mesh, a file that cannot be written."
+);
+
+/// An `InputError` with its place as attributes.
+pub(crate) fn input_error(complaint: InputComplaint) -> PyErr {
+    let error = InputError::new_err(complaint.to_string());
+    Python::attach(|py| {
+        let value = error.value(py);
+        // An exception takes any attribute; were it not so, the message would still say all.
+        let _ = value.setattr("file", complaint.file);
+        let _ = value.setattr("line", complaint.line);
+        let _ = value.setattr("key", complaint.key);
+        let _ = value.setattr("problem", complaint.problem);
+    });
+    error
+}
 
 /// `FileNotFoundError` or `OSError` where the system refused, `ValueError` where the content is wrong.
 pub(crate) fn file_error(error: FileError) -> PyErr {
@@ -15,7 +49,7 @@ pub(crate) fn file_error(error: FileError) -> PyErr {
             PyFileNotFoundError::new_err(message)
         }
         FileError::Io { .. } | FileError::Hdf5 { .. } => PyOSError::new_err(message),
-        _ => PyValueError::new_err(message),
+        _ => InputError::new_err(message),
     }
 }
 
@@ -25,5 +59,39 @@ pub(crate) fn fe_error(error: FeError) -> PyErr {
     match error {
         FeError::OutOfMemory { .. } => PyMemoryError::new_err(message),
         _ => PyValueError::new_err(message),
+    }
+}
+
+/// Of a scene of a gear pair.
+pub(crate) fn run_error(error: RunError) -> PyErr {
+    match error {
+        RunError::Input(complaint) => input_error(complaint),
+        RunError::File(error) => file_error(error),
+        error => blamed(error.is_input(), &error),
+    }
+}
+
+/// Of a multibody scene.
+pub(crate) fn system_error(error: SystemRunError) -> PyErr {
+    match error {
+        SystemRunError::Input(complaint) => input_error(complaint),
+        SystemRunError::File(error) => file_error(error),
+        error => blamed(error.is_input(), &error),
+    }
+}
+
+/// Of the offline stage.
+pub(crate) fn reduction_error(error: ReductionError) -> PyErr {
+    match error {
+        ReductionError::Fe(error @ FeError::OutOfMemory { .. }) => fe_error(error),
+        error => blamed(error.is_input(), &error),
+    }
+}
+
+fn blamed(is_input: bool, error: &dyn std::fmt::Display) -> PyErr {
+    if is_input {
+        InputError::new_err(error.to_string())
+    } else {
+        WorkError::new_err(error.to_string())
     }
 }

@@ -135,6 +135,27 @@ pub enum ReductionError {
     },
 }
 
+impl ReductionError {
+    /// True when the gear file is to blame, not the computation.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        use gearmesh_mesh::MeshError;
+        match self {
+            Self::EmptyGauge { .. }
+            | Self::NoDensity
+            | Self::ModesInPlaneStrain
+            | Self::NoModes { .. }
+            | Self::Mesh(
+                MeshError::NoCut { .. }
+                | MeshError::Quality { .. }
+                | MeshError::MeshedElsewhere { .. },
+            ) => true,
+            Self::Imported(cause) => cause.is_input(),
+            _ => false,
+        }
+    }
+}
+
 impl From<imported_error::ImportedMeshError> for ReductionError {
     fn from(error: imported_error::ImportedMeshError) -> Self {
         Self::Imported(Box::new(error))

@@ -1,10 +1,12 @@
 //! `cargo xtask bench offline`: time and memory of the offline stage beside other programs on the same meshes.
-//! `cargo xtask bench chain`: steps of multibody systems.
+//! `cargo xtask bench chain`: steps of multibody systems. `cargo xtask bench bearings`: rolling bearings.
 //!
 //! A list of cases, each a child process; one that fails or is too big tells why in its row and the next one runs.
 
 mod accuracy;
 mod accuracy_page;
+mod bearings;
+mod bearings_page;
 mod case;
 mod chain;
 mod host;
@@ -23,6 +25,7 @@ use crate::prepare;
 use crate::steps::build_program;
 use crate::workspace::Workspace;
 pub use accuracy::accuracy_cost;
+pub use bearings::bearings;
 use case::{measure, stages};
 pub use chain::chain;
 use host::Host;

@@ -15,6 +15,7 @@ mod rust_tests;
 mod steps;
 mod system_libs;
 mod venv;
+mod wheel;
 mod workspace;
 
 use std::process::ExitCode;
@@ -37,9 +38,12 @@ Usage: cargo xtask <COMMAND>
                   --quick     the two smallest meshes only, into out/offline-quick.md
                   --program   measures this program, with the Python in GEARMESH_PYTHON, and builds nothing
   bench chain     time of a step over the number of bodies beside Exudyn, into docs/benchmarks/chain.md
+  bench bearings  time and error of bearings in equilibrium and of balls that move, beside Exudyn, into docs/benchmarks/bearings.md
   accuracy-cost [--quick] [--program PATH]
                   error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
                   the quick page into out/accuracy-cost-quick.md
+  wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
+                  --quick     the development build instead, to try the wheel out
   prepare         only makes what the others need
   help            this text
 
@@ -71,7 +75,9 @@ enum Command {
     Demo(Vec<String>),
     BenchOffline(bench::Options),
     BenchChain(bench::Options),
+    BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
+    Wheel(wheel::Build),
     Prepare,
     Help,
 }
@@ -95,20 +101,25 @@ impl Command {
                 bench_options("bench offline", rest).map(Self::BenchOffline)
             }
             ("bench", ["chain"]) => Ok(Self::BenchChain(bench::Options::default())),
+            ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
+            ("wheel", []) => Ok(Self::Wheel(wheel::Build::Release)),
+            ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
-            | ("test" | "rust-tests" | "prepare" | "bench" | "accuracy-cost", ["--help" | "-h"]) => {
-                Ok(Self::Help)
-            }
-            ("test" | "rust-tests" | "prepare", rest) => {
+            | (
+                "test" | "rust-tests" | "prepare" | "wheel" | "bench" | "accuracy-cost",
+                ["--help" | "-h"],
+            ) => Ok(Self::Help),
+            ("test" | "rust-tests" | "prepare" | "wheel", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
-            ("bench", _) => {
-                Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
-            }
+            ("bench", _) => Err(
+                "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
+                    .into(),
+            ),
             (other, _) => Err(format!("unknown command `{other}`")),
         }
     }
@@ -140,6 +151,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
     match &command {
         Command::BenchOffline(options) => return bench::offline(&workspace, options),
         Command::BenchChain(options) => return bench::chain(&workspace, options),
+        Command::BenchBearings(options) => return bench::bearings(&workspace, options),
         Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
         _ => {}
     }
@@ -150,11 +162,13 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             steps::rust_tests(&workspace, &venv, steps::Extent::Full, &names)?;
             Ok(ExitCode::SUCCESS)
         }
+        Command::Wheel(build) => wheel::wheel(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare
         | Command::Help
         | Command::BenchOffline(_)
         | Command::BenchChain(_)
+        | Command::BenchBearings(_)
         | Command::AccuracyCost(_) => Ok(ExitCode::SUCCESS),
     }
 }
@@ -172,6 +186,14 @@ mod tests {
     fn test_runs_everything_unless_told_to_be_fast() {
         assert_eq!(parse("test"), Ok(Command::Test(steps::Extent::Full)));
         assert_eq!(parse("test --fast"), Ok(Command::Test(steps::Extent::Fast)));
+    }
+
+    #[test]
+    fn a_wheel_is_a_release_unless_it_is_to_be_quick() {
+        let quick = Ok(Command::Wheel(wheel::Build::Quick));
+        assert_eq!(parse("wheel"), Ok(Command::Wheel(wheel::Build::Release)));
+        assert_eq!(parse("wheel --quick"), quick);
+        assert!(parse("wheel --slow").is_err());
     }
 
     #[test]
@@ -230,7 +252,10 @@ mod tests {
         );
         assert_eq!(
             parse("bench online"),
-            Err("`bench` needs what to measure: `bench offline` or `bench chain`".into())
+            Err(
+                "`bench` needs what to measure: `bench offline`, `bench chain` or `bench bearings`"
+                    .into()
+            )
         );
     }
 

@@ -43,6 +43,11 @@ impl Workspace {
         self.root.join("tools/python/requirements.txt")
     }
 
+    /// The Python files of the package `gearmesh`.
+    pub fn python_package(&self) -> PathBuf {
+        self.root.join("crates/python/gearmesh")
+    }
+
     /// The Python environment.
     pub fn venv_dir(&self) -> PathBuf {
         self.root.join(".venv")

@@ -121,24 +121,29 @@ impl DynamicBearing {
         ]
     }
 
-    /// Force of a race on a ball; none where they do not touch.
+    /// Sets the force of a race on a ball; none where they do not touch, and `found` is as it was.
     pub(super) fn at_race(
         &self,
-        row: &BallRow,
+        (row, place): (&BallRow, usize),
         faults: &Faults<'_>,
         ring: &Ring<'_>,
         ball: &Ball,
         tangents: bool,
-    ) -> Option<SurfaceForce> {
+        found: &mut SurfaceForce,
+    ) -> Option<()> {
         if let Some(effort) = &self.effort {
             count(&effort.races);
         }
         let mut groove = row.groove(ring.side);
         let w = ball.place_m - ring.middle;
         let own;
-        let touch = match faults.row {
-            None => groove_touch(groove, &w, &ring.axis)?,
-            Some(of_row) => {
+        let touch = match (self.meshes.get(place), faults.row) {
+            (Some(meshes), _) => {
+                let mesh = &meshes[usize::from(ring.side == Side::Inner)];
+                mesh.touch(&w, &ring.axes, ball.radius_m)?
+            }
+            (None, None) => groove_touch(groove, &w, &ring.axis)?,
+            (None, Some(of_row)) => {
                 own = of_row.groove_for(faults.ball, groove);
                 groove = &own;
                 let (race, patch) = (of_row.race(ring.side), self.patch(of_row, faults, ring));
@@ -163,7 +168,7 @@ impl DynamicBearing {
         if let Some(effort) = &self.effort {
             count(&effort.contacts);
         }
-        Some(surface_force(
+        surface_force(
             &touch,
             |rate| match &self.effects.contact {
                 None => {
@@ -175,7 +180,9 @@ impl DynamicBearing {
             &ring.carrier.against(ball),
             law,
             tangents,
-        ))
+            found,
+        );
+        Some(())
     }
 
     /// The spall of a ball against a race.
@@ -191,14 +198,15 @@ impl DynamicBearing {
         Some(Patch { shape, direction })
     }
 
-    /// Force of a cage on the ball in its pocket.
+    /// Sets the force of a cage on the ball in its pocket; none where it feels nothing.
     pub(super) fn in_pocket(
         &self,
         (row, place, ball_of_row): (&BallRow, usize, usize),
         cage: &Carrier<'_>,
         ball: &Ball,
         tangents: bool,
-    ) -> Option<SurfaceForce> {
+        found: &mut SurfaceForce,
+    ) -> Option<()> {
         let (_, pockets) = &self.effects.cages[place];
         if let Some(effort) = &self.effort {
             count(&effort.pockets);
@@ -217,12 +225,14 @@ impl DynamicBearing {
         let law = pockets.traction.as_ref().map(|traction| {
             move |load: f64, slip: f64| traction.slip(&row.inner.contact, load, slip)
         });
-        Some(surface_force(
+        surface_force(
             &touch,
             |rate| pockets.rebound.damped(&elastic, rate),
             &cage.against(ball),
             law,
             tangents,
-        ))
+            found,
+        );
+        Some(())
     }
 }

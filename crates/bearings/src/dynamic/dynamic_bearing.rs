@@ -16,8 +16,10 @@ use super::pockets::Pockets;
 use super::rebound::Rebound;
 use super::surface_contact::SurfaceForce;
 use super::traction::Traction;
+use super::triangles::{GrooveTriangles, TriangleSize};
 use crate::ball_row::BallRow;
 use crate::error::BearingError;
+use crate::faults::Side;
 use crate::operation::Operation;
 use crate::quasi_static::{QuasiStaticBearing, Row};
 use crate::ring_channels::{RING_CHANNELS, race_loads, ring_channels, sample_ring};
@@ -30,6 +32,8 @@ pub struct DynamicEffects {
     pub contact: Option<StatedContact>,
     /// Damping of Hertz' contacts at the races.
     pub rebound: Rebound,
+    /// Races as meshes of triangles in place of tori.
+    pub surface: Option<TriangleSize>,
     /// Friction at the races; without it balls do not turn.
     pub traction: Option<Traction>,
     /// Weight of the balls \[m/s²\], world axes.
@@ -48,6 +52,8 @@ pub struct DynamicBearing {
     pub(super) pair: MarkerPair,
     bodies: Vec<BodyId>,
     rows: Vec<BallRow>,
+    /// Outer and inner groove of each row, where the races are meshes.
+    pub(super) meshes: Vec<[GrooveTriangles; 2]>,
     pub(super) effects: DynamicEffects,
     /// Of balls with spalls, in the order of their numbers.
     pub(super) orientations: Vec<BallOrientation>,
@@ -59,7 +65,8 @@ impl DynamicBearing {
     /// Puts a bearing between its outer ring (marker A) and its inner ring (marker B).
     ///
     /// # Errors
-    /// [`BearingError::NotCarried`] for bearings with rollers, where there are cages but not one for each row, or for a spall on a ball that nothing turns.
+    /// [`BearingError::NotCarried`] for bearings with rollers, where there are cages but not one for each row, for a spall on a ball that nothing turns, or for
+    /// races as triangles in a bearing with faults; [`BearingError::Parameter`] for edges of triangles that do not fit.
     pub fn new(
         name: &str,
         pair: MarkerPair,
@@ -82,6 +89,7 @@ impl DynamicBearing {
                 "each row of balls has a cage of its own: give as many cages as rows, or none",
             ));
         }
+        let meshes = meshes(&rows, effects.surface)?;
         let mut bodies = vec![pair.a.body, pair.b.body];
         bodies.extend(effects.cages.iter().map(|(body, _)| *body));
         let mut found = Self {
@@ -89,6 +97,7 @@ impl DynamicBearing {
             pair: bearing.ring_markers(pair),
             bodies,
             rows,
+            meshes,
             effects,
             orientations: Vec::new(),
             ball_loads: false,
@@ -151,6 +160,26 @@ impl DynamicBearing {
             (0..row.balls).map(move |ball| (place, row, ball, before + ball))
         })
     }
+}
+
+/// The grooves as triangles, where asked for.
+fn meshes(
+    rows: &[BallRow],
+    size: Option<TriangleSize>,
+) -> Result<Vec<[GrooveTriangles; 2]>, BearingError> {
+    let Some(size) = size else {
+        return Ok(Vec::new());
+    };
+    if rows.iter().any(|row| row.faults.is_some()) {
+        return Err(BearingError::NotCarried(
+            "races as triangles have no faults: remove the surface, or the faults",
+        ));
+    }
+    let of_row = |row| {
+        let of_side = |side| GrooveTriangles::new(row, side, size);
+        Ok([of_side(Side::Outer)?, of_side(Side::Inner)?])
+    };
+    rows.iter().map(of_row).collect()
 }
 
 impl ForceElement for DynamicBearing {
@@ -241,6 +270,7 @@ impl ForceElement for DynamicBearing {
         let rings = self.rings(view, [loads.starts()[0], loads.starts()[1]]);
         let per_ball = self.per_ball();
         let mut power = Power::default();
+        let mut found = SurfaceForce::NONE;
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, turning) = self.faults(view, row, ball_of_row, number);
@@ -256,14 +286,17 @@ impl ForceElement for DynamicBearing {
                 power.dissipated_w += found.dissipated_w;
             };
             for ring in &rings {
-                if let Some(found) = self.at_race(row, &faults, ring, &ball, tangents) {
+                let touches =
+                    self.at_race((row, place), &faults, ring, &ball, tangents, &mut found);
+                if touches.is_some() {
                     add(&ring.carrier, &found, loads);
                 }
             }
             if let Some((body, _)) = self.effects.cages.get(place) {
                 let cage = Carrier::new(view.body(*body), loads.starts()[2 + place]);
                 let which = (row, place, ball_of_row);
-                if let Some(found) = self.in_pocket(which, &cage, &ball, tangents) {
+                let touches = self.in_pocket(which, &cage, &ball, tangents, &mut found);
+                if touches.is_some() {
                     add(&cage, &found, loads);
                 }
             }
@@ -347,8 +380,11 @@ impl ForceElement for DynamicBearing {
         for (place, row, ball_of_row, number) in self.numbered() {
             let ball = self.ball(view, row, ball_of_row, number);
             let (faults, _) = self.faults(view, row, ball_of_row, number);
-            let [outer, inner] =
-                [&rings[0], &rings[1]].map(|ring| self.at_race(row, &faults, ring, &ball, false));
+            let [outer, inner] = [&rings[0], &rings[1]].map(|ring| {
+                let mut found = SurfaceForce::NONE;
+                let touches = self.at_race((row, place), &faults, ring, &ball, false, &mut found);
+                touches.map(|()| found)
+            });
             if let Some(inner) = &inner {
                 force -= inner.force;
                 let arm = ball.place_m - rings[1].middle;
@@ -361,7 +397,9 @@ impl ForceElement for DynamicBearing {
             if let Some((body, _)) = self.effects.cages.get(place) {
                 let cage = Carrier::new(view.body(*body), 0);
                 let which = (row, place, ball_of_row);
-                if let Some(found) = self.in_pocket(which, &cage, &ball, false) {
+                let mut found = SurfaceForce::NONE;
+                let touches = self.in_pocket(which, &cage, &ball, false, &mut found);
+                if touches.is_some() {
                     for axis in 0..3 {
                         out[first_cage + per_cage * place + axis] -= found.force[axis];
                     }

@@ -13,7 +13,7 @@ use crate::ball_row::Groove;
 /// ```
 ///
 /// None on the axis and at the groove's centre, where n has no direction and the ball is far from touching.
-#[inline]
+#[inline(always)] // a touch is large to hand back
 pub(crate) fn groove_touch(
     groove: &Groove,
     w: &Vector3<f64>,
@@ -27,7 +27,8 @@ pub(crate) fn groove_touch(
     }
     let e = radial / radius;
     let (out, up) = (radius - groove.centre_radius_m, height - groove.centre_z_m);
-    let length = out.hypot(up);
+    // Millimetres: no square is too large or too small.
+    let length = (out * out + up * up).sqrt();
     let approach_m = length - groove.arm_m;
     if length < 1e-6 * groove.arm_m {
         return None;

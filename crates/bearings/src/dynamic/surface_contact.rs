@@ -88,30 +88,41 @@ pub(crate) struct SurfaceForce {
     pub by_turn: Option<[Matrix3<f64>; 2]>,
 }
 
-/// The force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction.
+impl SurfaceForce {
+    pub const NONE: Self = Self {
+        load_n: 0.0,
+        force: Vector3::new(0.0, 0.0, 0.0),
+        moment: Vector3::new(0.0, 0.0, 0.0),
+        stored_j: 0.0,
+        dissipated_w: 0.0,
+        force_by: ByMotion::ZERO,
+        moment_by: ByMotion::ZERO,
+        by_turn: None,
+    };
+}
+
+/// Sets the force at a touch. `damped` gives F of the rate δ̇, `traction` κ of a load and a slip; none: no friction. Without `tangents` the
+/// derivatives in `found` keep what they were: with all of them it is large, and moving it took an eighth of a run.
+#[inline]
 pub(crate) fn surface_force(
     touch: &Touch,
     damped: impl Fn(f64) -> DampedLoad,
     against: &Against,
     traction: Option<impl Fn(f64, f64) -> Slip>,
     tangents: bool,
-) -> SurfaceForce {
+    found: &mut SurfaceForce,
+) {
     let (n, u) = (touch.normal, against.velocity);
     let across = n.dot(&u);
     let by_turn = touch.by_turn.as_ref();
     let rate = across + by_turn.map_or(0.0, |by| by.first.dot(&against.spin));
     let damped = damped(rate);
     let load = damped.load_n;
-    let mut found = SurfaceForce {
-        load_n: load,
-        force: -n * load,
-        moment: by_turn.map_or_else(Vector3::zeros, |by| by.first * -load),
-        stored_j: damped.stored_j,
-        dissipated_w: (load - damped.elastic_n) * rate,
-        force_by: ByMotion::ZERO,
-        moment_by: ByMotion::ZERO,
-        by_turn: None,
-    };
+    found.load_n = load;
+    found.force = -n * load;
+    found.moment = by_turn.map_or_else(Vector3::zeros, |by| by.first * -load);
+    found.stored_j = damped.stored_j;
+    found.dissipated_w = (load - damped.elastic_n) * rate;
     // ∂F by w and by u.
     let mut rate_by_place = touch.turning * u;
     if let Some(by) = by_turn {
@@ -122,8 +133,13 @@ pub(crate) fn surface_force(
         velocity: n * damped.by_rate,
     };
     if tangents {
-        found.force_by.place = -n * load_by.place.transpose() - touch.turning * load;
-        found.force_by.velocity = -n * load_by.velocity.transpose();
+        found.force_by = ByMotion {
+            place: -n * load_by.place.transpose() - touch.turning * load,
+            velocity: -n * load_by.velocity.transpose(),
+            spin: Matrix3::zeros(),
+        };
+        found.moment_by = ByMotion::ZERO;
+        found.by_turn = None;
     }
     let mut drag = None;
     if let Some(traction) = traction {
@@ -145,7 +161,7 @@ pub(crate) fn surface_force(
                     - Matrix3::identity() * (across / square)
                     + cross(&against.spin) * arm,
             };
-            here.add(touch, &load_by, &mut found);
+            here.add(touch, &load_by, found);
             drag = Some(here);
         }
     }
@@ -159,10 +175,9 @@ pub(crate) fn surface_force(
             (load, &load_by),
             (&by_turn, &by_spin),
             &drag,
-            &mut found,
+            found,
         );
     }
-    found
 }
 
 /// ∂F by w and u.

@@ -15,7 +15,7 @@ use nalgebra::Vector5;
 use crate::common::{B6205, bearing, close};
 use crate::rig::{Channels, Held, cage, element, hold, pockets, row, shaft, system};
 
-fn rolling(damping_s_per_m: f64) -> DynamicEffects {
+pub fn rolling(damping_s_per_m: f64) -> DynamicEffects {
     DynamicEffects {
         rebound: Rebound {
             factor_s_per_m: damping_s_per_m,

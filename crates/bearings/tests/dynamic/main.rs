@@ -13,3 +13,4 @@ mod quasi_static_element;
 mod rig;
 mod skidding;
 mod tangents;
+mod triangles;

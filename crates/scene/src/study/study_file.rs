@@ -244,7 +244,7 @@ fn demand_samples(tables: &StudyTables, document: &InputDocument) -> Result<(), 
             return Err(document.error(key, problem));
         }
     }
-    if sampled && !tables.samples.is_some_and(|samples| samples > 0) {
+    if sampled && tables.samples.is_none_or(|samples| samples < 1) {
         let problem = "must be stated with this design: how many cases, 1 or more";
         return Err(document.error("samples", problem));
     }

@@ -1,8 +1,8 @@
 //! Scenes in the forms of earlier versions: read as what they are now, with a note that says how they are written now.
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::Scene;
-use gearmesh_scene::study::{Study, varied};
+use gearmesh_scene::study::{Study, StudyScenes};
+use gearmesh_scene::{Scene, SceneFile};
 
 use crate::common::*;
 
@@ -232,11 +232,14 @@ fn keys_of_studies_are_read() {
         let study = format!(
             "title = \"s\"\nscene = \"s.toml\"\ncolumns = [\"c\"]\n[[parameter]]\nname = \"p\"\nkeys = [\"{key}\"]\nvalues = [{value}]\n"
         );
-        let study = Study::from_document(InputDocument::new("study.toml", study), &fe_models());
-        let (study, scene) = (study.unwrap(), InputDocument::new("scene.toml", scene));
-        let case = study.cases().pop().unwrap();
-        let made = varied(&study, &scene, &case, &fe_models()).map_err(|e| e.to_string());
-        made.map(|made| format!("{:?}", made.tables.gear_mesh[0].model))
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("s.toml"), scene).unwrap();
+        let study = Study::from_document(InputDocument::new("study.toml", study), folder.path());
+        let made = StudyScenes::new(&study.unwrap(), folder.path()).map_err(|e| e.to_string())?;
+        let Some(SceneFile::System(made)) = made.scenes.last() else {
+            unreachable!("a multibody scene");
+        };
+        Ok::<_, String>(format!("{:?}", made.tables.gear_mesh[0].model))
     };
     let (former, present) = (wheels(""), text("scene_two_wheels.toml"));
     for scene in [&former, &present] {

@@ -363,6 +363,16 @@ fn bad_dynamic_bearings_are_told() {
             ["model.traction", "friction"],
         ),
         (
+            "ball_loads = true",
+            "surface = { kind = \"triangles\", across_um = 0.0, along_um = 50.0 }",
+            ["model.surface", "across the groove"],
+        ),
+        (
+            "ball_loads = true",
+            "surface = { kind = \"torus\" }",
+            ["torus", "triangles"],
+        ),
+        (
             "clearance_um = 100.0",
             "clearance_um = -1.0",
             ["model.cage.pockets", "clearance"],

@@ -2,7 +2,7 @@
 
 use gearmesh_bearings::dynamic::{
     FluidTraction, LandContact, LandFilm, LandGuide, LandSide, PocketShape, Pockets, Rebound,
-    StatedContact, Traction,
+    StatedContact, Traction, TriangleSize,
 };
 use gearmesh_bearings::quasi_static::Row;
 use gearmesh_bearings::{DynamicBearing, DynamicEffects, QuasiStaticBearing};
@@ -16,7 +16,7 @@ use crate::system::assembly::bodies::{Frame, vector};
 use crate::system::assembly::elements::{Connections, PER_MM, pair};
 use crate::system::tables::bearing::{
     BearingTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable, RingWord,
-    TractionTable,
+    SurfaceTable, TractionTable,
 };
 use crate::system::tables::{MM, UM};
 
@@ -60,6 +60,7 @@ pub(super) fn add(
                 contact: contact(model, keys)?,
                 rebound: rebound(model.rebound, "model.rebound", keys)?,
                 traction: traction(model.traction.as_ref(), "model.traction", keys)?,
+                surface: model.surface.map(triangles),
                 gravity_m_per_s2: weight(model, gravity, keys)?,
                 ..DynamicEffects::default()
             };
@@ -81,7 +82,16 @@ pub(super) fn add(
             }
             let element =
                 DynamicBearing::new(&table.name, pair(bodies, ends, &frame), &bearing, effects)
-                    .map_err(|e| keys.error("model", e))?;
+                    .map_err(|e| {
+                        keys.error(
+                            if model.surface.is_some() {
+                                "model.surface"
+                            } else {
+                                "model"
+                            },
+                            e,
+                        )
+                    })?;
             Ok(Ok(if model.ball_loads {
                 element.with_ball_loads()
             } else {
@@ -123,6 +133,17 @@ fn weight(
             "model.ball_weight",
             "needs the scene's gravity_m_per_s2, which is missing; state it, or remove this key",
         )),
+    }
+}
+
+fn triangles(table: SurfaceTable) -> TriangleSize {
+    let SurfaceTable::Triangles {
+        across_um,
+        along_um,
+    } = table;
+    TriangleSize {
+        across_m: UM * across_um,
+        along_m: UM * along_um,
     }
 }
 

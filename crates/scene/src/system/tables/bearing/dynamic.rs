@@ -16,6 +16,8 @@ pub struct DynamicBearingTable {
     pub rebound: Option<ReboundTable>,
     /// Friction or film between balls and races; none where not given, and balls do not turn then.
     pub traction: Option<TractionTable>,
+    /// Races as meshes of triangles; tori where not given. Not with faults.
+    pub surface: Option<SurfaceTable>,
     /// Whether balls have weight, by the scene's `gravity_m_per_s2`.
     #[serde(default)]
     pub ball_weight: bool,
@@ -87,6 +89,22 @@ pub enum TractionTable {
 }
 
 kinds!(TractionTable, "kind");
+
+/// `surface`: what the races are made of.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "SurfaceTable")]
+pub enum SurfaceTable {
+    /// Triangles. Their edges should be a fifth of the contact ellipse or less; two million on a race at most.
+    Triangles {
+        /// Longest edge across the groove.
+        across_um: f64,
+        /// Longest edge along the way of the balls.
+        along_um: f64,
+    },
+}
+
+kinds!(SurfaceTable, "kind");
 
 /// `cage`: a body with six degrees of freedom, called `BEARING/cage`, of two rows `BEARING/cage_1` and `BEARING/cage_2`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

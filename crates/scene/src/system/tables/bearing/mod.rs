@@ -8,7 +8,7 @@ mod rigid;
 
 pub use dynamic::{
     CageTable, ContactTable, DynamicBearingTable, LandTable, PocketTable, PocketWord, ReboundTable,
-    RingWord, TractionTable,
+    RingWord, SurfaceTable, TractionTable,
 };
 pub use housing::HousingTable;
 pub use linear::{AxialSupportWord, LinearBearingTable, StiffnessSource};

@@ -1,0 +1,70 @@
+"""Gear mesh stiffness: reduce a gear once, then contact positions in microseconds.
+
+    import gearmesh as gm
+
+    pinion = gm.Gear("pinion", teeth=23, module_mm=3, face_width_mm=20, bore_diameter_mm=25, material=gm.STEEL)
+    wheel = pinion.but(name="wheel", teeth=40, bore_diameter_mm=40)
+    pair = gm.Pair(pinion.reduce(), wheel.reduce(), centre_distance_mm=94.6, torques_Nm=[50, 100, 200])
+    result = pair.run()
+    result.plot("te_m")
+
+Names carry units: keywords those of the files (module_mm, torques_Nm), arrays SI (te_m, pressure_Pa).
+docs/python.md is the guide.
+"""
+
+from ._native import (
+    InputError,
+    WorkError,
+    __version__,
+    _write_synthetic_reduced,
+    export_mesh,
+    import_mesh,
+    mass,
+    natural_modes,
+    read_mesh,
+    read_reduced,
+    schema,
+    solve,
+    stiffness,
+    strain,
+    write_mesh,
+)
+from .bearing import Bearing
+from .bevel import BevelPair
+from .gear import STEEL, Gear
+from .program import program
+from .reduced import ReducedGear, reduce
+from .result import Result, compare
+from .scene import Pair, Scene, run
+from .study import Study, StudyResult, study
+
+__all__ = [
+    "STEEL",
+    "Bearing",
+    "BevelPair",
+    "Gear",
+    "InputError",
+    "Pair",
+    "ReducedGear",
+    "Result",
+    "Scene",
+    "Study",
+    "StudyResult",
+    "WorkError",
+    "compare",
+    "export_mesh",
+    "import_mesh",
+    "mass",
+    "natural_modes",
+    "program",
+    "read_mesh",
+    "read_reduced",
+    "reduce",
+    "run",
+    "schema",
+    "solve",
+    "stiffness",
+    "strain",
+    "study",
+    "write_mesh",
+]

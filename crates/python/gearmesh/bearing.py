@@ -1,0 +1,52 @@
+"""Rolling bearings at rest."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any, Sequence
+
+from .program import program
+from .toml_text import Tables, to_toml
+
+
+class Bearing:
+    """A bearing file (docs/reference/bearing.md): a path, or its tables as a dict.
+
+    Computed by the program: raises InputError and WorkError with its messages.
+    """
+
+    def __init__(self, file: str | Path | Tables) -> None:
+        self._file = file
+
+    def rest(self, load_N: Sequence[float], **options: Any) -> dict[str, Any]:
+        """Where the inner ring comes to rest under load_N (x, y, z), and what every ball or roller bears.
+
+        Options are those of `gearmesh bearing` with underscores: speed_rpm, outer_speed_rpm, control, moment_Nm ...
+        Returns what the program prints: displacement_um (3,), tilt_mrad (2,), stiffness_SI (5, 5), rows (loads,
+        contact angles, pressures of each element), ratings, life.
+        """
+        return self._ask("bearing", "--load-N", ",".join(repr(float(part)) for part in load_N), **options)
+
+    def frequencies(self, **options: Any) -> dict[str, Any]:
+        """Frequencies of cage, elements and passing of the races; options of `gearmesh bearing-frequencies`."""
+        return self._ask("bearing-frequencies", **options)
+
+    def _ask(self, command: str, *words: str, **options: Any) -> dict[str, Any]:
+        further = [word for name, value in options.items() for word in _option(name, value)]
+        if not isinstance(self._file, dict):
+            return program(command, self._file, *words, *further)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bearing.toml"
+            path.write_text(to_toml(self._file), encoding="utf-8")
+            return program(command, path, *words, *further)
+
+    def __repr__(self) -> str:
+        return f"<Bearing {'of a dict' if isinstance(self._file, dict) else self._file}>"
+
+
+def _option(name: str, value: Any) -> list[str]:
+    """`speed_rpm=100` as `--speed-rpm=100`."""
+    if isinstance(value, (list, tuple)):
+        value = ",".join(str(part) for part in value)
+    return [f"--{name.replace('_', '-')}={value}"]

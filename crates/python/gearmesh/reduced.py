@@ -1,0 +1,116 @@
+"""A reduced gear: the compliance of its flanks in one file."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from . import _native
+from .gear import Gear
+from .progress import Bar, Progress
+from .toml_text import Tables
+
+
+class ReducedGear:
+    """A reduced gear file (.h5). Opening it reads and checks it.
+
+    model["c_hub"] and the other keys are those of gearmesh.read_reduced, NumPy arrays in SI units. Raises
+    FileNotFoundError, InputError for a file that is damaged or of another kind.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path).absolute()
+        self._parts = _native.read_reduced(self.path)
+
+    def __getitem__(self, key: str) -> Any:
+        return self._parts[key]
+
+    def keys(self) -> list[str]:
+        """Names of the parts."""
+        return list(self._parts)
+
+    @property
+    def name(self) -> str:
+        """Name of the gear."""
+        return self._parts["name"]
+
+    @property
+    def teeth(self) -> int:
+        """Number of teeth."""
+        return self._parts["teeth"]
+
+    @property
+    def gauges(self) -> list[str]:
+        """Names of the strain gauges."""
+        return [gauge["name"] for gauge in self._parts["gauges"]]
+
+    @functools.cached_property
+    def gear(self) -> Gear:
+        """The definition that it was made from."""
+        return Gear.from_toml(self._parts["input_toml"], str(self.path))
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def __repr__(self) -> str:
+        made = self._parts["provenance"]
+        gauges = f", gauges {', '.join(self.gauges)}" if self.gauges else ""
+        return (
+            f"<ReducedGear {self.name!r}: {self.teeth} teeth, {self['sectors']} repeating sectors, from {made['dofs']} "
+            f"degrees of freedom ({made['element']}){gauges}; {self.path}>"
+        )
+
+
+def reduce(
+    gear: Gear | str | Path | Tables,
+    path: str | Path | None = None,
+    *,
+    error_estimate: bool = True,
+    again: bool = False,
+    progress: Progress = None,
+) -> ReducedGear:
+    """Meshes a gear and condenses it to the compliance of its flanks; seconds to minutes.
+
+    gear: a Gear, a gear file or its tables. path: the model file; without it the file lies in the cache
+    (GEARMESH_CACHE, else ~/.cache/gearmesh) under a digest of the gear file's text and the program's version; a gear
+    that is there already is not reduced again unless again is true. error_estimate: also solve on a coarser mesh, for
+    the mesh error of compliance and gauges.
+
+    Raises InputError, WorkError, MemoryError, OSError; Ctrl-C ends the wait, and no model is written.
+    """
+    if isinstance(gear, dict):
+        gear = Gear(**gear)
+    elif not isinstance(gear, Gear):
+        gear = Gear.from_file(gear)
+    meshed_elsewhere = gear.tables["blank"]["kind"] == "mesh"
+    if path is None:
+        if meshed_elsewhere:
+            problem = 'path: blank.kind = "mesh" reads another file; name the model that is made of it'
+            raise _native.InputError(problem)
+        path = _cache() / f"{_digest(gear, error_estimate)}.h5"
+        if path.exists() and not again:
+            return ReducedGear(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+    with Bar(progress, gear.name) as bar:
+        _native.reduce(gear.toml, gear.file, Path(path), _interpreter(), error_estimate, bar.call)
+    return ReducedGear(path)
+
+
+def _cache() -> Path:
+    """Folder of the models that nobody has named."""
+    named = os.environ.get("GEARMESH_CACHE")
+    return Path(named) if named else Path.home() / ".cache" / "gearmesh"
+
+
+def _digest(gear: Gear, error_estimate: bool) -> str:
+    text = "\0".join([gear.toml, _native.__version__, str(error_estimate)])
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _interpreter() -> Path:
+    """A Python with gmsh: the one that is running, unless told otherwise."""
+    return Path(os.environ.get("GEARMESH_PYTHON") or sys.executable)

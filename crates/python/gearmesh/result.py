@@ -1,0 +1,218 @@
+"""Results: data sets as NumPy arrays, tables, pictures."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _native
+from .program import program
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import xarray
+
+# Names of axes in files as those of coordinates, and the data sets that hold these.
+_DIMENSIONS = {"driver angle": "angle", "contact line": "line"}
+_COORDINATES = {"torque": "torque_Nm", "angle": "angle_rad"}
+
+
+class Result:
+    """What a scene came to. result["te_m"] is a data set as an array, in SI units with the unit in the name.
+
+    Of a pair: te_m, stiffness_tangent_N_per_m and so on have the axes (torque, angle), force_N and pressure_Pa (torque,
+    angle, line, slice); docs/reference/pair-result.md lists all. Of a multibody scene: one array (rows,) a column, read
+    from the file when it is asked for.
+
+    Attributes: kind ("pair", "transient", "static", "speed-sweep", "eigen"), title, path (None in memory), notes and
+    warnings (what a user should know about the scene and the run), scene_toml.
+    """
+
+    def __init__(
+        self,
+        native: _native.NativeResult,
+        path: Path | None = None,
+        notes: list[str] | None = None,
+        folder: tempfile.TemporaryDirectory[str] | None = None,
+    ) -> None:
+        self._native, self.path, self.notes, self._folder = native, path, notes or [], folder
+        self.kind, self.title, self.scene_toml = native.kind, native.title, native.scene_toml
+        self.warnings = native.warnings
+        self._sets = native.data_sets()
+        self._tables: dict[str, dict[str, Any]] | None = None
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Result:
+        """A result file of either kind. Raises FileNotFoundError, InputError for a file that is none."""
+        return cls(_native.open_result(Path(path)), Path(path))
+
+    def keys(self) -> list[str]:
+        """Names of the data sets."""
+        return list(self._sets) if self.kind == "pair" else self._native.names()
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._set(name)[0]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.keys()
+
+    def unit(self, name: str) -> str:
+        """Unit of a data set."""
+        return self._set(name)[2]
+
+    def describe(self, name: str) -> str:
+        """What a data set is, with its sign."""
+        return self._set(name)[3]
+
+    def axes(self, name: str) -> tuple[str, ...]:
+        """Names of the axes of a data set."""
+        return tuple(_DIMENSIONS.get(axis, axis) for axis in self._set(name)[1])
+
+    def _set(self, name: str) -> tuple[np.ndarray, list[str], str, str]:
+        if name not in self._sets:
+            if name not in self.keys():
+                raise KeyError(f"the result has no `{name}`; it has {', '.join(self.keys())}")
+            self._sets[name] = self._native.column(name)
+        return self._sets[name]
+
+    def tables(self) -> dict[str, dict[str, Any]]:
+        """The tables of `gearmesh export` (docs/results.md), the most wanted first: {table: {column: values}}."""
+        if self._tables is None:
+            self._tables = self._native.tables()
+        return self._tables
+
+    def to_pandas(self, table: str | None = None) -> pandas.DataFrame:
+        """A table as a data frame: curves of a pair, rows of a run in time, windows of a sweep, modes. Needs pandas."""
+        import pandas
+
+        tables = self.tables()
+        name = next(iter(tables)) if table is None else table
+        if name not in tables:
+            raise KeyError(f"the result has no table `{name}`; it has {', '.join(tables)}")
+        return pandas.DataFrame(tables[name])
+
+    def to_xarray(self) -> xarray.Dataset:
+        """All arrays with named axes, coordinates, units and descriptions; they share the memory. Needs xarray."""
+        import xarray
+
+        names = [name for name in self.keys() if self.axes(name)]
+        if self.kind == "pair":
+            # Texts and lists of the gears have axes of their own, which no curve shares.
+            names = [name for name in names if name.split("/")[0] not in ("gear_1", "gear_2", "ratings", "seconds")]
+        variables = {}
+        for name in names:
+            values, _, unit, description = self._set(name)
+            variables[name] = (self.axes(name), values, {"units": unit, "long_name": description})
+        coordinates = _COORDINATES if self.kind == "pair" else {"row": "time_s"}
+        data = xarray.Dataset(variables, attrs={"title": self.title, "scene_toml": self.scene_toml})
+        for axis, name in coordinates.items():
+            if name in data:
+                data = data.swap_dims({axis: name}).set_coords(name)
+        return data
+
+    def plot(self, name: str | None = None, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draws a data set over the driver angle (a curve a torque), over time, or the Campbell map of natural modes.
+
+        name: te_m of a pair unless told otherwise; a column of a multibody result. Lengths are drawn in um, angles in
+        degrees. Returns matplotlib's axes. Needs matplotlib; raises KeyError for a name that is not there, InputError
+        for one that is no curve.
+        """
+        import matplotlib.pyplot as plt
+
+        if ax is None:
+            ax = plt.figure(figsize=(7.0, 4.0), layout="constrained").add_subplot()
+        if self.kind == "eigen":
+            self._plot_modes(ax)
+        else:
+            self._plot_curve("te_m" if name is None and self.kind == "pair" else name, ax)
+        ax.set_title(self.title)
+        ax.grid(alpha=0.3)
+        return ax
+
+    def _plot_curve(self, name: str | None, ax: matplotlib.axes.Axes) -> None:
+        if name is None:
+            raise _native.InputError(f"name: the result has many columns; name one of {', '.join(self.keys())}")
+        values, unit = self[name], self.unit(name)
+        scale, unit = (1e6, "um") if unit == "m" else (1.0, unit)
+        label = f"{name.rsplit('_', 1)[0] if unit == 'um' else name} [{unit}]" if unit not in ("", "1") else name
+        if self.kind != "pair":
+            across = "time_s" if "time_s" in self else None
+            x = self[across] if across else np.arange(len(values))
+            ax.plot(x, scale * values)
+            ax.set(xlabel="time [s]" if across else "row", ylabel=label)
+            return
+        if self.axes(name)[-1:] != ("angle",):
+            raise _native.InputError(f"{name} has the axes {self.axes(name)}; a curve goes over angle")
+        angle_deg = np.degrees(self["angle_rad"])
+        for row, torque in zip(np.atleast_2d(values), self["torque_Nm"]):
+            ax.plot(angle_deg, scale * row, label=f"{torque:g} N m")
+        ax.set(xlabel="angle of gear 1 [deg]", ylabel=label)
+        if values.ndim == 2:
+            ax.legend(title="torque on gear 2", fontsize="small")
+
+    def _plot_modes(self, ax: matplotlib.axes.Axes) -> None:
+        modes = self.tables()["modes"]
+        speed_rpm = np.asarray(modes["speed_rad_per_s"]) * 30.0 / np.pi
+        across, head = (speed_rpm, "speed [rpm]")
+        if np.isnan(speed_rpm).any():
+            across, head = np.asarray(modes["load_factor"]), "load factor"
+        number = np.asarray(modes["mode"])
+        for mode in np.unique(number):
+            chosen = number == mode
+            ax.plot(across[chosen], np.asarray(modes["frequency_Hz"])[chosen], ".-", markersize=3)
+        ax.set(xlabel=head, ylabel="natural frequency [Hz]")
+
+    def save(self, path: str | os.PathLike[str]) -> Result:
+        """Writes a pair's result to a file; that of a multibody scene is one already, and is copied."""
+        if self.kind == "pair":
+            self._native.write(Path(path))
+        else:
+            import shutil
+
+            shutil.copyfile(str(self.path), path)
+        return Result.open(path)
+
+    def _file(self, folder: str) -> Path:
+        """The file of this result; one in folder where it has none."""
+        if self.path is not None:
+            return self.path
+        path = Path(folder) / "result.h5"
+        self._native.write(path)
+        return path
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report page (HTML)."""
+        with tempfile.TemporaryDirectory() as folder:
+            program("report", self._file(folder), "-o", path)
+
+    def export(self, path: str | os.PathLike[str], table: str | None = None) -> None:
+        """Writes a table for other programs; the ending chooses the format: .csv, .parquet, .mat."""
+        with tempfile.TemporaryDirectory() as folder:
+            program("export", self._file(folder), "-o", path, *([] if table is None else ["--table", table]))
+
+    def __repr__(self) -> str:
+        if self.kind != "pair":
+            head = f"{self.kind}, {len(self.keys())} columns"
+            return f"<Result {self.title!r}: {head}>"
+        lines = [f"<Result {self.title!r}: {len(self['angle_rad'])} positions at each torque"]
+        for row, torque in zip(self["te_m"], self["torque_Nm"]):
+            mean_um, range_um = 1e6 * row.mean(), 1e6 * np.ptp(row)
+            lines.append(f"  {torque:g} N m: TE mean {mean_um:.3f} um, peak to peak {range_um:.3f} um")
+        if len(lines) > 7:
+            lines[6:] = [f"  ... {len(lines) - 6} torques more"]
+        return "\n".join(lines) + ">"
+
+
+def compare(result: Result | str | os.PathLike[str], record: str | os.PathLike[str], *options: str) -> dict[str, Any]:
+    """A result beside a reference record's folder (docs/records.md), both through the rig pipeline.
+
+    options are those of `gearmesh compare`. Returns what it prints: record, kind, shaft, revolutions, comparisons.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = result._file(folder) if isinstance(result, Result) else result
+        return program("compare", path, record, *options)

@@ -1,0 +1,61 @@
+"""Dicts as texts of files, and keys of files by dotted paths."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from . import _native
+
+Tables = dict[str, Any]
+
+
+def to_toml(tables: Tables) -> str:
+    """TOML text of nested dicts, lists, numbers, texts and truth values; None leaves a key out."""
+    return _native.toml_from_json(json.dumps(_plain(tables)))
+
+
+def from_toml(text: str, file: str) -> Tables:
+    """Nested dicts of a TOML text; file is its name in complaints (InputError)."""
+    return json.loads(_native.json_from_toml(text, file))
+
+
+def _plain(value: Any) -> Any:
+    """What JSON knows: paths become texts, NumPy's numbers and arrays Python's."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items() if item is not None}
+    if isinstance(value, os.PathLike):
+        return str(Path(value).absolute())
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    return value
+
+
+def with_keys(tables: Tables, changes: dict[str, Any]) -> Tables:
+    """A copy with keys replaced: dotted paths, items of lists by number from 0 ("gear_mesh.0.model.kind").
+
+    Raises KeyError for a path through something that is no table or list.
+    """
+    changed = copy.deepcopy(tables)
+    for path, value in changes.items():
+        *parents, last = path.split(".")
+        place: Any = changed
+        for part in parents:
+            if isinstance(place, list) and part.isdigit() and int(part) < len(place):
+                place = place[int(part)]
+            elif isinstance(place, dict):
+                place = place.setdefault(part, {})
+            else:
+                raise KeyError(f"{path}: there is no `{part}`")
+        if isinstance(place, list) and last.isdigit() and int(last) < len(place):
+            place[int(last)] = value
+        elif isinstance(place, dict):
+            place[last] = value
+        else:
+            raise KeyError(f"{path}: there is no `{last}`")
+    return changed

@@ -1,0 +1,139 @@
+//! Running scenes.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use gearmesh_geometry::InputError as InputComplaint;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::pair::Scene;
+use gearmesh_scene::system::{SystemPlan, SystemScene};
+use gearmesh_scene::system_run::{
+    Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
+};
+use gearmesh_scene::{SceneFile, load, run as run_pair_scene};
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+
+use crate::errors::{InputError, file_error, input_error, run_error, system_error};
+use crate::results::NativeResult;
+use crate::watched::{OnInterrupt, watched};
+
+/// Wall time between checkpoints of a multibody run.
+const CHECKPOINTS: Duration = Duration::from_secs(10);
+
+/// What a scene will compute, in lines for people. Raises InputError for what a run would refuse.
+#[pyfunction]
+pub(crate) fn plan(
+    py: Python<'_>,
+    text: String,
+    file: String,
+    folder: PathBuf,
+) -> PyResult<Vec<String>> {
+    py.detach(move || match read(text, file, folder)? {
+        SceneFile::Pair(scene) => {
+            let loaded = load(*scene).map_err(run_error)?;
+            loaded
+                .contact()
+                .map_err(|error| InputError::new_err(error.to_string()))?;
+            Ok(loaded.plan().lines)
+        }
+        SceneFile::System(scene) => {
+            let loaded = scene.load().map_err(input_error)?;
+            RunJob::from_scene(loaded.clone()).map_err(system_error)?;
+            let built = loaded.build().map_err(input_error)?;
+            let plan = SystemPlan::new(&loaded.scene, built).map_err(input_error)?;
+            let cost = RunCost::timed(&loaded).map_err(input_error)?;
+            Ok(plan.with_cost(&loaded.scene, cost).lines)
+        }
+    })
+}
+
+/// Runs a scene of either kind: the result and notes, what a user should know about the scene.
+///
+/// A pair's result stays in memory and is written where output is given. That of a multibody scene is always a file;
+/// an unfinished run of the same scene beside it goes on, unless restart. progress(stage, done, total) hears how far
+/// the run is.
+///
+/// Raises InputError, WorkError, OSError; KeyboardInterrupt after a checkpoint was written.
+#[pyfunction]
+#[pyo3(signature = (text, file, folder, output, restart, progress))]
+pub(crate) fn run(
+    py: Python<'_>,
+    text: String,
+    file: String,
+    folder: PathBuf,
+    output: Option<PathBuf>,
+    restart: bool,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<(NativeResult, Vec<String>)> {
+    match py.detach(move || read(text, file, folder))? {
+        SceneFile::Pair(_) if restart => Err(InputError::new_err(
+            "restart: scenes of a gear pair are not resumed; leave it out",
+        )),
+        SceneFile::Pair(scene) => run_pair(py, *scene, output, progress.as_ref()),
+        SceneFile::System(scene) => {
+            let output = output.ok_or_else(|| {
+                InputError::new_err("output: the result of a multibody scene is a file; name it")
+            })?;
+            run_system(py, *scene, (output, restart), progress.as_ref())
+        }
+    }
+}
+
+fn run_pair(
+    py: Python<'_>,
+    scene: Scene,
+    output: Option<PathBuf>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(NativeResult, Vec<String>)> {
+    watched(py, progress, OnInterrupt::Leave, move |watch| {
+        let loaded = load(scene).map_err(run_error)?;
+        let notes = notes(&loaded.scene.notes, &loaded.unit_slips());
+        let told = |done: usize, total: usize| {
+            watch.advance("torques", done as f64, total as f64);
+        };
+        let result = run_pair_scene(&loaded, &told).map_err(run_error)?;
+        if let Some(output) = output {
+            result.write(&output).map_err(file_error)?;
+        }
+        Ok((NativeResult::of_pair(result), notes))
+    })
+}
+
+fn run_system(
+    py: Python<'_>,
+    scene: SystemScene,
+    (output, restart): (PathBuf, bool),
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(NativeResult, Vec<String>)> {
+    watched(py, progress, OnInterrupt::Wait, move |watch| {
+        let loaded = scene.load().map_err(input_error)?;
+        let mut notes = notes(&loaded.scene.notes, &loaded.unit_slips());
+        let job = RunJob::from_scene(loaded).map_err(system_error)?;
+        notes.extend(job.head.notes.iter().cloned());
+        let stage = job.kind.of_result().to_string();
+        let options = RunOptions {
+            output: &output,
+            restart,
+            checkpoint_interval: CHECKPOINTS,
+            stop: &watch.stop,
+            progress: &|advance| watch.advance(&stage, advance.done, advance.total),
+        };
+        match run_job(job, &options).map_err(system_error)? {
+            Outcome::Finished => {
+                let result = SystemResult::open(&output).map_err(file_error)?;
+                Ok((NativeResult::of_system(result), notes))
+            }
+            Outcome::Stopped => Err(PyKeyboardInterrupt::new_err("")),
+        }
+    })
+}
+
+fn read(text: String, file: String, folder: PathBuf) -> PyResult<SceneFile> {
+    SceneFile::from_document(InputDocument::new(file, text), &folder).map_err(input_error)
+}
+
+fn notes(of_scene: &[String], slips: &[InputComplaint]) -> Vec<String> {
+    let slips = slips.iter().map(ToString::to_string);
+    of_scene.iter().cloned().chain(slips).collect()
+}

@@ -1,0 +1,237 @@
+"""The package gearmesh: from the definition of a gear to curves, in one process. Coarse gears."""
+
+import json
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import gearmesh as gm
+
+# Plane strain and long elements: reduced in a second.
+COARSE = dict(
+    module_mm=3, face_width_mm=20, material=gm.STEEL, mesh=dict(flank_mm=2.0, fillet_mm=1.0, body_mm=6.0, plane_strain=True)
+)
+PENDULUM = "fe_models/scene_pendulum.toml"
+
+
+@pytest.fixture(scope="module")
+def pinion():
+    return gm.Gear("pinion", teeth=23, bore_diameter_mm=25, **COARSE)
+
+
+@pytest.fixture(scope="module")
+def models(pinion, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("models")
+    wheel = pinion.but(name="wheel", teeth=40, bore_diameter_mm=40)
+    options = dict(error_estimate=False, progress=False)
+    return [gear.reduce(folder / f"{gear.name}.h5", **options) for gear in (pinion, wheel)]
+
+
+@pytest.fixture(scope="module")
+def pair(models):
+    return gm.Pair(*models, centre_distance_mm=94.6, torques_Nm=[50, 100], points_per_pitch=12)
+
+
+@pytest.fixture(scope="module")
+def result(pair):
+    return pair.run()
+
+
+def test_keywords_stand_where_the_file_has_them(pinion):
+    tables = pinion.tables
+    assert tables["tooth"] == {"teeth": 23, "module_mm": 3, "face_width_mm": 20}
+    assert tables["blank"] == {"kind": "solid", "bore_diameter_mm": 25}
+    assert gm.Gear.from_toml(pinion.toml).tables == tables
+    # d = m z, addendum 1.
+    assert pinion.reference_radius_m == pytest.approx(0.5 * 3e-3 * 23, rel=1e-12)
+    assert pinion.tip_radius_m == pytest.approx(0.5 * 3e-3 * 25, rel=1e-12)
+    assert "23 teeth" in repr(pinion)
+
+
+def test_a_wrong_keyword_is_told_with_near_names():
+    with pytest.raises(TypeError, match="`modul_mm`; near are module_mm"):
+        gm.Gear("gear", teeth=23, modul_mm=3)
+
+
+def test_a_wrong_gear_is_told_by_its_key(tmp_path):
+    with pytest.raises(gm.InputError) as caught:
+        gm.Gear("gear", teeth=-3, bore_diameter_mm=25, **COARSE)
+    assert isinstance(caught.value, ValueError)
+    assert caught.value.key == "tooth.teeth"
+    file = tmp_path / "gear.toml"
+    file.write_text('name = "x"\n[tooth]\nteeth = "many"\n')
+    with pytest.raises(gm.InputError, match=rf"{file}:3: ") as caught:
+        gm.Gear.from_file(file)
+    assert (caught.value.file, caught.value.line) == (str(file), 3)
+    with pytest.raises(FileNotFoundError):
+        gm.Gear.from_file(tmp_path / "none.toml")
+
+
+def test_a_reduced_gear_knows_its_gear(models, pinion):
+    assert [model.teeth for model in models] == [23, 40]
+    assert models[0].gear.tables == pinion.tables
+    assert models[0]["c_hub"].shape[2] == 23
+    assert "degrees of freedom" in repr(models[0])
+
+
+def test_the_cache_is_asked_before_a_gear_is_reduced_again(pinion, models, tmp_path, monkeypatch):
+    monkeypatch.setenv("GEARMESH_CACHE", str(tmp_path))
+    first = gm.reduce(pinion, error_estimate=False, progress=False)
+    made = first.path.stat().st_mtime_ns
+    assert gm.reduce(pinion.tables, error_estimate=False, progress=False).path.stat().st_mtime_ns == made
+    assert np.array_equal(first["c_hub"], models[0]["c_hub"])
+    other = gm.reduce(pinion.but(bore_diameter_mm=26), error_estimate=False, progress=False)
+    assert other.path != first.path
+
+
+def test_progress_is_told(pinion, tmp_path):
+    stages = []
+    gm.reduce(pinion, tmp_path / "model.h5", error_estimate=False, progress=lambda *told: stages.append(told))
+    assert len({stage for stage, _, _ in stages}) >= 2
+    with pytest.raises(ZeroDivisionError):
+        gm.reduce(pinion, tmp_path / "none.h5", progress=lambda *told: 1 / 0)
+    assert not (tmp_path / "none.h5").exists()
+
+
+def test_the_program_gives_the_same_curves(pair, result, tmp_path):
+    pair.write(tmp_path / "pair.toml")
+    printed = gm.program("run", tmp_path / "pair.toml", "-o", tmp_path / "pair.h5")
+    stored = gm.Result.open(tmp_path / "pair.h5")
+    assert stored.keys() == result.keys()
+    for name in ("te_m", "force_N", "stiffness_tangent_N_per_m"):
+        assert np.array_equal(stored[name], result[name]), name
+    ranges = [row["te_peak_to_peak_m"] for row in printed["rows"]]
+    assert np.ptp(result["te_m"], axis=1) == pytest.approx(ranges, rel=1e-12)
+
+
+def test_data_sets_say_what_they_are(result):
+    assert result["te_m"].shape == (2, 12)
+    assert result.axes("force_N") == ("torque", "angle", "line", "slice")
+    assert (result.unit("te_m"), result.unit("pressure_Pa")) == ("m", "Pa")
+    assert "negative under load" in result.describe("te_m")
+    # Σ F r_b = T: the torque on gear 2 is that of the forces.
+    base_radius_m = 0.5 * 3e-3 * 40 * np.cos(np.radians(20.0))
+    balance = result["force_N"].sum(axis=(2, 3)) * base_radius_m / result["torque_Nm"][:, None]
+    assert balance == pytest.approx(1.0, abs=2e-3)
+    with pytest.raises(KeyError, match="it has .*te_m"):
+        result["te_mm"]
+
+
+def test_what_is_read_is_what_was_saved(result, tmp_path):
+    saved = result.save(tmp_path / "saved.h5")
+    assert np.array_equal(saved["pressure_Pa"], result["pressure_Pa"])
+    assert "peak to peak" in repr(saved)
+
+
+def test_a_relief_needs_no_further_reduction(models, result):
+    flanks = dict(tip_relief_um=20, tip_relief_start_diameter_mm=72)
+    relieved = gm.Pair(
+        *models, centre_distance_mm=94.6, torques_Nm=100, points_per_pitch=12, gear_1_flanks=flanks
+    )
+    te = relieved.run()["te_m"]
+    assert te.shape == (1, 12)
+    # Removed material lets the wheel fall behind somewhere, nowhere ahead.
+    assert te.min() < result["te_m"][1].min() - 1e-7
+    assert (te <= result["te_m"][1] + 1e-9).all()
+
+
+def test_a_scene_is_changed_by_its_keys(pair):
+    assert pair.but({"run.torques_Nm": [75.0]}).tables["run"]["torques_Nm"] == [75.0]
+    assert pair.tables["run"]["torques_Nm"] == [50.0, 100.0]
+    with pytest.raises(gm.InputError, match="run.points_per_pitch"):
+        pair.but({"run.points_per_pitch": -1})
+    assert any("contact ratio" in line for line in pair.plan())
+
+
+def test_a_multibody_scene_runs_without_a_file(tmp_path):
+    scene = gm.Scene(PENDULUM)
+    result = scene.run()
+    assert result.kind == "transient"
+    time_s = result["time_s"]
+    assert time_s[0] == 0.0 and (np.diff(time_s) > 0.0).all()
+    # The file lives as long as the result.
+    path = result.path
+    saved = result.save(tmp_path / "saved.h5")
+    del result
+    assert not path.exists()
+    assert np.array_equal(saved["time_s"], time_s)
+
+
+def test_ctrl_c_leaves_a_run_that_goes_on(tmp_path):
+    scene = gm.Scene(PENDULUM).but({"solver.step_s": 1e-6})
+    output = tmp_path / "run.h5"
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        scene.run(output)
+    assert time.monotonic() - begun < 20.0
+    assert not output.exists() and (tmp_path / "run.h5.part").exists()
+
+
+def test_pictures_are_drawn(result):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = result.plot()
+    drawn = [line.get_ydata() for line in axes.get_lines()]
+    assert np.array_equal(np.array(drawn), 1e6 * result["te_m"])
+    assert axes.get_ylabel() == "te [um]"
+    with pytest.raises(gm.InputError, match="a curve goes over angle"):
+        result.plot("force_N")
+
+
+def test_the_program_answers_with_its_messages(tmp_path):
+    bearing = gm.Bearing("fe_models/bearing_seed_000.toml")
+    found = bearing.rest([0.0, 0.0, 500.0], speed_rpm=6000)
+    stiffness = np.array(found["stiffness_SI"])
+    assert stiffness.shape == (5, 5) and stiffness[2, 2] > 0.0
+    assert bearing.frequencies(speed_rpm=6000) != bearing.frequencies(speed_rpm=3000)
+    with pytest.raises(gm.InputError, match="--load-N"):
+        bearing.rest([0.0, 0.0])
+    assert gm.BevelPair("fe_models/bevel_20_20.toml").tca()
+    with pytest.raises(gm.InputError, match="none.toml"):
+        gm.program("plan", tmp_path / "none.toml")
+
+
+def test_a_study_goes_on_where_it_was(tmp_path):
+    scene = gm.Scene(PENDULUM)
+    column = next(name for name in scene.run().keys() if name != "time_s")
+    key = "run.end_s"
+    tables = dict(
+        title="lengths", scene=scene, columns=[column], parameter=[dict(name="end", keys=[key], values=[0.01, 0.02])]
+    )
+    found = gm.study(tables, tmp_path / "out")
+    assert len(found.cases) == 3 and len(found.rows) == 3
+    files = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")}
+    gm.Study(tables).run(tmp_path / "out")
+    assert {path.name: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("*.h5")} == files
+    with pytest.raises(gm.InputError):
+        gm.study({**tables, "parameter": [dict(name="end", keys=["run.end"], values=[1.0])]}, tmp_path / "wrong")
+
+
+def test_the_schema_is_that_of_the_program():
+    assert json.loads(gm.schema("gear"))["title"] == "gearmesh gear"
+
+
+def test_pandas_reads_the_tables(result):
+    curves = result.to_pandas()
+    assert np.array_equal(curves["te_m"].to_numpy(), result["te_m"].ravel())
+    assert list(curves["torque_Nm"].unique()) == [50.0, 100.0]
+    torques = result.to_pandas("torques")
+    assert torques["te_peak_to_peak_m"].to_numpy() == pytest.approx(np.ptp(result["te_m"], axis=1), rel=1e-12)
+    with pytest.raises(KeyError, match="it has curves, contact, torques"):
+        result.to_pandas("curve")
+
+
+def test_xarray_names_axes_and_shares_the_memory(result):
+    data = result.to_xarray()
+    assert data["te_m"].dims == ("torque_Nm", "angle_rad")
+    assert data["te_m"].attrs["units"] == "m"
+    chosen = data["te_m"].sel(torque_Nm=100.0)
+    assert np.array_equal(chosen, result["te_m"][1])
+    assert np.shares_memory(data["force_N"].to_numpy(), result["force_N"])
+    rows = gm.Scene(PENDULUM).run().to_xarray()
+    assert rows["time_s"].dims == ("time_s",) and rows.sizes["time_s"] == 201

@@ -1,0 +1,78 @@
+//! `cargo xtask wheel`: the Python package and the program in one wheel, packed by maturin.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+use crate::console::say;
+use crate::error::XtaskError;
+use crate::steps::{cargo, run_checked, set_environment};
+use crate::venv::Venv;
+use crate::workspace::Workspace;
+
+/// Which build goes into the wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Build {
+    /// Stripped, with links across crates: what is given to others.
+    Release,
+    /// The development build, which is there already: to try the wheel out.
+    Quick,
+}
+
+impl Build {
+    fn profile(self) -> &'static str {
+        match self {
+            Self::Release => "release",
+            Self::Quick => "dev",
+        }
+    }
+
+    /// Where cargo puts what the profile gives, below `target`.
+    fn folder(self) -> &'static str {
+        match self {
+            Self::Release => "release",
+            Self::Quick => "debug",
+        }
+    }
+}
+
+/// Builds the program and the wheel around it, into `target/wheel`.
+///
+/// # Errors
+/// [`XtaskError::Failed`] where a build fails, [`XtaskError::Io`] where a file cannot be copied.
+pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCode, XtaskError> {
+    let arguments = ["--workspace", "--bin", "gearmesh"];
+    let profile = ["--profile", build.profile()];
+    run_checked(
+        cargo(workspace, venv)
+            .arg("build")
+            .args(arguments)
+            .args(profile),
+    )?;
+    let target = workspace.root().join("target");
+    let out = target.join("wheel");
+    let program = target.join(build.folder()).join("gearmesh");
+    copy(&program, &out.join("gearmesh.data/scripts"))?;
+
+    let mut maturin = Command::new(venv.bin_dir().join("maturin"));
+    set_environment(&mut maturin, venv);
+    maturin
+        .current_dir(workspace.root())
+        .args(["build", "--manifest-path", "crates/python/Cargo.toml"])
+        .args(profile)
+        .arg("--out")
+        .arg(&out);
+    run_checked(&mut maturin)?;
+    say(&format!("the wheel is in {}", out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Copies a file into a folder, which is made.
+fn copy(file: &Path, folder: &Path) -> Result<(), XtaskError> {
+    let to = folder.join(file.file_name().unwrap_or_default());
+    fs::create_dir_all(folder)
+        .and_then(|()| fs::copy(file, &to).map(|_| ()))
+        .map_err(XtaskError::io(|| {
+            format!("copying {} to {}", file.display(), to.display())
+        }))
+}
