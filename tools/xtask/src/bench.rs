@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod accuracy_page;
+mod bearing_models;
 mod bearings;
 mod bearings_page;
 mod case;
@@ -25,6 +26,7 @@ use crate::prepare;
 use crate::steps::build_program;
 use crate::workspace::Workspace;
 pub use accuracy::accuracy_cost;
+pub use bearing_models::bearing_models;
 pub use bearings::bearings;
 use case::{measure, stages};
 pub use chain::chain;

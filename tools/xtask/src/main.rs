@@ -42,6 +42,8 @@ Usage: cargo xtask <COMMAND>
   accuracy-cost [--quick] [--program PATH]
                   error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
                   the quick page into out/accuracy-cost-quick.md
+  accuracy-cost bearings
+                  the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
   prepare         only makes what the others need
@@ -77,6 +79,7 @@ enum Command {
     BenchChain(bench::Options),
     BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
+    AccuracyCostBearings(bench::Options),
     Wheel(wheel::Build),
     Prepare,
     Help,
@@ -102,6 +105,9 @@ impl Command {
             }
             ("bench", ["chain"]) => Ok(Self::BenchChain(bench::Options::default())),
             ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
+            ("accuracy-cost", ["bearings", rest @ ..]) => {
+                bench_options("accuracy-cost bearings", rest).map(Self::AccuracyCostBearings)
+            }
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
@@ -153,6 +159,9 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         Command::BenchChain(options) => return bench::chain(&workspace, options),
         Command::BenchBearings(options) => return bench::bearings(&workspace, options),
         Command::AccuracyCost(options) => return bench::accuracy_cost(&workspace, options),
+        Command::AccuracyCostBearings(options) => {
+            return bench::bearing_models(&workspace, options);
+        }
         _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
@@ -169,7 +178,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::BenchOffline(_)
         | Command::BenchChain(_)
         | Command::BenchBearings(_)
-        | Command::AccuracyCost(_) => Ok(ExitCode::SUCCESS),
+        | Command::AccuracyCost(_)
+        | Command::AccuracyCostBearings(_) => Ok(ExitCode::SUCCESS),
     }
 }
 

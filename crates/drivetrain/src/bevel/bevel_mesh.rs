@@ -6,26 +6,22 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-use gearmesh_bevel::{FlankPatch, FlankSide, PairBlank, PairDesign};
+use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::Vector3;
 
-use super::bounding_spheres::BoundingSpheres;
 use super::hertz_stiffness::{curvature, local_stiffness, principal, stiffness_per_pa};
-use super::nearest_points::{Nearest, Placed, nearest, nearest_within};
-use super::nominal_contacts::{Guess, NominalContacts};
+use super::nearest_points::{Nearest, nearest_within};
+use super::nominal_contacts::Guess;
 use super::pose_derivatives::{PoseDerivatives, gradient};
+use super::tooth_side::{FAR, REACH, Side, about_z, nominal_rotation, placed, searched};
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
 use crate::flank_kinematics::FlankKinematics;
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, on_turn};
 
-/// Pitches of the pinion to either side of the plane of the axes within which teeth are looked at.
-const REACH: f64 = 3.5;
-/// Flanks that stand farther open than this share of a pitch do not touch soon, and are passed over.
-const FAR: f64 = 0.2;
 /// So do those that stand open by this share of a pitch more than the nearest ones.
 const NEAR: f64 = 0.03;
 /// Pairs of teeth that are looked at.
@@ -35,18 +31,6 @@ const MOST_TILT_RAD: f64 = 0.05;
 const MOST_APART: f64 = 0.1;
 /// Least relative curvature over the largest at the mean point below which flanks touch along a line.
 const LINE_CONTACT: f64 = 1e-5;
-
-/// A flank of each member on one side of the teeth.
-#[derive(Debug, Clone)]
-struct Side {
-    patches: [FlankPatch; 2],
-    spheres: [BoundingSpheres; 2],
-    nominal: NominalContacts,
-    /// Azimuth of the mean points of tooth 0 \[rad\].
-    azimuths_rad: [f64; 2],
-    /// Lever of the normal at the mean point of gear 1 and gear 2 \[m\].
-    levers_m: [f64; 2],
-}
 
 /// Flanks of a bevel pair, gear 1 the pinion.
 #[derive(Debug, Clone)]
@@ -65,88 +49,6 @@ pub struct BevelMesh {
     points: Cell<u64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
-}
-
-impl Side {
-    fn new(blank: &PairBlank, design: &PairDesign, flank: Flank) -> Result<Self, DrivetrainError> {
-        let patch = |member: usize| {
-            // Right flanks face clockwise.
-            let facing = -flank.mirror();
-            let own = &blank.members[member];
-            let side = FlankSide::BOTH
-                .into_iter()
-                .find(|side| side.facing(own.hand) == facing);
-            let side = side.unwrap_or(FlankSide::Concave);
-            FlankPatch::of_tooth(&design.teeth[member], &blank.members[1 - member], side)
-        };
-        let patches = [patch(0)?, patch(1)?];
-        let spheres = [0, 1].map(|m: usize| BoundingSpheres::new(&patches[m]));
-        let azimuths_rad = [0, 1].map(|m: usize| patches[m].azimuth_rad(patches[m].mean));
-        let levers_m = [0, 1].map(|m: usize| patches[m].lever_m());
-        let [pitch_1, pitch_2] = blank.data.teeth.map(|z| TAU / z as f64);
-        let count = Cell::new(0);
-        let nominal = NominalContacts::new(pitch_1, REACH, |angle_1| {
-            let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
-            let turns = [0, 1].map(|m: usize| angles[m] - azimuths_rad[m]);
-            let rotation = nominal_rotation(blank.data.shaft_angle_rad, turns);
-            let bodies = placed(
-                &patches,
-                [Matrix3::identity(), rotation],
-                Vector3::zeros(),
-                &count,
-            );
-            (
-                rotation,
-                searched(&bodies, &spheres, FAR * pitch_2 * levers_m[1]),
-            )
-        });
-        Ok(Self {
-            patches,
-            spheres,
-            nominal,
-            azimuths_rad,
-            levers_m,
-        })
-    }
-}
-
-/// Both flanks of a side in the frame of gear 1.
-fn placed<'a>(
-    patches: &'a [FlankPatch; 2],
-    rotations: [Matrix3<f64>; 2],
-    displacement_m: Vector3<f64>,
-    points: &'a Cell<u64>,
-) -> [Placed<'a>; 2] {
-    let origins_m = [Vector3::zeros(), displacement_m];
-    [0, 1].map(|m: usize| Placed {
-        patch: &patches[m],
-        rotation: rotations[m],
-        origin_m: origins_m[m],
-        points,
-    })
-}
-
-/// Nearest points without a guess, beginning at the two nearest of all bounding spheres.
-fn searched(
-    bodies: &[Placed<'_>; 2],
-    spheres: &[BoundingSpheres; 2],
-    far_m: f64,
-) -> Option<Nearest> {
-    let [first, second] = bodies;
-    let guess = BoundingSpheres::meet(
-        [&spheres[0], &spheres[1]],
-        [&first.rotation, &second.rotation],
-        second.origin_m,
-    )?;
-    nearest(bodies, guess, far_m)
-}
-
-/// Gear 2's axes in gear 1's where the pair stands as designed and the gears have turned by these angles.
-fn nominal_rotation(shaft_angle_rad: f64, turns_rad: [f64; 2]) -> Matrix3<f64> {
-    let (sin, cos) = shaft_angle_rad.sin_cos();
-    // x towards gear 1's axis, y against gear 1's.
-    let axes = Matrix3::new(-cos, 0.0, sin, 0.0, -1.0, 0.0, sin, 0.0, cos);
-    about_z(-turns_rad[0]) * axes * about_z(turns_rad[1])
 }
 
 /// A pair of teeth that may touch.
@@ -437,10 +339,6 @@ impl BevelMesh {
 /// Angle of a gear's axis from gear 1's \[rad\].
 fn angle_of(axis: &Vector3<f64>) -> f64 {
     axis[2].clamp(-1.0, 1.0).acos()
-}
-
-fn about_z(angle_rad: f64) -> Matrix3<f64> {
-    *Rotation3::from_axis_angle(&Vector3::z_axis(), angle_rad).matrix()
 }
 
 impl FlankKinematics for BevelMesh {

@@ -3,6 +3,7 @@
 //! | what | file |
 //! | --- | --- |
 //! | kinematics of the pair | `bevel_mesh.rs` |
+//! | flanks of one side of the teeth | `tooth_side.rs` |
 //! | guess of where flanks touch: from the pair as designed | `nominal_contacts.rs` |
 //! | the same for teeth that do not face each other there | `bounding_spheres.rs` |
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
@@ -17,5 +18,6 @@ mod hertz_stiffness;
 mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;
+mod tooth_side;
 
 pub use bevel_mesh::BevelMesh;

@@ -87,12 +87,15 @@ impl PartFolder {
             let is_last = attempts == MOST_ATTEMPTS;
             match opened {
                 Ok((part, saved)) if part.log.has_its_name() => return Ok((part, saved)),
-                Err(error) if is_last || !is_gone(&error) => return Err(error),
-                Ok(_) if is_last => {
+                Err(error) if !is_gone(&error) || is_last && has_lost_its_rows(&folder) => {
+                    return Err(error);
+                }
+                // Others come and go all the time.
+                _ if is_last => {
                     let path = folder.join(ROWS_FILE);
                     return Err(FileError::InUse { path }.into());
                 }
-                _ => {}
+                _ => std::thread::yield_now(),
             }
         }
     }
@@ -205,6 +208,11 @@ fn is_gone(error: &SystemRunError) -> bool {
     }
 }
 
+/// A run that ends removes its checkpoint before its rows: one without rows was left by somebody else.
+fn has_lost_its_rows(folder: &Path) -> bool {
+    folder.join(CHECKPOINT_FILE).exists() && !folder.join(ROWS_FILE).exists()
+}
+
 /// Removes a file if it is there.
 fn remove_file(path: &Path) -> Result<(), SystemRunError> {
     match std::fs::remove_file(path) {
@@ -257,6 +265,22 @@ mod tests {
         });
         assert!(finished.load(Ordering::SeqCst) >= 40);
         assert_eq!(std::fs::read_dir(desk.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_checkpoint_without_rows_is_told() {
+        let desk = tempfile::tempdir().unwrap();
+        let output = desk.path().join("result.h5");
+        let (mut part, _) = PartFolder::open(&output, "same", 1, false).unwrap();
+        part.log().append(&[1.0]).unwrap();
+        part.save(DataTree::default()).unwrap();
+        drop(part);
+        std::fs::remove_file(PartFolder::beside(&output).join(ROWS_FILE)).unwrap();
+        let error = PartFolder::open(&output, "same", 1, false).err().unwrap();
+        assert!(
+            matches!(error, SystemRunError::Checkpoint { .. }),
+            "{error}"
+        );
     }
 
     #[test]
