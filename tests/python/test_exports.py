@@ -58,7 +58,7 @@ def body(request, tmp_path):
 
 def gmsh_volume(path):
     """Sum of the volumes of all elements that gmsh finds, and how many there are."""
-    gmsh.initialize()
+    gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.open(str(path))

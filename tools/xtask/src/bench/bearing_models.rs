@@ -176,7 +176,7 @@ impl Runner {
     }
 
     fn figures(&self, model: &Model) -> Result<Figures, XtaskError> {
-        let eigen = "[run]\nkind = \"eigen\"\nmost_frequency_Hz = 5000.0\n";
+        let eigen = "[run]\nkind = \"eigen\"\nmost_frequency_Hz = 20000.0\n";
         let (modes, _) = self.run("eigen", &scene(eigen, &model.table))?;
         let in_time = format!(
             "[run]\nkind = \"transient\"\nend_s = {SIMULATED_S}\n[solver]\nstep_s = {}\nstart = \"equilibrium\"\n\
