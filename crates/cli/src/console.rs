@@ -87,17 +87,22 @@ impl RunBar {
         let (first, told) = self.state.get();
         let first = first.unwrap_or(done);
         let now = Instant::now();
-        // A sum of times is told without its rounding.
+        // A sum of times is told without its rounding, a count without digits.
         let whole = (1e6 * total).round() / 1e6;
+        let digits = if done.fract() == 0.0 && total.fract() == 0.0 {
+            0
+        } else {
+            5
+        };
         self.bar
-            .set_message(format!("{}: {done:.5} of {whole}", self.title));
+            .set_message(format!("{}: {done:.digits$} of {whole}", self.title));
         self.bar.set_position((1e4 * done / total) as u64);
         let due = now - told >= REMARK_EVERY;
         self.state.set((Some(first), if due { now } else { told }));
         if due && self.bar.is_hidden() && done > first {
             let left = (now - self.begun).as_secs_f64() * (total - done) / (done - first);
             note(format!(
-                "{}: {done:.5} of {whole}, about {:#} to go",
+                "{}: {done:.digits$} of {whole}, about {:#} to go",
                 self.title,
                 HumanDuration(Duration::from_secs_f64(left.max(0.0)))
             ));

@@ -108,6 +108,21 @@ struct Solver {
 }
 
 impl Bench {
+    /// What a bench of the workspace prints, compiled as the program is.
+    fn own(&self, name: &str) -> Result<String, XtaskError> {
+        let mut command = Command::new("cargo");
+        command
+            .args(["bench", "--workspace", "--bench", name, "--profile", "dev"])
+            .current_dir(&self.root);
+        let measured = measure(&self.python, &self.scripts, TIMEOUT_S, &command);
+        measured
+            .map(|measured| measured.stdout)
+            .map_err(|what| XtaskError::Io {
+                action: format!("measuring by the bench `{name}`"),
+                source: std::io::Error::other(what),
+            })
+    }
+
     fn prepare(workspace: &Workspace, options: &Options) -> Result<Self, XtaskError> {
         let built = std::env::current_exe()
             .map_err(XtaskError::io(|| "finding xtask's own place".into()))?;

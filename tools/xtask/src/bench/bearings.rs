@@ -24,23 +24,8 @@ const SOLVER: &str = "modified-sparse";
 pub fn bearings(workspace: &Workspace, options: &Options) -> Result<ExitCode, XtaskError> {
     let bench = Bench::prepare(workspace, options)?;
     say("== our own");
-    let mut command = Command::new("cargo");
-    command
-        .args([
-            "bench",
-            "--workspace",
-            "--bench",
-            "bearings",
-            "--profile",
-            "dev",
-        ])
-        .current_dir(workspace.root());
-    let failed = |what: String| XtaskError::Io {
-        action: "measuring the bearings".into(),
-        source: std::io::Error::other(what),
-    };
-    let ours = measure(&bench.python, &bench.scripts, TIMEOUT_S, &command).map_err(failed)?;
-    let lines = json_lines(&ours.stdout);
+    let ours = bench.own("bearings")?;
+    let lines = json_lines(&ours);
     say("== Exudyn");
     let (peer, theirs) = match exudyn(&bench, &lines) {
         Ok(theirs) => (EXUDYN.replace("==", " "), theirs),

@@ -39,23 +39,8 @@ struct Row {
 pub fn chain(workspace: &Workspace, options: &Options) -> Result<ExitCode, XtaskError> {
     let bench = Bench::prepare(workspace, options)?;
     say("== our own");
-    let mut command = Command::new("cargo");
-    command
-        .args([
-            "bench",
-            "--workspace",
-            "--bench",
-            "chain",
-            "--profile",
-            "dev",
-        ])
-        .current_dir(workspace.root());
-    let failed = |what: String| XtaskError::Io {
-        action: "measuring the chain".into(),
-        source: std::io::Error::other(what),
-    };
-    let ours = measure(&bench.python, &bench.scripts, TIMEOUT_S, &command).map_err(failed)?;
-    let mut rows = read_ours(&ours.stdout);
+    let ours = bench.own("chain")?;
+    let mut rows = read_ours(&ours);
     say("== Exudyn");
     let mut command = bench.python_script("solver_venv.py");
     command
