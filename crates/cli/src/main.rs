@@ -12,6 +12,7 @@ mod memory;
 mod offline;
 mod output_name;
 mod overwriting;
+mod page_file;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

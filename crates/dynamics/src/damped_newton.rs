@@ -16,7 +16,6 @@
 use crate::convergence::Measured;
 use crate::equations::Detail;
 use crate::integrator::{Integrator, Point, STALLED, StepFailure};
-use crate::joint::Joint;
 use crate::scheme::Params;
 use crate::system::System;
 
@@ -38,9 +37,7 @@ impl Integrator {
     ) -> Result<(), StepFailure> {
         let h = step_s;
         let square = self.scheme.beta * h * h;
-        self.predict(system, from, to, h);
-        let angles = system.joints.iter().map(Joint::largest_angle_rad);
-        self.convergence.begin(angles.fold(0.0, f64::max));
+        self.begin(system, from, to, h);
         let (mut share, mut ratio, mut largest) = (1.0_f64, f64::INFINITY, 0);
         for iteration in 1..=MOST {
             self.effort.iterations += 1;

@@ -144,9 +144,7 @@ impl Integrator {
     ) -> Result<(), StepFailure> {
         let h = step_s;
         let square = self.scheme.beta * h * h;
-        self.predict(system, from, to, h);
-        let angles = system.joints.iter().map(Joint::largest_angle_rad);
-        self.convergence.begin(angles.fold(0.0, f64::max));
+        self.begin(system, from, to, h);
         let mut stale = self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut last_above_floor, mut place) = (f64::INFINITY, f64::INFINITY, 0);
         self.secants.reset();
@@ -220,6 +218,13 @@ impl Integrator {
         Err(StepFailure::Singular)
     }
 
+    /// First guess of a step, and what corrections are measured against.
+    pub(crate) fn begin(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
+        self.predict(system, from, to, h);
+        let angles = system.joints.iter().map(Joint::largest_angle_rad);
+        self.convergence.begin(angles.fold(0.0, f64::max));
+    }
+
     /// Newton's correction at the evaluated iterate, by the factors at hand.
     pub(crate) fn correct(&mut self, square: f64) {
         for (right, residual) in self.right.iter_mut().zip(&self.equations.residual) {
@@ -253,7 +258,7 @@ impl Integrator {
     }
 
     /// First guess: v̇ and λ stay.
-    pub(crate) fn predict(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
+    fn predict(&mut self, system: &System, from: &Point, to: &mut Point, h: f64) {
         let s = self.scheme;
         to.lambda.copy_from_slice(&from.lambda);
         to.acceleration.copy_from_slice(&from.acceleration);

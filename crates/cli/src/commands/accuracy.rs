@@ -5,7 +5,7 @@ use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt::{self, Scratch};
 use crate::output_name;
-use gearmesh_model::write_text;
+use crate::page_file;
 use gearmesh_report::accuracy_page::{accuracy_page, goal_in_words};
 use gearmesh_report::short;
 use gearmesh_scene::accuracy::{Accuracy, Advice, Bench, Goal, Tried, Wanted, accuracy, words};
@@ -45,10 +45,7 @@ pub fn run(arguments: &AccuracyArguments) -> Result<(), Failure> {
     drop(stop);
     if let Some(path) = &arguments.output {
         let scene = arguments.scene.display().to_string();
-        let html = accuracy_page(&scene, &found)
-            .render()
-            .map_err(Failure::work)?;
-        write_text(path, &html)?;
+        page_file::write(&accuracy_page(&scene, &found), path)?;
     }
     if arguments.json {
         console::json(&figures(&found));

@@ -4,6 +4,7 @@ use super::bearing_page;
 use crate::arguments::{BearingArguments, ControlWord};
 use crate::console;
 use crate::failure::Failure;
+use crate::output_name;
 use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::definition::BearingGeometry;
 use gearmesh_bearings::life::Lubrication;
@@ -36,6 +37,9 @@ pub(super) struct Answer<'a> {
 
 /// Runs the command.
 pub fn run(a: &BearingArguments) -> Result<(), Failure> {
+    if let Some(path) = &a.report {
+        output_name::demand_page(path)?;
+    }
     let found = read(&a.bearing)?;
     let load = applied(a)?;
     let operation = operation(a)?;

@@ -2,10 +2,9 @@
 
 use super::bearing::Answer;
 use crate::arguments::BearingArguments;
-use crate::console;
 use crate::failure::Failure;
+use crate::page_file;
 use gearmesh_bearings::ElementLoad;
-use gearmesh_model::write_text;
 use gearmesh_report::page::{
     Align, Axis, KeyFigures, LineChart, LineSeries, Page, PolarChart, Section, Table, Text,
 };
@@ -15,22 +14,9 @@ use std::path::Path;
 /// Writes the page.
 ///
 /// # Errors
-/// [`Failure`] where the name is not that of a page, or the file cannot be written.
+/// [`Failure`] where the page cannot be made or the file not be written.
 pub fn write(answer: &Answer<'_>, a: &BearingArguments, path: &Path) -> Result<(), Failure> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
-    if extension != "html" {
-        return Err(Failure::input(format!(
-            "--report: found the extension `{extension}`, allowed is html"
-        )));
-    }
-    let html = page(answer, a).render().map_err(Failure::work)?;
-    write_text(path, &html).map_err(Failure::work)?;
-    console::note(format!(
-        "{}: {:.1} MB",
-        path.display(),
-        html.len() as f64 * 1e-6
-    ));
-    Ok(())
+    page_file::write(&page(answer, a), path)
 }
 
 fn page(answer: &Answer<'_>, a: &BearingArguments) -> Page {

@@ -4,6 +4,7 @@ use crate::arguments::OptimiseArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::page_file;
 use gearmesh_model::write_text;
 use gearmesh_report::optimise_page::optimise_page;
 use gearmesh_report::short;
@@ -36,10 +37,8 @@ pub fn run(arguments: &OptimiseArguments) -> Result<(), Failure> {
     write_text(&folder.join("front.csv"), &csv(&problem, &found.front))?;
     write_text(&folder.join("tried.csv"), &csv(&problem, &found.tried))?;
     if !found.front.is_empty() {
-        let html = optimise_page(&problem, &found)
-            .render()
-            .map_err(Failure::work)?;
-        write_text(&folder.join("optimise.html"), &html)?;
+        let page = optimise_page(&problem, &found);
+        page_file::write(&page, &folder.join("optimise.html"))?;
     }
     if arguments.json {
         console::json(&figures(&problem, &found));

@@ -6,7 +6,7 @@ use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_model::write_text;
+use crate::page_file;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::overlay::{overlaid_pairs, overlaid_systems};
 use gearmesh_report::page::Page;
@@ -68,7 +68,7 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
     let others: Vec<_> = names[1].iter().cloned().zip(&systems).collect();
     let overlaid = overlaid_systems(&others).map_err(Failure::work)?;
     let sections = overlaid.into_iter().chain(overlaid_pairs(&pairs));
-    write(sections.fold(page, Page::first_section), &a.output)
+    page_file::write(&sections.fold(page, Page::first_section), &a.output)
 }
 
 /// Names of files as a chart tells them apart: bare, or as given where two are alike.
@@ -95,19 +95,6 @@ pub fn write_page(
     systems: &[SystemResult],
     output: &Path,
 ) -> Result<(), Failure> {
-    write(
-        scene_page(chapters, systems).map_err(Failure::work)?,
-        output,
-    )
-}
-
-fn write(page: Page, output: &Path) -> Result<(), Failure> {
-    let html = page.render().map_err(Failure::work)?;
-    write_text(output, &html).map_err(Failure::work)?;
-    console::note(format!(
-        "{}: {:.1} MB",
-        output.display(),
-        html.len() as f64 * 1e-6
-    ));
-    Ok(())
+    let page = scene_page(chapters, systems).map_err(Failure::work)?;
+    page_file::write(&page, output)
 }

@@ -4,6 +4,7 @@ use crate::arguments::TcaArguments;
 use crate::commands::{bevel, tca_page};
 use crate::console;
 use crate::failure::Failure;
+use crate::output_name;
 use gearmesh_bevel::{
     ContactKind, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact,
 };
@@ -11,6 +12,9 @@ use serde_json::{Value, json};
 
 /// Runs the command.
 pub fn run(a: &TcaArguments) -> Result<(), Failure> {
+    if let Some(path) = &a.report {
+        output_name::demand_page(path)?;
+    }
     let file = PairFile::read(&a.pair)?;
     let (design, _) = bevel::design(&file)?;
     let flanks = design.flanks(file.pinion_flank);

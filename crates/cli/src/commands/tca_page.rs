@@ -2,14 +2,13 @@
 
 use super::tca::{kind, moves};
 use crate::arguments::TcaArguments;
-use crate::console;
 use crate::failure::Failure;
+use crate::page_file;
 use gearmesh_bevel::contact_path::first_touch;
 use gearmesh_bevel::tca::PathPoint;
 use gearmesh_bevel::{
     Assembly, BevelError, ContactKind, Flank, Mesh, PairFile, Sensitivity, TcaRequest, ToothContact,
 };
-use gearmesh_model::write_text;
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
     Section, Table, Text,
@@ -36,23 +35,9 @@ pub struct Analysed<'a> {
 /// Writes the page.
 ///
 /// # Errors
-/// [`Failure`] where the name is not that of a page, or the file cannot be written.
+/// [`Failure`] where the page cannot be made or the file not be written.
 pub fn write(of: &Analysed<'_>, a: &TcaArguments, path: &Path) -> Result<(), Failure> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("");
-    if extension != "html" {
-        return Err(Failure::input(format!(
-            "--report: found the extension `{extension}`, allowed is html"
-        )));
-    }
-    let page = page(of, a).map_err(Failure::work)?;
-    let html = page.render().map_err(Failure::work)?;
-    write_text(path, &html).map_err(Failure::work)?;
-    console::note(format!(
-        "{}: {:.1} MB",
-        path.display(),
-        html.len() as f64 * 1e-6
-    ));
-    Ok(())
+    page_file::write(&page(of, a).map_err(Failure::work)?, path)
 }
 
 fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {

@@ -15,9 +15,13 @@ const TURN_M_PER_S: f64 = 1e-6;
 const PUSH_N: f64 = 4.0;
 const FROM_S: f64 = 0.25;
 
-/// A rough floor under a body: −F v/√(v² + s²), and a push across the way from some time on.
+/// A floor under a body: −F(v²) v/√(v² + s²), and a push across the way from some time on.
 struct Floor {
     body: [BodyId; 1],
+    /// Friction limit \[N\] over the square of the slip, and its derivative.
+    limit: fn(f64) -> [f64; 2],
+    /// Pushes from [`FROM_S`] on \[N\].
+    push_n: f64,
 }
 
 impl ForceElement for Floor {
@@ -33,11 +37,14 @@ impl ForceElement for Floor {
         let first = loads.starts()[0];
         let v = view.body(self.body[0]).velocity_m_per_s;
         let root = (v.norm_squared() + TURN_M_PER_S.powi(2)).sqrt();
-        let push = if view.time_s > FROM_S { PUSH_N } else { 0.0 };
-        let force = Vector3::new(0.0, push, 0.0) - v * (LIMIT_N / root);
+        let [limit, slope] = (self.limit)(v.norm_squared());
+        let is_pushed = view.time_s > FROM_S;
+        let push = if is_pushed { self.push_n } else { 0.0 };
+        let force = Vector3::new(0.0, push, 0.0) - v * (limit / root);
         loads.add_force(first, force.as_slice());
-        let by_velocity =
-            (Matrix3::identity() - v * v.transpose() / (root * root)) * -(LIMIT_N / root);
+        let outer = v * v.transpose();
+        let turning = (Matrix3::identity() - outer / (root * root)) * (-limit / root);
+        let by_velocity = turning - outer * (2.0 * slope / root);
         for row in 0..3 {
             for column in 0..3 {
                 loads.add_by_velocity(first + row, first + column, by_velocity[(row, column)]);
@@ -53,7 +60,11 @@ fn sliding() -> System {
     let mut body = Body::rigid("block", 1.0, [1.0; 3]);
     body.velocity_m_per_s = Vector3::new(0.8, 0.6, 0.0);
     let id = builder.body(body).unwrap();
-    builder.element(Floor { body: [id] });
+    builder.element(Floor {
+        body: [id],
+        limit: |_| [LIMIT_N, 0.0],
+        push_n: PUSH_N,
+    });
     builder.build().unwrap()
 }
 
@@ -105,38 +116,10 @@ fn a_run_resumed_after_every_step_is_the_same_to_the_last_bit() {
 /// Friction that falls from 5 to 1 N within this slip \[m/s\].
 const FALL_M_PER_S: f64 = 1e-4;
 
-/// A floor that holds better than it brakes: −(1 + 4/(1 + v²/w²)) v/√(v² + s²).
-struct StickyFloor {
-    body: [BodyId; 1],
-}
-
-impl ForceElement for StickyFloor {
-    fn name(&self) -> &str {
-        "sticky floor"
-    }
-
-    fn bodies(&self) -> &[BodyId] {
-        &self.body
-    }
-
-    fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
-        let first = loads.starts()[0];
-        let v = view.body(self.body[0]).velocity_m_per_s;
-        let root = (v.norm_squared() + TURN_M_PER_S.powi(2)).sqrt();
-        let share = 1.0 / (1.0 + v.norm_squared() / FALL_M_PER_S.powi(2));
-        let limit = 1.0 + 4.0 * share;
-        loads.add_force(first, (v * (-limit / root)).as_slice());
-        let outer = v * v.transpose();
-        let turning = (Matrix3::identity() - outer / (root * root)) * (-limit / root);
-        let falling = outer * (8.0 * (share / FALL_M_PER_S).powi(2) / root);
-        let by_velocity = turning + falling;
-        for row in 0..3 {
-            for column in 0..3 {
-                loads.add_by_velocity(first + row, first + column, by_velocity[(row, column)]);
-            }
-        }
-        Ok(())
-    }
+/// A floor that holds better than it brakes: F = 1 + 4/(1 + v²/w²).
+fn sticky(square: f64) -> [f64; 2] {
+    let share = 1.0 / (1.0 + square / FALL_M_PER_S.powi(2));
+    [1.0 + 4.0 * share, -4.0 * (share / FALL_M_PER_S).powi(2)]
 }
 
 /// Friction that falls with the slip by more than h/m of a step has equations between whose solutions iterations get stuck: the step is made in parts, and whole again
@@ -147,7 +130,11 @@ fn a_block_that_sticks_comes_to_rest_in_parts_of_a_step() {
     let mut body = Body::rigid("block", 1.0, [1.0; 3]);
     body.velocity_m_per_s = Vector3::new(0.32, 0.24, 0.0);
     let id = builder.body(body).unwrap();
-    builder.element(StickyFloor { body: [id] });
+    builder.element(Floor {
+        body: [id],
+        limit: sticky,
+        push_n: 0.0,
+    });
     let params = Params::fixed(1e-3);
     let mut simulation = Simulation::new(builder.build().unwrap(), params).unwrap();
     simulation.run(0.45, |_| ControlFlow::Continue(())).unwrap();
