@@ -30,6 +30,7 @@ pub mod result_series;
 pub mod scene_comparison;
 pub mod scene_page;
 mod short_number;
+pub mod study_page;
 pub mod system_comparison;
 mod system_page;
 

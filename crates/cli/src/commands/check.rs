@@ -13,11 +13,12 @@ use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::optimise::{Evaluator, Optimisation};
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{PairCases, Study, StudyScenes};
+use gearmesh_scene::study::{RestCases, Scratch, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
 use serde_json::{Map, Value, json};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 /// What a sound file is.
 struct Finding {
@@ -198,7 +199,9 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
 
 /// The scene is loaded with the variables in the middle of their bounds.
 fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
-    Evaluator::new(problem)?;
+    // Nothing is run.
+    let stop = AtomicBool::new(false);
+    Evaluator::new(problem, Scratch::new(Path::new(""), &stop))?;
     let tables = &problem.tables;
     let (variables, objectives) = (tables.variable.len(), tables.objective.len());
     let of = &tables.scene;
@@ -214,7 +217,7 @@ fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
 /// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.
 fn study(study: &Study) -> Result<Finding, Failure> {
     let made = StudyScenes::new(study, Path::new(""))?;
-    made.check_columns(study, &PairCases::default())?;
+    made.check_columns(study, &RestCases::default())?;
     let (cases, columns) = (made.cases.len(), study.tables.columns.len());
     let of = &study.tables.scene;
     Ok(Finding::new("study", Some(&study.tables.title)).sized(
