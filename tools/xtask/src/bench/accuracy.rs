@@ -33,7 +33,7 @@ pub struct Subject {
 }
 
 const AT_REST: &[&str] = &["te_mean_um", "te_peak_to_peak_um", "te_harmonic_1_um"];
-/// Mean, largest value, mesh line and the speed of resonance, over seven speeds.
+/// Mean, largest value, mesh line and the speed of resonance, over five speeds.
 const THROUGH: &[&str] = &[
     "elements/mesh/normal_force_right_N:largest",
     "elements/mesh/transmission_error_m:peak-to-peak",
@@ -83,7 +83,9 @@ pub const SUBJECTS: [Subject; 10] = [
         changed: &[
             ("from_rpm = -600.0", "from_rpm = -2200.0"),
             ("to_rpm = -4200.0", "to_rpm = -2800.0"),
-            ("speeds = 37", "speeds = 7\ndirection = \"up\""),
+            ("speeds = 37", "speeds = 5\ndirection = \"up\""),
+            ("settle_s = 0.06", "settle_s = 0.03"),
+            ("measure_s = 0.1 ", "measure_s = 0.03 "),
             ("speed_rpm = -600.0", "speed_rpm = -2200.0"),
         ],
         columns: THROUGH,
@@ -96,7 +98,9 @@ pub const SUBJECTS: [Subject; 10] = [
         changed: &[
             ("from_rpm = -600.0", "from_rpm = -1600.0"),
             ("to_rpm = -4200.0", "to_rpm = -2200.0"),
-            ("speeds = 37", "speeds = 7\ndirection = \"up\""),
+            ("speeds = 37", "speeds = 5\ndirection = \"up\""),
+            ("settle_s = 0.06", "settle_s = 0.03"),
+            ("measure_s = 0.1 ", "measure_s = 0.03 "),
             ("speed_rpm = -600.0", "speed_rpm = -1600.0"),
         ],
         columns: THROUGH,
