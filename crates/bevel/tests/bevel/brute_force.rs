@@ -102,7 +102,6 @@ fn touches(
             &assembly,
             [p.touch.pinion_turn_rad, p.touch.gear_turn_rad],
         );
-        println!("{:?} {:.4} gap {gap:e}", p.kind, p.touch.pinion_turn_rad);
         range = [range[0].min(gap), range[1].max(gap)];
     }
     range
@@ -168,14 +167,7 @@ fn dense_points_touch_where_contact_analysis_says() {
         let made = made(&data, Process::Generated, FlankSide::Concave, [0.0, 0.0]);
         let flanks = [&made.pinion, &made.gear];
         let fine = analysed(flanks, &made.pair, error, 48).unwrap();
-        println!(
-            "{name}: {:.3} urad {} {}",
-            1e6 * fine.peak_to_peak_rad,
-            fine.contact_ratio,
-            fine.edge_share
-        );
         let [deepest, widest] = touches(flanks, &made.pair, error, &fine);
-        println!("{name} {deepest:e} {widest:e}");
         assert!(deepest > -0.01e-6, "{name}: {deepest:e} m");
         // The gap half a distance of the points beside a contact.
         assert!(widest < 1e-6, "{name}: {widest:e} m");

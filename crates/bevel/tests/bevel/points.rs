@@ -151,10 +151,6 @@ fn a_flank_through_points_is_the_flank() {
             } = *flank.grid_fit().unwrap();
             let off = distance_m(gear.flank(side), flank, 0.0);
             let between = distance_m(gear.flank(side), flank, 1.2 * MARGIN);
-            println!(
-                "{size:?} {digits} {side:?}: off {off:e} between {between:e}, fit {:?}",
-                flank.grid_fit()
-            );
             assert_eq!(counted, size);
             assert!(rms_m <= left_out_rms_m && worst_normal_rad < 1e-3);
             near(beyond_m[0], MARGIN * flank.blank.face_width_m, 1e-6);
@@ -187,10 +183,6 @@ fn a_flank_through_points_is_the_flank() {
             );
             let arm = file.blank.mean_cone_m * file.blank.members[1].pitch_angle_rad.sin();
             let most = 4.0 * (worst + 1e-8) / arm;
-            println!(
-                "TE {:e} {:e} {most:e}",
-                fitted.peak_to_peak_rad, cut.peak_to_peak_rad
-            );
             near(fitted.peak_to_peak_rad, cut.peak_to_peak_rad, most);
             near(fitted.contact_ratio, cut.contact_ratio, 0.1);
         }
@@ -310,8 +302,8 @@ fn bad_grids_are_refused_with_file_line_and_reason() {
         ),
         (
             edited(9, &|f| {
-                for k in 5..8 {
-                    f[k] = format!("{}", -f[k].parse::<f64>().unwrap());
+                for field in &mut f[5..8] {
+                    *field = format!("{}", -field.parse::<f64>().unwrap());
                 }
             }),
             vec!["concave.csv:9", "other side"],
