@@ -10,7 +10,12 @@ fn shipped(name: &str) -> String {
 #[test]
 fn printed_settings_are_read_back() {
     let desk = Desk::new();
-    for name in ["bevel_20_20.toml", "bevel_13_35.toml", "bevel_31_36.toml"] {
+    for name in [
+        "bevel_20_20.toml",
+        "bevel_13_35.toml",
+        "bevel_31_36.toml",
+        "bevel_38_51.toml",
+    ] {
         let file = shipped(name);
         succeeds(&["check", &file]);
         let printed = succeeds(&["bevel", &file]).stdout;
