@@ -1,13 +1,13 @@
 //! `gearmesh export`: a result as a table of another program.
 
 use crate::arguments::ExportArguments;
-use crate::console;
 use crate::failure::Failure;
-use crate::output_name;
+use crate::{console, output_name, uff};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::write_bytes;
 use gearmesh_report::export::{
-    ExportError, Table, csv_text, mat_bytes, pair_tables, parquet_bytes, study_table, system_tables,
+    ExportError, Table, csv_text, functions, mat_bytes, pair_tables, parquet_bytes, study_table,
+    system_tables,
 };
 use gearmesh_scene::ResultFile;
 use serde_json::json;
@@ -34,11 +34,17 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
     };
     let first = &tables[chosen.unwrap_or(0)];
     let bytes = match ending {
-        ".csv" => csv_text(first).map(String::into_bytes),
-        ".parquet" => parquet_bytes(first),
-        _ => mat_bytes(chosen.map_or(&tables[..], |place| &tables[place..=place])),
+        ".csv" => Some(csv_text(first).map(String::into_bytes)),
+        ".parquet" => Some(parquet_bytes(first)),
+        ".mat" => Some(mat_bytes(
+            chosen.map_or(&tables[..], |place| &tables[place..=place]),
+        )),
+        _ => None,
     };
-    write_bytes(&a.output, &bytes.map_err(blame)?).map_err(Failure::work)?;
+    match bytes {
+        Some(bytes) => write_bytes(&a.output, &bytes.map_err(blame)?).map_err(Failure::work)?,
+        None => write_functions(a, first)?,
+    }
     let written: Vec<&Table> = match (ending, chosen) {
         (".mat", None) => tables.iter().collect(),
         _ => vec![first],
@@ -67,6 +73,20 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// A table as functions over its axis.
+fn write_functions(a: &ExportArguments, table: &Table) -> Result<(), Failure> {
+    let functions = functions(table);
+    if functions.is_empty() {
+        return Err(Failure::input(format!(
+            "{}: table `{}` holds no functions over an axis; a universal file takes the curves of a pair, the rows of a run in time and the windows of a sweep",
+            a.result.display(),
+            table.name
+        )));
+    }
+    let title = a.result.file_stem().unwrap_or_default();
+    uff::write(&a.output, &title.to_string_lossy(), &functions)
 }
 
 /// All tables of a result, or of the folder of a study; the most wanted one first.
