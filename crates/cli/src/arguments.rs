@@ -270,6 +270,9 @@ pub struct ImportArguments {
     /// Folder for the files that are made; files of the same names are replaced
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
+    #[arg(long)]
+    pub reduced: bool,
     /// Print what was taken, assumed and not represented as JSON
     #[arg(long)]
     pub json: bool,

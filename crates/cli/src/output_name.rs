@@ -7,8 +7,10 @@ use std::path::Path;
 /// Endings of HDF5 files.
 const HDF5: [&str; 2] = [".h5", ".hdf5"];
 
-/// Endings of tables.
-const TABLE: [&str; 5] = [".csv", ".parquet", ".mat", ".uff", ".unv"];
+/// Endings of what `gearmesh export` writes: tables, series of moving gears, CAD.
+const EXPORT: [&str; 8] = [
+    ".csv", ".parquet", ".mat", ".uff", ".unv", ".pvd", ".step", ".stp",
+];
 
 /// Endings of measured curves.
 const MEASURED: [&str; 5] = [".csv", ".txt", ".uff", ".unv", ".uf"];
@@ -52,12 +54,12 @@ pub fn demand_mesh(path: &Path) -> Result<(), Failure> {
     .map(|_| ())
 }
 
-/// Which kind of table a name ends in.
+/// Which of the formats of `gearmesh export` a name ends in.
 ///
 /// # Errors
 /// [`Failure`] that lists them.
-pub fn table_ending(path: &Path) -> Result<&'static str, Failure> {
-    demand(path, &TABLE, "tables", "")
+pub fn export_ending(path: &Path) -> Result<&'static str, Failure> {
+    demand(path, &EXPORT, "tables, series of moving gears or CAD", "")
 }
 
 /// In which form curves were measured.

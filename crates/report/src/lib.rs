@@ -19,6 +19,7 @@ mod contact_pattern;
 pub mod export;
 pub mod measured;
 pub mod min_max;
+pub mod moving;
 pub mod optimise_page;
 pub mod overlay;
 pub mod page;
