@@ -2,14 +2,18 @@
 
 mod bearing;
 mod bevel;
+mod export;
 mod machine;
 mod offline;
+mod record;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use bevel::{BevelArguments, TcaArguments};
+pub use export::ExportArguments;
 pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
 pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
+pub use record::RecordArguments;
 pub use signal::{
     AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
     WindowKind,
@@ -48,8 +52,10 @@ pub enum Command {
     Compare(CompareArguments),
     /// Write a report page
     Report(ReportArguments),
-    /// Export a result as a table: CSV, Parquet or MATLAB
+    /// Export a result as a table (CSV, Parquet, MATLAB, universal file) or as moving gears (ParaView), a gear as STEP
     Export(ExportArguments),
+    /// Make a reference record of measured curves: CSV with units, or a universal file
+    Record(RecordArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, bearing file, scene, study, S-N table, record, model or result
@@ -200,23 +206,6 @@ pub struct ReportArguments {
     pub reference: Vec<PathBuf>,
 }
 
-/// `gearmesh export`.
-#[derive(Debug, Args)]
-pub struct ExportArguments {
-    /// Result file, or folder of a study
-    pub result: PathBuf,
-    /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows,
-    /// windows, modes and shapes; of both: ratings
-    #[arg(long)]
-    pub table: Option<String>,
-    /// Print which tables were written, their rows and columns, as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// `gearmesh check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
@@ -297,6 +286,9 @@ pub struct ImportArguments {
     /// Folder for the files that are made; files of the same names are replaced
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
+    #[arg(long)]
+    pub reduced: bool,
     /// Print what was taken, assumed and not represented as JSON
     #[arg(long)]
     pub json: bool,

@@ -22,6 +22,7 @@ pub mod optimise;
 pub mod periods;
 pub mod plan;
 pub mod ratings;
+pub mod record;
 pub mod recover;
 pub mod reduce;
 pub mod report;

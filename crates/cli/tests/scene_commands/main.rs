@@ -15,6 +15,7 @@ mod drilled_pair;
 mod export;
 mod first_steps;
 mod import;
+mod measured;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

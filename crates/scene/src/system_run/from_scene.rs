@@ -239,14 +239,14 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
     RunHead {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
-        inputs: inputs(&scene.document.text, &scene.folder),
+        inputs: digests_of_named_files(&scene.document.text, &scene.folder),
         notes: built.notes.clone(),
         meshes: meshes.collect(),
     }
 }
 
-/// Names and digests of all files that a scene names.
-fn inputs(text: &str, folder: &Path) -> Vec<String> {
+/// Names and digests of all files that a scene names, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.
+pub fn digests_of_named_files(text: &str, folder: &Path) -> Vec<String> {
     let digest = |(name, path): (String, PathBuf)| {
         // The seal of a model names its content; anything else is read.
         let sealed = file_digest(&path).ok();

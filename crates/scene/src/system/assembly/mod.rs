@@ -24,6 +24,7 @@ mod consistency;
 mod elements;
 mod gear_mesh;
 mod gears;
+mod gears_in_motion;
 mod joints;
 mod lump;
 mod mesh_effects;
@@ -43,6 +44,7 @@ mod stiffness;
 
 pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
+pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
 use std::sync::Arc;
