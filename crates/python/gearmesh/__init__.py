@@ -31,7 +31,20 @@ from ._native import (
 )
 from .bearing import Bearing
 from .bevel import BevelPair
+from .commands import (
+    Record,
+    accuracy,
+    check,
+    compliance,
+    demo,
+    doctor,
+    import_rexs,
+    init,
+    mesh,
+    natural_frequencies,
+)
 from .gear import STEEL, Gear
+from .optimise import Optimum, optimise
 from .program import program
 from .reduced import ReducedGear, reduce
 from .result import Result, compare
@@ -39,23 +52,35 @@ from .scene import Pair, Scene, run
 from .study import Study, StudyResult, study
 
 __all__ = [
-    "STEEL",
     "Bearing",
     "BevelPair",
     "Gear",
     "InputError",
+    "Optimum",
     "Pair",
+    "Record",
     "ReducedGear",
     "Result",
+    "STEEL",
     "Scene",
     "Study",
     "StudyResult",
     "WorkError",
+    "accuracy",
+    "check",
     "compare",
+    "compliance",
+    "demo",
+    "doctor",
     "export_mesh",
     "import_mesh",
+    "import_rexs",
+    "init",
     "mass",
+    "mesh",
+    "natural_frequencies",
     "natural_modes",
+    "optimise",
     "program",
     "read_mesh",
     "read_reduced",

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import sysconfig
 from pathlib import Path
-from typing import Any
+from typing import Any, Mapping
 
 from ._native import InputError, WorkError
 
@@ -37,6 +37,20 @@ def program(*arguments: str | os.PathLike[str] | float) -> Any:
         return json.loads(answer.stdout)
     except json.JSONDecodeError:
         return answer.stdout
+
+
+def options(given: Mapping[str, Any]) -> list[str]:
+    """Keywords as the program's options: `speed_rpm=100` is `--speed-rpm=100`, True a switch, None nothing, a list its items
+    with commas."""
+    words: list[str] = []
+    for name, value in given.items():
+        if value is None or value is False:
+            continue
+        if isinstance(value, (list, tuple)):
+            value = ",".join(str(part) for part in value)
+        option = f"--{name.replace('_', '-')}"
+        words.append(option if value is True else f"{option}={value}")
+    return words
 
 
 def _call(words: list[str], environment: dict[str, str]) -> subprocess.CompletedProcess[str]:

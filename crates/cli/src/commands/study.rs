@@ -1,14 +1,16 @@
 //! `gearmesh study`: a scene again and again with some of its keys changed.
 
+use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::offline;
-use gearmesh_report::{short, usual_unit};
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study, StudyOptions, run_study};
+use gearmesh_report::{short, study_figures, usual_unit};
+use gearmesh_scene::study::{
+    CaseResult, Selected, SelectedValue, Study, StudyOptions, StudyOutcome, gather_study, run_study,
+};
 use gearmesh_scene::system_run::{Figures, stem};
-use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
 /// Cases of a gear pair beyond which the table tells the extremes only.
@@ -17,6 +19,23 @@ const MOST_LINES: usize = 50;
 /// Runs the command.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
+    match (&arguments.scheduler, &arguments.gather) {
+        (None, None) => tell(&study, here(&study, arguments)?, arguments),
+        (None, Some(failures)) => {
+            let failures = elsewhere::failures(failures)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+        (Some(scheduler), _) => {
+            let failures = elsewhere::run(arguments, scheduler)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+    }
+}
+
+/// Runs the cases on this machine.
+fn here(study: &Study, arguments: &StudyArguments) -> Result<StudyOutcome, Failure> {
     let bar = Mutex::new(RunBar::new("study"));
     let progress = |done: usize, count: usize| {
         let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
@@ -24,7 +43,7 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     };
     let stop = interrupt::on_demand();
     let outcome = run_study(
-        &study,
+        study,
         &StudyOptions {
             folder: &arguments.output,
             stop: &stop.asked,
@@ -39,18 +58,20 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);
+    Ok(outcome)
+}
+
+/// Prints the figures.
+fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Result<(), Failure> {
     let failed = outcome
         .cases
         .iter()
         .filter(|case| case.figures.is_err())
         .count();
     if arguments.json {
-        let cases: Vec<Value> = outcome.cases.iter().map(figures).collect();
-        console::json(
-            &json!({"title": study.tables.title, "from_s": study.tables.from_s, "cases": cases}),
-        );
+        console::json(&study_figures(study, &outcome.cases));
     } else {
-        table(&study, &outcome.cases)
+        table(study, &outcome.cases)
             .into_iter()
             .for_each(console::data);
     }
@@ -209,35 +230,4 @@ fn series_column(
             Err(problem) => format!("{name:width$} failed: {problem}"),
         });
     }
-}
-
-/// The figures of a case for machines.
-fn figures(result: &CaseResult) -> Value {
-    let settings = result.case.settings.iter();
-    let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
-    let columns = |columns: &Vec<Selected>| {
-        let figures = columns.iter().map(|one| {
-            let mut cell = json!({"name": one.column, "unit": one.unit});
-            if let Some(torque) = one.torque_nm {
-                cell["torque_Nm"] = json!(torque);
-            }
-            match one.value {
-                SelectedValue::Single(value) => cell["value"] = json!(value),
-                SelectedValue::Series(figures) => {
-                    cell["mean"] = json!(figures.mean);
-                    cell["deviation"] = json!(figures.deviation);
-                    cell["least"] = json!(figures.least);
-                    cell["largest"] = json!(figures.largest);
-                }
-            }
-            cell
-        });
-        figures.collect::<Vec<_>>()
-    };
-    json!({
-        "parameters": settings.collect::<serde_json::Map<_, _>>(),
-        "file": result.file,
-        "columns": result.figures.as_ref().ok().map(columns),
-        "failure": result.figures.as_ref().err(),
-    })
 }

@@ -6,6 +6,7 @@
 //! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs` |
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `pair_cases.rs` |
+//! | cases for other machines, and the table of what they gave | [`StudyCases`], [`CaseRunner`], [`gather_study`] | `elsewhere.rs` |
 //! | which figures a gear pair has | [`PairColumn`] | `pair_columns.rs` |
 //! | what is written | `study.csv` | `table.rs` |
 //!
@@ -15,6 +16,7 @@
 
 mod cases;
 mod design;
+mod elsewhere;
 mod pair_cases;
 mod pair_columns;
 mod scatter;
@@ -29,6 +31,7 @@ pub use cases::{
 };
 pub use design::{Case, Design, Setting};
 pub(crate) use design::{probabilities, seeded};
+pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
 pub use pair_cases::{PairCases, PairFigures};
 pub use pair_columns::PairColumn;
 pub(crate) use pair_columns::{columns, names as column_names, place as column_place};

@@ -107,6 +107,12 @@ impl PairFigures {
     }
 }
 
+/// All columns of a case, and whether they had to be computed.
+pub(super) struct FoundFigures {
+    pub figures: PairFigures,
+    pub computed: bool,
+}
+
 /// What the cases of a pair share. Threads may share it.
 #[derive(Debug, Default)]
 pub struct PairCases {
@@ -152,19 +158,41 @@ impl PairCases {
         folder: &Path,
     ) -> Result<(PathBuf, PairFigures), StudyError> {
         let identity = self.identity(scene)?;
-        let name: String = identity.chars().take(NAME_DIGITS).collect();
-        let file = folder.join(format!("{name}.csv"));
-        let there = std::fs::read_to_string(&file).ok();
-        if let Some(found) = there.and_then(|text| PairFigures::from_text(&text, &identity)) {
-            return Ok((file, found));
+        let found = self.figures_as(scene, &identity, folder)?;
+        Ok((folder.join(Self::file_name(&identity)), found.figures))
+    }
+
+    /// The same for a scene whose identity is known already.
+    pub(super) fn figures_as(
+        &self,
+        scene: &Scene,
+        identity: &str,
+        folder: &Path,
+    ) -> Result<FoundFigures, StudyError> {
+        let file = folder.join(Self::file_name(identity));
+        if let Some(figures) = Self::stored(&file, identity) {
+            let computed = false;
+            return Ok(FoundFigures { figures, computed });
         }
         let figures = self.figures(scene)?;
-        write_text(&file, &figures.to_text(&identity))?;
-        Ok((file, figures))
+        write_text(&file, &figures.to_text(identity))?;
+        let computed = true;
+        Ok(FoundFigures { figures, computed })
+    }
+
+    /// Name of a case's file.
+    pub(super) fn file_name(identity: &str) -> String {
+        let digits: String = identity.chars().take(NAME_DIGITS).collect();
+        format!("{digits}.csv")
+    }
+
+    /// What a file says, if it is there, whole, and that of this case.
+    pub(super) fn stored(file: &Path, identity: &str) -> Option<PairFigures> {
+        PairFigures::from_text(&std::fs::read_to_string(file).ok()?, identity)
     }
 
     /// Digest of the scene, of all files that it names and of the program's version.
-    fn identity(&self, scene: &Scene) -> Result<String, FileError> {
+    pub(super) fn identity(&self, scene: &Scene) -> Result<String, FileError> {
         let mut parts = vec![
             scene.document.text.clone(),
             env!("CARGO_PKG_VERSION").to_owned(),

@@ -1,6 +1,6 @@
 //! What a scene file asks for, as a job.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gearmesh_dynamics::{DynamicsError, Interpolation, Motion, System, Table, TimeFunction};
 use gearmesh_geometry::InputError;
@@ -18,7 +18,7 @@ use crate::named_files::named_files;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
-use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, Variation};
+use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, SystemScene, Variation};
 
 impl RunJob {
     /// The job of a scene.
@@ -239,14 +239,14 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
     RunHead {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
-        inputs: inputs(&scene.document.text, &scene.folder),
+        inputs: inputs(scene),
         notes: built.notes.clone(),
         meshes: meshes.collect(),
     }
 }
 
-/// Names and digests of all files that a scene names.
-fn inputs(text: &str, folder: &Path) -> Vec<String> {
+/// Names and digests of all files that a scene names, and what tells the functions of the calling program apart.
+pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
     let digest = |(name, path): (String, PathBuf)| {
         // The seal of a model names its content; anything else is read.
         let sealed = file_digest(&path).ok();
@@ -256,7 +256,9 @@ fn inputs(text: &str, folder: &Path) -> Vec<String> {
         });
         format!("{name} {}", digest.unwrap_or_default())
     };
-    named_files(text, folder).into_iter().map(digest).collect()
+    let files = named_files(&scene.document.text, &scene.folder);
+    let host = (!scene.host.is_empty()).then(|| format!("functions {}", scene.host.identity));
+    files.into_iter().map(digest).chain(host).collect()
 }
 
 /// What `[output]` names; all of a kind where it names none.
