@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -88,11 +89,18 @@ def test_a_failed_case_is_told_and_the_others_are_kept(few, threads, tmp_path, m
     assert len(list((tmp_path / "out").glob("*.h5"))) == 3
 
 
+@dataclass
+class Folder:
+    """Stands for a worker."""
+
+    local_directory: str
+
+
 def test_models_lie_where_the_worker_can_read_them(tmp_path):
     model = tmp_path / "a" / "model.h5"
     cluster_worker.store(model, b"content")
     files = cluster_worker.Files([str(model)])
-    worker = SimpleNamespace(local_directory=str(tmp_path / "worker"))
+    worker = Folder(str(tmp_path / "worker"))
     files.setup(worker)
     # It sees the same file.
     assert cluster_worker.places_of[files.name] == {str(model): str(model)}
@@ -170,7 +178,8 @@ def test_killed_workers_and_a_killed_scheduler_lose_nothing(tmp_path):
         processes.kill(scheduler)
         before = {file.name: file.stat().st_mtime_ns for file in out.glob("*.h5")}
         processes.scheduler()
-        processes.worker(), processes.worker()
+        for _ in range(2):
+            processes.worker()
         told, notes = study.communicate(timeout=240)
     finally:
         processes.end()

@@ -16,7 +16,6 @@ from ._native import (
     InputError,
     WorkError,
     __version__,
-    _write_synthetic_reduced,
     export_mesh,
     import_mesh,
     mass,
@@ -29,6 +28,7 @@ from ._native import (
     strain,
     write_mesh,
 )
+from ._native import _write_synthetic_reduced as _write_synthetic_reduced
 from .bearing import Bearing
 from .bevel import BevelPair
 from .commands import (

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import functools
 import json
+import logging
 import os
 import socket
 import sys
 import time
 import uuid
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence, Union
 
 from . import _native
 from .progress import Bar, Progress
@@ -24,7 +26,7 @@ from .progress import Bar, Progress
 if TYPE_CHECKING:
     from distributed import Client
 
-    from .cluster_worker import Sent
+    from ._native import Sent
 
 Cluster = Union["Client", str]
 """A dask.distributed.Client, the address or file of a scheduler, or "local": workers of this machine, one a processor."""
@@ -63,7 +65,7 @@ def run_cases(
         bar = stack.enter_context(Bar(progress, "study"))
         connection = stack.enter_context(_Connection(cluster, patience_s))
         if gears:
-            connection.until_done(lambda client: _reduce_gears(client, path, out, token, bar))
+            connection.until_done(functools.partial(_reduce_gears, path=path, out=out, token=token, bar=bar))
         cases: list[Sent] = _native.study_cases(path, out)
         batch = _MOST_A_TASK if cases and cases[0][0].endswith(".csv") else 1
         files = _with_named({str(place) for case in cases for _, place in case[4]})
@@ -154,10 +156,14 @@ class _Connection:
             from distributed import Client, LocalCluster
         except ImportError as cause:
             raise ImportError("studies on a cluster need dask.distributed: pip install 'gearmesh[dask]'") from cause
+        # It tells each try to reconnect with a traceback; what matters is told here.
+        self._logger = logging.getLogger("distributed.client")
+        self._level = self._logger.level
+        self._logger.setLevel(logging.CRITICAL)
         if not isinstance(self._cluster, str):
             self._client = self._cluster
         elif self._cluster == "local":
-            local = LocalCluster(threads_per_worker=1, n_workers=os.cpu_count() or 1, dashboard_address=None)
+            local = LocalCluster(threads_per_worker=1, n_workers=os.cpu_count() or 1, dashboard_address="127.0.0.1:0")
             self._own.append(local)
             self._client = Client(local)
             self._own.append(self._client)
@@ -173,8 +179,10 @@ class _Connection:
 
         address = str(self._address)
         try:
-            known = {"scheduler_file": address} if Path(address).is_file() else {"address": address}
-            client = Client(**known, timeout=timeout_s, set_as_default=False)
+            if Path(address).is_file():
+                client = Client(scheduler_file=address, timeout=timeout_s, set_as_default=False)
+            else:
+                client = Client(address, timeout=timeout_s, set_as_default=False)
         except (OSError, ValueError, TypeError) as cause:
             raise _native.InputError(
                 f"--scheduler: nothing answers at {address!r} ({cause}); give the address of a running dask scheduler, as "
@@ -183,10 +191,10 @@ class _Connection:
         self._own.append(client)
         return client
 
-    def until_done(self, work: Any) -> None:
+    def until_done(self, work: Callable[[Client], None]) -> None:
         """Does some work with the client, again from the start where the scheduler was lost meanwhile."""
         from distributed import CancelledError
-        from distributed.comm import CommClosedError
+        from distributed.comm.core import CommClosedError
 
         while True:
             client = self._client
@@ -233,6 +241,7 @@ class _Connection:
         while self._own:
             with contextlib.suppress(Exception):
                 self._own.pop().close(timeout=5)
+        self._logger.setLevel(self._level)
 
 
 def _answers(client: Client) -> bool:
@@ -272,7 +281,7 @@ def _token(out: Path) -> Iterator[str]:
         (out / name).unlink(missing_ok=True)
 
 
-def _reduce_gears(client: Client, path: Path, out: Path, token: str, bar: Bar) -> None:
+def _reduce_gears(client: Client, *, path: Path, out: Path, token: str, bar: Bar) -> None:
     """Reduces the gears that cases need, each once, on the workers."""
     from distributed import as_completed
 

@@ -11,16 +11,23 @@ import tempfile
 import time
 import uuid
 from pathlib import Path
-from typing import Sequence
+from typing import TYPE_CHECKING, Protocol, Sequence
 
-from distributed import Worker, WorkerPlugin, get_worker
+from distributed import WorkerPlugin, get_worker
 
 from . import _native
 from .gear import Gear
 from .reduced import reduce
 
-Sent = tuple[str, str, str, str, list[tuple[str, str]], list[str]]
-"""A case: file, identity, text, title, named files, inputs."""
+if TYPE_CHECKING:
+    from ._native import Sent
+
+
+class HasFolder(Protocol):
+    """What of a dask worker is looked at."""
+
+    local_directory: str
+
 
 Outcome = tuple[str, "str | None", "bytes | None", "str | None"]
 """Of a case: its file; why it failed; where the study's folder is not to be seen from the worker, content and line in the log."""
@@ -68,7 +75,7 @@ class Files(WorkerPlugin):
         self.digests = {path: hashlib.sha256(content).hexdigest() for path, content in self.contents.items()}
         self.name = f"gearmesh-{hashlib.sha256(json.dumps(self.digests, sort_keys=True).encode()).hexdigest()[:16]}"
 
-    def setup(self, worker: Worker) -> None:
+    def setup(self, worker: HasFolder) -> None:
         """Lays the files below the worker's own folder, unless they are where the scenes look for them."""
         root = Path(worker.local_directory) / "gearmesh"
         places: dict[str, str] = {}
@@ -85,7 +92,7 @@ class Files(WorkerPlugin):
         places_of[self.name] = places
         received.append(self.name)
 
-    def teardown(self, worker: Worker) -> None:
+    def teardown(self, worker: HasFolder) -> None:
         """The worker's folder goes with it."""
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .program import options, program
 from .scene import Scene, scene_file
@@ -86,7 +87,7 @@ class Record:
         """Names of the columns."""
         return list(self._columns)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._columns:
             raise KeyError(f"the record has no `{name}`; it has {', '.join(self._columns)}")
         return self._columns[name]

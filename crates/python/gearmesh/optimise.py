@@ -50,13 +50,16 @@ class Optimum:
 
         if ax is None:
             ax = plt.figure(figsize=(6.0, 4.0), layout="constrained").add_subplot()
-        names = list(self.front[0]["objectives"])
-        across, up = names[:2] if len(names) > 1 else (next(iter(self.front[0]["variables"])), names[0])
-        for table, style in (("tried", dict(marker=".", color="0.75", linestyle="")), ("front", dict(marker="o"))):
+        first = self.front[0]
+        with open(self.folder / "front.csv", newline="", encoding="utf-8") as file:
+            heads = next(csv.reader(file))
+        names = [head for head in heads if head in first["objectives"]]
+        across, up = names[:2] if len(names) > 1 else (heads[0], names[0])
+        for table, style, colour in (("tried", ".", "0.75"), ("front", "o-", "C0")):
             with open(self.folder / f"{table}.csv", newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
             points = sorted((float(row[across]), float(row[up])) for row in rows)
-            ax.plot(*zip(*points), label=table, **style)
+            ax.plot([x for x, _ in points], [y for _, y in points], style, color=colour, label=table)
         ax.set(xlabel=across, ylabel=up, title=self.title)
         ax.grid(alpha=0.3)
         ax.legend(fontsize="small")

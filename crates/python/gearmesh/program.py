@@ -23,7 +23,10 @@ def program(*arguments: str | os.PathLike[str] | float) -> Any:
     FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
     """
     words = [str(argument) for argument in arguments]
-    environment = {**os.environ}
+    # Notebooks ask for colours, which would stand in the messages.
+    asks = ("FORCE_COLOR", "CLICOLOR_FORCE")
+    environment = {name: value for name, value in os.environ.items() if name not in asks}
+    environment["NO_COLOR"] = "1"
     environment.setdefault("GEARMESH_PYTHON", sys.executable)
     answer = _call([*words, "--json"], environment)
     if answer.returncode == 2 and "unexpected argument '--json'" in answer.stderr:

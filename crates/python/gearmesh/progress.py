@@ -7,7 +7,7 @@ import time
 from types import TracebackType
 from typing import Any, Callable, Optional, Union
 
-Progress = Union[None, bool, Callable[[str, float, float], None]]
+Progress = Union[None, bool, Callable[[str, float, float], object]]
 """None: a bar where standard error is a terminal or a notebook shows it; True or False; or a function that is called
 with the name of the stage, how much is done, and of how much (0: not known)."""
 
@@ -16,7 +16,7 @@ class Bar:
     """Calls a function, or moves a bar; a context that clears the bar."""
 
     def __init__(self, wish: Progress, title: str) -> None:
-        self.call: Optional[Callable[[str, float, float], None]] = None
+        self.call: Optional[Callable[[str, float, float], object]] = None
         self._bar: Any = None
         self._title = title
         if callable(wish):

@@ -22,7 +22,7 @@ class ReducedGear:
     FileNotFoundError, InputError for a file that is damaged or of another kind.
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path).absolute()
         self._parts = _native.read_reduced(self.path)
 

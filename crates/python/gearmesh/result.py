@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 from .program import options, program
@@ -67,7 +68,7 @@ class Result:
         """Names of the data sets."""
         return list(self._sets) if self.kind == "pair" else self._native.names()
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         return self._set(name)[0]
 
     def __contains__(self, name: str) -> bool:
@@ -85,7 +86,7 @@ class Result:
         """Names of the axes of a data set."""
         return tuple(_DIMENSIONS.get(axis, axis) for axis in self._set(name)[1])
 
-    def _set(self, name: str) -> tuple[np.ndarray, list[str], str, str]:
+    def _set(self, name: str) -> tuple[NDArray[Any], list[str], str, str]:
         if name not in self._sets:
             if name not in self.keys():
                 raise KeyError(f"the result has no `{name}`; it has {', '.join(self.keys())}")
@@ -169,14 +170,16 @@ class Result:
 
     def _plot_modes(self, ax: matplotlib.axes.Axes) -> None:
         modes = self.tables()["modes"]
-        speed_rpm = np.asarray(modes["speed_rad_per_s"]) * 30.0 / np.pi
+        # A map is read by the amount of the speed, whichever way the shaft turns.
+        speed_rpm = np.abs(np.asarray(modes["speed_rad_per_s"]) * 30.0 / np.pi)
         across, head = (speed_rpm, "speed [rpm]")
         if np.isnan(speed_rpm).any():
             across, head = np.asarray(modes["load_factor"]), "load factor"
         number = np.asarray(modes["mode"])
         for mode in np.unique(number):
             chosen = number == mode
-            ax.plot(across[chosen], np.asarray(modes["frequency_Hz"])[chosen], ".-", markersize=3)
+            points = sorted(zip(across[chosen], np.asarray(modes["frequency_Hz"])[chosen]))
+            ax.plot(*zip(*points), ".-", markersize=3)
         ax.set(xlabel=head, ylabel="natural frequency [Hz]")
 
     def save(self, path: str | os.PathLike[str]) -> Result:
@@ -241,7 +244,10 @@ class Result:
 
     def __repr__(self) -> str:
         if self.kind != "pair":
-            head = f"{self.kind}, {len(self.keys())} columns"
+            count, what = len(self.keys()), "columns"
+            if self.kind == "eigen":
+                count, what = len(self.tables()["modes"]["frequency_Hz"]), "natural frequencies"
+            head = f"{self.kind}, {count} {what}"
             calls = "".join(f", `{name}` called {calls} times" for name, calls in self.calls.items())
             return f"<Result {self.title!r}: {head}{calls}>"
         lines = [f"<Result {self.title!r}: {len(self['angle_rad'])} positions at each torque"]

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, SystemTime};
 
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::pair::Scene;
+use gearmesh_scene::study::PairCases;
 use gearmesh_scene::system::{HostFunctions, SystemPlan, SystemScene};
 use gearmesh_scene::system_run::{
     Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
@@ -123,7 +125,7 @@ fn run_pair(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
     watched(py, progress, OnInterrupt::Leave, move |watch| {
-        let loaded = load(scene).map_err(run_error)?;
+        let loaded = shelved_models(&scene).load(&scene).map_err(run_error)?;
         let notes = notes(&loaded.scene.notes, &loaded.unit_slips());
         let told = |done: usize, total: usize| {
             watch.advance("torques", done as f64, total as f64);
@@ -134,6 +136,43 @@ fn run_pair(
         }
         Ok((NativeResult::of_pair(result), notes))
     })
+}
+
+/// Models that this process has read, and what their files were then: a relief is varied in milliseconds, where reading
+/// models would take a tenth of a second.
+struct Shelf {
+    stamps: BTreeMap<PathBuf, Option<(SystemTime, u64)>>,
+    pairs: Arc<PairCases>,
+}
+
+static SHELF: Mutex<Option<Shelf>> = Mutex::new(None);
+
+/// Models beyond which all are read again: scripts that go through many gears shall not fill the memory.
+const MOST_MODELS: usize = 16;
+
+/// The shelf with the models of a scene, unless their files have changed.
+fn shelved_models(scene: &Scene) -> Arc<PairCases> {
+    let stamp = |path: &PathBuf| {
+        let found = path.metadata().ok()?;
+        Some((found.modified().ok()?, found.len()))
+    };
+    let mut held = SHELF.lock().unwrap_or_else(PoisonError::into_inner);
+    let paths = [scene.gear_1.clone(), scene.gear_2.clone()];
+    let is_known = |shelf: &Shelf| {
+        let same = |path: &PathBuf| shelf.stamps.get(path).is_none_or(|old| *old == stamp(path));
+        paths.iter().all(same) && shelf.stamps.len() <= MOST_MODELS
+    };
+    let mut shelf = held.take().filter(is_known).unwrap_or_else(|| Shelf {
+        stamps: BTreeMap::new(),
+        pairs: Arc::default(),
+    });
+    for path in paths {
+        let now = stamp(&path);
+        shelf.stamps.insert(path, now);
+    }
+    let pairs = Arc::clone(&shelf.pairs);
+    *held = Some(shelf);
+    pairs
 }
 
 fn run_system(

@@ -10,6 +10,7 @@ use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::InputDocument;
+use rayon::prelude::*;
 
 use super::cases::{Found, StudyError, StudyOutcome, StudyScenes, finished, make_folder};
 use super::pair_cases::PairCases;
@@ -200,9 +201,8 @@ pub fn gather_study(
             SceneFile::System(scene) => {
                 let identity = system_cases::head(scene).identity();
                 let name = system_cases::file_name(&identity);
-                let file = folder.join(&name);
-                let is_there = system_cases::is_there(&file, &identity);
-                (name, is_there.then(|| system_cases::selected(study, &file)))
+                let found = system_cases::stored(study, &folder.join(&name), &identity);
+                (name, found)
             }
         };
         match (found, failures.get(&name)) {
@@ -213,7 +213,7 @@ pub fn gather_study(
             )),
         }
     };
-    let outcomes = scenes.scenes.iter().map(outcome).collect();
+    let outcomes = scenes.scenes.par_iter().map(outcome).collect();
     make_folder(folder)?;
     finished(
         study,

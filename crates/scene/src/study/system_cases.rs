@@ -79,6 +79,16 @@ pub(super) fn is_there(file: &Path, identity: &str) -> bool {
     SystemResult::open(file).is_ok_and(|result| result.head.identity() == identity)
 }
 
+/// The study's columns of a case; none where its file is not there.
+pub(super) fn stored(
+    study: &Study,
+    file: &Path,
+    identity: &str,
+) -> Option<Result<Vec<Selected>, String>> {
+    let result = SystemResult::open(file).ok()?;
+    (result.head.identity() == identity).then(|| selected_of(study, &result))
+}
+
 /// What tells the result of a scene from others.
 pub(super) fn head(scene: &SystemScene) -> RunHead {
     RunHead {
@@ -130,8 +140,12 @@ fn run_into(job: RunJob, file: &Path, stop: &AtomicBool) -> Result<bool, StudyEr
 
 /// Figures of the study's columns over its time, or what keeps them from being read.
 pub(super) fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
+    let result = SystemResult::open(file).map_err(|error| error.to_string())?;
+    selected_of(study, &result)
+}
+
+fn selected_of(study: &Study, result: &SystemResult) -> Result<Vec<Selected>, String> {
     let say = |error: FileError| error.to_string();
-    let result = SystemResult::open(file).map_err(say)?;
     if let Some(problem) = result.problem() {
         return Err(problem);
     }
