@@ -22,7 +22,7 @@ def program(*arguments: str | os.PathLike[str] | float) -> Any:
     Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt (130),
     FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
     """
-    words = [str(argument) for argument in arguments]
+    words = [str(os.fspath(a)) if isinstance(a, os.PathLike) else str(a) for a in arguments]
     # Notebooks ask for colours, which would stand in the messages.
     asks = ("FORCE_COLOR", "CLICOLOR_FORCE")
     environment = {name: value for name, value in os.environ.items() if name not in asks}
