@@ -273,6 +273,13 @@ pub struct StudyArguments {
     /// Folder for the results, study.csv and the page study.html; what is there already is not run again
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local" for
+    /// one that is started for this study (docs/cluster.md)
+    #[arg(long)]
+    pub scheduler: Option<String>,
+    /// Compute nothing: make the table of what lies in the folder, with the failures that this file lists
+    #[arg(long, hide = true, conflicts_with = "scheduler")]
+    pub gather: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,

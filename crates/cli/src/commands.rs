@@ -33,6 +33,7 @@ mod schema_page;
 pub mod signal;
 pub mod stress_picture;
 pub mod study;
+mod study_elsewhere;
 pub mod system_table;
 pub mod tca;
 mod tca_page;

@@ -1,5 +1,6 @@
 //! `gearmesh study`: a scene again and again with some of its keys changed.
 
+use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
@@ -7,10 +8,11 @@ use crate::interrupt;
 use crate::offline;
 use crate::page_file;
 use gearmesh_report::study_page::study_page;
-use gearmesh_report::{short, usual_unit};
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study, StudyOptions, run_study};
+use gearmesh_report::{short, study_figures, usual_unit};
+use gearmesh_scene::study::{
+    CaseResult, Selected, SelectedValue, Study, StudyOptions, StudyOutcome, gather_study, run_study,
+};
 use gearmesh_scene::system_run::{Figures, stem};
-use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
 /// Cases beyond which the table tells the extremes only.
@@ -19,6 +21,23 @@ const MOST_LINES: usize = 50;
 /// Runs the command.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
+    match (&arguments.scheduler, &arguments.gather) {
+        (None, None) => tell(&study, here(&study, arguments)?, arguments),
+        (None, Some(failures)) => {
+            let failures = elsewhere::failures(failures)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+        (Some(scheduler), _) => {
+            let failures = elsewhere::run(arguments, scheduler)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+    }
+}
+
+/// Runs the cases on this machine.
+fn here(study: &Study, arguments: &StudyArguments) -> Result<StudyOutcome, Failure> {
     let bar = Mutex::new(RunBar::new("study"));
     let progress = |done: usize, count: usize| {
         let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
@@ -26,7 +45,7 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     };
     let stop = interrupt::on_demand();
     let outcome = run_study(
-        &study,
+        study,
         &StudyOptions {
             folder: &arguments.output,
             stop: &stop.asked,
@@ -36,27 +55,27 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     );
     bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
     let outcome = outcome?;
-    if !outcome.stopped {
-        let page = study_page(&study, &outcome.cases);
-        page_file::write(&page, &arguments.output.join("study.html"))?;
-    }
     if outcome.stopped {
         console::error("interrupted; the same command goes on from here");
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);
+    Ok(outcome)
+}
+
+/// Writes the page and prints the figures.
+fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Result<(), Failure> {
+    let page = study_page(study, &outcome.cases);
+    page_file::write(&page, &arguments.output.join("study.html"))?;
     let failed = outcome
         .cases
         .iter()
         .filter(|case| case.figures.is_err())
         .count();
     if arguments.json {
-        let cases: Vec<Value> = outcome.cases.iter().map(figures).collect();
-        console::json(
-            &json!({"title": study.tables.title, "from_s": study.tables.from_s, "cases": cases}),
-        );
+        console::json(&study_figures(study, &outcome.cases));
     } else {
-        table(&study, &outcome.cases)
+        table(study, &outcome.cases)
             .into_iter()
             .for_each(console::data);
     }
@@ -230,35 +249,4 @@ fn series_column(
             Err(problem) => format!("{name:width$} failed: {problem}"),
         });
     }
-}
-
-/// The figures of a case for machines.
-fn figures(result: &CaseResult) -> Value {
-    let settings = result.case.settings.iter();
-    let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
-    let columns = |columns: &Vec<Selected>| {
-        let figures = columns.iter().map(|one| {
-            let mut cell = json!({"name": one.column, "unit": one.unit});
-            if let Some(torque) = one.torque_nm {
-                cell["torque_Nm"] = json!(torque);
-            }
-            match one.value {
-                SelectedValue::Single(value) => cell["value"] = json!(value),
-                SelectedValue::Series(figures) => {
-                    cell["mean"] = json!(figures.mean);
-                    cell["deviation"] = json!(figures.deviation);
-                    cell["least"] = json!(figures.least);
-                    cell["largest"] = json!(figures.largest);
-                }
-            }
-            cell
-        });
-        figures.collect::<Vec<_>>()
-    };
-    json!({
-        "parameters": settings.collect::<serde_json::Map<_, _>>(),
-        "file": result.file,
-        "columns": result.figures.as_ref().ok().map(columns),
-        "failure": result.figures.as_ref().err(),
-    })
 }

@@ -56,6 +56,9 @@ pub enum StudyError {
     /// A result does not give a column.
     #[error("{0}")]
     Column(String),
+    /// A case that was computed on another machine.
+    #[error("{0}")]
+    Elsewhere(String),
     /// The user has asked to stop.
     #[error("stopped on demand")]
     Stopped,
@@ -77,7 +80,7 @@ impl StudyError {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
             Self::Pair(error) => error.is_input(),
-            Self::Bevel(_) | Self::Bearing(_) | Self::Column(_) => false,
+            Self::Bevel(_) | Self::Bearing(_) | Self::Column(_) | Self::Elsewhere(_) => false,
             Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }
     }
@@ -150,7 +153,7 @@ pub struct StudyScenes {
     /// Files that they need and that the study makes.
     pub files: MadeFiles,
     /// Scene of each case.
-    scene_of: Vec<usize>,
+    pub(super) scene_of: Vec<usize>,
 }
 
 impl StudyScenes {
@@ -293,10 +296,21 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
             outcome
         })
         .collect();
+    finished(study, (cases, &scene_of), outcomes, (folder, reduced))
+}
+
+/// Puts the outcomes of the scenes beside the cases that led to them and writes the table; `reduced`: gears that were
+/// reduced on the way.
+pub(super) fn finished(
+    study: &Study,
+    (cases, scene_of): (Vec<Case>, &[usize]),
+    outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>>,
+    (folder, reduced): (&Path, usize),
+) -> Result<StudyOutcome, StudyError> {
     let stopped = outcomes.iter().any(|outcome| matches!(outcome, Ok(None)));
     let mut results = Vec::with_capacity(cases.len());
     for (case, place) in cases.into_iter().zip(scene_of) {
-        let (file, figures) = match &outcomes[place] {
+        let (file, figures) = match &outcomes[*place] {
             Ok(None) => continue,
             Ok(Some((file, found))) => (Some(file.clone()), found.clone()),
             Err(error) => (None, Err(error.to_string())),
@@ -318,7 +332,7 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
 }
 
 /// The study's columns, or why a result does not give them.
-type Found = Result<Vec<Selected>, String>;
+pub(super) type Found = Result<Vec<Selected>, String>;
 
 /// Runs a case unless it is there already; none if it was stopped.
 fn run_case(
@@ -347,7 +361,7 @@ fn run_case(
     }
 }
 
-fn make_folder(path: &Path) -> Result<(), StudyError> {
+pub(super) fn make_folder(path: &Path) -> Result<(), StudyError> {
     std::fs::create_dir_all(path).map_err(|source| StudyError::Folder {
         path: path.to_owned(),
         source,

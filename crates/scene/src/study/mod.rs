@@ -8,6 +8,7 @@
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
 //! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `figure.rs` |
+//! | cases for other machines, and the table of what they gave | [`StudyCases`], [`CaseRunner`], [`gather_study`] | `elsewhere.rs` |
 //! | what is written | `study.csv` | `table.rs` |
 //!
 //! The result of a case is named by a digest of all that it depends on: a study that is broken off goes on where it
@@ -17,6 +18,7 @@
 mod bearing_operation;
 mod cases;
 mod design;
+mod elsewhere;
 mod evaluate;
 mod figure;
 mod pair_columns;
@@ -37,6 +39,7 @@ pub use cases::{
 pub(crate) use cases::{known_columns, make_files};
 pub use design::{Case, Design, Setting};
 pub(crate) use design::{probabilities, seeded};
+pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
 pub use evaluate::{Effort, Scratch};
 pub(crate) use evaluate::{evaluate, number};
 pub use figure::{Figure, FigureKinds, Wanted};

@@ -114,6 +114,12 @@ impl RestFigures {
     }
 }
 
+/// All columns of a case, and whether they had to be computed.
+pub(super) struct FoundFigures {
+    pub figures: RestFigures,
+    pub computed: bool,
+}
+
 /// What the cases share. Threads may share it.
 #[derive(Debug, Default)]
 pub struct RestCases {
@@ -216,23 +222,45 @@ impl RestCases {
         folder: &Path,
     ) -> Result<(PathBuf, RestFigures), StudyError> {
         let identity = self.identity(subject)?;
-        let name: String = identity.chars().take(NAME_DIGITS).collect();
-        let file = folder.join(format!("{name}.csv"));
-        let there = std::fs::read_to_string(&file).ok();
-        if let Some(found) = there.and_then(|text| RestFigures::from_text(&text, &identity)) {
-            return Ok((file, found));
+        let found = self.figures_as(subject, &identity, folder)?;
+        Ok((folder.join(Self::file_name(&identity)), found.figures))
+    }
+
+    /// The same for what has its identity already.
+    pub(super) fn figures_as(
+        &self,
+        subject: &Subject,
+        identity: &str,
+        folder: &Path,
+    ) -> Result<FoundFigures, StudyError> {
+        let file = folder.join(Self::file_name(identity));
+        if let Some(figures) = Self::stored(&file, identity) {
+            let computed = false;
+            return Ok(FoundFigures { figures, computed });
         }
         let (figures, _) = self.figures(subject)?;
-        write_text(&file, &figures.to_text(&identity))?;
-        Ok((file, figures))
+        write_text(&file, &figures.to_text(identity))?;
+        let computed = true;
+        Ok(FoundFigures { figures, computed })
+    }
+
+    /// Name of a case's file.
+    pub(super) fn file_name(identity: &str) -> String {
+        let digits: String = identity.chars().take(NAME_DIGITS).collect();
+        format!("{digits}.csv")
+    }
+
+    /// What a file says, if it is there, whole, and that of this case.
+    pub(super) fn stored(file: &Path, identity: &str) -> Option<RestFigures> {
+        RestFigures::from_text(&std::fs::read_to_string(file).ok()?, identity)
     }
 
     /// Digest of the scene, of all files that it names and of the program's version.
-    fn identity(&self, subject: &Subject) -> Result<String, FileError> {
+    pub(super) fn identity(&self, subject: &Subject) -> Result<String, FileError> {
         let text = &subject.document().text;
         let mut parts = vec![text.clone(), env!("CARGO_PKG_VERSION").to_owned()];
-        if let Subject::Pair(scene) = subject {
-            for path in named_files(text, &scene.folder).into_values() {
+        if let Some(folder) = subject.folder() {
+            for path in named_files(text, folder).into_values() {
                 parts.push(self.digest(path)?);
             }
         }

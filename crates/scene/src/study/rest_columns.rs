@@ -50,7 +50,7 @@ pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, BevelError> {
     let lines = mesh_harmonics(&found.error_rad, 1, HARMONICS).1;
     let ellipses = found.path.iter().filter(|p| p.leading);
     let lengths = ellipses.filter_map(|p| Some(p.ellipse?.half_lengths_m(file.tca.marking_m)[0]));
-    let ease_off = found.ease_off.iter().map(|(_, e)| e.gap_m);
+    let ease_off = (found.ease_off.iter()).filter_map(|(_, found)| Some(found.as_ref()?.gap_m));
     let mut values = vec![1e6 * found.peak_to_peak_rad];
     values.extend((0..HARMONICS).map(|k| 1e6 * lines.get(k).map_or(0.0, |line| line.0)));
     values.extend([

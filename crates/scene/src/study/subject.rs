@@ -71,6 +71,17 @@ impl Subject {
         })
     }
 
+    /// Where the files lie that it names; none of a bearing, which names none.
+    #[must_use]
+    pub fn folder(&self) -> Option<&Path> {
+        match self {
+            Self::Pair(scene) => Some(&scene.folder),
+            Self::System(scene) => Some(&scene.folder),
+            Self::Bevel(pair) => Path::new(&pair.document.file).parent(),
+            Self::Bearing(_) => None,
+        }
+    }
+
     /// Its text.
     #[must_use]
     pub fn document(&self) -> &InputDocument {

@@ -8,11 +8,13 @@ use std::time::Duration;
 use gearmesh_model::FileError;
 
 use super::cases::{Selected, SelectedValue, StudyError};
+use super::elsewhere::SentCase;
 use super::figure::{Figure, FigureKinds, Wanted, line_amplitude, resonance};
+use super::study_file::Study;
 use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, ResultKind, RunJob, RunKind, RunOptions, SystemResult, SystemRunError,
-    Window, recorded_columns, run,
+    Figures, Outcome, ResultKind, RunHead, RunJob, RunKind, RunOptions, SystemResult,
+    SystemRunError, Window, inputs, recorded_columns, run,
 };
 
 /// Wall time between checkpoints of a case.
@@ -74,22 +76,82 @@ fn run_unless_there(
     }
     let job = RunJob::from_scene(scene.load()?)?;
     let identity = job.head.identity();
-    let name: String = identity.chars().take(NAME_DIGITS).collect();
-    let file = folder.join(format!("{name}.h5"));
-    if SystemResult::open(&file).is_ok_and(|result| result.head.identity() == identity) {
+    let file = folder.join(file_name(&identity));
+    if is_there(&file, &identity) {
         return Ok(Some(file));
     }
+    Ok(run_into(job, &file, stop)?.then_some(file))
+}
+
+/// Name of a case's file.
+pub(super) fn file_name(identity: &str) -> String {
+    let digits: String = identity.chars().take(NAME_DIGITS).collect();
+    format!("{digits}.h5")
+}
+
+/// Whether a file is the whole result of a case.
+pub(super) fn is_there(file: &Path, identity: &str) -> bool {
+    SystemResult::open(file).is_ok_and(|result| result.head.identity() == identity)
+}
+
+/// The study's columns of a case; none where its file is not there.
+pub(super) fn stored(
+    study: &Study,
+    file: &Path,
+    identity: &str,
+) -> Option<Result<Vec<Selected>, String>> {
+    let result = SystemResult::open(file).ok()?;
+    let wanted = study.wanted();
+    (result.head.identity() == identity).then(|| selected_of(&wanted, study.tables.from_s, &result))
+}
+
+/// What tells the result of a scene from others.
+pub(super) fn head(scene: &SystemScene) -> RunHead {
+    RunHead {
+        scene_toml: scene.document.text.clone(),
+        inputs: inputs(scene),
+        ..RunHead::default()
+    }
+}
+
+/// Runs a case that was sent, unless it is there or another process is at it: whether it was computed, none if it was
+/// stopped. Its result says what it would have said where the case comes from.
+pub(super) fn run_sent(
+    scene: SystemScene,
+    case: &SentCase,
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<bool>, StudyError> {
+    let file = folder.join(&case.file);
+    loop {
+        if is_there(&file, &case.identity) {
+            return Ok(Some(false));
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let mut job = RunJob::from_scene(scene.clone().load()?)?;
+        job.head.scene_toml.clone_from(&case.text);
+        job.head.inputs.clone_from(&case.inputs);
+        match run_into(job, &file, stop) {
+            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
+                std::thread::sleep(WAITING);
+            }
+            outcome => return Ok(outcome?.then_some(true)),
+        }
+    }
+}
+
+/// False where it was stopped.
+fn run_into(job: RunJob, file: &Path, stop: &AtomicBool) -> Result<bool, StudyError> {
     let options = RunOptions {
-        output: &file,
+        output: file,
         restart: false,
         checkpoint_interval: CHECKPOINTS,
         stop,
         progress: &|_| (),
     };
-    match run(job, &options)? {
-        Outcome::Finished => Ok(Some(file)),
-        Outcome::Stopped => Ok(None),
-    }
+    Ok(run(job, &options)? == Outcome::Finished)
 }
 
 /// Figures of columns of a result, from a time on \[s\], or what keeps them from being read.
@@ -98,14 +160,21 @@ pub(super) fn selected(
     from_s: f64,
     file: &Path,
 ) -> Result<Vec<Selected>, String> {
-    let result = SystemResult::open(file).map_err(say)?;
+    selected_of(wanted, from_s, &SystemResult::open(file).map_err(say)?)
+}
+
+fn selected_of(
+    wanted: &[Wanted],
+    from_s: f64,
+    result: &SystemResult,
+) -> Result<Vec<Selected>, String> {
     if let Some(problem) = result.problem() {
         return Err(problem);
     }
     let of = |one: &Wanted| match result.kind {
-        ResultKind::SpeedSweep => of_sweep(&result, one),
-        ResultKind::Eigen => of_modes(&result, one),
-        ResultKind::Transient | ResultKind::Static => of_rows(&result, one, from_s),
+        ResultKind::SpeedSweep => of_sweep(result, one),
+        ResultKind::Eigen => of_modes(result, one),
+        ResultKind::Transient | ResultKind::Static => of_rows(result, one, from_s),
     };
     wanted.iter().map(of).collect()
 }

@@ -67,6 +67,7 @@ use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
+use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
 use super::tables::solver::Start;
@@ -171,6 +172,10 @@ impl LoadedSystem {
     ) -> Result<BuiltSystem, InputError> {
         let (tables, document) = (&self.scene.tables, &self.scene.document);
         let files = (document, self.scene.folder.as_path());
+        let sources = Sources {
+            folder: &self.scene.folder,
+            host: &self.scene.host,
+        };
         let mut parts = Parts::default();
         let mut bodies = self.bodies()?;
         let mut shafts = Vec::new();
@@ -201,7 +206,12 @@ impl LoadedSystem {
         }
         self.check_flexibility(&bodies, &meshes)?;
         let joints = joints::place(&tables.joint, document, &bodies)?;
-        let motions = joints::motions(&tables.motion, files, &joints, &variation.motions)?;
+        let motions = joints::motions(
+            &tables.motion,
+            (document, sources),
+            &joints,
+            &variation.motions,
+        )?;
         let holds = Holds {
             joints: &joints,
             bearings: &tables.bearing,
@@ -255,7 +265,7 @@ impl LoadedSystem {
         )?;
         elements::add(
             tables,
-            files,
+            (document, sources),
             Manner {
                 load_factor: variation.load_factor,
                 at_rest,
