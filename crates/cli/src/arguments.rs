@@ -204,6 +204,9 @@ pub struct ReportArguments {
     /// Folder of a reference record for each result, in the same order
     #[arg(long)]
     pub reference: Vec<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gearmesh check`.

@@ -37,7 +37,7 @@ impl Placement {
         }
     }
 
-    fn direction(&self, v: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn direction(&self, v: [f64; 3]) -> [f64; 3] {
         self.rotation
             .map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
     }
@@ -61,10 +61,8 @@ pub struct FlankLoad {
     pub roll_rad: f64,
     /// Height above mid-face \[m\].
     pub height_m: f64,
-    /// Normal force \[N\].
-    pub force_n: f64,
-    /// Components of the force along the flank's inward normal and towards the tip, over the normal force.
-    pub components: [f64; 2],
+    /// Force on this gear, world axes \[N\].
+    pub force_n: [f64; 3],
     /// Line load \[N/m\].
     pub line_load_n_per_m: f64,
     /// Hertz pressure \[Pa\].

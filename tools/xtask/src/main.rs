@@ -11,6 +11,7 @@ mod error;
 mod machine;
 mod prepare;
 mod python_module;
+mod release;
 mod rust_tests;
 mod steps;
 mod system_libs;
@@ -49,6 +50,8 @@ Usage: cargo xtask <COMMAND>
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
+  release [--quick]
+                  the wheel, and an archive of program, documentation, examples, completions and manual pages in target/archive
   prepare         only makes what the others need
   help            this text
 
@@ -85,6 +88,7 @@ enum Command {
     AccuracyCostBearings(bench::Options),
     AccuracyCostElements(bench::Options),
     Wheel(wheel::Build),
+    Release(wheel::Build),
     Prepare,
     Help,
 }
@@ -120,13 +124,15 @@ impl Command {
             }
             ("wheel", []) => Ok(Self::Wheel(wheel::Build::Release)),
             ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
+            ("release", []) => Ok(Self::Release(wheel::Build::Release)),
+            ("release", ["--quick"]) => Ok(Self::Release(wheel::Build::Quick)),
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
             | (
-                "test" | "rust-tests" | "prepare" | "wheel" | "bench" | "accuracy-cost",
+                "test" | "rust-tests" | "prepare" | "wheel" | "release" | "bench" | "accuracy-cost",
                 ["--help" | "-h"],
             ) => Ok(Self::Help),
-            ("test" | "rust-tests" | "prepare" | "wheel", rest) => {
+            ("test" | "rust-tests" | "prepare" | "wheel" | "release", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
             ("bench", _) => Err(
@@ -180,6 +186,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             Ok(ExitCode::SUCCESS)
         }
         Command::Wheel(build) => wheel::wheel(&workspace, &venv, build),
+        Command::Release(build) => release::release(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare
         | Command::Help
@@ -213,6 +220,11 @@ mod tests {
         assert_eq!(parse("wheel"), Ok(Command::Wheel(wheel::Build::Release)));
         assert_eq!(parse("wheel --quick"), quick);
         assert!(parse("wheel --slow").is_err());
+        assert_eq!(
+            parse("release"),
+            Ok(Command::Release(wheel::Build::Release))
+        );
+        assert!(parse("release --slow").is_err());
     }
 
     #[test]

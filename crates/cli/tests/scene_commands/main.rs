@@ -16,6 +16,7 @@ mod export;
 mod first_steps;
 mod import;
 mod measured;
+mod moving;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

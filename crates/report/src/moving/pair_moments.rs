@@ -33,6 +33,7 @@ pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [Gear
 pub fn pair_moment(
     loaded: &LoadedScene,
     result: &SceneResult,
+    surfaces: &[GearSurface; 2],
     (torque, angle): (usize, usize),
 ) -> Moment {
     let pair = &loaded.lines.pair;
@@ -64,14 +65,18 @@ pub fn pair_moment(
             continue;
         }
         for gear in 0..2 {
+            let place = patch.places[gear];
+            let flank = (patch.teeth[gear], pair.flank);
+            let [normal, tip] = surfaces[gear].directions(flank, place.u, place.v);
+            let [a, b] = patch.force_components(gear).map(|part| part * forces[at]);
+            let own = std::array::from_fn(|k| a * normal[k] + b * tip[k]);
             loads.push(FlankLoad {
                 gear,
                 tooth: patch.teeth[gear],
                 side: pair.flank,
-                roll_rad: patch.places[gear].u,
-                height_m: patch.places[gear].v,
-                force_n: forces[at],
-                components: patch.force_components(gear),
+                roll_rad: place.u,
+                height_m: place.v,
+                force_n: placements[gear].direction(own),
                 line_load_n_per_m: forces[at] / (loaded.layout.width_m() * patch.share),
                 pressure_pa: pressures[at],
             });

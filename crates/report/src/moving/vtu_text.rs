@@ -83,11 +83,7 @@ impl<'a> Series<'a> {
             let quad = first[load.gear] + surface.flank_quad(flank, load.roll_rad, load.height_m);
             pressure[quad] = pressure[quad].max(load.pressure_pa as f32);
             line_load[quad] = line_load[quad].max(load.line_load_n_per_m as f32);
-            let [normal, tip] = surface.directions(flank, load.roll_rad, load.height_m);
-            let [a, b] = load.components.map(|part| part * load.force_n);
-            let own = std::array::from_fn(|k| a * normal[k] + b * tip[k]);
-            let world = moment.placements[load.gear].direction(own);
-            (force[quad].iter_mut().zip(world)).for_each(|(sum, part)| *sum += part as f32);
+            (force[quad].iter_mut().zip(load.force_n)).for_each(|(sum, part)| *sum += part as f32);
         }
         let bytes =
             |values: &[f32]| -> Vec<u8> { values.iter().flat_map(|x| x.to_le_bytes()).collect() };

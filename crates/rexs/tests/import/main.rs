@@ -6,6 +6,7 @@ mod bad_files;
 mod bevel_force;
 mod containers;
 mod dialects;
+mod other_gearboxes;
 mod power;
 
 use gearmesh_rexs::{Import, Meshes, import};

@@ -69,7 +69,7 @@ fn pair(a: &ExportArguments, result: &SceneResult) -> Result<(), Failure> {
     let angles = chosen((0..result.angles()).collect(), a);
     console::note(format!("torque on gear 2: {} N m", torques[torque]));
     write(a, &surfaces, "deg", angles.len(), |k| {
-        Ok(pair_moment(&loaded, result, (torque, angles[k])))
+        Ok(pair_moment(&loaded, result, &surfaces, (torque, angles[k])))
     })
 }
 

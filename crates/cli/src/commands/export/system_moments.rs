@@ -120,7 +120,6 @@ impl SystemMoments {
             roll_rad: load.roll_rad,
             height_m: load.height_m,
             force_n: load.force_n,
-            components: [1.0, 0.0],
             line_load_n_per_m: load.line_load_n_per_m,
             pressure_pa: load.pressure_pa,
         });

@@ -96,8 +96,8 @@ pub struct SliceLoad {
     pub roll_rad: f64,
     /// Height above mid-face \[m\].
     pub height_m: f64,
-    /// Normal force, damping included \[N\].
-    pub force_n: f64,
+    /// Normal force on this gear, damping included, without friction; world axes \[N\].
+    pub force_n: [f64; 3],
     /// Over the width that touches \[N/m\].
     pub line_load_n_per_m: f64,
     /// Largest pressure of the line contact after Hertz \[Pa\]: √(q E*/(π ρ)), q along the contact line.
@@ -209,14 +209,18 @@ impl GearsInMotion {
                     let along_line = force_n / section.length_m;
                     let pressure = along_line * at.contact_modulus_pa
                         / (std::f64::consts::PI * section.radius_m);
+                    // The load of a unit force on gear 2, in gear 1's axes; edges press along the flank that they touch.
+                    let unit: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
+                    let on_2 = first.rotation * unit * force_n;
                     for (k, gear) in at.gears.into_iter().enumerate() {
+                        let on_gear = if k == 0 { -on_2 } else { on_2 };
                         loads.push(SliceLoad {
                             gear,
                             tooth: found.lines[contact.line].teeth[k],
                             side,
                             roll_rad: section.touching_roll_rad[k],
                             height_m: contact.heights_m[k],
-                            force_n,
+                            force_n: on_gear.into(),
                             line_load_n_per_m: force_n / (at.slice_width_m * section.share),
                             pressure_pa: pressure.sqrt(),
                         });
