@@ -151,6 +151,13 @@ impl MemberBlank {
         let (sin, cos) = self.pitch_angle_rad.sin_cos();
         [z_m * cos + r_m * sin, -z_m * sin + r_m * cos]
     }
+
+    /// z along the axis and radius from it \[m\] of a place along the pitch cone and a height above it: the inverse of
+    /// [`Self::cone_place`].
+    pub fn meridian_m(&self, cone_m: f64, height_m: f64) -> [f64; 2] {
+        let (sin, cos) = self.pitch_angle_rad.sin_cos();
+        [cone_m * cos - height_m * sin, cone_m * sin + height_m * cos]
+    }
 }
 
 /// Blank of a pair.
