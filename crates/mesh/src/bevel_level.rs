@@ -68,6 +68,8 @@ pub struct Level {
     pub nodes: Vec<[f64; 3]>,
     /// Outline from A to the tip, right and left: cone distance and height (m).
     pub outline_m: [Vec<[f64; 2]>; 2],
+    /// The same as points (m).
+    pub outline_points_m: [Vec<[f64; 3]>; 2],
 }
 
 /// Makes sections of a gear.
@@ -180,6 +182,20 @@ impl<'a> Levels<'a> {
         })
     }
 
+    /// The same gear with outlines of so many pieces from P to the flank, and from there to the tip.
+    #[must_use]
+    pub fn with_pieces(&self, [high, flank]: [usize; 2]) -> Levels<'a> {
+        let even = |n: usize| (0..=n).map(|k| k as f64 / n as f64).collect();
+        let mut spacing = self.spacing.clone();
+        (spacing.high, spacing.flank) = (even(high), even(flank));
+        Levels {
+            gear: self.gear,
+            spacing,
+            meridian: self.meridian.clone(),
+            ring_m: self.ring_m,
+        }
+    }
+
     /// Columns of the ring's grid, of which the tooth's cut takes the middle ones: (beside the cut, all).
     pub fn columns(&self) -> (usize, usize) {
         let s = &self.spacing;
@@ -279,10 +295,12 @@ impl<'a> Levels<'a> {
                 })));
             }
         }
+        let points = |line: &Vec<[f64; 2]>| line.iter().map(|p| place(*p)).collect();
         let heights = |line: &Vec<[f64; 2]>| line.iter().map(|p| [cone, p[1]]).collect();
         Ok(Level {
             nodes,
             outline_m: [heights(&outlines[0]), heights(&outlines[1])],
+            outline_points_m: [points(&outlines[0]), points(&outlines[1])],
         })
     }
 

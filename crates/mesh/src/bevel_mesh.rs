@@ -41,18 +41,18 @@ pub struct BevelMesh {
 
 /// Nodes of a section.
 #[derive(Debug, Clone, Copy)]
-struct Grid {
+pub(crate) struct Grid {
     /// 1, or 2 with nodes in the middles of sides.
     order: usize,
     /// Columns of ring and body, and those beside the cut.
     columns: usize,
-    beside: usize,
+    pub(crate) beside: usize,
     /// Rows of the ring, and of ring and body.
     ring: usize,
     rows: usize,
     /// Rows of the tooth above the cut, and its columns.
-    tooth: usize,
-    across: usize,
+    pub(crate) tooth: usize,
+    pub(crate) across: usize,
     sections: usize,
 }
 
@@ -60,7 +60,7 @@ struct Grid {
 type Place = (usize, bool);
 
 impl Grid {
-    fn of(levels: &Levels<'_>, order: usize) -> Self {
+    pub(crate) fn of(levels: &Levels<'_>, order: usize) -> Self {
         let s = &levels.spacing;
         let (beside, columns) = levels.columns();
         Self {
@@ -85,7 +85,7 @@ impl Grid {
     }
 
     /// Node of the tooth, row 0 the cut.
-    fn tooth(&self, row: usize, column: usize) -> usize {
+    pub(crate) fn tooth(&self, row: usize, column: usize) -> usize {
         match row {
             0 => self.body(0, self.beside + column),
             _ => (self.rows + 1) * (self.columns + 1) + (row - 1) * (self.across + 1) + column,
@@ -411,6 +411,24 @@ impl BevelMesh {
         faces
     }
 
+    /// Points of one side's outline of tooth 0 at a share of the face, from the middle of the space to the tip \[m\].
+    ///
+    /// # Errors
+    /// [`MeshError::Bevel`].
+    pub fn outline_points_m(
+        &self,
+        gear: &BevelGear,
+        side: Flank,
+        along: f64,
+    ) -> Result<Vec<[f64; 3]>, MeshError> {
+        let level = Levels::new(gear, self.grid.order)?.level(along)?;
+        let [right, left] = level.outline_points_m;
+        Ok(match side {
+            Flank::Right => right,
+            Flank::Left => left,
+        })
+    }
+
     /// Number of the outline node at which the cut begins.
     pub fn outline_foot(&self) -> usize {
         self.grid.beside
@@ -418,7 +436,7 @@ impl BevelMesh {
 }
 
 /// Section nodes and sections of a hexahedron in VTK's order.
-fn hexahedron(quad: &[[usize; 3]; 3], order: usize) -> impl Iterator<Item = (usize, usize)> {
+pub(crate) fn hexahedron(quad: &[[usize; 3]; 3], order: usize) -> impl Iterator<Item = (usize, usize)> {
     let p = order;
     let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
     let middles = [quad[1][0], quad[2][1], quad[1][2], quad[0][1]];

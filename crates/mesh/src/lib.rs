@@ -21,6 +21,7 @@
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | bevel gears: sections along the tooth, nodes, elements and sets | [`bevel_level::Levels`], [`BevelMesh`] | `bevel_level.rs`, `bevel_mesh.rs` |
+//! | its tooth in the section normal to it | [`BevelSection`] | `bevel_section.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | how large the mesh will be, before it is made | [`MeshSize`] | `mesh_size.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
@@ -30,6 +31,7 @@
 
 pub mod bevel_level;
 pub mod bevel_mesh;
+pub mod bevel_section;
 pub mod body;
 pub mod contact_section;
 pub mod crack_line;
@@ -56,6 +58,7 @@ pub mod tooth_cell;
 pub mod twist;
 
 pub use bevel_mesh::BevelMesh;
+pub use bevel_section::BevelSection;
 pub use cut_line::CutLine;
 pub use elements::ElementList;
 pub use face::{FaceShape, OutlineFace};
