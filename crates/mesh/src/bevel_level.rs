@@ -130,11 +130,7 @@ impl<'a> Levels<'a> {
         let high_shares = shares(high, &|_| fine, 2);
         let last = |shares: &[f64], length: f64| length * (1.0 - shares[shares.len() - 2]);
         let begin = last(&high_shares, high);
-        let flank_shares = shares(
-            flank,
-            &|s| (begin + GROWTH * s).min(mesh.flank_m),
-            4,
-        );
+        let flank_shares = shares(flank, &|s| (begin + GROWTH * s).min(mesh.flank_m), 4);
         let begin = low * low_shares[1];
         let bottom = lengths[0].max(0.1 * half_width);
         let bottom_shares = shares(
@@ -149,11 +145,7 @@ impl<'a> Levels<'a> {
         );
         let mirrored = half.iter().rev().skip(1).map(|s| 1.0 - 0.5 * s);
         let across = half.iter().map(|s| 0.5 * s).chain(mirrored).collect();
-        let ring = shares(
-            ring_m,
-            &|s| (fine + GROWTH * s).min(0.5 * mesh.body_m),
-            4,
-        );
+        let ring = shares(ring_m, &|s| (fine + GROWTH * s).min(0.5 * mesh.body_m), 4);
         let mut body = Vec::new();
         for (piece, pair) in meridian.windows(2).enumerate() {
             let length = [0, 1]
@@ -268,9 +260,8 @@ impl<'a> Levels<'a> {
             }
         }
         for &(piece, share) in &s.body {
-            let at = [0, 1].map(|k| {
-                lerp(self.meridian[piece][k], self.meridian[piece + 1][k], share)
-            });
+            let at =
+                [0, 1].map(|k| lerp(self.meridian[piece][k], self.meridian[piece + 1][k], share));
             let [r, z] = lerp(at[0], at[1], along);
             nodes.extend(low.iter().map(|x| polar(r, middle + x / scale, z)));
         }
@@ -286,10 +277,11 @@ impl<'a> Levels<'a> {
             for (t, below) in s.across.iter().zip(&cut) {
                 let above = [ends[0][0] + t * (ends[1][0] - ends[0][0]), tip];
                 nodes.push(place(std::array::from_fn(|axis| {
-                    let corners = (1.0 - share)
-                        * ((1.0 - t) * foot[0][axis] + t * foot[1][axis])
+                    let corners = (1.0 - share) * ((1.0 - t) * foot[0][axis] + t * foot[1][axis])
                         + share * ((1.0 - t) * ends[0][axis] + t * ends[1][axis]);
-                    (1.0 - t) * r[axis] + t * l[axis] + (1.0 - share) * below[axis]
+                    (1.0 - t) * r[axis]
+                        + t * l[axis]
+                        + (1.0 - share) * below[axis]
                         + share * above[axis]
                         - corners
                 })));
@@ -322,8 +314,7 @@ impl<'a> Levels<'a> {
             let [_, height] = flank.place(&r);
             [turn + r.y.atan2(r.x), height]
         };
-        let mut fillet: Vec<[f64; 2]> =
-            flank.fillet_line(cone, &shares)?.iter().map(at).collect();
+        let mut fillet: Vec<[f64; 2]> = flank.fillet_line(cone, &shares)?.iter().map(at).collect();
         fillet.reverse();
         let bottom = flank.bottom(cone)?;
         let [low, high] = [at(&bottom)[1], gear.blank().addendum_m(cone)];
@@ -365,10 +356,7 @@ fn look(gear: &BevelGear, side: Flank, cone: f64) -> Result<Looked, BevelError> 
     let flank_side: FlankSide = gear.flank_side(side);
     let flank = gear.tooth.flank(flank_side);
     let turn = gear.tooth.half_angle_rad(flank_side);
-    let shares: Vec<f64> = (0..=LOOKS)
-        .rev()
-        .map(|k| k as f64 / LOOKS as f64)
-        .collect();
+    let shares: Vec<f64> = (0..=LOOKS).rev().map(|k| k as f64 / LOOKS as f64).collect();
     let mut points: Vec<[f64; 2]> = flank
         .fillet_line(cone, &shares)?
         .iter()

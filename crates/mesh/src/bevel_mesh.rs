@@ -176,7 +176,11 @@ impl Grid {
         let p = self.order;
         let tooth = self.tooth / p * (self.across / p);
         let row = self.columns / p;
-        [tooth, tooth + self.ring / p * row, tooth + self.rows / p * row]
+        [
+            tooth,
+            tooth + self.ring / p * row,
+            tooth + self.rows / p * row,
+        ]
     }
 }
 
@@ -313,14 +317,22 @@ impl BevelMesh {
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
         let row = self.grid.rows;
-        let on_bore = |tooth| self.columns(tooth, (0..self.grid.columns).map(|c| self.grid.body(row, c)));
+        let on_bore = |tooth| {
+            self.columns(
+                tooth,
+                (0..self.grid.columns).map(|c| self.grid.body(row, c)),
+            )
+        };
         (0..self.teeth).flat_map(on_bore).collect()
     }
 
     /// Nodes of a tooth with the ring below it, the i-th of each tooth the image of the i-th of tooth 0.
     pub fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
         let grid = self.grid;
-        self.columns(tooth, grid.body_rows(0..=grid.ring).chain(grid.tooth_rows()))
+        self.columns(
+            tooth,
+            grid.body_rows(0..=grid.ring).chain(grid.tooth_rows()),
+        )
     }
 
     /// Elements of a tooth with the ring below it.
@@ -436,7 +448,10 @@ impl BevelMesh {
 }
 
 /// Section nodes and sections of a hexahedron in VTK's order.
-pub(crate) fn hexahedron(quad: &[[usize; 3]; 3], order: usize) -> impl Iterator<Item = (usize, usize)> {
+pub(crate) fn hexahedron(
+    quad: &[[usize; 3]; 3],
+    order: usize,
+) -> impl Iterator<Item = (usize, usize)> {
     let p = order;
     let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
     let middles = [quad[1][0], quad[2][1], quad[1][2], quad[0][1]];

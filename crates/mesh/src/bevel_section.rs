@@ -180,7 +180,11 @@ impl BevelSection {
         let cut = (0..columns).map(|column| section(0, column));
         let side = (1..rows).map(|row| section(row, opposite));
         for n in cut.chain(side) {
-            held.extend((0..=p).filter(|l| is_used(n, *l)).map(|l| id(n, l) as usize));
+            held.extend(
+                (0..=p)
+                    .filter(|l| is_used(n, *l))
+                    .map(|l| id(n, l) as usize),
+            );
         }
         SectionLayer {
             nodes,

@@ -143,7 +143,10 @@ impl ContactSection {
         .collect();
 
         let right: Vec<[f64; 2]> = arcs.iter().map(|&s| (edges.loaded)(s)).collect();
-        let left: Vec<[f64; 2]> = arcs.iter().map(|&s| (edges.opposite)(share_of(s))).collect();
+        let left: Vec<[f64; 2]> = arcs
+            .iter()
+            .map(|&s| (edges.opposite)(share_of(s)))
+            .collect();
         let last = arcs.len() - 1;
         let columns = shares.len();
         let mut nodes = Vec::with_capacity(arcs.len() * columns);

@@ -9,9 +9,9 @@
 //! Exact: the same linear algebra as one factorisation of the whole gear, in another order. Components are cylindrical
 //! throughout. docs/theory/cyclic_symmetry.md has the derivation.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::Progress;
 use crate::flank_loads::SparseVector;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_substructure::SectorSubstructure;
 use crate::tooth_substructure::ToothSubstructure;
 use faer::Mat;

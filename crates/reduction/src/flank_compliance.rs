@@ -18,7 +18,6 @@ const IDENTITY_SAMPLES: usize = 8;
 
 pub(crate) const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
 
-
 /// What is loaded.
 pub(crate) struct FlankCase<'a> {
     /// Flanks that carry loads.

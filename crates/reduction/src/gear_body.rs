@@ -70,7 +70,12 @@ impl GearBody {
             Deformation::Spatial => gear.reduction.symmetry,
             Deformation::PlaneStrain => Symmetry::Off,
         };
-        Self::held((mesh, model, &bore), (symmetry, deformation), meshed_s, progress)
+        Self::held(
+            (mesh, model, &bore),
+            (symmetry, deformation),
+            meshed_s,
+            progress,
+        )
     }
 }
 

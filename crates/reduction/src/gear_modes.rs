@@ -6,9 +6,9 @@
 
 use crate::cyclic_body::CyclicBody;
 use crate::gear_body::{GearBody, Solver};
-use crate::repeated_mesh::RepeatedMesh;
 use crate::harmonic_problem::{HarmonicProblem, SectorMass};
 use crate::mode_figures::{GearMode, ModeFigures};
+use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::RigidMass;
 use crate::{Progress, ReductionError};
 use gearmesh_fe::{

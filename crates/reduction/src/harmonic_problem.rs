@@ -18,8 +18,8 @@
 //! solve: M z inwards to the cuts, one small Hermitian system, and outwards again. Source: D. L. Thomas (1979), as in
 //! docs/theory/cyclic_symmetry.md.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::cyclic_body::CyclicBody;
+use crate::repeated_mesh::RepeatedMesh;
 use faer::{Mat, MatMut, MatRef, c64};
 use gearmesh_fe::{FeError, FeModel, ModeProblem, SymmetricRows, numbers_without_pattern};
 

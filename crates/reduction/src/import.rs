@@ -7,14 +7,14 @@
 //! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis
 //! and the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
 
+use crate::flank_compliance::{
+    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, asymmetry, by_blocks, checked, pattern_identity_of,
+};
 use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::imported_error::{ImportedMeshError, PythonFailure};
 use crate::imported_mesh::ImportedMesh;
 use crate::near_field::{calibration, line_compliance};
-use crate::flank_compliance::{
-    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, asymmetry, by_blocks, checked, pattern_identity_of,
-};
 use crate::reduce::{assembled, describe, element_names};
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::whole_gear::WholeGear;

@@ -46,7 +46,11 @@ impl<'a> ModeFigures<'a> {
     ///
     /// # Errors
     /// [`FeError`]; not for a model that was accepted.
-    pub fn new(mesh: &impl RepeatedMesh, model: &FeModel, momenta: &'a Mat<f64>) -> Result<Self, FeError> {
+    pub fn new(
+        mesh: &impl RepeatedMesh,
+        model: &FeModel,
+        momenta: &'a Mat<f64>,
+    ) -> Result<Self, FeError> {
         let mut nodal_volumes = vec![0.0; model.node_count()];
         for element in 0..model.element_count() {
             let nodes = model.element_nodes(element);

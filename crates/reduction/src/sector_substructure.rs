@@ -1,8 +1,8 @@
 //! One sector: its part of hub, web and rim with the condensed teeth on it, condensed to its two cuts.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::Progress;
 use crate::part::Part;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
 use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};

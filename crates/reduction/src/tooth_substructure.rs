@@ -3,9 +3,9 @@
 //! All teeth have the same mesh, turned. In cylindrical components they have the same stiffness matrix too, so that one
 //! condensation serves the whole gear: most of its degrees of freedom are eliminated here, once.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::flank_loads::SparseVector;
 use crate::part::Part;
+use crate::repeated_mesh::RepeatedMesh;
 use faer::Mat;
 use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{

@@ -1,7 +1,7 @@
 //! Loads and rows of tooth 0, turned to another tooth: all teeth have the same mesh.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::flank_loads::SparseVector;
+use crate::repeated_mesh::RepeatedMesh;
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;

@@ -1,8 +1,8 @@
 //! A gear solved by one factorisation of all its degrees of freedom: what the cyclic way is compared with.
 
-use crate::repeated_mesh::RepeatedMesh;
 use crate::Progress;
 use crate::flank_loads::{SparseVector, dot};
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_vectors::on_all_teeth;
 use faer::Mat;
 use gearmesh_fe::{

@@ -55,7 +55,10 @@ pub fn bevel_gauge_row(
         // Heights fall nowhere from the fillet's lower end on.
         let heights: Vec<f64> = lines[l].iter().map(|p| p[1]).collect();
         let at = interpolated(&heights, &ws, height);
-        places.push((ws.into_iter().map(|w| w - at).collect::<Vec<f64>>(), ys[l] - middle));
+        places.push((
+            ws.into_iter().map(|w| w - at).collect::<Vec<f64>>(),
+            ys[l] - middle,
+        ));
     }
     let faces = mesh.outline_faces(tooth, gauge.side, |k, l| [places[l].0[k], places[l].1]);
     let half = |size: f64| [-0.5 * size, 0.5 * size];
@@ -112,10 +115,7 @@ fn fillet_height_m(
 ) -> Result<f64, ReductionError> {
     let side = gear.flank_side(gauge.side);
     let flank = gear.tooth.flank(side);
-    let shares: Vec<f64> = (0..=LOOKS)
-        .rev()
-        .map(|k| k as f64 / LOOKS as f64)
-        .collect();
+    let shares: Vec<f64> = (0..=LOOKS).rev().map(|k| k as f64 / LOOKS as f64).collect();
     let lost = |e: BevelError| ReductionError::Mesh(e.into());
     let line = flank.fillet_line(cone_m, &shares).map_err(lost)?;
     let looked: Vec<[f64; 2]> = line
@@ -129,7 +129,9 @@ fn fillet_height_m(
         })
         .collect();
     let asked = gauge.tangent_rad;
-    let between = looked.windows(2).find(|w| w[0][0] <= asked && asked <= w[1][0]);
+    let between = looked
+        .windows(2)
+        .find(|w| w[0][0] <= asked && asked <= w[1][0]);
     let Some([low, high]) = between.and_then(|w| <[[f64; 2]; 2]>::try_from(w).ok()) else {
         return Err(ReductionError::NoGaugePlace {
             name: gauge.name.clone(),

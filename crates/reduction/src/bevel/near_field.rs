@@ -4,13 +4,13 @@
 //! calibration are made there as for cylindrical gears: c₀ on a fine section with the true outlines, W on the tooth's own mesh seen along the tooth
 //! (`BevelSection`), under its own hats. The tooth tapers, so that there are several sections along it.
 
+use faer::Mat;
 use gearmesh_bevel::{BevelGear, FlankPatch};
 use gearmesh_fe::{Factor, FeModel, Material, assemble_stiffness};
 use gearmesh_geometry::Flank;
 use gearmesh_mesh::BevelSection;
 use gearmesh_mesh::contact_section::{ContactGrading, ContactSection, ToothEdges};
 use gearmesh_model::{BevelNearField, FlankGrid};
-use faer::Mat;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -101,7 +101,9 @@ impl SectionProfile {
         if best.is_finite() {
             best
         } else {
-            let q = self.opposite.at(self.opposite.arcs[self.opposite.arcs.len() - 1])[0];
+            let q = self
+                .opposite
+                .at(self.opposite.arcs[self.opposite.arcs.len() - 1])[0];
             (q[0] - p[0]).hypot(q[1] - p[1])
         }
     }
@@ -183,8 +185,7 @@ impl SmoothLine {
             let rise = q - p;
             let (low, high) = (a * length - rise, b * length - rise);
             found[0][axis] = p + t * rise + t * u * (u * low - t * high);
-            found[1][axis] =
-                (rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t)) / length;
+            found[1][axis] = (rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t)) / length;
         }
         found
     }
