@@ -178,16 +178,17 @@ impl SmoothLine {
         let length = self.arcs[k + 1] - self.arcs[k];
         let t = (arc - self.arcs[k]) / length;
         let u = 1.0 - t;
-        let mut found = [[0.0; 2]; 2];
-        for axis in 0..2 {
+        let of_axis = [0, 1].map(|axis| {
             let [p, q] = [self.points[k][axis], self.points[k + 1][axis]];
             let [a, b] = [self.slopes[k][axis], self.slopes[k + 1][axis]];
             let rise = q - p;
             let (low, high) = (a * length - rise, b * length - rise);
-            found[0][axis] = p + t * rise + t * u * (u * low - t * high);
-            found[1][axis] = (rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t)) / length;
-        }
-        found
+            [
+                p + t * rise + t * u * (u * low - t * high),
+                (rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t)) / length,
+            ]
+        });
+        [0, 1].map(|kind| of_axis.map(|both| both[kind]))
     }
 }
 
