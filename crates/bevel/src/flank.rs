@@ -237,6 +237,31 @@ impl Flank {
             .ok_or_else(|| self.no_point([cone_m, height]))
     }
 
+    /// Points of the fillet at a cone distance, from where the flank begins (share 1) downwards (0 the lower end): `shares` fall.
+    ///
+    /// # Errors
+    /// As [`Self::bottom`].
+    pub fn fillet_line(&self, cone_m: f64, shares: &[f64]) -> Result<Vec<Located>, BevelError> {
+        let bottom = self.bottom(cone_m)?;
+        let lost = || self.no_point([cone_m, -self.blank.dedendum_m(cone_m)]);
+        let point = self.fillet(bottom.at).ok_or_else(lost)?;
+        let whole = point.above_end;
+        let mut here = Located {
+            at: bottom.at,
+            point,
+        };
+        shares
+            .iter()
+            .map(|share| {
+                let target = [cone_m, share * whole];
+                here = self
+                    .march(Sheet::Fillet, Row::End, target, &here)
+                    .ok_or_else(lost)?;
+                Ok(here)
+            })
+            .collect()
+    }
+
     /// Whether a point lies on the flank: between toe and heel, below the tip, above the fillet.
     pub fn holds(&self, p: &SurfacePoint) -> bool {
         let [cone, height] = self.place(&p.r);

@@ -14,6 +14,7 @@
 //! | path of contact, transmission error, ellipses | [`tooth_contact`] | `tca.rs`, `contact_path.rs`, `contact_search.rs`, `contact_ellipse.rs` |
 //! | the mate by local synthesis or an ease-off | [`Synthesis`] | `local_synthesis.rs`, `settings_search.rs` |
 //! | all of it for a file | [`PairDesign`] | `pair_design.rs` |
+//! | a member as a body: blank, material, mesh, gauges | [`BevelGear`] | `bevel_gear.rs`, `gear_file.rs` |
 //!
 //! SI units. Frames, signs and formulas stand in docs/theory/bevel_gears.md and nowhere else. In short: z is a
 //! member's axis, from the pitch apex to the
@@ -22,6 +23,7 @@
 pub mod assembly;
 mod azimuth_surface;
 pub mod basic_settings;
+pub mod bevel_gear;
 pub mod blank;
 mod chebyshev;
 pub mod contact_ellipse;
@@ -33,6 +35,7 @@ pub mod ease_off;
 mod error;
 pub mod flank;
 pub mod flank_patch;
+pub mod gear_file;
 pub mod grid_surface;
 pub mod hand;
 pub mod jet;
@@ -47,6 +50,7 @@ pub mod tooth;
 
 pub use assembly::{Assembly, AssemblyError, Placement};
 pub use basic_settings::{Process, basic_settings, crown_settings};
+pub use bevel_gear::{BevelBlank, BevelContourPoint, BevelGauge, BevelGear};
 pub use blank::{MemberBlank, PairBlank, PairData, Taper, ToothForm};
 pub use contact_ellipse::ContactEllipse;
 pub use contact_path::ContactKind;

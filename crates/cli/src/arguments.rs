@@ -329,6 +329,8 @@ pub enum SchemaKind {
     Bearing,
     /// Bevel pairs
     Bevel,
+    /// Members of bevel pairs as bodies
+    BevelGear,
     /// Reduced gear bodies: data sets of the HDF5 file
     Model,
     /// Results of gear pairs: data sets of the HDF5 file

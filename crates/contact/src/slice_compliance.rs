@@ -65,7 +65,7 @@ impl SliceCompliance {
     /// Condenses a reduced gear to slices that lie anywhere on its face.
     ///
     /// # Errors
-    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
+    /// [`ReducedGearError::BevelGear`] for one, [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
     /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
     pub fn on_slices(
         gear: &ReducedGear,
@@ -73,6 +73,7 @@ impl SliceCompliance {
         local: LocalContact,
         spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
+        gear.demand_cylindrical()?;
         let hats = ProfileHats::of_involute(&gear.grid.roll_angles_rad);
         Self::on_grid(gear, flank, local, (hats, spread))
     }

@@ -6,6 +6,7 @@ use gearmesh_geometry::Flank;
 use crate::near_field::{ContactCurve, EdgeDistance};
 use crate::record::Named;
 use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_error::ReducedGearError;
 
 /// A member of a bevel pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -140,6 +141,19 @@ impl BevelNearField {
 }
 
 impl ReducedGear {
+    /// Refuses a bevel gear where flanks are taken to be involutes.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::BevelGear`].
+    pub fn demand_cylindrical(&self) -> Result<(), ReducedGearError> {
+        match self.bevel {
+            None => Ok(()),
+            Some(_) => Err(ReducedGearError::BevelGear {
+                gear: self.name.clone(),
+            }),
+        }
+    }
+
     /// Point of a flank of tooth 0 at a load's place (m) and the unit normal into the material there; none of a cylindrical gear.
     ///
     /// # Panics

@@ -52,6 +52,14 @@ pub enum ReducedGearError {
         /// The flank that carries no loads.
         missing: Flank,
     },
+    /// A bevel gear where a cylindrical one is meant.
+    #[error(
+        "gear \"{gear}\" is a bevel gear, its flanks have no roll angles; allowed here is the model of a cylindrical gear"
+    )]
+    BevelGear {
+        /// The gear.
+        gear: String,
+    },
     /// The model carries no calibration of the near field.
     #[error(
         "gear \"{gear}\" carries no calibration of the near field, which local = \"calibrated\" needs: its file was \

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
-use gearmesh_bevel::PairFile;
+use gearmesh_bevel::{BevelGear, PairFile};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
@@ -118,6 +118,7 @@ fn found(path: &Path) -> Result<Finding, Failure> {
         InputKind::SnTable => sn_table(&document),
         InputKind::Record => record(folder),
         InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(&document),
+        InputKind::Gear if BevelGear::recognises(&document)? => bevel_gear(&document, folder),
         InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(&document),
         InputKind::Gear => gear(&document),
     }
@@ -127,6 +128,12 @@ fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
     bevel::design(&file)?;
     Ok(Finding::new("bevel pair", Some(&file.title)))
+}
+
+fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding, Failure> {
+    let gear = BevelGear::from_document(document, folder)?;
+    console::unit_slips(document.unit_slips());
+    Ok(Finding::new("bevel gear", Some(&gear.name)))
 }
 
 fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
