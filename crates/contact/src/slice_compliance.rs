@@ -13,6 +13,7 @@ use crate::placed_slice::ToothPlace;
 use crate::profile_shares::{ProfileHats, ProfilePlace};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::{CombinedBlocks, Coupling, StationBlocks};
+use crate::walked_slice::WalkedSlice;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
@@ -36,6 +37,8 @@ pub struct SliceCompliance {
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
+    /// Width of the face \[m\] of gears on which slices walk along the teeth.
+    walks_on_m: Option<f64>,
 }
 
 /// Depth of the local logarithm on one flank, and how it grows as the contact moves.
@@ -168,7 +171,31 @@ impl SliceCompliance {
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
+            walks_on_m: None,
         })
+    }
+
+    /// Lets slices stand where the places of their patches are along the tooth, v from the middle of the face, not where they
+    /// were laid. Of own slices over the whole face, at least three.
+    #[must_use]
+    pub fn walking_along(mut self) -> Self {
+        let enough = self.slices >= crate::walked_slice::SLICES;
+        self.walks_on_m = enough.then_some(self.slices as f64 * self.slice_width_m);
+        self
+    }
+
+    /// Whether they do.
+    pub(crate) fn walks_along(&self) -> bool {
+        self.walks_on_m.is_some()
+    }
+
+    /// A place of a slice with where it stands along the tooth \[m\].
+    pub(crate) fn walked(&self, place: ToothPlace, slice: usize, v: f64) -> ToothPlace {
+        let walked = self.walks_on_m.map(|face_m| {
+            let laid = (slice as f64 + 0.5) * self.slice_width_m - 0.5 * face_m;
+            WalkedSlice::new(slice, self.slices, v - laid, self.slice_width_m)
+        });
+        ToothPlace { walked, ..place }
     }
 
     /// Number of slices.
@@ -204,6 +231,7 @@ impl SliceCompliance {
             place,
             shared: self.shared_at(&place),
             in_sector: (own, tooth - own),
+            walked: None,
         }
     }
 
@@ -315,6 +343,21 @@ impl CoupledPlaces<'_> {
     #[inline]
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
+        if let [Some(a), Some(b)] = self.walked() {
+            return combined(&a.shares, &b.shares, [a, b], |slices| self.at_middles(slices));
+        }
+        self.at_middles(slices)
+    }
+
+    /// Where both stand along the tooth.
+    #[inline]
+    fn walked(&self) -> [Option<&WalkedSlice>; 2] {
+        self.places.map(|place| place.walked.as_ref())
+    }
+
+    /// Of slices where they were laid.
+    #[inline]
+    fn at_middles(&self, slices: [usize; 2]) -> f64 {
         let whole = self.blocks.between(slices);
         if self.has_more {
             whole + self.more(slices).value
@@ -327,6 +370,41 @@ impl CoupledPlaces<'_> {
     #[inline]
     #[must_use]
     pub fn coupling(&self, slices: [usize; 2]) -> Coupling {
+        if let [Some(a), Some(b)] = self.walked() {
+            let mut sum = Coupling::default();
+            for (share_a, i) in a.shares.iter().zip(a.first..) {
+                for (share_b, j) in b.shares.iter().zip(b.first..) {
+                    let share = share_a * share_b;
+                    let one = self.coupling_at_middles([i, j]);
+                    sum += Coupling {
+                        value: share * one.value,
+                        by_a: share * one.by_a,
+                        by_b: share * one.by_b,
+                    };
+                }
+            }
+            return sum;
+        }
+        self.coupling_at_middles(slices)
+    }
+
+    /// Derivatives by the places of both along the teeth \[m/N per m\]; zero where slices do not walk that way. Of a slice with
+    /// itself half of what its compliance changes by.
+    #[inline]
+    #[must_use]
+    pub fn along_teeth(&self) -> [f64; 2] {
+        let [Some(a), Some(b)] = self.walked() else {
+            return [0.0; 2];
+        };
+        let at = |slices| self.at_middles(slices);
+        [
+            combined(&a.rates, &b.shares, [a, b], at),
+            combined(&a.shares, &b.rates, [a, b], at),
+        ]
+    }
+
+    #[inline]
+    fn coupling_at_middles(&self, slices: [usize; 2]) -> Coupling {
         let mut whole = self.blocks.between_with_rates(slices);
         if self.has_more {
             whole += self.more(slices);
@@ -363,6 +441,23 @@ impl CoupledPlaces<'_> {
             by_b: each * at_b.1,
         }
     }
+}
+
+/// Σ_i Σ_j w_i w_j C_ij over the slices around two places.
+#[inline]
+fn combined(
+    weights_a: &[f64; 3],
+    weights_b: &[f64; 3],
+    [a, b]: [&WalkedSlice; 2],
+    at: impl Fn([usize; 2]) -> f64,
+) -> f64 {
+    let mut sum = 0.0;
+    for (weight_a, i) in weights_a.iter().zip(a.first..) {
+        for (weight_b, j) in weights_b.iter().zip(b.first..) {
+            sum += weight_a * weight_b * at([i, j]);
+        }
+    }
+    sum
 }
 
 /// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x

@@ -282,6 +282,8 @@ impl BevelMesh {
             length_m: self.layout.width_m(),
             radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (0, 1),
         });
         found.contacts.push(ToothContact {
@@ -322,6 +324,8 @@ impl BevelMesh {
             length_m: self.layout.width_m(),
             radius_m: 1.0 / curvature(point).principal_per_m[1],
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (number, 1),
         });
         found.contacts.push(ToothContact {
