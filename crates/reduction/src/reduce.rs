@@ -227,6 +227,7 @@ pub(crate) fn assembled(
         reference_point: None,
         modes: None,
         crack: None,
+        bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),
