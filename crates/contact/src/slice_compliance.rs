@@ -344,7 +344,9 @@ impl CoupledPlaces<'_> {
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
         if let [Some(a), Some(b)] = self.walked() {
-            return combined(&a.shares, &b.shares, [a, b], |slices| self.at_middles(slices));
+            return combined(&a.shares, &b.shares, [a, b], |slices| {
+                self.at_middles(slices)
+            });
         }
         self.at_middles(slices)
     }

@@ -121,6 +121,8 @@ impl SliceContact {
     }
 
     /// The contact of two bodies that give way at their surfaces only.
+    ///
+    /// The local law is a logarithm up to where its slope is all but zero, as that of calibrated models.
     #[must_use]
     pub fn of_half_spaces(layout: SliceLayout, bodies: HalfSpaces, most_lines: usize) -> Self {
         let elastic = (Elastic::HalfSpaces(bodies), [false; 2]);
@@ -315,9 +317,7 @@ impl SliceContact {
             .with_edge(edge);
         let rate = |gear: usize| {
             let growths = [depths[gear].growth_by_u, patch.radius_growth[gear]];
-            let rate = self
-                .local_contact
-                .law_rate((&contact, &law), gear, growths);
+            let rate = self.local_contact.law_rate((&contact, &law), gear, growths);
             let longer = patch.length_growth[gear];
             if longer == 0.0 {
                 return rate;

@@ -37,7 +37,11 @@ impl WalkedSlice {
         let tau = held + slice as f64 - (first + 1) as f64;
         Self {
             first,
-            shares: [0.5 * tau * (tau - 1.0), 1.0 - tau * tau, 0.5 * tau * (tau + 1.0)],
+            shares: [
+                0.5 * tau * (tau - 1.0),
+                1.0 - tau * tau,
+                0.5 * tau * (tau + 1.0),
+            ],
             rates: [tau - 0.5, -2.0 * tau, tau + 0.5].map(|rate| rate * moves),
         }
     }

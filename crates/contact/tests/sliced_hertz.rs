@@ -16,7 +16,7 @@ const STEEL: (f64, f64) = (206e9, 0.3);
 const HALF_WIDTH: f64 = 1e-4;
 
 /// Length of a slice over the contact's full width.
-const SLENDER: f64 = 0.75;
+const SLENDER: f64 = 0.6;
 
 /// Ratios of the axes of the ellipses.
 const ASPECTS: [f64; 10] = [1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0];
@@ -99,7 +99,10 @@ fn sliced(bodies: &Bodies) -> Errors {
             teeth: [0, 0],
             line: 0,
             slice,
-            places: [FlankPlace { u: 0.0, v: place_m(slice) }; 2],
+            places: [FlankPlace {
+                u: 0.0,
+                v: place_m(slice),
+            }; 2],
             share: 1.0,
             length_m,
             radius_m: 1.0 / largest,
@@ -132,8 +135,23 @@ fn sliced(bodies: &Bodies) -> Errors {
     }
 }
 
+impl Errors {
+    fn all(&self) -> [f64; 4] {
+        [
+            self.approach,
+            self.pressure,
+            self.half_width,
+            self.half_length,
+        ]
+    }
+}
+
 /// By halving: what gives an ellipse with this ratio of its axes.
-fn with_aspect(aspect: f64, bodies: impl Fn(f64) -> Bodies, [mut low, mut high]: [f64; 2]) -> Bodies {
+fn with_aspect(
+    aspect: f64,
+    bodies: impl Fn(f64) -> Bodies,
+    [mut low, mut high]: [f64; 2],
+) -> Bodies {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         let [least, largest] = bodies(middle).curvatures_per_m;
@@ -165,14 +183,88 @@ fn curves() -> [(&'static str, Vec<Errors>); 2] {
     ]
 }
 
+/// The page's table of both bodies.
+fn table(curves: &[(&str, Vec<Errors>); 2]) -> String {
+    let mut lines = vec![
+        "| bodies | long over short axis | slices | approach % | peak pressure % | half width % | half length % |".to_owned(),
+        "| --- | --- | --- | --- | --- | --- | --- |".to_owned(),
+    ];
+    for (name, errors) in curves {
+        lines.extend(errors.iter().map(|e| {
+            let [a, p, w, l] = e.all().map(|error| format!("{:+.2}", 100.0 * error));
+            format!(
+                "| {name} | {:.1} | {} | {a} | {p} | {w} | {l} |",
+                e.aspect, e.slices
+            )
+        }));
+    }
+    lines.join("\n")
+}
+
+/// The four curves of a table over the logarithm of the ratio.
+fn picture(errors: &[Errors]) -> String {
+    const COLOURS: [&str; 4] = ["#1f5fa8", "#c2410c", "#15803d", "#7e22ce"];
+    const NAMES: [&str; 4] = ["approach", "peak pressure", "half width", "half length"];
+    let x = |aspect: f64| 60.0 + 480.0 * (aspect / 1.5).ln() / (20.0f64 / 1.5).ln();
+    let y = |percent: f64| 180.0 - 7.5 * percent;
+    let mut svg = vec![
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 700 340\" font-family=\"sans-serif\" font-size=\"12\">".to_owned(),
+        "<rect width=\"700\" height=\"340\" fill=\"white\"/>".to_owned(),
+        format!("<rect x=\"60\" y=\"{}\" width=\"480\" height=\"{}\" fill=\"#eef2f7\"/>", y(3.0), y(-3.0) - y(3.0)),
+    ];
+    for percent in [-15, -10, -5, 0, 5, 10, 15] {
+        let at = y(f64::from(percent));
+        svg.push(format!("<line x1=\"60\" y1=\"{at}\" x2=\"540\" y2=\"{at}\" stroke=\"#ccc\"/><text x=\"54\" y=\"{}\" text-anchor=\"end\">{percent:+}</text>", at + 4.0));
+    }
+    for aspect in ASPECTS {
+        let at = x(aspect);
+        svg.push(format!(
+            "<text x=\"{at:.1}\" y=\"320\" text-anchor=\"middle\">{aspect}</text>"
+        ));
+    }
+    for (k, (name, colour)) in NAMES.iter().zip(COLOURS).enumerate() {
+        let points: Vec<String> = errors
+            .iter()
+            .map(|e| format!("{:.1},{:.1}", x(e.aspect), y(100.0 * e.all()[k])))
+            .collect();
+        svg.push(format!(
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>",
+            points.join(" ")
+        ));
+        let at = 60.0 + 20.0 * k as f64;
+        svg.push(format!(
+            "<text x=\"555\" y=\"{at}\" fill=\"{colour}\">{name}</text>"
+        ));
+    }
+    svg.push("<text x=\"60\" y=\"28\">error against Hertz, % (grey: 3 %)</text>".to_owned());
+    svg.push("<text x=\"540\" y=\"336\" text-anchor=\"end\">long over short axis of the ellipse</text></svg>\n".to_owned());
+    svg.join("\n")
+}
+
 #[test]
 fn slices_of_a_point_contact_agree_with_hertz() {
-    for (name, errors) in curves() {
-        for e in errors {
-            println!(
-                "{name} {:.2} {} {:+.2} {:+.2} {:+.2} {:+.2}",
-                e.aspect, e.slices, 100.0 * e.approach, 100.0 * e.pressure, 100.0 * e.half_width, 100.0 * e.half_length
-            );
+    let curves = curves();
+    for (name, errors) in &curves {
+        for e in errors.iter().filter(|e| e.aspect > 3.99) {
+            let [a, p, w, l] = e.all();
+            let aspect = e.aspect;
+            assert!(a.abs() < 0.01 && p.abs() < 0.02, "{name} {aspect}: {a} {p}");
+            assert!(w.abs() < 0.03 && l.abs() < 0.03, "{name} {aspect}: {w} {l}");
         }
+        let longest = errors.last().map(Errors::all).unwrap();
+        assert!(longest.iter().all(|e| e.abs() < 4e-3), "{name} {longest:?}");
+    }
+    // The page shows what is computed here.
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/theory");
+    let made = [table(&curves), picture(&curves[0].1)];
+    let names = ["sliced_contact.md", "sliced_contact.svg"];
+    for (text, name) in made.iter().zip(names) {
+        let shown = std::fs::read_to_string(format!("{root}/{name}")).unwrap();
+        let now = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(&now, text).unwrap();
+        assert!(
+            shown.contains(text),
+            "docs/theory/{name} shows other figures than {now}"
+        );
     }
 }

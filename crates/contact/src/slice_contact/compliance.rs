@@ -47,11 +47,7 @@ impl SliceContact {
                     growth_by_u: 0.0,
                     growth_by_share: 1.0 / patch.share,
                 };
-                (
-                    Default::default(),
-                    [depth(0), depth(1)],
-                    bodies.materials,
-                )
+                (Default::default(), [depth(0), depth(1)], bodies.materials)
             }
         }
     }

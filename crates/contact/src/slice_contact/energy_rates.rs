@@ -20,7 +20,8 @@ impl SliceContact {
         let Run { law, rates, .. } = &self.runs[self.run[patch]];
         let rate = rates[gear];
         let along = &self.rates[gear][patch * n..][..n];
-        let mut sum = law.complementary_energy_rate(own, rate.alpha, rate.cap) + own * dot(along, forces);
+        let mut sum =
+            law.complementary_energy_rate(own, rate.alpha, rate.cap) + own * dot(along, forces);
         if rate.beta != 0.0 {
             sum += rate.beta * law.complementary_energy_by_beta(own);
         }
