@@ -5,7 +5,7 @@ use crate::local_contact::LocalContact;
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::LocalDepth;
 
-use super::{Elastic, SliceContact};
+use super::{Elastic, Run, SliceContact};
 
 impl SliceContact {
     /// Whether patches in a row at one u share what they have in common: not where each has a place along the tooth of its own.
@@ -43,9 +43,9 @@ impl SliceContact {
             }
             Elastic::HalfSpaces(bodies) => {
                 let depth = |gear: usize| LocalDepth {
-                    depth_m: bodies.depth_m(gear, patch.length_m),
+                    depth_m: bodies.depth_m(gear, patch.length_m / patch.share),
                     growth_by_u: 0.0,
-                    growth_by_share: 1.0 / patch.share,
+                    growth_by_share: 0.0,
                 };
                 (Default::default(), [depth(0), depth(1)], bodies.materials)
             }
@@ -61,7 +61,7 @@ impl SliceContact {
         }
     }
 
-    /// Slices of one line feel each other, lines do not.
+    /// Slices of one line feel each other, lines do not. A slice that touches in part counts as a whole one, and its local law with its part.
     fn fill_half_spaces(&mut self) {
         let Elastic::HalfSpaces(bodies) = &self.elastic else {
             return;
@@ -73,7 +73,8 @@ impl SliceContact {
                 let mut value = 0.0;
                 if a.teeth == b.teeth {
                     let apart = self.slice[i].abs_diff(self.slice[j]);
-                    value = bodies.between(apart, [a.contact.width_m, b.contact.width_m]);
+                    let whole = |run: &Run, i: usize| run.contact.width_m / self.shares[i];
+                    value = bodies.between(apart, [whole(a, i), whole(b, j)]);
                 }
                 self.c[across] = value;
                 self.c[here] = value;

@@ -7,7 +7,7 @@
 
 use crate::local_contact::{LawRate, LocalContact};
 
-use super::{Elastic, Run, SliceContact, dot};
+use super::{Run, SliceContact, dot};
 
 impl SliceContact {
     /// ∂E*/∂u \[J per u\] at the forces of the last solve as a patch walks over the flank of gear 0 or 1. Prepare with rates.
@@ -58,17 +58,7 @@ impl SliceContact {
         let growths = run.depths.map(|depth| depth.growth_by_share);
         let LawRate { alpha, beta, cap } =
             (self.local_contact).law_rate_by_share((contact, law), growths, share);
-        let n = self.shares.len();
-        let own_lengths = match self.elastic {
-            Elastic::Reduced(_) => 0.0,
-            // The lengths are in the compliance, too.
-            Elastic::HalfSpaces(_) => {
-                let row = &self.c[patch * n..][..n];
-                -0.5 / share * force * dot(row, self.work.forces())
-            }
-        };
         law.complementary_energy_rate(force, alpha, cap)
             + beta * law.complementary_energy_by_beta(force)
-            + own_lengths
     }
 }

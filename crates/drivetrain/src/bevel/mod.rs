@@ -9,15 +9,23 @@
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
+//! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
+//! | where a section across the tooth is nearest | `section_points.rs` |
+//! | length and radius of the line of contact | `line_geometry.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
 mod bevel_mesh;
 mod bounding_spheres;
 mod hertz_stiffness;
+mod line_geometry;
 mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;
+mod section_points;
+mod sliced_mesh;
+mod sliced_side;
 mod tooth_side;
 
 pub use bevel_mesh::BevelMesh;
+pub use sliced_mesh::BevelSlices;
