@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | what is a slice of a contact line, of whatever gears | [`ContactPatch`] | `contact_patch.rs` |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `station_blocks.rs` |
+//! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | where does a slice stand that has walked along the tooth | | `walked_slice.rs` |
 //! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
@@ -32,6 +33,7 @@
 //! The theory is in docs/theory/contact.md.
 
 pub mod axial_spread;
+pub mod bevel_slices;
 mod calibrated_field;
 mod contact_error;
 pub mod contact_lines;

@@ -41,6 +41,16 @@ pub struct SliceCompliance {
     walks_on_m: Option<f64>,
 }
 
+/// What a family of flanks says of one, besides its compliance.
+pub(crate) struct FlankGeometry {
+    /// Along the profile.
+    pub hats: ProfileHats,
+    /// Length along the tooth over the width along the face by which slices are counted.
+    pub stretch: f64,
+    /// Where the local contact is calibrated.
+    pub near_field: Option<CalibratedField>,
+}
+
 /// Depth of the local logarithm on one flank, and how it grows as the contact moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDepth {
@@ -96,6 +106,26 @@ impl SliceCompliance {
             LocalContact::Calibrated => Some(CalibratedField::new(gear, flank_index)?),
             LocalContact::None | LocalContact::WeberBanaschek => None,
         };
+        let geometry = FlankGeometry {
+            hats,
+            stretch: 1.0,
+            near_field,
+        };
+        Self::condensed(gear, flank, local, (geometry, spread))
+    }
+
+    pub(crate) fn condensed(
+        gear: &ReducedGear,
+        flank: Flank,
+        local: LocalContact,
+        (geometry, spread): (FlankGeometry, &AxialSpread),
+    ) -> Result<Self, ReducedGearError> {
+        gear.flank_index(flank)?;
+        let FlankGeometry {
+            hats,
+            stretch,
+            near_field,
+        } = geometry;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
         let loads = grid.len();
@@ -150,8 +180,8 @@ impl SliceCompliance {
                     let c = hats.centroids();
                     let roll = (1.0 - share) * c[station] + share * c[station + 1];
                     let place = hats.place(roll);
-                    let missing = field.missing(roll, &place, 1.0).value;
-                    let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
+                    let missing = field.missing(roll, &place, (slices / 2, 1.0)).value;
+                    let sizes = (opposite_m[half.div_ceil(2)], stretch * slice_width_m);
                     let term = neighbours.at(k, missing, field.half_width_m, sizes);
                     term.min(largest_neighbour_term(&blocks, slices, &place))
                 })
@@ -242,12 +272,18 @@ impl SliceCompliance {
     /// q = F/(share b_s), but its hats still spread F over the whole slice: the calibration then adds
     /// q (c₀ − share w_h − k ln(a/a₀)). With the share the force goes to zero, as it must.
     pub fn local_depth_m(&self, roll_rad: f64, share: f64) -> f64 {
-        self.local_depth(roll_rad, &self.place(roll_rad), share)
+        let middle = self.slices / 2;
+        self.local_depth(roll_rad, &self.place(roll_rad), (middle, share))
             .depth_m
     }
 
-    /// [`Self::local_depth_m`] at a roll angle whose place is known, and how it changes.
-    pub fn local_depth(&self, roll_rad: f64, place: &ProfilePlace, share: f64) -> LocalDepth {
+    /// [`Self::local_depth_m`] of a slice that touches over a share, at a place that is known, and how it changes.
+    pub fn local_depth(
+        &self,
+        roll_rad: f64,
+        place: &ProfilePlace,
+        (slice, share): (usize, f64),
+    ) -> LocalDepth {
         let Some(field) = &self.near_field else {
             let (low, high) = (
                 self.opposite_distance_m[place.station],
@@ -266,7 +302,7 @@ impl SliceCompliance {
                 growth_by_share: 0.0,
             };
         };
-        let missing = field.missing(roll_rad, place, share);
+        let missing = field.missing(roll_rad, place, (slice, share));
         let k = 2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young_pa);
         LocalDepth {
             depth_m: effective_depth_m(missing.value, field.half_width_m, self.material()),

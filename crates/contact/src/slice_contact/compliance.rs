@@ -36,7 +36,7 @@ impl SliceContact {
                 let places = [place(0), place(1)];
                 let depth = |gear: usize| {
                     let u = patch.places[gear].u;
-                    flanks[gear].local_depth(u, &places[gear].place, patch.share)
+                    flanks[gear].local_depth(u, &places[gear].place, (patch.slice, patch.share))
                 };
                 let materials = [0, 1].map(|gear: usize| flanks[gear].material());
                 (places, [depth(0), depth(1)], materials)

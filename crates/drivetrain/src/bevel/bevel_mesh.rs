@@ -139,6 +139,21 @@ impl BevelMesh {
         self.points.get()
     }
 
+    /// Numbers of teeth.
+    #[must_use]
+    pub fn teeth(&self) -> [usize; 2] {
+        self.teeth
+    }
+
+    /// Point \[m\] of a flank of tooth 0 of gear 0 or 1 in its frame, at shares along the face and up the flank.
+    ///
+    /// # Panics
+    /// If there is no such gear.
+    #[must_use]
+    pub fn flank_point_m(&self, side: Flank, gear: usize, at: [f64; 2]) -> Vector3<f64> {
+        self.sides[side as usize].patches[gear].point(at).r
+    }
+
     /// Levers of the normal at the mean points about the axes of gear 1 and gear 2 \[m\], those of right flanks.
     #[must_use]
     pub fn levers_m(&self) -> [f64; 2] {

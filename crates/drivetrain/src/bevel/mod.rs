@@ -10,12 +10,14 @@
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
 //! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
+//! | what gives way in it | `bevel_teeth.rs` |
 //! | where a section across the tooth is nearest | `section_points.rs` |
 //! | length and radius of the line of contact | `line_geometry.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
 mod bevel_mesh;
+mod bevel_teeth;
 mod bounding_spheres;
 mod hertz_stiffness;
 mod line_geometry;

@@ -74,7 +74,20 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
             let mut here = FlankContacts::default();
             flanks.contacts(pose, side, &mut here);
             if number == 0 {
-                for c in &here.contacts { let s=here.section(c); println!("{side:?} line {} slice {} gap {:.2} um v {:.3?} h {:.3?} share {:.3} len {:.3} rad {:.2} mm", c.line, c.slice, 1e6*c.gap_m, s.roll_rad, c.heights_m.map(|x| 1e3*x), s.share, 1e3*s.length_m, 1e3*s.radius_m); }
+                for c in &here.contacts {
+                    let s = here.section(c);
+                    println!(
+                        "{side:?} line {} slice {} gap {:.2} um v {:.3?} h {:.3?} share {:.3} len {:.3} rad {:.2} mm",
+                        c.line,
+                        c.slice,
+                        1e6 * c.gap_m,
+                        s.roll_rad,
+                        c.heights_m.map(|x| 1e3 * x),
+                        s.share,
+                        1e3 * s.length_m,
+                        1e3 * s.radius_m
+                    );
+                }
             }
             let (h, mut there) = (1e-7, [FlankContacts::default(), FlankContacts::default()]);
             for direction in 0..6 {
@@ -98,20 +111,29 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
                         continue;
                     };
                     let off = (a.gap_m - b.gap_m) / (2.0 * h) - contact.gradient[direction];
-                    assert!(off.abs() < 2e-7, "{number} {side:?} {i} by {direction}: {off:e}");
+                    assert!(
+                        off.abs() < 2e-7,
+                        "{number} {side:?} {i} by {direction}: {off:e}"
+                    );
                     let change = (a.gradient - b.gradient) / (2.0 * h);
                     let curvature = flanks.gap_curvature(&here, i, side);
                     let off = (change - curvature.column(direction)).norm() / curvature.norm();
                     assert!(off < 1e-4, "{number} {side:?} {i} by {direction}: {off:e}");
                     let section = here.section(contact);
-                    let mut check = |what: &str, [a, b]: [f64; 2], gradient: &Vector6, scale: f64| {
-                        let off = (a - b) / (2.0 * h) - gradient[direction];
-                        assert!(
-                            off.abs() < 1e-5 * gradient.norm().max(scale),
-                            "{number} {side:?} {i} {what} by {direction}: {off:e}"
-                        );
-                    };
-                    check("share", [at_a.share, at_b.share], &section.share_gradient, 1.0);
+                    let mut check =
+                        |what: &str, [a, b]: [f64; 2], gradient: &Vector6, scale: f64| {
+                            let off = (a - b) / (2.0 * h) - gradient[direction];
+                            assert!(
+                                off.abs() < 1e-5 * gradient.norm().max(scale),
+                                "{number} {side:?} {i} {what} by {direction}: {off:e}"
+                            );
+                        };
+                    check(
+                        "share",
+                        [at_a.share, at_b.share],
+                        &section.share_gradient,
+                        1.0,
+                    );
                     for gear in 0..2 {
                         let up = [at_a.roll_rad[gear], at_b.roll_rad[gear]];
                         check("u", up, &section.roll_gradient[gear], 1.0);
