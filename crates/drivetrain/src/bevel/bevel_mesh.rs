@@ -139,6 +139,18 @@ impl BevelMesh {
         self.points.get()
     }
 
+    /// Azimuths of the mean points of tooth 0 of both gears on a side \[rad\].
+    #[must_use]
+    pub fn azimuths_rad(&self, side: Flank) -> [f64; 2] {
+        self.sides[side as usize].azimuths_rad
+    }
+
+    /// Face widths along the pitch cones \[m\].
+    #[must_use]
+    pub fn face_widths_m(&self) -> [f64; 2] {
+        self.layout.face_widths_m
+    }
+
     /// Numbers of teeth.
     #[must_use]
     pub fn teeth(&self) -> [usize; 2] {

@@ -45,6 +45,8 @@ pub struct BevelSlices {
     found: [Vec<PoseDerivatives>; 2],
     guesses: Vec<Option<Guess>>,
     is_apart: [bool; 2],
+    /// Sections that stand open by less are looked at in any case \[m\].
+    reach_m: f64,
 }
 
 impl BevelSlices {
@@ -80,8 +82,16 @@ impl BevelSlices {
             found: [0, 1].map(|_| Vec::with_capacity(capacity)),
             guesses: Vec::with_capacity(capacity),
             is_apart: [false; 2],
+            reach_m: 0.0,
             pair,
         })
+    }
+
+    /// Finds all patches that stand open by less than this \[m\]: for pairs at rest, whose approach is not known at the pose.
+    #[must_use]
+    pub fn reaching(mut self, reach_m: f64) -> Self {
+        self.reach_m = reach_m;
+        self
     }
 
     /// The same flanks, each pair of teeth one contact.
@@ -121,7 +131,7 @@ impl BevelSlices {
         let least_m = gaps.fold(f64::INFINITY, f64::min);
         let margin_m = self.margin_m(pose, flank);
         let overlap_m = (margin_m - least_m).max(0.0);
-        let reach_m = least_m.max(0.0) + margin_m + REACH * overlap_m;
+        let reach_m = least_m.max(self.reach_m) + margin_m + REACH * overlap_m;
         let slices = self.layout.slices;
         for (number, candidate) in self.pair.candidates(pose, flank).enumerate() {
             let own = &guesses[number * slices..][..slices];

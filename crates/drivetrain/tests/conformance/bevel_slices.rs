@@ -1,5 +1,6 @@
 //! Bevel gears in slices: the same checks as every mesh, whatever the contact is made of.
 
+use gearmesh_bevel::FlankSide;
 use gearmesh_contact::HalfSpaces;
 use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_drivetrain::flank_contacts::FlankContacts;
@@ -7,7 +8,7 @@ use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::Flank;
 
-use crate::bevel_pair::{AS_DESIGNED, Pair, assembly, pair, poses};
+use crate::bevel_pair::{AS_DESIGNED, MISALIGNED, Pair, assembly, pair, poses};
 use crate::energy::{check_energy, check_power};
 use crate::mesh_common::*;
 use crate::two_bodies::{check_reaction, check_tangents, check_turned};
@@ -65,30 +66,11 @@ fn bevel_slices_conform() {
 fn derivatives_of_bevel_slices_agree_with_differences() {
     let pair = pair("bevel_20_20.toml");
     let mut flanks = slices(&pair, ALONG);
-    for side in Flank::ALL {
-        println!("{side:?} misfit {:e}", flanks.line_misfit(side));
-    }
     for (number, pose) in poses(&pair, 5e-6).iter().enumerate() {
         for side in Flank::ALL {
             flanks.locate(pose).unwrap();
             let mut here = FlankContacts::default();
             flanks.contacts(pose, side, &mut here);
-            if number == 0 {
-                for c in &here.contacts {
-                    let s = here.section(c);
-                    println!(
-                        "{side:?} line {} slice {} gap {:.2} um v {:.3?} h {:.3?} share {:.3} len {:.3} rad {:.2} mm",
-                        c.line,
-                        c.slice,
-                        1e6 * c.gap_m,
-                        s.roll_rad,
-                        c.heights_m.map(|x| 1e3 * x),
-                        s.share,
-                        1e3 * s.length_m,
-                        1e3 * s.radius_m
-                    );
-                }
-            }
             let (h, mut there) = (1e-7, [FlankContacts::default(), FlankContacts::default()]);
             for direction in 0..6 {
                 let mut step = Vector6::zeros();
@@ -120,14 +102,13 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
                     let off = (change - curvature.column(direction)).norm() / curvature.norm();
                     assert!(off < 1e-4, "{number} {side:?} {i} by {direction}: {off:e}");
                     let section = here.section(contact);
-                    let mut check =
-                        |what: &str, [a, b]: [f64; 2], gradient: &Vector6, scale: f64| {
-                            let off = (a - b) / (2.0 * h) - gradient[direction];
-                            assert!(
-                                off.abs() < 1e-5 * gradient.norm().max(scale),
-                                "{number} {side:?} {i} {what} by {direction}: {off:e}"
-                            );
-                        };
+                    let check = |what: &str, [a, b]: [f64; 2], gradient: &Vector6, scale: f64| {
+                        let off = (a - b) / (2.0 * h) - gradient[direction];
+                        assert!(
+                            off.abs() < 1e-5 * gradient.norm().max(scale),
+                            "{number} {side:?} {i} {what} by {direction}: {off:e}"
+                        );
+                    };
                     check(
                         "share",
                         [at_a.share, at_b.share],
@@ -146,6 +127,45 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
                     let length = [at_a, at_b].map(|s| (s.length_m / s.share).ln());
                     check("length", length, &(section.length_growth[0] * by_u), 1.0);
                 }
+            }
+        }
+    }
+}
+
+/// Pair, flanks in slices, and what is found under torques.
+fn loaded(name: &str, count: usize, torques_nm: &[f64]) -> (Pair, Vec<LoadedContact>) {
+    let pair = pair(name);
+    let flanks = slices(&pair, count);
+    let loaded_pair = LoadedPair {
+        blank: &pair.blank,
+        flanks: &flanks,
+        pinion_flank: FlankSide::Concave,
+        error: assembly(AS_DESIGNED),
+        positions: 16,
+    };
+    let contact = flanks.surface_contact([STEEL; 2]);
+    let found = loaded_pair.loaded(&contact, torques_nm).unwrap();
+    (pair, found)
+}
+
+#[test]
+fn explore() {
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {
+        for count in [9, 15, 31, 61] {
+            let (_, found) = loaded(name, count, &[0.1, 50.0, 100.0, 200.0]);
+            for c in found {
+                println!(
+                    "{name} {count} T {} mean {:.2} pp {:.3} unl {:.3} p {:?} shares {:.3?} pairs {:.2} tip {:.4} pattern {:.3?}",
+                    c.torque_nm,
+                    1e6 * c.mean_rad(),
+                    1e6 * c.peak_to_peak_rad(),
+                    1e6 * c.unloaded_peak_to_peak_rad(),
+                    c.pressures_pa().map(|p| (p * 1e-6).round()),
+                    c.load_shares(),
+                    c.mean_pairs(),
+                    c.tip_share(),
+                    c.pattern(count)
+                );
             }
         }
     }
