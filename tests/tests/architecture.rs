@@ -84,6 +84,8 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "reduction",
             "model",
             "contact",
+            "drivetrain",
+            "drivetrain",
             "recovery",
             "signal",
             "scene",

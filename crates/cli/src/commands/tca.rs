@@ -1,7 +1,7 @@
 //! `gearmesh tca`: tooth contact analysis of a bevel pair.
 
 use crate::arguments::TcaArguments;
-use crate::commands::{bevel, tca_page};
+use crate::commands::{bevel, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
@@ -20,18 +20,30 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let flanks = design.flanks(file.pinion_flank);
     let found = tooth_contact(flanks, &file.blank, &file.tca).map_err(Failure::work)?;
     let moved = sensitivity(flanks, &file.blank, &file.tca.error).map_err(Failure::work)?;
+    let loaded = match &file.load {
+        Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
+        None => None,
+    };
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
             flanks,
             contact: &found,
             moved: &moved,
+            loaded: loaded.as_ref(),
         };
         tca_page::write(&analysed, a, path)?;
     }
     if a.json {
-        console::json(&figures(&file, &found, &moved));
+        let mut all = figures(&file, &found, &moved);
+        if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
+            all.insert("load".to_owned(), loaded_tca::figures(loaded));
+        }
+        console::json(&all);
     } else {
+        if let Some(loaded) = &loaded {
+            loaded_tca::table(&file, loaded);
+        }
         table(&file, &found, &moved);
     }
     Ok(())

@@ -119,19 +119,36 @@ impl BevelSlices {
         guesses.clear();
         found.action_m_per_u = [0.0; 2];
         let sliced = &self.sides[flank as usize];
-        for candidate in self.pair.candidates(pose, flank) {
+        let margin_m = self.margin_m(pose, flank);
+        let reach_m = |least_m: f64| {
+            let overlap_m = (margin_m - least_m).max(0.0);
+            least_m.max(self.reach_m) + margin_m + REACH * overlap_m
+        };
+        // Pairs of teeth first, by the one contact that each of them would have.
+        let seen = |candidate: &Candidate| {
             let back = about_z(-candidate.turns_rad[0]);
             let rotation = back * pose.rotation * about_z(candidate.turns_rad[1]);
-            let (angle, moved) = (candidate.angle_1_rad, back * pose.displacement_m);
-            guesses.extend(
-                (sliced.nominal.iter()).map(|slice| slice.guess_nearby(angle, &moved, &rotation)),
-            );
+            (back * pose.displacement_m, rotation)
+        };
+        let of_pairs = &self.pair.sides[flank as usize].nominal;
+        let mut pairs = [None; MOST_PAIRS];
+        for (pair, candidate) in pairs.iter_mut().zip(self.pair.candidates(pose, flank)) {
+            let (moved, rotation) = seen(&candidate);
+            *pair = of_pairs.guess(candidate.angle_1_rad, &moved, &rotation);
+        }
+        let gaps = pairs.iter().flatten().map(|guess| guess.gap_m);
+        let far_m = reach_m(gaps.fold(f64::INFINITY, f64::min) - margin_m) + margin_m;
+        for (pair, candidate) in pairs.iter().zip(self.pair.candidates(pose, flank)) {
+            let far = pair.is_some_and(|guess| guess.gap_m > far_m);
+            let (moved, rotation) = seen(&candidate);
+            guesses.extend(sliced.nominal.iter().map(|slice| {
+                let near = !far;
+                let guess = || slice.guess_nearby(candidate.angle_1_rad, &moved, &rotation);
+                near.then(guess).flatten()
+            }));
         }
         let gaps = guesses.iter().flatten().map(|guess| guess.gap_m);
-        let least_m = gaps.fold(f64::INFINITY, f64::min);
-        let margin_m = self.margin_m(pose, flank);
-        let overlap_m = (margin_m - least_m).max(0.0);
-        let reach_m = least_m.max(self.reach_m) + margin_m + REACH * overlap_m;
+        let reach_m = reach_m(gaps.fold(f64::INFINITY, f64::min));
         let slices = self.layout.slices;
         for (number, candidate) in self.pair.candidates(pose, flank).enumerate() {
             let own = &guesses[number * slices..][..slices];
