@@ -83,6 +83,8 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "reduction",
             "model",
             "contact",
+            "drivetrain",
+            "drivetrain",
             "recovery",
             "signal",
             "scene",

@@ -112,13 +112,19 @@ impl BevelGear {
         tooth
             .check(request.least_top_land_m, request.point_width_m)
             .map_err(cut)?;
-        let milled = |tooth: &crate::Tooth| {
-            tooth.flanks.iter().all(|flank| {
-                let settings = &flank.surface().settings;
-                settings.face_mill().is_some_and(|m| m.edge_radius_m > 0.0)
-            })
-        };
-        if !milled(&tooth) {
+        if tooth
+            .flanks
+            .iter()
+            .any(|flank| flank.cut_surface().is_none())
+        {
+            let problem = "its flanks are given by points, which say nothing of the root; allowed for a body are flanks that are cut: another form of `settings` in the pair file";
+            return Err(document.error("bevel_gear.member", problem));
+        }
+        let mut mills = tooth.flanks.iter().map(|flank| {
+            let mill = flank.cut_surface().and_then(|cut| cut.settings.face_mill());
+            mill.is_some_and(|mill| mill.edge_radius_m > 0.0)
+        });
+        if !mills.all(|has_edge_radius| has_edge_radius) {
             let problem = "its blades have no edge radius, so that the root has a sharp corner: a body needs a fillet; give the member edge_radius_mm in the pair file";
             return Err(document.error("bevel_gear.member", problem));
         }

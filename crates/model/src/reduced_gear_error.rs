@@ -60,6 +60,14 @@ pub enum ReducedGearError {
         /// The gear.
         gear: String,
     },
+    /// A cylindrical gear where a bevel gear is needed.
+    #[error(
+        "gear \"{gear}\" is a cylindrical gear; a bevel pair needs the models of its own members"
+    )]
+    NotBevel {
+        /// The gear.
+        gear: String,
+    },
     /// The model carries no calibration of the near field.
     #[error(
         "gear \"{gear}\" carries no calibration of the near field, which local = \"calibrated\" needs: its file was \

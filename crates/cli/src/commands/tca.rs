@@ -1,7 +1,7 @@
 //! `gearmesh tca`: tooth contact analysis of a bevel pair.
 
 use crate::arguments::TcaArguments;
-use crate::commands::{bevel, tca_page};
+use crate::commands::{bevel, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
@@ -21,18 +21,30 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let moved = found
         .mean
         .and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
+    let loaded = match &file.load {
+        Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
+        None => None,
+    };
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
             flanks,
             contact: &found,
             moved: moved.as_ref(),
+            loaded: loaded.as_ref(),
         };
         tca_page::write(&analysed, a, path)?;
     }
     if a.json {
-        console::json(&figures(&file, &found, moved.as_ref()));
+        let mut all = figures(&file, &found, moved.as_ref());
+        if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
+            all.insert("load".to_owned(), loaded_tca::figures(loaded));
+        }
+        console::json(&all);
     } else {
+        if let Some(loaded) = &loaded {
+            loaded_tca::table(&file, loaded);
+        }
         table(&file, &found, moved.as_ref());
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! The page of `gearmesh tca --report`: contact pattern, transmission error, ease-off, and what assembly errors do.
 
+use super::loaded_tca::{self, Loaded};
 use super::tca::{NO_MEAN, moves};
 use crate::arguments::TcaArguments;
 use crate::failure::Failure;
@@ -29,6 +30,8 @@ pub struct Analysed<'a> {
     pub flanks: [&'a Flank; 2],
     pub contact: &'a ToothContact,
     pub moved: Option<&'a Sensitivity>,
+    /// Under load, where the file asks for it.
+    pub loaded: Option<&'a Loaded>,
 }
 
 /// Writes the page.
@@ -49,11 +52,18 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
         )))
         .push(pattern(of, 1)?)
         .push(pattern(of, 0)?);
-    Ok(Page::new(of.file.title.clone())
+    let load = of
+        .loaded
+        .map_or("without load", |_| "without and with load");
+    let mut page = Page::new(of.file.title.clone())
         .subtitle(format!(
-            "Tooth contact analysis: pinion {pinion} on gear {gear}, without load"
+            "Tooth contact analysis: pinion {pinion} on gear {gear}, {load}"
         ))
-        .section(at_a_glance(of))
+        .section(at_a_glance(of));
+    if let Some(loaded) = of.loaded {
+        page = page.section(loaded_tca::section(loaded));
+    }
+    Ok(page
         .section(pattern)
         .section(Section::new("Transmission error").push(error(of)))
         .section(Section::new("Ease-off").push(ease_off(of)?))

@@ -17,6 +17,7 @@
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
+mod bevel_hybrid;
 mod bevel_mesh;
 mod bodies;
 mod carriers;
@@ -345,7 +346,8 @@ impl LoadedSystem {
                 .gear
                 .as_ref()
                 .and_then(|gear| gear.model.as_ref());
-            let model = model.ok_or_else(|| {
+            let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
+            let model = model.or_else(of_bevel).ok_or_else(|| {
                 keys.error(
                     "body",
                     format!(
