@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 Cluster = Union["Client", str]
 """A dask.distributed.Client, the address or file of a scheduler, or "local": workers of this machine, one a processor."""
 
+CONNECT_S = 10.0
+"""So long an answer of the scheduler is waited for at the start."""
+
 _MOST_A_TASK = 16
 """Cases of a gear pair take milliseconds, as long as it takes to send a task: so many go together."""
 
@@ -169,7 +172,7 @@ class _Connection:
             self._own.append(self._client)
         else:
             self._address = self._cluster
-            self._client = self._connect(30.0)
+            self._client = self._connect(CONNECT_S)
         if self._address is None and self._cluster != "local":
             self._address = self._client.scheduler.address if self._client.scheduler else None
         return self
