@@ -275,8 +275,8 @@ def _demand_version(client: Client) -> None:
     """All workers have this version. One that does not answer is the scheduler's matter."""
     from . import cluster_worker as worker
 
-    answers = client.run(worker.check_version, _native.__version__, on_error="return")
-    for address, answer in dict(answers).items():
+    answers: Any = client.run(worker.check_version, _native.__version__, on_error="return")
+    for address, answer in answers.items():
         if isinstance(answer, _native.InputError):
             raise answer
         if isinstance(answer, ImportError):
