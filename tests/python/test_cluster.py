@@ -67,8 +67,10 @@ def test_a_cluster_gives_the_table_of_this_machine(few, threads, tmp_path, monke
     assert table(tmp_path / "out") == expected
     log = (tmp_path / "out" / cluster_worker.LOG).read_text().splitlines()
     assert len(log) == 4
-    # Again: all of it is there.
+    # Files were sent to each of the two workers once. Again: all of it is there.
+    assert len(cluster_worker.received) == 2
     gm.study(path, tmp_path / "out", client=threads)
+    assert len(cluster_worker.received) == 2
     assert (tmp_path / "out" / cluster_worker.LOG).read_text().splitlines() == log
 
 
@@ -116,6 +118,12 @@ def test_what_is_wrong_is_told_before_a_worker_is_asked(few, tmp_path):
     with pytest.raises(gm.InputError, match="body.7"):
         gm.study(wrong, tmp_path / "out", client="tcp://127.0.0.1:1")
     assert not (tmp_path / "out").exists()
+
+
+def test_a_scheduler_that_is_not_there_is_told(few, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "CONNECT_S", 0.5)
+    with pytest.raises(gm.InputError, match="nothing answers at 'tcp://127.0.0.1:1'"):
+        gm.study(few[0], tmp_path / "out", client="tcp://127.0.0.1:1")
 
 
 class Processes:

@@ -80,9 +80,11 @@ def test_records_are_read_and_compared(pair):
     assert (np.diff(record["angle_deg"]) > 0.0).all()
     with pytest.raises(KeyError, match="it has angle_deg"):
         record["angle"]
-    # Another pair at other torques: refused in the program's words.
-    with pytest.raises(gm.InputError):
-        gm.compare(pair.run(progress=False), record)
+    found = gm.compare(pair.run(progress=False), record)
+    assert found["record"] == record.title and found["comparisons"]
+    # An option of multibody results: refused in the program's words.
+    with pytest.raises(gm.InputError, match="--from-s is for results of multibody scenes"):
+        gm.compare(pair.run(progress=False), record, from_s=0.1)
 
 
 def test_columns_are_analysed():

@@ -174,6 +174,4 @@ fn a_study_is_gathered_from_its_folder() {
     assert_eq!(answer.code, Some(1));
     assert!(answer.stderr.contains("1 of 2 cases failed"), "{answer:#?}");
     assert!(answer.stdout.contains("broken off"), "{answer:#?}");
-    let answer = gearmesh(&[&command[..], &["--scheduler", "tcp://127.0.0.1:1"]].concat());
-    assert_ne!(answer.code, Some(0));
 }

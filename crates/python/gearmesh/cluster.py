@@ -31,8 +31,14 @@ if TYPE_CHECKING:
 Cluster = Union["Client", str]
 """A dask.distributed.Client, the address or file of a scheduler, or "local": workers of this machine, one a processor."""
 
+CONNECT_S = 10.0
+"""So long an answer of the scheduler is waited for at the start."""
+
 _MOST_A_TASK = 16
 """Cases of a gear pair take milliseconds, as long as it takes to send a task: so many go together."""
+
+_MOST_LOSSES = 20
+"""A scheduler that is lost more often has another trouble."""
 
 _runner = _native.NativeCaseRunner()
 
@@ -98,7 +104,7 @@ class _Work:
         self._tell()
         if not self.pending:
             return
-        client.run(worker.check_version, _native.__version__)
+        _demand_version(client)
         plugin = worker.Files(self.sent_files)
         client.register_plugin(plugin, name=plugin.name)
         workers = max(len(client.scheduler_info(n_workers=-1)["workers"]), 1)
@@ -150,6 +156,7 @@ class _Connection:
         self._own: list[Any] = []
         self._client: Client | None = None
         self._address: str | None = None
+        self._losses = 0
 
     def __enter__(self) -> _Connection:
         try:
@@ -169,7 +176,7 @@ class _Connection:
             self._own.append(self._client)
         else:
             self._address = self._cluster
-            self._client = self._connect(30.0)
+            self._client = self._connect(CONNECT_S)
         if self._address is None and self._cluster != "local":
             self._address = self._client.scheduler.address if self._client.scheduler else None
         return self
@@ -204,9 +211,12 @@ class _Connection:
                     raise _Lost
                 self._await_worker(client)
                 return work(client)
-            except (_Lost, CancelledError, CommClosedError, OSError, TimeoutError, RuntimeError) as cause:
-                if isinstance(cause, (_native.InputError, _native.WorkError)):
-                    raise
+            except (_native.InputError, _native.WorkError):
+                raise
+            except (_Lost, CancelledError, CommClosedError) as cause:
+                # Even where one answers by now: another scheduler, which knows nothing of what the first one was given.
+                self._recover(cause)
+            except (OSError, TimeoutError, RuntimeError) as cause:
                 if client.status == "running" and _answers(client):
                     # Not the scheduler's end: some other fault.
                     raise
@@ -221,6 +231,11 @@ class _Connection:
     def _recover(self, cause: BaseException) -> None:
         if self._address is None:
             raise _native.WorkError(f"the cluster is gone ({cause}); the same call goes on from here") from cause
+        self._losses += 1
+        if self._losses > _MOST_LOSSES:
+            raise _native.WorkError(
+                f"the scheduler {self._address} was lost {_MOST_LOSSES} times; the same call goes on from here"
+            ) from cause
         print(f"note: the scheduler {self._address} is lost; waiting for it", file=sys.stderr)
         give_up = time.monotonic() + self._patience_s
         while self._own:
@@ -254,6 +269,18 @@ def _answers(client: Client) -> bool:
     except (OSError, ValueError):
         # No address of a host: a scheduler inside this process, which is there.
         return scheduler is not None and str(scheduler.address).startswith("inproc")
+
+
+def _demand_version(client: Client) -> None:
+    """All workers have this version. One that does not answer is the scheduler's matter."""
+    from . import cluster_worker as worker
+
+    answers: Any = client.run(worker.check_version, _native.__version__, on_error="return")
+    for address, answer in answers.items():
+        if isinstance(answer, _native.InputError):
+            raise answer
+        if isinstance(answer, ImportError):
+            raise _native.InputError(f"the worker {address} has no gearmesh: {answer}")
 
 
 def _with_named(files: set[str]) -> list[str]:
