@@ -44,6 +44,8 @@ Usage: cargo xtask <COMMAND>
                   the quick page into out/accuracy-cost-quick.md
   accuracy-cost bearings
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
+  accuracy-cost bevel-machines
+                  seed 000's machines with each model of their bearings, into docs/benchmarks/bevel-machines.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
   prepare         only makes what the others need
@@ -80,6 +82,7 @@ enum Command {
     BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
     AccuracyCostBearings(bench::Options),
+    AccuracyCostBevelMachines(bench::Options),
     Wheel(wheel::Build),
     Prepare,
     Help,
@@ -107,6 +110,10 @@ impl Command {
             ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
             ("accuracy-cost", ["bearings", rest @ ..]) => {
                 bench_options("accuracy-cost bearings", rest).map(Self::AccuracyCostBearings)
+            }
+            ("accuracy-cost", ["bevel-machines", rest @ ..]) => {
+                bench_options("accuracy-cost bevel-machines", rest)
+                    .map(Self::AccuracyCostBevelMachines)
             }
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
@@ -162,6 +169,9 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         Command::AccuracyCostBearings(options) => {
             return bench::bearing_models(&workspace, options);
         }
+        Command::AccuracyCostBevelMachines(options) => {
+            return bench::bevel_machines(&workspace, options);
+        }
         _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
@@ -179,7 +189,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::BenchChain(_)
         | Command::BenchBearings(_)
         | Command::AccuracyCost(_)
-        | Command::AccuracyCostBearings(_) => Ok(ExitCode::SUCCESS),
+        | Command::AccuracyCostBearings(_)
+        | Command::AccuracyCostBevelMachines(_) => Ok(ExitCode::SUCCESS),
     }
 }
 

@@ -9,6 +9,7 @@
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
+//! | place and ellipse of a contact, for channels | `touch.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
@@ -19,5 +20,6 @@ mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;
 mod tooth_side;
+mod touch;
 
 pub use bevel_mesh::BevelMesh;

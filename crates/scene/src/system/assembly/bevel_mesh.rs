@@ -13,7 +13,7 @@ use super::gear_mesh::{PreparedMesh, pose, seat};
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
 use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
-use crate::system::tables::mesh_model::{ImpactTable, MeshModel};
+use crate::system::tables::mesh_model::{HertzTable, ImpactTable, MeshModel};
 use crate::system::tables::{MM, UM};
 
 /// A table with all that its flanks are made from.
@@ -65,6 +65,10 @@ impl SceneBevel<'_> {
         let base_radii_m = kinematics.levers_m();
         let sides = self.teeth.flanks.flanks().to_vec();
         let slice_width_m = kinematics.layout().width_m();
+        let flank_corners_m = kinematics.flank_corners_m().into_iter().flatten().flatten();
+        let flank_corners_m = flank_corners_m.collect();
+        let material = |table| contact_modulus(table, &self.keys, "tooth_pairs");
+        let tooth_pairs = self.table.tooth_pairs.as_ref().map(material).transpose()?;
         let mesh = self.mesh(kinematics, model, &sides)?;
         self.effects(&file, parts);
         Ok(PreparedMesh {
@@ -78,6 +82,8 @@ impl SceneBevel<'_> {
             mesh: Some(mesh),
             sides,
             slice_width_m,
+            tooth_pairs,
+            flank_corners_m,
         })
     }
 
@@ -193,14 +199,7 @@ impl SceneBevel<'_> {
                 return Err(keys.error(key, problem));
             }
         }
-        let young = table.young_GPa.unwrap_or(206.0);
-        let poisson = table.poisson.unwrap_or(0.3);
-        let positive = young > 0.0 && young.is_finite();
-        keys.require("hertz.young_GPa", young, positive, "more than 0")?;
-        let ok = (0.0..0.5).contains(&poisson);
-        keys.require("hertz.poisson", poisson, ok, "0 up to, not including, 0.5")?;
-        let steel = (young * 1e9, poisson);
-        Ok(Some(contact_modulus_pa(steel, steel)))
+        contact_modulus(table, keys, "hertz").map(Some)
     }
 
     /// What is computed, in words for the plan.
@@ -237,4 +236,17 @@ impl SceneBevel<'_> {
             file.blank.mean_cone_m / MM
         ));
     }
+}
+
+/// E* of both gears of a material \[Pa\], of the table at a key.
+fn contact_modulus(table: &HertzTable, keys: &TableKeys<'_>, key: &str) -> Result<f64, InputError> {
+    let young = table.young_GPa.unwrap_or(206.0);
+    let poisson = table.poisson.unwrap_or(0.3);
+    let positive = young > 0.0 && young.is_finite();
+    keys.require(&format!("{key}.young_GPa"), young, positive, "more than 0")?;
+    let ok = (0.0..0.5).contains(&poisson);
+    let allowed = "0 up to, not including, 0.5";
+    keys.require(&format!("{key}.poisson"), poisson, ok, allowed)?;
+    let both = (young * 1e9, poisson);
+    Ok(contact_modulus_pa(both, both))
 }
