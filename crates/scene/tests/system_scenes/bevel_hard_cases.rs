@@ -208,8 +208,10 @@ fn teeth_lift_off_and_come_back() {
     }
     let ramp = "{ step = { start_s = 0.001, from = 0.0, end_s = 0.011, to = 3000.0 } }";
     let shown = run(&pair(), &scene(ramp, "1.0", 0.02), 5e-3);
-    assert!(shown.force().iter().any(|force| *force == 0.0));
-    assert!((shown.turn("gear") + shown.turn("pinion")).abs() < 1e-3);
+    assert!(shown.force().contains(&0.0));
+    // At rest the gear stood at the coast flanks: it has crossed the backlash, 0.15 mm over a lever of 23 mm.
+    let behind = shown.turn("gear") + shown.turn("pinion");
+    assert!((behind - 6.5e-3).abs() < 0.6e-3, "{behind}");
 }
 
 /// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.

@@ -143,9 +143,9 @@ pub fn bevel_machines(workspace: &Workspace, options: &Options) -> Result<ExitCo
                 command: format!("reading the step of {}", file.display()),
                 status: "no `step_s = ` in it".into(),
             })?;
-            let rough = runner.figures(&scene, step_s)?;
-            let fine = runner.figures(&scene, 0.5 * step_s)?;
-            rows.push((fidelity, rough, fine));
+            let found = runner.figures(&scene, step_s);
+            let both = found.and_then(|rough| Ok((rough, runner.figures(&scene, 0.5 * step_s)?)));
+            rows.push((fidelity, both.map_err(|error| reason(&error))));
         }
         page(&mut text, pair, &rows);
     }
@@ -153,6 +153,15 @@ pub fn bevel_machines(workspace: &Workspace, options: &Options) -> Result<ExitCo
     let path = workspace.root().join("docs/benchmarks/bevel-machines.md");
     write_whole(&path, &text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Why a run failed, in a cell of a table.
+fn reason(error: &XtaskError) -> String {
+    let told = match error {
+        XtaskError::Failed { status, .. } => status.clone(),
+        other => other.to_string(),
+    };
+    told.replace(['\n', '|'], " ")
 }
 
 /// A scene without the lines that begin so, or without that part of its lines.
@@ -346,7 +355,10 @@ fn head(host: &Host) -> String {
     )
 }
 
-fn page(text: &mut String, pair: &str, rows: &[(&Fidelity, Figures, Figures)]) {
+/// A fidelity, and its runs with the stated step and half of it or why they failed.
+type Row<'a> = (&'a Fidelity, Result<(Figures, Figures), String>);
+
+fn page(text: &mut String, pair: &str, rows: &[Row<'_>]) {
     // Writing to a String does not fail.
     let _ = write!(
         text,
@@ -354,26 +366,32 @@ fn page(text: &mut String, pair: &str, rows: &[(&Fidelity, Figures, Figures)]) {
          | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         pair.replace('_', "/")
     );
-    for (fidelity, rough, fine) in rows {
-        let _ = writeln!(
-            text,
-            "| {} | {} | {} | {} | {} | {:.1} | {:.2} | {:.2} |",
-            fidelity.name,
-            fidelity.coordinates,
-            1e6 * rough.step_s,
-            rough.evaluations,
-            rough.factorisations,
-            rough.cpu_s,
-            rough.change_of_means(fine),
-            rough.change_of_deviations(fine)
-        );
+    for (fidelity, found) in rows {
+        let start = format!("| {} | {} |", fidelity.name, fidelity.coordinates);
+        let _ = match found {
+            Ok((rough, fine)) => writeln!(
+                text,
+                "{start} {} | {} | {} | {:.1} | {:.2} | {:.2} |",
+                1e6 * rough.step_s,
+                rough.evaluations,
+                rough.factorisations,
+                rough.cpu_s,
+                rough.change_of_means(fine),
+                rough.change_of_deviations(fine)
+            ),
+            Err(_) => writeln!(text, "{start} | | | fails | | |"),
+        };
     }
     let _ = write!(
         text,
         "\n| bearings | mesh force N | radial N: {} | orbit µm | cages |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         BEARINGS.join(" | ")
     );
-    for (fidelity, rough, _) in rows {
+    let ran = || {
+        rows.iter()
+            .filter_map(|(fidelity, found)| Some((fidelity, &found.as_ref().ok()?.0)))
+    };
+    for (fidelity, rough) in ran() {
         let radial: Vec<String> = rough.radial_n.iter().map(Spread::shown).collect();
         let cages = rough.cages.as_ref().map_or_else(String::new, |cages| {
             let each: Vec<String> = cages.iter().map(|c| format!("{:.4}", c.mean)).collect();
@@ -393,9 +411,14 @@ fn page(text: &mut String, pair: &str, rows: &[(&Fidelity, Figures, Figures)]) {
         text,
         "\n| bearings | axial N: {axial} |\n| --- | ---: | ---: | ---: | ---: |\n"
     );
-    for (fidelity, rough, _) in rows {
+    for (fidelity, rough) in ran() {
         let axial: Vec<String> = rough.axial_n.iter().map(Spread::shown).collect();
         let _ = writeln!(text, "| {} | {} |", fidelity.name, axial.join(" | "));
+    }
+    for (fidelity, found) in rows {
+        if let Err(reason) = found {
+            let _ = writeln!(text, "\n{} fails: {reason}", fidelity.name);
+        }
     }
 }
 
@@ -456,7 +479,10 @@ mod tests {
         assert!((a.change_of_means(&b) - 2.0).abs() < 1e-9);
         assert!((a.change_of_deviations(&b) - 1.0).abs() < 1e-9);
         let mut text = String::new();
-        page(&mut text, "13_35", &[(&FIDELITIES[1], a, b)]);
+        let failed = Err("balls drift".to_owned());
+        let rows = [(&FIDELITIES[1], Ok((a, b))), (&FIDELITIES[2], failed)];
+        page(&mut text, "13_35", &rows);
+        assert!(text.contains("balls alone fails: balls drift"), "{text}");
         assert!(
             text.contains("| `quasi-static` | 18 | 10 | 1 | 1 | 1.0 | 2.00 | 1.00 |"),
             "{text}"
