@@ -206,7 +206,8 @@ impl Runner {
 
     fn run(&self, scene: &str) -> Result<(Value, f64), XtaskError> {
         let result = self.result.display().to_string();
-        self.call(&["run", scene, "-o", &result, "--json"])
+        // What a failed run has left is not to be gone on with.
+        self.call(&["run", scene, "-o", &result, "--restart", "--json"])
     }
 
     fn figures(&self, scene: &str, step_s: f64) -> Result<Figures, XtaskError> {
