@@ -241,7 +241,7 @@ impl Runner {
                 column("bodies/pinion/x_m")?.range,
                 column("bodies/pinion/y_m")?.range,
             ],
-            cages: match scene.contains("[bearing.model.cage]") {
+            cages: match scene.contains("\n[bearing.model.cage]") {
                 true => Some(each("cage_1_speed_ratio")?),
                 false => None,
             },
