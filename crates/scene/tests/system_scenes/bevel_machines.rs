@@ -28,7 +28,6 @@ fn mesh_lines_ratio_and_bearings() {
         let result = run(&at_speed(
             &format!("dynamics_bevel_{pair}_linear.toml"),
             0.03,
-            1e-5,
         ));
         let read = |name: &str| result.rows.read(name).unwrap();
         let times = read("time_s");
