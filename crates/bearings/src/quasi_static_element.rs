@@ -43,7 +43,10 @@ pub struct QuasiStaticElement {
     element_loads: bool,
     /// Time, cage's angle and speeds of the rings at the last accepted step.
     kept: Kept,
-    /// Room for the search; nothing of it is kept between evaluations, so that a resumed run is the same to the last bit.
+    /// Where the elements stood at the last accepted step: every search begins there. Part of the saved state, so that a resumed run is the same to the
+    /// last bit.
+    kept_places: ElementPlaces,
+    /// Where those of the last evaluation stand.
     places: ElementPlaces,
 }
 
@@ -88,6 +91,7 @@ impl QuasiStaticElement {
             name: name.to_owned(),
             pair: bearing.ring_markers(pair),
             bodies: [pair.a.body, pair.b.body],
+            kept_places: ElementPlaces::unknown(&bearing.rows),
             places: ElementPlaces::unknown(&bearing.rows),
             bearing,
             sizes: definition.rolling_sizes(),
@@ -188,7 +192,7 @@ impl ForceElement for QuasiStaticElement {
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
-        self.places.forget();
+        self.places.take_from(&self.kept_places);
         let ring = self
             .bearing
             .evaluate_from(&pose(&motion), &operation, &mut self.places)?;
@@ -214,12 +218,14 @@ impl ForceElement for QuasiStaticElement {
     }
 
     fn begin(&mut self, view: &View<'_>) {
+        self.kept_places.forget();
         self.keep(view, 0.0);
     }
 
     fn commit(&mut self, view: &View<'_>) -> Result<(), ElementFailure> {
         let angle = self.operation(view.time_s).cage_angle_rad;
         self.keep(view, angle);
+        self.kept_places.take_from(&self.places);
         Ok(())
     }
 
@@ -232,6 +238,7 @@ impl ForceElement for QuasiStaticElement {
             kept.inner_rad_per_s,
             kept.outer_rad_per_s,
         ]);
+        self.kept_places.save(out);
     }
 
     fn restore(&mut self, numbers: &[f64]) {
@@ -241,6 +248,7 @@ impl ForceElement for QuasiStaticElement {
             inner_angle_rad,
             inner_rad_per_s,
             outer_rad_per_s,
+            ref places @ ..,
         ] = *numbers
         {
             self.kept = Kept {
@@ -250,6 +258,7 @@ impl ForceElement for QuasiStaticElement {
                 inner_rad_per_s,
                 outer_rad_per_s,
             };
+            self.kept_places.restore(places);
         }
     }
 

@@ -19,6 +19,26 @@ use crate::flank_contacts::FlankContacts;
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::Matrix6;
 
+/// Half axes of a contact ellipse as shares of a flank: along the face, up the flank.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PatchAxes {
+    /// The long one.
+    pub long: [f64; 2],
+    /// The short one.
+    pub short: [f64; 2],
+}
+
+/// Where two flanks touch, and over which ellipse.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactPatch {
+    /// On gear 1 and gear 2: share of the face from the toe, share of the flank from its lower line.
+    pub places: [[f64; 2]; 2],
+    /// After Hertz \[Pa\].
+    pub peak_pressure_pa: f64,
+    /// On gear 1 and gear 2.
+    pub axes: [PatchAxes; 2],
+}
+
 /// Kinematics of the flanks of two gears at any pose.
 pub trait FlankKinematics: Send {
     /// Slices along the teeth.
@@ -100,6 +120,16 @@ pub trait FlankKinematics: Send {
         _contact: usize,
         _side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
+        None
+    }
+
+    /// Place of a contact on both flanks, and its ellipse after Hertz under a force \[N\] with E* \[Pa\]; of families whose flanks touch in points.
+    fn contact_patch(
+        &self,
+        _contact: usize,
+        _side: Flank,
+        _force_and_modulus: (f64, f64),
+    ) -> Option<ContactPatch> {
         None
     }
 

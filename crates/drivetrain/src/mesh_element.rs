@@ -9,6 +9,7 @@ use crate::error::DrivetrainError;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::mesh_channels::{self, FORCES, SliceLineLoads, force_on_gear_1};
+use crate::pair_channels::PairChannels;
 use crate::pose::Pose;
 use crate::strain_gauges::{ModalPart, StrainGauges};
 
@@ -50,7 +51,7 @@ impl PairTangents {
 ///
 /// Channels: normal force of each side that is modelled, transmission error, pairs of teeth that carry, whether the gears are apart (1 where
 /// no tooth reaches the mate; the transmission error then goes on as that of continued flanks); strain of each gauge; the force
-/// on gear 1 and the line load of each slice (mesh_channels.rs).
+/// on gear 1 and the line load of each slice (mesh_channels.rs); the pairs of teeth that carry (pair_channels.rs).
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
@@ -58,6 +59,7 @@ pub struct MeshElement {
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
     line_loads: Option<SliceLineLoads>,
+    pairs: Option<PairChannels>,
 }
 
 impl MeshElement {
@@ -74,6 +76,7 @@ impl MeshElement {
             mesh,
             gauges: Vec::new(),
             line_loads: None,
+            pairs: None,
         }
     }
 
@@ -83,6 +86,14 @@ impl MeshElement {
         self.line_loads = Some(SliceLineLoads {
             width_m: slice_width_m,
         });
+        self
+    }
+
+    /// Adds tooth, force and place of each pair that carries (pair_channels.rs), its pressure and its ellipse after Hertz with E* \[Pa\]; of families whose
+    /// flanks touch in points, as those of bevel gears.
+    #[must_use]
+    pub fn with_tooth_pairs(mut self, contact_modulus_pa: f64) -> Self {
+        self.pairs = Some(PairChannels { contact_modulus_pa });
         self
     }
 
@@ -248,6 +259,12 @@ impl ForceElement for MeshElement {
             .chain(strain)
             .chain(mesh_channels::forces())
             .chain(slices.map(SliceLineLoads::channels).into_iter().flatten())
+            .chain(
+                self.pairs
+                    .map(|_| PairChannels::channels())
+                    .into_iter()
+                    .flatten(),
+            )
             .collect()
     }
 
@@ -291,10 +308,15 @@ impl ForceElement for MeshElement {
             }
         }
         let rest = places.into_slice();
-        let (forces, slices) = rest.split_at_mut(FORCES);
+        let (forces, rest) = rest.split_at_mut(FORCES);
+        let of_pairs = self.pairs.map_or(0, |_| PairChannels::COUNT);
+        let (slices, pairs) = rest.split_at_mut(rest.len() - of_pairs);
         forces.copy_from_slice(&force_on_gear_1(&self.mesh, &Pose::from(&motion)));
         if let Some(line_loads) = &self.line_loads {
             line_loads.write(&self.mesh, slices);
+        }
+        if let Some(channels) = self.pairs {
+            channels.write(&self.mesh, pairs);
         }
     }
 }

@@ -6,6 +6,8 @@
 //! | which columns, in which charts, with which units | `columns.rs` |
 //! | time histories, spectra, energy | `transient.rs` |
 //! | balls and cages of bearings whose balls move | `bearings.rs` |
+//! | pairs of bevel teeth: forces, contact pattern, path | `tooth_pairs.rs` |
+//! | orbits of gears, lines of shafts and cages | `orbits.rs` |
 //! | curves over the speed | `sweep.rs` |
 //! | equilibria, natural frequencies | `equilibria.rs`, `eigen.rs` |
 //! | what was judged after the run | `../ratings.rs` |
@@ -15,7 +17,9 @@ mod bearings;
 mod columns;
 mod eigen;
 mod equilibria;
+mod orbits;
 mod sweep;
+mod tooth_pairs;
 mod transient;
 
 use gearmesh_model::FileError;
@@ -33,7 +37,13 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
         ResultKind::Transient => {
             sections.push(transient::histories(r)?);
             sections.extend(transient::spectra(r, &passings)?);
+            sections.extend(tooth_pairs::sections(r, &passings)?);
+            sections.extend(orbits::section(r, &passings)?);
             sections.extend(bearings::sections(r)?);
+            if let Some(chart) = orbits::cage_spectrum(r, &passings)? {
+                let heading = format!("{}: speeds of the cages", r.head.title);
+                sections.push(Section::new(heading).push(chart));
+            }
             sections.push(transient::accuracy(r)?);
         }
         ResultKind::SpeedSweep => {

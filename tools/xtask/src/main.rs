@@ -48,6 +48,8 @@ Usage: cargo xtask <COMMAND>
                   error and cost of every element, mesh size and local term, into docs/benchmarks/elements.md
   accuracy-cost bearings
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
+  accuracy-cost bevel-machines
+                  seed 000's machines with each model of their bearings, into docs/benchmarks/bevel-machines.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
   release [--quick]
@@ -87,6 +89,7 @@ enum Command {
     AccuracyCost(bench::Options),
     AccuracyCostBearings(bench::Options),
     AccuracyCostElements(bench::Options),
+    AccuracyCostBevelMachines(bench::Options),
     Wheel(wheel::Build),
     Release(wheel::Build),
     Prepare,
@@ -118,6 +121,10 @@ impl Command {
             }
             ("accuracy-cost", ["elements", rest @ ..]) => {
                 bench_options("accuracy-cost elements", rest).map(Self::AccuracyCostElements)
+            }
+            ("accuracy-cost", ["bevel-machines", rest @ ..]) => {
+                bench_options("accuracy-cost bevel-machines", rest)
+                    .map(Self::AccuracyCostBevelMachines)
             }
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
@@ -176,6 +183,9 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             return bench::bearing_models(&workspace, options);
         }
         Command::AccuracyCostElements(options) => return bench::elements(&workspace, options),
+        Command::AccuracyCostBevelMachines(options) => {
+            return bench::bevel_machines(&workspace, options);
+        }
         _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
@@ -195,7 +205,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::BenchBearings(_)
         | Command::AccuracyCost(_)
         | Command::AccuracyCostBearings(_)
-        | Command::AccuracyCostElements(_) => Ok(ExitCode::SUCCESS),
+        | Command::AccuracyCostElements(_)
+        | Command::AccuracyCostBevelMachines(_) => Ok(ExitCode::SUCCESS),
     }
 }
 

@@ -11,14 +11,15 @@ use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
-use super::hertz_stiffness::{curvature, local_stiffness, principal, stiffness_per_pa};
+use super::hertz_stiffness::{local_stiffness, principal, stiffness_per_pa};
 use super::nearest_points::{Nearest, nearest_within};
 use super::nominal_contacts::Guess;
 use super::pose_derivatives::{PoseDerivatives, gradient};
 use super::tooth_side::{FAR, REACH, Side, about_z, nominal_rotation, placed, searched};
+use super::touch::Touch;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
-use crate::flank_kinematics::FlankKinematics;
+use crate::flank_kinematics::{ContactPatch, FlankKinematics};
 use crate::pose::{Pose, Vector6};
 use crate::slice_plane::{Matrix6, on_turn};
 
@@ -42,13 +43,20 @@ pub struct BevelMesh {
     /// Right and left.
     pub(super) sides: [Side; 2],
     at: Option<Pose>,
-    found: [Vec<PoseDerivatives>; 2],
+    found: [Vec<Found>; 2],
     /// Whether any flanks were near enough for their spheres to meet.
     is_apart: [bool; 2],
     /// Points of flanks that were computed.
     pub(super) points: Cell<u64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
+}
+
+/// What is known of a contact beyond its gap.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    motion: PoseDerivatives,
+    touch: Touch,
 }
 
 /// A pair of teeth that may touch.
@@ -175,6 +183,14 @@ impl BevelMesh {
         self.sides[side as usize].patches[gear].point(at).r
     }
 
+    /// Corners of the flanks of gear 1 and gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip and lower line at
+    /// the heel. Those of right flanks; left ones have the same.
+    #[must_use]
+    pub fn flank_corners_m(&self) -> [[[f64; 2]; 4]; 2] {
+        let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+        [0, 1].map(|m: usize| corners.map(|at| self.sides[0].patches[m].place_m(at)))
+    }
+
     /// Levers of the normal at the mean points about the axes of gear 1 and gear 2 \[m\], those of right flanks.
     #[must_use]
     pub fn levers_m(&self) -> [f64; 2] {
@@ -220,7 +236,7 @@ impl BevelMesh {
         &self,
         pose: &Pose,
         flank: Flank,
-        list: &mut Vec<PoseDerivatives>,
+        list: &mut Vec<Found>,
         found: &mut FlankContacts,
     ) -> bool {
         found.clear();
@@ -263,14 +279,15 @@ impl BevelMesh {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
-            self.push(pose, candidate.teeth, (&point, &motion), found);
+            let touch = Touch::new(&point);
+            self.push(pose, candidate.teeth, (&point, &motion, &touch), found);
             if let (Some(mean), true) = (&self.hertz, point.gap_m < 0.0) {
                 let (local, gradient) = local_stiffness(&bodies, &point, &motion);
                 let last = found.sections.len() - 1;
                 found.sections[last].stiffness = local / mean[flank as usize];
                 found.sections[last].share_gradient = gradient;
             }
-            list.push(motion);
+            list.push(Found { motion, touch });
         }
         // The nearest pair first: the transmission error is its gap.
         let gap_m = |line: usize| found.lines[line].ideal_gap_m;
@@ -337,7 +354,7 @@ impl BevelMesh {
         &self,
         pose: &Pose,
         teeth: [usize; 2],
-        (point, motion): (&Nearest, &PoseDerivatives),
+        (point, motion, touch): (&Nearest, &PoseDerivatives, &Touch),
         found: &mut FlankContacts,
     ) {
         let number = found.contacts.len();
@@ -358,7 +375,7 @@ impl BevelMesh {
             share_gradient: Vector6::zeros(),
             stiffness: 1.0,
             length_m: self.layout.width_m(),
-            radius_m: 1.0 / curvature(point).principal_per_m[1],
+            radius_m: 1.0 / touch.relative.principal_per_m[1],
             radius_growth: [0.0; 2],
             length_growth: [0.0; 2],
             along_gradient: [Vector6::zeros(); 2],
@@ -443,6 +460,16 @@ impl FlankKinematics for BevelMesh {
             .map(|motion| motion.sliding()[1])
     }
 
+    fn contact_patch(
+        &self,
+        contact: usize,
+        side: Flank,
+        force_and_modulus: (f64, f64),
+    ) -> Option<ContactPatch> {
+        let found = self.found[side as usize].get(contact)?;
+        Some(found.touch.patch(force_and_modulus))
+    }
+
     /// The gap of the mean points, between the pairs that are nearest.
     fn nearest_gap_m(&self, side: Flank) -> Option<f64> {
         let pose = self.at.as_ref()?;
@@ -479,6 +506,7 @@ impl BevelMesh {
     }
 
     fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
-        self.found[side as usize].get(contact)
+        let found = self.found[side as usize].get(contact);
+        found.map(|found| &found.motion)
     }
 }

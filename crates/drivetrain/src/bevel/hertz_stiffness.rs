@@ -23,10 +23,15 @@ const LEAST: f64 = 1e-5;
 /// Steps of the differences: of a place, flanks being 1 long, and of an angle \[rad\].
 const STEP: f64 = 1e-3;
 
+/// Least and largest curvature of an ellipse that has an end \[1/m\].
+pub(crate) fn bounded(relative: &RelativeCurvature) -> [f64; 2] {
+    let [least, largest] = relative.principal_per_m;
+    [least.max(LEAST * largest), largest]
+}
+
 /// k = K/E* of two curvatures \[m^½\].
 pub(crate) fn stiffness_per_pa(relative: &RelativeCurvature) -> f64 {
-    let [least, largest] = relative.principal_per_m;
-    let least = least.max(LEAST * largest);
+    let [least, largest] = bounded(relative);
     PointContact::new(least + largest, largest - least, 1.0).stiffness_n_per_m15
 }
 

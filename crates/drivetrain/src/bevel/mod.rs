@@ -14,6 +14,7 @@
 //! | where a section across the tooth is nearest | `section_points.rs` |
 //! | the pair at rest under a torque | `loaded_contact.rs` |
 //! | length and radius of the line of contact | `line_geometry.rs` |
+//! | place and ellipse of a contact, for channels | `touch.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
@@ -30,6 +31,7 @@ mod section_points;
 mod sliced_mesh;
 mod sliced_side;
 mod tooth_side;
+mod touch;
 
 pub use bevel_mesh::BevelMesh;
 pub use loaded_contact::{LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};

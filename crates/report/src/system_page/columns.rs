@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use gearmesh_scene::system_run::{MeshPassing, SystemResult, rank, stem};
+use gearmesh_scene::system_run::{MeshPassing, SystemResult, is_of_pair, rank, stem};
 
 use crate::page::{Axis, Section, Text};
 use crate::short_number::usual_unit;
@@ -91,7 +91,8 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
             ),
             _ => continue,
         };
-        if !varies(place) {
+        // Pairs of teeth have pictures of their own.
+        if !varies(place) || (*kind == "elements" && is_of_pair(last)) {
             continue;
         }
         let key = (rank(&column.name), title.clone());

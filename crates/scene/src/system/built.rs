@@ -75,6 +75,9 @@ pub struct BuiltMesh {
     /// Frequency of the mesh at the start \[Hz\]: teeth of gear 1 times its speed about its axis against the line of
     /// centres.
     pub frequency_hz: f64,
+    /// Of bevel pairs the corners of a flank of gear 1, then gear 2 \[m\]: cone distance and height above the pitch cone of lower line and tip at the toe, tip
+    /// and lower line at the heel; empty for others.
+    pub flank_corners_m: Vec<f64>,
 }
 
 /// A gauge on a reduced gear. Each of its meshes has it as two channels: `strain_gear1_NAME_method1_ustrain` and

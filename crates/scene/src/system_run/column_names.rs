@@ -51,6 +51,7 @@ pub fn rank(name: &str) -> u8 {
             "loaded_pairs" | "apart" => 1,
             mesh if mesh.starts_with("normal_force_") || mesh.ends_with("_force_1_N") => 1,
             "force_radial_N" | "force_shaft_z_N" => 2,
+            pair if is_of_pair(pair) => 9,
             strain if strain.starts_with("strain_") => 3,
             slice if slice.starts_with("line_load_slice_") => 4,
             _ if owners.first().is_some_and(|owner| is_beam(owner)) => 8,
@@ -73,9 +74,19 @@ fn is_beam(owner: &str) -> bool {
         .is_some_and(|(a, b)| number(a) && number(b))
 }
 
-/// Columns that a reader asks for first: channels of force elements, and speeds about the bodies' own axes.
+/// Whether a channel tells of one of the pairs of teeth that carry, whose number changes from row to row: `pair_2_force_N`.
+pub fn is_of_pair(channel: &str) -> bool {
+    let number = channel
+        .strip_prefix("pair_")
+        .and_then(|rest| rest.split_once('_'));
+    number.is_some_and(|(number, _)| number.parse::<usize>().is_ok())
+}
+
+/// Columns that a reader asks for first: channels of force elements but those of single pairs of teeth, and speeds about the bodies' own axes.
 pub fn is_prominent(name: &str) -> bool {
-    name.starts_with("elements/") || name.ends_with("/angular_velocity_z_rad_per_s")
+    let of_element =
+        name.starts_with("elements/") && !name.rsplit('/').next().is_some_and(is_of_pair);
+    of_element || name.ends_with("/angular_velocity_z_rad_per_s")
 }
 
 /// Which columns are other than zero by more than rounding, measured by the largest value that has their unit. A column

@@ -235,6 +235,7 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
         name: mesh.name.clone(),
         bodies: mesh.gears.clone(),
         teeth: mesh.teeth,
+        flank_corners_m: mesh.flank_corners_m.clone(),
     });
     RunHead {
         title: scene.title.clone(),

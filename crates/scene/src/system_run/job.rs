@@ -113,7 +113,7 @@ impl RunKind {
 }
 
 /// A gear mesh, for the frequencies that a reader looks for.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshRecord {
     /// Force element.
     pub name: String,
@@ -121,10 +121,12 @@ pub struct MeshRecord {
     pub bodies: [String; 2],
     /// Teeth of gear 1 and 2.
     pub teeth: [usize; 2],
+    /// As in [`crate::system::BuiltMesh`]; empty in files of older programs.
+    pub flank_corners_m: Vec<f64>,
 }
 
 /// Where a result comes from; kept in it.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunHead {
     /// Title of the scene.
     pub title: String,

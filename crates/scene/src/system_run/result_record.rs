@@ -89,6 +89,22 @@ impl Record for MeshRecord {
         for (teeth, name) in self.teeth.iter_mut().zip(["teeth_1", "teeth_2"]) {
             f.count(name, teeth, "teeth of the gear")?;
         }
+        let is_there = if f.is_reading() {
+            f.has("flank_corners_m")
+        } else {
+            f.is_listing() || !self.flank_corners_m.is_empty()
+        };
+        if is_there {
+            let axes = [("gear", 2), ("corner", 4), ("place", 2)];
+            let what = "of bevel pairs: cone distance and height above the pitch cone of lower line and tip at the toe, tip and lower line at the heel";
+            f.numbers(
+                "flank_corners_m",
+                &mut self.flank_corners_m,
+                &axes,
+                "m",
+                what,
+            )?;
+        }
         Ok(())
     }
 }

@@ -3,6 +3,8 @@
 
 mod bearing_kinds;
 mod bearings_of_seeds;
+mod bevel_hard_cases;
+mod bevel_machines;
 mod bevel_pairs;
 #[path = "../common/mod.rs"]
 mod common;

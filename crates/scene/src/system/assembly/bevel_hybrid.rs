@@ -6,7 +6,7 @@ use gearmesh_drivetrain::{BevelSlices, Damped, GearMesh, ReducedTeeth, TeethMode
 use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 
-use super::bevel_mesh::SceneBevel;
+use super::bevel_mesh::{SceneBevel, material};
 use super::mesh_model::REFERENCE_LINE_LOAD_N_PER_M;
 use crate::system::tables::mesh_model::{HertzTable, HybridTable};
 
@@ -71,7 +71,7 @@ impl SceneBevel<'_> {
                     made.map_err(|e| self.keys.error("bevel_models", e))?
                 }
                 (_, stated) => {
-                    let material = self.material(stated.as_ref())?;
+                    let material = material(stated.as_ref(), &self.model_keys, "half_space")?;
                     let contact = kinematics.surface_contact([material; 2]);
                     ReducedTeeth::of_flanks(contact, nominal).map_err(fault)?
                 }
@@ -118,29 +118,5 @@ impl SceneBevel<'_> {
             }
             _ => Ok(()),
         }
-    }
-
-    /// Young's modulus \[Pa\] and Poisson's ratio of a table, steel where it says nothing.
-    pub(super) fn material(&self, table: Option<&HertzTable>) -> Result<(f64, f64), InputError> {
-        let keys = &self.model_keys;
-        let name = match table {
-            Some(_)
-                if matches!(
-                    self.table.model,
-                    crate::system::tables::mesh_model::MeshModel::Hybrid(_)
-                ) =>
-            {
-                "half_space"
-            }
-            _ => "hertz",
-        };
-        let young = table.and_then(|table| table.young_GPa).unwrap_or(206.0);
-        let poisson = table.and_then(|table| table.poisson).unwrap_or(0.3);
-        let positive = young > 0.0 && young.is_finite();
-        keys.require(&format!("{name}.young_GPa"), young, positive, "more than 0")?;
-        let ok = (0.0..0.5).contains(&poisson);
-        let allowed = "0 up to, not including, 0.5";
-        keys.require(&format!("{name}.poisson"), poisson, ok, allowed)?;
-        Ok((young * 1e9, poisson))
     }
 }

@@ -15,7 +15,7 @@ use super::gear_mesh::{PreparedMesh, pose, seat};
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
 use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
-use crate::system::tables::mesh_model::{ImpactTable, MeshModel};
+use crate::system::tables::mesh_model::{HertzTable, ImpactTable, MeshModel};
 use crate::system::tables::{MM, UM};
 
 /// A table with all that its flanks are made from.
@@ -64,7 +64,7 @@ impl SceneBevel<'_> {
         let sides = self.teeth.flanks.flanks().to_vec();
         let models = self.models()?;
         let fault = |e| self.keys.error("bevel_pair", e);
-        let (base_radii_m, slice_width_m, mesh) = match &self.table.model {
+        let (base_radii_m, slice_width_m, corners, mesh) = match &self.table.model {
             MeshModel::Hybrid(model) => {
                 let slices = self.slices(model, models.as_ref())?;
                 let mut flanks =
@@ -74,19 +74,24 @@ impl SceneBevel<'_> {
                     })?;
                 let located = flanks.locate(&at_start);
                 located.map_err(|e| self.keys.error("gear_2", e))?;
-                let sizes = (flanks.pair().levers_m(), flanks.layout().width_m());
+                let (levers_m, width_m) = (flanks.pair().levers_m(), flanks.layout().width_m());
+                let corners = flanks.pair().flank_corners_m();
                 let mesh = self.hybrid(flanks, (model, models.as_ref()), &sides)?;
-                (sizes.0, sizes.1, mesh)
+                (levers_m, width_m, corners, mesh)
             }
             MeshModel::Impact(model) => {
                 let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
                 let located = flanks.locate(&at_start);
                 located.map_err(|e| self.keys.error("gear_2", e))?;
-                let sizes = (flanks.levers_m(), flanks.layout().width_m());
-                (sizes.0, sizes.1, self.mesh(flanks, model, &sides)?)
+                let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
+                let corners = flanks.flank_corners_m();
+                (levers_m, width_m, corners, self.mesh(flanks, model, &sides)?)
             }
             _ => return Err(self.other_model()),
         };
+        let flank_corners_m = corners.into_iter().flatten().flatten().collect();
+        let modulus = |table| contact_modulus(table, &self.keys, "tooth_pairs");
+        let tooth_pairs = self.table.tooth_pairs.as_ref().map(modulus).transpose()?;
         self.effects(&file, parts);
         Ok(PreparedMesh {
             name: self.table.name.clone(),
@@ -100,6 +105,8 @@ impl SceneBevel<'_> {
             sides,
             slice_width_m,
             models,
+            tooth_pairs,
+            flank_corners_m,
         })
     }
 
@@ -130,7 +137,13 @@ impl SceneBevel<'_> {
                     return Err(self.keys.error("bevel_models", problem));
                 }
             }
-            MeshModel::Hybrid(model) => self.check_hybrid(model)?,
+            MeshModel::Hybrid(model) => {
+                if self.table.tooth_pairs.is_some() {
+                    let problem = "belongs to kind = \"impact\", one contact for each pair of teeth; the slices of \"hybrid\" have forces and pressures of their own, remove it";
+                    return Err(self.keys.error("tooth_pairs", problem));
+                }
+                self.check_hybrid(model)?;
+            }
             _ => return Err(self.other_model()),
         }
         if self.table.microgeometry.is_some() {
@@ -228,8 +241,7 @@ impl SceneBevel<'_> {
                 return Err(keys.error(key, problem));
             }
         }
-        let material = self.material(Some(table))?;
-        Ok(Some(contact_modulus_pa(material, material)))
+        contact_modulus(table, keys, "hertz").map(Some)
     }
 
     /// What is computed, in words for the plan.
@@ -273,4 +285,26 @@ impl SceneBevel<'_> {
             file.blank.mean_cone_m / MM
         ));
     }
+}
+
+/// E* of both gears of a material \[Pa\], of the table at a key.
+fn contact_modulus(table: &HertzTable, keys: &TableKeys<'_>, key: &str) -> Result<f64, InputError> {
+    let both = material(Some(table), keys, key)?;
+    Ok(contact_modulus_pa(both, both))
+}
+
+/// Young's modulus \[Pa\] and Poisson's ratio of the table at a key, steel where it says nothing.
+pub(super) fn material(
+    table: Option<&HertzTable>,
+    keys: &TableKeys<'_>,
+    key: &str,
+) -> Result<(f64, f64), InputError> {
+    let young = table.and_then(|table| table.young_GPa).unwrap_or(206.0);
+    let poisson = table.and_then(|table| table.poisson).unwrap_or(0.3);
+    let positive = young > 0.0 && young.is_finite();
+    keys.require(&format!("{key}.young_GPa"), young, positive, "more than 0")?;
+    let ok = (0.0..0.5).contains(&poisson);
+    let allowed = "0 up to, not including, 0.5";
+    keys.require(&format!("{key}.poisson"), poisson, ok, allowed)?;
+    Ok((young * 1e9, poisson))
 }

@@ -69,6 +69,7 @@ pub(super) fn add(
         builder,
         parts,
     };
+    let mut notes = Vec::new();
     for (i, table) in tables.spring.iter().enumerate() {
         let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
         connections.add(("spring", i), "spring", named, |keys, ends| {
@@ -76,10 +77,11 @@ pub(super) fn add(
                 keys,
                 &[("stiffness_N_per_mm", table.stiffness_N_per_mm, PER_MM)],
             )?;
-            let (spring, pair) = spring(table, keys, bodies, ends)?;
+            let (spring, pair) = spring(table, keys, bodies, ends, &mut notes)?;
             Ok(spring.between(&table.name, pair))
         })?;
     }
+    connections.parts.notes.append(&mut notes);
     for (i, table) in tables.torsion_spring.iter().enumerate() {
         let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
         connections.add(
@@ -224,6 +226,7 @@ fn spring(
     keys: &TableKeys<'_>,
     bodies: &Bodies,
     ends: [Option<usize>; 2],
+    notes: &mut Vec<String>,
 ) -> Result<(SpringDamper, MarkerPair), InputError> {
     let first = vector(keys, "at_1_mm", table.at_1_mm, MM)?;
     let second = match table.at_2_mm {
@@ -241,6 +244,13 @@ fn spring(
             .free_length_mm
             .map_or((second - first).norm(), |length| MM * length),
     };
+    if (second - first).norm() == 0.0 && spring.stiffness_n_per_m > 0.0 {
+        let name = &table.name;
+        notes.push(format!(
+            "spring `{name}`: its ends stand in one place at the start, where a force along their line has no direction; it pulls only once they have come \
+             apart. A [[bushing]] holds two places together in every direction"
+        ));
+    }
     let pair = MarkerPair {
         a: marker(ends[0], first),
         b: marker(ends[1], second),

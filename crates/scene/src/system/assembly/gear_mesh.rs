@@ -40,6 +40,10 @@ pub(super) struct PreparedMesh {
     pub slice_width_m: f64,
     /// Reduced bevel gears, which the mesh names itself.
     pub models: Option<BevelModels>,
+    /// E* \[Pa\] where pairs of teeth have columns.
+    pub tooth_pairs: Option<f64>,
+    /// As in [`crate::system::BuiltMesh`].
+    pub flank_corners_m: Vec<f64>,
 }
 
 impl PreparedMesh {
@@ -82,6 +86,10 @@ impl PreparedMesh {
             };
             return scene.prepare((&key, numbers), bodies, parts);
         }
+        if table.tooth_pairs.is_some() {
+            let problem = "tells the pairs of teeth of a `bevel_pair`, which this mesh is not; remove it (the load along cylindrical teeth is in the columns line_load_slice_…)";
+            return Err(keys.error("tooth_pairs", problem));
+        }
         let gear = |i: usize| {
             let placed = &bodies.list[numbers[i]];
             placed.gear.as_ref().ok_or_else(|| {
@@ -113,6 +121,8 @@ impl PreparedMesh {
             sides: teeth.flanks.flanks().to_vec(),
             slice_width_m: 0.0,
             models: None,
+            tooth_pairs: None,
+            flank_corners_m: Vec::new(),
             key: key.clone(),
         };
         let mut scene = SceneMesh {
@@ -170,6 +180,9 @@ impl PreparedMesh {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
                 let mut element =
                     MeshElement::new(&self.name, markers, mesh).with_line_loads(self.slice_width_m);
+                if let Some(contact_modulus_pa) = self.tooth_pairs {
+                    element = element.with_tooth_pairs(contact_modulus_pa);
+                }
                 for gear in [1, 2] {
                     let on_gear = |gauge: &&BuiltGauge| {
                         gauge

@@ -441,5 +441,6 @@ fn describe(mesh: &PreparedMesh, bodies: &Bodies) -> BuiltMesh {
         base_radii_m: mesh.base_radii_m,
         model: mesh.model.name(),
         frequency_hz: mesh_frequency::frequency_hz(mesh, bodies),
+        flank_corners_m: mesh.flank_corners_m.clone(),
     }
 }

@@ -11,6 +11,8 @@ use crate::system::tables::UM;
 
 /// Touching is met to this gap \[m\]: far below any deflection, well above rounding.
 const TOUCHING_M: f64 = 1e-13;
+/// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have some rounding.
+const JAMMED_M: f64 = UM;
 
 /// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and
 /// where teeth stand whose angles are stated.
@@ -65,6 +67,18 @@ pub(super) fn settle_phases(
                     angle[1].to_degrees(),
                     angle[2].to_degrees()
                 ));
+                for other in mesh.sides.iter().filter(|other| **other != side) {
+                    let least = gap(bodies, *other)?;
+                    if least < -JAMMED_M {
+                        notes.push(format!(
+                            "the teeth of mesh `{name}` jam: while the {} flanks touch, the {} ones stand in each other by {:.1} um; give the pair backlash, or \
+                             mount the gears farther apart",
+                            side.name(),
+                            other.name(),
+                            -least / UM
+                        ));
+                    }
+                }
             } else {
                 return Err(keys.error("", format!("no angle of body `{}` was found at which the {} flanks touch (gap {least:.3e} m); state cardan_deg of both gears", bodies.list[mesh.bodies[i]].body.name, side.name())));
             }

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::flank_errors::FlankErrorTable;
 use super::friction::FrictionTable;
-use super::mesh_model::MeshModel;
+use super::mesh_model::{HertzTable, MeshModel};
 
 /// `[[gear_mesh]]` as it stands in the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -30,6 +30,9 @@ pub struct GearMeshTable {
     pub model: MeshModel,
     /// What touches and how. Not with kind `kinematic`.
     pub teeth: Option<TeethTable>,
+    /// Columns of each pair of teeth that carries: tooth, force, place on both flanks, largest pressure and contact ellipse after Hertz with this
+    /// material, `{}` for steel. With `bevel_pair` only; none where not given.
+    pub tooth_pairs: Option<HertzTable>,
     /// Whether the microgeometry of the gears acts, as it does where nothing is said. `kinematic` and `iso6336` know no
     /// flanks: with them it must be set to false for gears that have microgeometry, but for `iso6336` with `stiffness`,
     /// whose curve holds it.

@@ -129,7 +129,7 @@ pub struct ImpactTable {
     pub slices: Option<usize>,
 }
 
-/// `gear_mesh.model.hertz` and `half_space`: material of both gears.
+/// `gear_mesh.model.hertz`, `half_space` and `gear_mesh.tooth_pairs`: material of both gears.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]

@@ -1,0 +1,290 @@
+//! Bevel teeth in motion where it is hard: edges, few teeth, light loads, lift-off, reversal, wrong mounting. Every run is made with two steps.
+
+use std::f64::consts::{PI, TAU};
+
+use gearmesh_scene::system_run::{RunJob, SystemResult};
+
+use crate::common::*;
+use crate::system_runs::Desk;
+
+const SPEED: &str =
+    "speed_rpm = { step = { start_s = 0.0, from = 0.0, end_s = 0.03, to = 3000.0 } }";
+const TORQUE: &str =
+    "torque_Nm = { step = { start_s = 0.0, from = 0.0, end_s = 0.01, to = 100.0 } }";
+const PINION: &str = "position_mm = [0.0, 0.0, 0.0]\ncardan_deg = [0.0, 0.0, 0.0]";
+const GEAR: &str = "position_mm = [0.0, 0.0, 0.0]\ncardan_deg = [0.0, 90.0]";
+const STEPS_S: [&str; 2] = ["1e-5", "5e-6"];
+
+/// Seed 001's pair with backlash.
+fn pair() -> String {
+    let text = text("bevel_20_20.toml");
+    changed(
+        &text,
+        "thickness_shift = 0.007",
+        "thickness_shift = 0.007\nbacklash_mm = 0.15",
+    )
+}
+
+/// Seed 001's scene at this speed, under this torque, for so long.
+fn scene(speed: &str, torque: &str, end_s: f64) -> String {
+    let scene = text("dynamics_bevel_20_20.toml").replace("speed_rpm = 0.0\n", "");
+    let scene = changed(&scene, SPEED, &format!("speed_rpm = {speed}"));
+    let scene = changed(&scene, TORQUE, &format!("torque_Nm = {torque}"));
+    changed(&scene, "end_s = 0.08", &format!("end_s = {end_s:?}"))
+}
+
+fn at_3000_rpm(torque: f64) -> String {
+    let torque =
+        format!("{{ step = {{ start_s = 0.0, from = 0.0, end_s = 0.003, to = {torque:?} }} }}");
+    scene("3000.0", &torque, 0.012)
+}
+
+/// What a run shows.
+struct Shown {
+    result: SystemResult,
+    /// Rows of the second half.
+    half: std::ops::Range<usize>,
+}
+
+impl Shown {
+    fn read(&self, name: &str) -> Vec<f64> {
+        self.result.rows.read(name).unwrap()
+    }
+
+    fn mesh(&self, name: &str) -> Vec<f64> {
+        self.read(&format!("elements/mesh/{name}"))
+    }
+
+    /// Of both sides together.
+    fn force(&self) -> Vec<f64> {
+        let [right, left] = ["normal_force_right_N", "normal_force_left_N"].map(|n| self.mesh(n));
+        right
+            .iter()
+            .zip(left)
+            .map(|(right, left)| right + left)
+            .collect()
+    }
+
+    fn mean_force(&self) -> f64 {
+        let force = &self.force()[self.half.clone()];
+        force.iter().sum::<f64>() / force.len() as f64
+    }
+
+    fn turn(&self, body: &str) -> f64 {
+        let turn = self.read(&format!("bodies/{body}/turn_rad"));
+        turn[turn.len() - 1] - turn[0]
+    }
+
+    /// Values of all pairs that carry, in the second half.
+    fn of_pairs(&self, what: &str) -> Vec<f64> {
+        let mut found = Vec::new();
+        for pair in 1..=4 {
+            let forces = self.mesh(&format!("pair_{pair}_force_N"));
+            let values = self.mesh(&format!("pair_{pair}_{what}"));
+            found.extend(
+                self.half
+                    .clone()
+                    .filter(|row| forces[*row] > 0.0)
+                    .map(|row| values[row]),
+            );
+        }
+        found
+    }
+}
+
+/// Runs a scene with both steps: energies balance, all is finite, and mean force and turn do not depend on the step.
+fn run(pair: &str, scene: &str, most_change: f64) -> Shown {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bevel_20_20.toml"), pair).unwrap();
+    let mut runs = STEPS_S.iter().map(|step| {
+        let scene = changed(scene, "step_s = 1e-5", &format!("step_s = {step}"));
+        let loaded = load(&scene, folder.path()).unwrap();
+        let result = Desk::new().run(RunJob::from_scene(loaded).unwrap());
+        let error = result.relative_energy_error().unwrap();
+        assert!(error < 1e-4, "{step}: energy error {error:e}");
+        for column in result.rows.columns() {
+            let values = result.rows.read(&column.name).unwrap();
+            assert!(
+                values.iter().all(|v| v.is_finite()),
+                "{step}: {}",
+                column.name
+            );
+        }
+        let rows = result.rows.read("time_s").unwrap().len();
+        Shown {
+            result,
+            half: rows / 2..rows,
+        }
+    });
+    let (rough, fine) = (runs.next().unwrap(), runs.next().unwrap());
+    let [a, b] = [&rough, &fine].map(Shown::mean_force);
+    assert!((a - b).abs() <= most_change * b, "{a} and {b} N");
+    let [a, b] = [&rough, &fine].map(|run| run.turn("gear"));
+    assert!((a - b).abs() < 1e-4, "{a} and {b} rad");
+    fine
+}
+
+fn notes(pair: &str, scene: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bevel_20_20.toml"), pair).unwrap();
+    build_in(scene, folder.path()).unwrap().notes.join("\n")
+}
+
+/// Offsets of half a millimetre push the contact to the toe or to the heel, whose edges then carry.
+#[test]
+fn edges_carry_at_toe_and_heel() {
+    for (offset, end) in [(0.5, 0.0), (-0.5, 1.0)] {
+        let moved = format!("position_mm = [0.0, {offset:?}, 0.0]\ncardan_deg = [0.0, 0.0, 0.0]");
+        let shown = run(&pair(), &changed(&at_3000_rpm(100.0), PINION, &moved), 5e-3);
+        for gear in [1, 2] {
+            let along = shown.of_pairs(&format!("along_{gear}"));
+            assert!(
+                along.iter().any(|s| (s - end).abs() < 1e-9),
+                "{offset}: gear {gear}"
+            );
+            assert!(along.iter().all(|s| (-1e-9..=1.0 + 1e-9).contains(s)));
+        }
+    }
+}
+
+/// Under a newton metre one pair carries at a time, and the next tooth takes over from it.
+#[test]
+fn contact_jumps_from_pair_to_pair_under_a_light_load() {
+    let shown = run(&pair(), &at_3000_rpm(1.0), 5e-3);
+    let (teeth, pairs) = (shown.mesh("pair_1_tooth_1"), shown.mesh("loaded_pairs"));
+    let rows = shown.half.clone();
+    assert!(rows.clone().all(|row| (1.0..=2.0).contains(&pairs[row])));
+    assert!(rows.clone().any(|row| pairs[row] == 1.0));
+    // Pair 1 is the one nearest to the pinion's tip: when it leaves, the tooth behind it is the first.
+    let leading: Vec<f64> = rows.map(|row| teeth[row]).collect();
+    let steps = leading
+        .windows(2)
+        .map(|two| (two[1] - two[0]).rem_euclid(20.0));
+    let steps: Vec<f64> = steps.filter(|step| *step != 0.0).collect();
+    assert!(
+        steps.len() >= 4 && steps.iter().all(|step| *step == steps[0]),
+        "{steps:?}"
+    );
+    assert!(steps[0] == 1.0 || steps[0] == 19.0);
+    let torque = 1.0;
+    let mean = shown.mean_force();
+    assert!(
+        mean > torque / 0.0297 && mean < 1.5 * torque / 0.0297,
+        "{mean}"
+    );
+}
+
+/// The shaft angle 24 mrad off, the gear 0.8 mm too far out: contact at the edges of the path, and no more. The other way the teeth jam, which is told.
+#[test]
+fn wrong_angle_and_wrong_cone_distance() {
+    let at = |position: f64, angle: f64| {
+        let moved =
+            format!("position_mm = [{position:?}, 0.0, 0.0]\ncardan_deg = [0.0, {angle:?}]");
+        changed(&at_3000_rpm(100.0), GEAR, &moved)
+    };
+    for moved in [at(0.0, 91.4), at(0.8, 90.0)] {
+        let shown = run(&pair(), &moved, 5e-3);
+        assert!((shown.turn("gear") + shown.turn("pinion")).abs() < 3e-3);
+        assert!(shown.mesh("apart").iter().all(|apart| *apart == 0.0));
+        assert!(!notes(&pair(), &moved).contains("jam"));
+    }
+    for moved in [at(0.0, 88.6), at(-0.8, 90.0)] {
+        let told = notes(&pair(), &moved);
+        assert!(told.contains("the teeth of mesh `mesh` jam"), "{told}");
+    }
+}
+
+/// A drive that shakes at 400 Hz tears the teeth apart and drives them against both sides; a ramp without load does it once.
+#[test]
+fn teeth_lift_off_and_come_back() {
+    let shaking = "{ sum = [1500.0, { sine = { amplitude = 300.0, frequency_Hz = 400.0 } }] }";
+    let light = "{ step = { start_s = 0.0, from = 0.0, end_s = 0.003, to = 3.0 } }";
+    let shown = run(&pair(), &scene(shaking, light, 0.012), 0.03);
+    let force = shown.force();
+    assert!(shown.half.clone().filter(|row| force[*row] == 0.0).count() > shown.half.len() / 4);
+    for side in ["right", "left"] {
+        let force = shown.mesh(&format!("normal_force_{side}_N"));
+        assert!(force.iter().any(|force| *force > 500.0), "{side}");
+    }
+    let ramp = "{ step = { start_s = 0.001, from = 0.0, end_s = 0.011, to = 3000.0 } }";
+    let shown = run(&pair(), &scene(ramp, "1.0", 0.02), 5e-3);
+    assert!(shown.force().contains(&0.0));
+    // At rest the gear stood at the coast flanks: it has crossed the backlash, 0.15 mm over a lever of 23 mm.
+    let behind = shown.turn("gear") + shown.turn("pinion");
+    assert!((behind - 6.5e-3).abs() < 0.6e-3, "{behind}");
+}
+
+/// The turn goes back under one torque, and the torque changes its sign under one speed: the other flanks then carry.
+#[test]
+fn turn_and_torque_reverse() {
+    let back = "{ step = { start_s = 0.003, from = 1500.0, end_s = 0.011, to = -1500.0 } }";
+    let shown = run(&pair(), &scene(back, "20.0", 0.014), 5e-3);
+    assert!(shown.turn("pinion").abs() < 1e-6 && shown.turn("gear").abs() < 2e-3);
+    assert_eq!(
+        shown
+            .mesh("normal_force_right_N")
+            .iter()
+            .fold(0.0, |a: f64, b| a.max(*b)),
+        0.0
+    );
+    let changing = "{ step = { start_s = 0.003, from = 50.0, end_s = 0.011, to = -50.0 } }";
+    let shown = run(&pair(), &scene("3000.0", changing, 0.014), 0.02);
+    let last = shown.force().len() - 1;
+    for (side, first, end) in [("left", true, false), ("right", false, true)] {
+        let force = shown.mesh(&format!("normal_force_{side}_N"));
+        let carried = force[20..100].iter().any(|force| *force > 0.0);
+        assert_eq!((carried, force[last] > 0.0), (first, end), "{side}");
+    }
+}
+
+#[test]
+fn axes_at_60_degrees() {
+    let pair = changed(
+        &pair(),
+        "teeth = [20, 20]",
+        "teeth = [20, 20]\nshaft_angle_deg = 60.0",
+    );
+    let scene = changed(
+        &at_3000_rpm(100.0),
+        "cardan_deg = [0.0, 90.0]",
+        "cardan_deg = [0.0, 60.0]",
+    );
+    let shown = run(&pair, &scene, 5e-3);
+    // F_t at the mean radius, and the normal force by pressure and spiral angle.
+    let radius_m = 1e-3 * (70.0 - 7.5) * (PI / 6.0).sin();
+    let expected = 100.0 / radius_m / (20.0_f64.to_radians().cos() * 35.0_f64.to_radians().cos());
+    let mean = shown.mean_force();
+    assert!(
+        (mean - expected).abs() < 0.05 * expected,
+        "{mean}, {expected}"
+    );
+}
+
+/// Eight teeth drive 48: undercut at 20 degrees and refused with what helps; at 25 degrees they run.
+#[test]
+fn eight_teeth_drive_48() {
+    let few = |pressure_deg: f64| {
+        format!(
+            "title = \"8/48\"\n[bevel]\nteeth = [8, 48]\nouter_module_mm = 3.5\nface_width_mm = [18.0, 18.0]\nspiral_angle_deg = 35.0\npressure_angle_deg = {pressure_deg:?}\n\
+             pinion_hand = \"right\"\ncutter_radius_mm = 88.9\nbacklash_mm = 0.1\n[gear]\nsettings = \"basic\"\nedge_radius_mm = 0.2\n[pinion]\nsettings = \"local-synthesis\"\n\
+             edge_radius_mm = 0.2\npath_angle_deg = [100.0, 80.0]\nellipse_half_length_mm = [5.0, 5.0]\ntransmission_curvature = [-0.001, -0.001]\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bevel_20_20.toml"), few(20.0)).unwrap();
+    let scene = at_3000_rpm(100.0);
+    let refused = build_in(&scene, folder.path()).err().unwrap().to_string();
+    for part in ["undercut", "take more teeth, a larger pressure angle"] {
+        assert!(refused.contains(part), "{refused}");
+    }
+    let shown = run(&few(25.0), &scene, 5e-3);
+    let behind = shown.turn("gear") + shown.turn("pinion") / 6.0;
+    assert!(behind.abs() < 2e-3, "{behind}");
+    assert!((shown.turn("pinion") - 0.012 * 50.0 * TAU).abs() < 1e-6);
+    assert!(
+        shown
+            .of_pairs("tooth_1")
+            .iter()
+            .all(|tooth| (0.0..8.0).contains(tooth))
+    );
+}
