@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from .optional import demanded
 from .progress import Bar, Progress
 from .reduced import interpreter
 from .scene import Scene, with_whole_paths
@@ -35,9 +36,7 @@ class StudyResult:
 
     def to_pandas(self) -> pandas.DataFrame:
         """study.csv as a data frame. Needs pandas."""
-        import pandas
-
-        return pandas.read_csv(self.folder / "study.csv")
+        return demanded("pandas", "tables").read_csv(self.folder / "study.csv")
 
     def __repr__(self) -> str:
         failed = sum(case.get("failure") is not None for case in self.cases)
