@@ -98,9 +98,11 @@ def study(
         failures = run_cases(it.path, folder, client, patience_s=patience_s, progress=progress)
         found = json.loads(_native.gather_study(it.path, Path(folder), failures))
     result = StudyResult(found["title"], found["cases"], Path(folder))
-    failed = sum(case["failure"] is not None for case in result.cases)
-    if failed:
-        raise _native.WorkError(f"{failed} of {len(result.cases)} cases failed; {Path(folder) / 'study.csv'} says why")
+    failures = [case["failure"] for case in result.cases if case["failure"] is not None]
+    if failures:
+        raise _native.WorkError(
+            f"{len(failures)} of {len(result.cases)} cases failed; {Path(folder) / 'study.csv'} says why. The first: {failures[0]}"
+        )
     return result
 
 
