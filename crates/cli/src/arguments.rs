@@ -2,14 +2,18 @@
 
 mod bearing;
 mod bevel;
+mod export;
 mod machine;
 mod offline;
+mod record;
 mod signal;
 
 pub use bearing::{BearingArguments, BearingFrequenciesArguments, ControlWord};
 pub use bevel::{BevelArguments, TcaArguments};
+pub use export::ExportArguments;
 pub use machine::{CompletionsArguments, DoctorArguments, InitArguments, InitKind, ManArguments};
 pub use offline::{ComplianceArguments, MeshArguments, ModesArguments, ReduceArguments};
+pub use record::RecordArguments;
 pub use signal::{
     AbscissaArguments, BearingLineArguments, SeriesArguments, SignalAnalysis, SignalArguments,
     WindowKind,
@@ -48,8 +52,10 @@ pub enum Command {
     Compare(CompareArguments),
     /// Write a report page
     Report(ReportArguments),
-    /// Export a result as a table: CSV, Parquet or MATLAB
+    /// Export a result as a table (CSV, Parquet, MATLAB, universal file) or as moving gears (ParaView), a gear as STEP
     Export(ExportArguments),
+    /// Make a reference record of measured curves: CSV with units, or a universal file
+    Record(RecordArguments),
     /// Analyse a column of a multibody result: spectra, orders, sidebands, envelope, averages
     Signal(SignalArguments),
     /// Check a gear file, bearing file, scene, study, S-N table, record, model or result
@@ -198,21 +204,7 @@ pub struct ReportArguments {
     /// Folder of a reference record for each result, in the same order
     #[arg(long)]
     pub reference: Vec<PathBuf>,
-}
-
-/// `gearmesh export`.
-#[derive(Debug, Args)]
-pub struct ExportArguments {
-    /// Result file, or folder of a study
-    pub result: PathBuf,
-    /// Table: .csv, .parquet or .mat (MATLAB, Octave, SciPy)
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Table of the result [default: the first; in a .mat file all]. Pairs: curves, contact, torques; multibody: rows,
-    /// windows, modes and shapes; of both: ratings
-    #[arg(long)]
-    pub table: Option<String>,
-    /// Print which tables were written, their rows and columns, as JSON
+    /// Print what was written as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -230,21 +222,37 @@ pub struct CheckArguments {
 /// `gearmesh accuracy`.
 #[derive(Debug, Args)]
 pub struct AccuracyArguments {
-    /// Scene: a gear pair, or a multibody run that is transient or static
+    /// Scene of a gear pair, multibody scene, or bevel pair
     pub scene: PathBuf,
-    /// What is to be exact: columns of a study of the pair, or COLUMN:FIGURE of a multibody result, with mean,
-    /// deviation, peak-to-peak, largest or least
+    /// What is to be exact: columns of a study of the scene, of series COLUMN:FIGURE, with mean, deviation, rms,
+    /// peak-to-peak, largest, least; of runs in time line-250Hz; of sweeps resonance-rpm
     #[arg(long, required = true, value_delimiter = ',')]
     pub columns: Vec<String>,
-    /// Multibody runs: figures from this time on
+    /// Runs in time: figures from this time on
     #[arg(long, default_value = "0")]
     pub from_s: f64,
+    /// Vary elements and element lengths of the reduced gears, too, which reduces each several times; keep the models
+    /// in this folder
+    #[arg(long)]
+    pub elements: Option<PathBuf>,
+    /// Judge settings by this time; processor time where other work shares the machine
+    #[arg(long, default_value = "wall")]
+    pub time: TimeWord,
     /// Page with the picture of error against time
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A time that settings are judged by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TimeWord {
+    /// Wall time
+    Wall,
+    /// Processor time
+    Processor,
 }
 
 /// `gearmesh optimise`.
@@ -265,7 +273,7 @@ pub struct OptimiseArguments {
 pub struct StudyArguments {
     /// Study file
     pub study: PathBuf,
-    /// Folder for the results and study.csv; what is there already is not run again
+    /// Folder for the results, study.csv and the page study.html; what is there already is not run again
     #[arg(short, long)]
     pub output: PathBuf,
     /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local" for
@@ -288,6 +296,9 @@ pub struct ImportArguments {
     /// Folder for the files that are made; files of the same names are replaced
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Scenes of reduced gears (`hybrid` meshes) in place of the springs of ISO 6336: reduce the gear files first
+    #[arg(long)]
+    pub reduced: bool,
     /// Print what was taken, assumed and not represented as JSON
     #[arg(long)]
     pub json: bool,
@@ -318,6 +329,8 @@ pub enum SchemaKind {
     Bearing,
     /// Bevel pairs
     Bevel,
+    /// Members of bevel pairs as bodies
+    BevelGear,
     /// Reduced gear bodies: data sets of the HDF5 file
     Model,
     /// Results of gear pairs: data sets of the HDF5 file

@@ -13,6 +13,7 @@ mod offline;
 mod output_name;
 mod overwriting;
 mod page_file;
+mod uff;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Command::Recover(a) => commands::recover::run(a),
         Command::Compare(a) => commands::compare::run(a),
         Command::Export(a) => commands::export::run(a),
+        Command::Record(a) => commands::record::run(a),
         Command::Report(a) => commands::report::run(a),
         Command::Signal(a) => commands::signal::run(a),
         Command::Check(a) => commands::check::run(a),

@@ -7,8 +7,13 @@ use std::path::Path;
 /// Endings of HDF5 files.
 const HDF5: [&str; 2] = [".h5", ".hdf5"];
 
-/// Endings of tables.
-const TABLE: [&str; 3] = [".csv", ".parquet", ".mat"];
+/// Endings of what `gearmesh export` writes: tables, series of moving gears, CAD.
+const EXPORT: [&str; 8] = [
+    ".csv", ".parquet", ".mat", ".uff", ".unv", ".pvd", ".step", ".stp",
+];
+
+/// Endings of measured curves.
+const MEASURED: [&str; 5] = [".csv", ".txt", ".uff", ".unv", ".uf"];
 
 /// Endings of pages.
 const PAGE: [&str; 2] = [".html", ".htm"];
@@ -22,7 +27,7 @@ pub fn demand_hdf5(path: &Path) -> Result<(), Failure> {
         path,
         &HDF5,
         "HDF5",
-        "; `gearmesh export` makes .csv, .parquet and .mat files of a result",
+        "; `gearmesh export` makes tables of a result: .csv .parquet .mat .uff",
     )
     .map(|_| ())
 }
@@ -49,12 +54,38 @@ pub fn demand_mesh(path: &Path) -> Result<(), Failure> {
     .map(|_| ())
 }
 
-/// Which kind of table a name ends in.
+/// Which of the formats of `gearmesh export` a name ends in.
 ///
 /// # Errors
 /// [`Failure`] that lists them.
-pub fn table_ending(path: &Path) -> Result<&'static str, Failure> {
-    demand(path, &TABLE, "tables", "")
+pub fn export_ending(path: &Path) -> Result<&'static str, Failure> {
+    demand(path, &EXPORT, "tables, series of moving gears or CAD", "")
+}
+
+/// In which form curves were measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measured {
+    /// Columns of text.
+    Table,
+    /// A universal file.
+    Universal,
+}
+
+/// What the name of a file with measured curves says about its form.
+///
+/// # Errors
+/// [`Failure`] that lists the endings.
+pub fn measured_ending(path: &Path) -> Result<Measured, Failure> {
+    let name = path.to_string_lossy().to_lowercase();
+    match MEASURED.iter().find(|ending| name.ends_with(**ending)) {
+        Some(&(".csv" | ".txt")) => Ok(Measured::Table),
+        Some(_) => Ok(Measured::Universal),
+        None => Err(Failure::input(format!(
+            "{}: this reads measured curves; allowed are names that end in {}",
+            path.display(),
+            MEASURED.join(" ")
+        ))),
+    }
 }
 
 /// The ending that a name has.

@@ -63,6 +63,10 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
             let inputs = vec![a.result.clone(), a.result.join("study.csv")];
             (inputs, vec![a.output.clone()])
         }
+        Command::Record(a) => {
+            let files = a.output.iter().flat_map(record);
+            (vec![a.measured.clone()], files.collect())
+        }
         Command::Report(a) => {
             let records = a.reference.iter().flat_map(record);
             let inputs = a.results.iter().cloned().chain(records).collect();

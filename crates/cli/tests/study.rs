@@ -34,9 +34,11 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     let files = succeeds(&[&command[..], &["--json"]].concat()).json();
     assert_eq!(common::names_in(&out), names);
     assert!(
-        names.contains(&"study.csv".to_owned()) && names.len() == 3,
+        names.contains(&"study.csv".to_owned()) && names.len() == 4,
         "{names:?}"
     );
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    assert!(page.contains("All cases") && page.contains("torque = 4.0"));
     let case = &files["cases"][1];
     assert_eq!(number(&case["parameters"]["torque"]), 4.0);
     assert!((number(&case["columns"][0]["largest"]) - 8.0).abs() < 1e-9);
@@ -123,7 +125,7 @@ fn two_studies_in_one_folder_end_clean() {
     }
     let names = common::names_in(&out);
     let results = names.iter().filter(|name| name.ends_with(".h5")).count();
-    assert_eq!((names.len(), results), (14, 13), "{names:?}");
+    assert_eq!((names.len(), results), (15, 13), "{names:?}");
     // What they left is whole: a third study has nothing to run.
     let csv = std::fs::read(out.join("study.csv")).unwrap();
     succeeds(&["study", argument(&study), "-o", argument(&out)]);

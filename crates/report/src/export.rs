@@ -5,17 +5,20 @@
 //! | a table, and which tables a result has | this one |
 //! | tables of a static pair | `pair_tables.rs` |
 //! | tables of a multibody result | `system_tables.rs` |
+//! | tables as functions over an axis | `functions.rs` |
 //! | CSV, and reading a study's | `csv_text.rs` |
 //! | Parquet | `parquet_bytes.rs` |
 //! | MATLAB, level 5 | `mat_bytes.rs` |
 
 mod csv_text;
+mod functions;
 mod mat_bytes;
 mod pair_tables;
 mod parquet_bytes;
 mod system_tables;
 
 pub use csv_text::{csv_text, study_table};
+pub use functions::{Function, functions};
 pub use mat_bytes::mat_bytes;
 pub use pair_tables::pair_tables;
 pub use parquet_bytes::parquet_bytes;

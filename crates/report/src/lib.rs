@@ -6,6 +6,7 @@
 //! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
 //! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
 //! | a curve of many points | fewer of them without losing a peak | [`min_max`] |
+//! | measured curves, CSV or universal files | a record | [`measured`] |
 //! | results | tables for other programs: CSV, Parquet, MATLAB | [`export`] |
 //! | results of scenes | their comparison and their page | [`scene_comparison`], [`scene_page`] (`system_page.rs` for multibody scenes) |
 //!
@@ -16,7 +17,9 @@ pub mod comparison;
 mod comparison_table;
 mod contact_pattern;
 pub mod export;
+pub mod measured;
 pub mod min_max;
+pub mod moving;
 pub mod optimise_page;
 pub mod overlay;
 pub mod page;
@@ -31,6 +34,7 @@ pub mod scene_comparison;
 pub mod scene_page;
 mod short_number;
 mod study_figures;
+pub mod study_page;
 pub mod system_comparison;
 mod system_page;
 

@@ -201,7 +201,7 @@ fn parse_heads(line: usize, heads: &[&str]) -> Result<Vec<RecordColumn>, DataErr
 }
 
 /// `te_um_<T>Nm` or `strain_<gauge>_ustrain_<T>Nm`.
-fn parse_head(head: &str) -> Option<(Quantity, f64)> {
+pub(crate) fn parse_head(head: &str) -> Option<(Quantity, f64)> {
     let (name, torque) = head.strip_suffix("Nm")?.rsplit_once('_')?;
     let plain = torque.bytes().all(|b| b.is_ascii_digit() || b == b'.');
     let torque_nm = torque

@@ -6,7 +6,7 @@ use crate::error::RexsError;
 use crate::gear_text::gear_file;
 use crate::ledger::Ledger;
 use crate::model::{LoadCase, Model};
-use crate::scene_text::scene;
+use crate::scene_text::{Meshes, scene};
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::text::file_stem;
@@ -36,6 +36,8 @@ pub struct Import {
     pub files: Vec<ImportedFile>,
     /// Names of the scenes among them.
     pub scenes: Vec<String>,
+    /// Names of the gear files among them.
+    pub gears: Vec<String>,
     /// What became of it.
     pub ledger: Ledger,
 }
@@ -84,11 +86,11 @@ const KNOWN: [&str; 40] = [
     "topographical_modification",
 ];
 
-/// Imports a file. `stem` begins the names of the files that are made.
+/// Imports a file. `stem` begins the names of the files that are made; `with` is what the scene computes its gear meshes with.
 ///
 /// # Errors
 /// [`RexsError`] for files that are no REXS or lack what a gearbox cannot do without.
-pub fn import(bytes: Vec<u8>, stem: &str) -> Result<Import, RexsError> {
+pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsError> {
     let unpacked = unpack(bytes)?;
     let mut ledger = Ledger::default();
     let mut model = parse(&unpacked)?;
@@ -104,7 +106,10 @@ pub fn import(bytes: Vec<u8>, stem: &str) -> Result<Import, RexsError> {
     let used = RefCell::new(BTreeSet::new());
     let stem = file_stem(stem);
     let cases: Vec<&LoadCase> = model.spectra.iter().flat_map(|s| &s.cases).collect();
-    let mut made = Made::default();
+    let mut made = Made {
+        with,
+        ..Made::default()
+    };
     if cases.is_empty() {
         let source = Source::new(&model, &ledger, &used);
         made.case(&source, &structure, &stem, &model, None)?;
@@ -163,6 +168,7 @@ pub fn import(bytes: Vec<u8>, stem: &str) -> Result<Import, RexsError> {
         application: model.application.clone(),
         files: made.files,
         scenes: made.scenes,
+        gears: made.gears,
         ledger: ledger.into_inner(),
     })
 }
@@ -182,8 +188,10 @@ fn parse(unpacked: &Unpacked) -> Result<Model, RexsError> {
 
 #[derive(Default)]
 struct Made {
+    with: Meshes,
     files: Vec<ImportedFile>,
     scenes: Vec<String>,
+    gears: Vec<String>,
 }
 
 impl Made {
@@ -218,12 +226,17 @@ impl Made {
                     .to_owned(),
             );
             let file = format!("{name}.toml");
-            self.add(file.clone(), scene(source, &train, &title, &head, gravity));
+            let text = scene(source, &train, &title, &head, gravity, self.with);
+            self.add(file.clone(), text);
             self.scenes.push(file);
         }
         let origin = head.first().cloned().unwrap_or_default();
         for seated in &train.gears {
-            self.add(seated.gear.file.clone(), gear_file(&seated.gear, &origin));
+            let file = seated.gear.file.clone();
+            self.add(file.clone(), gear_file(&seated.gear, &origin));
+            if !self.gears.contains(&file) {
+                self.gears.push(file);
+            }
         }
         for (file, text) in train.bearings.iter().filter_map(|b| b.file.clone()) {
             self.add(file, text);

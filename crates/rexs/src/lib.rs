@@ -37,3 +37,4 @@ pub mod xml;
 pub use error::RexsError;
 pub use import::{Import, ImportedFile, import};
 pub use ledger::{Entry, Ledger};
+pub use scene_text::{Meshes, model_file};

@@ -9,6 +9,31 @@ use crate::text::{comment, number, numbers, quoted};
 use crate::train::Train;
 use std::collections::BTreeMap;
 
+/// What the gear meshes of a scene are computed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Meshes {
+    /// The springs of ISO 6336, without reduced gears.
+    #[default]
+    Iso6336,
+    /// The contact of reduced gears, whose models lie beside the gear files: `GEAR.h5`.
+    Hybrid,
+}
+
+impl Meshes {
+    /// What a body names as its gear.
+    fn gear(self, file: &str) -> String {
+        match self {
+            Self::Iso6336 => file.to_owned(),
+            Self::Hybrid => model_file(file),
+        }
+    }
+}
+
+/// The model of a gear file.
+pub fn model_file(gear_file: &str) -> String {
+    format!("{}.h5", gear_file.trim_end_matches(".toml"))
+}
+
 /// A torque on a shaft about z, at a place along u.
 struct Torque {
     shaft: i64,
@@ -27,6 +52,7 @@ pub fn scene(
     title: &str,
     head: &[String],
     gravity: Option<[f64; 3]>,
+    with: Meshes,
 ) -> String {
     let mut text = String::new();
     for line in head {
@@ -41,7 +67,7 @@ pub fn scene(
         text.push_str(&format!(
             "\n[[body]]\nname = {}\ngear = {}\n",
             quoted(&seated.gear.name),
-            quoted(&seated.gear.file)
+            quoted(&with.gear(&seated.gear.file))
         ));
     }
     let groups = groups(train);
@@ -56,7 +82,7 @@ pub fn scene(
     bevel_loads
         .iter()
         .for_each(|load| text.push_str(&load.text()));
-    meshes(&mut text, train);
+    meshes(&mut text, train, with);
     text
 }
 
@@ -400,7 +426,7 @@ fn forces(text: &mut String, train: &Train) {
     }
 }
 
-fn meshes(text: &mut String, train: &Train) {
+fn meshes(text: &mut String, train: &Train, with: Meshes) {
     for mesh in &train.meshes {
         let [a, b] = mesh.gears.map(|i| &train.gears[i].gear);
         let torque = train.flow.link_nm.get(mesh.link).copied().flatten();
@@ -410,13 +436,17 @@ fn meshes(text: &mut String, train: &Train) {
             _ => "both",
         };
         let has_flanks = !a.microgeometry.is_empty() || !b.microgeometry.is_empty();
-        let plain = if has_flanks {
+        let plain = if has_flanks && with == Meshes::Iso6336 {
             "microgeometry = false       # one spring for all teeth knows no flanks\n"
         } else {
             ""
         };
+        let model = match with {
+            Meshes::Iso6336 => "{ kind = \"iso6336\", slices = 9 }",
+            Meshes::Hybrid => "{ kind = \"hybrid\" }",
+        };
         text.push_str(&format!(
-            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {{ kind = \"iso6336\", slices = 9 }}\nteeth = {{ flanks = \"{flanks}\" }}\n",
+            "\n[[gear_mesh]]\nname = {}\ngear_1 = {}\ngear_2 = {}\n{plain}model = {model}\nteeth = {{ flanks = \"{flanks}\" }}\n",
             quoted(&mesh.name),
             quoted(&a.name),
             quoted(&b.name)

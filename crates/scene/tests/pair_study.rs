@@ -10,8 +10,8 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{ReducedGear, StoredGear, read_reduced_gear};
 use gearmesh_scene::study::{
-    CaseRunner, PairCases, Selected, SelectedValue, SentCase, Study, StudyCases, StudyError,
-    StudyOptions, StudyOutcome, gather_study, run_study,
+    CaseRunner, RestCases, Selected, SelectedValue, SentCase, Study, StudyCases, StudyError,
+    StudyOptions, StudyOutcome, Subject, gather_study, run_study,
 };
 use gearmesh_scene::{Scene, load, run};
 
@@ -204,13 +204,21 @@ impl Value for gearmesh_scene::study::CaseResult {
 #[test]
 fn models_are_read_once_and_a_body_is_reduced_once_a_value() {
     let desk = Desk::new();
-    let cases = PairCases::default();
+    let cases = RestCases::default();
     for relief in ["1.0", "2.0", "3.0"] {
         let text = SCENE.replace("tip_relief_um = 5.0", &format!("tip_relief_um = {relief}"));
         let scene = Scene::from_document(InputDocument::new("own", text), desk.folder.path());
-        cases.figures(&scene.unwrap()).unwrap();
+        let subject = Subject::Pair(Box::new(scene.unwrap()));
+        cases.figures(&subject).unwrap();
     }
-    assert_eq!(cases.models(), 2);
+    // The contact of both bodies is condensed once: reliefs are none of its business.
+    assert_eq!((cases.models(), cases.condensed()), (2, 1));
+    let finer = SCENE.replace("model.local", "model.slices = 3\nmodel.local");
+    let scene = Scene::from_document(InputDocument::new("own", finer), desk.folder.path());
+    cases
+        .figures(&Subject::Pair(Box::new(scene.unwrap())))
+        .unwrap();
+    assert_eq!((cases.models(), cases.condensed()), (2, 2));
 
     let body = "[[parameter]]\nname = \"bore\"\nkeys = [\"pair.gear_1:blank.bore_diameter_mm\"]\nvalues = [25.0, 28.0]\n";
     let both = format!("{body}{RELIEF}values = [0.0, 10.0, 20.0]\n");

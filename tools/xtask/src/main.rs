@@ -11,6 +11,7 @@ mod error;
 mod machine;
 mod prepare;
 mod python_module;
+mod release;
 mod rust_tests;
 mod steps;
 mod system_libs;
@@ -40,12 +41,17 @@ Usage: cargo xtask <COMMAND>
   bench chain     time of a step over the number of bodies beside Exudyn, into docs/benchmarks/chain.md
   bench bearings  time and error of bearings in equilibrium and of balls that move, beside Exudyn, into docs/benchmarks/bearings.md
   accuracy-cost [--quick] [--program PATH]
-                  error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
-                  the quick page into out/accuracy-cost-quick.md
+                  what accuracy costs in time: `gearmesh accuracy` on pairs at rest and through resonance, a gearbox, a
+                  bearing, a bevel pair, into docs/accuracy-cost.md (half an hour); options as above, --quick: the pairs at
+                  rest only, into out/accuracy-cost-quick.md
+  accuracy-cost elements [--quick] [--program PATH]
+                  error and cost of every element, mesh size and local term, into docs/benchmarks/elements.md
   accuracy-cost bearings
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
+  release [--quick]
+                  the wheel, and an archive of program, documentation, examples, completions and manual pages in target/archive
   prepare         only makes what the others need
   help            this text
 
@@ -80,7 +86,9 @@ enum Command {
     BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
     AccuracyCostBearings(bench::Options),
+    AccuracyCostElements(bench::Options),
     Wheel(wheel::Build),
+    Release(wheel::Build),
     Prepare,
     Help,
 }
@@ -108,18 +116,23 @@ impl Command {
             ("accuracy-cost", ["bearings", rest @ ..]) => {
                 bench_options("accuracy-cost bearings", rest).map(Self::AccuracyCostBearings)
             }
+            ("accuracy-cost", ["elements", rest @ ..]) => {
+                bench_options("accuracy-cost elements", rest).map(Self::AccuracyCostElements)
+            }
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
             }
             ("wheel", []) => Ok(Self::Wheel(wheel::Build::Release)),
             ("wheel", ["--quick"]) => Ok(Self::Wheel(wheel::Build::Quick)),
+            ("release", []) => Ok(Self::Release(wheel::Build::Release)),
+            ("release", ["--quick"]) => Ok(Self::Release(wheel::Build::Quick)),
             ("prepare", []) => Ok(Self::Prepare),
             ("help" | "--help" | "-h", _)
             | (
-                "test" | "rust-tests" | "prepare" | "wheel" | "bench" | "accuracy-cost",
+                "test" | "rust-tests" | "prepare" | "wheel" | "release" | "bench" | "accuracy-cost",
                 ["--help" | "-h"],
             ) => Ok(Self::Help),
-            ("test" | "rust-tests" | "prepare" | "wheel", rest) => {
+            ("test" | "rust-tests" | "prepare" | "wheel" | "release", rest) => {
                 Err(format!("unknown argument `{}` of `{name}`", rest.join(" ")))
             }
             ("bench", _) => Err(
@@ -162,6 +175,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         Command::AccuracyCostBearings(options) => {
             return bench::bearing_models(&workspace, options);
         }
+        Command::AccuracyCostElements(options) => return bench::elements(&workspace, options),
         _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
@@ -172,6 +186,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             Ok(ExitCode::SUCCESS)
         }
         Command::Wheel(build) => wheel::wheel(&workspace, &venv, build),
+        Command::Release(build) => release::release(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare
         | Command::Help
@@ -179,7 +194,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::BenchChain(_)
         | Command::BenchBearings(_)
         | Command::AccuracyCost(_)
-        | Command::AccuracyCostBearings(_) => Ok(ExitCode::SUCCESS),
+        | Command::AccuracyCostBearings(_)
+        | Command::AccuracyCostElements(_) => Ok(ExitCode::SUCCESS),
     }
 }
 
@@ -204,6 +220,11 @@ mod tests {
         assert_eq!(parse("wheel"), Ok(Command::Wheel(wheel::Build::Release)));
         assert_eq!(parse("wheel --quick"), quick);
         assert!(parse("wheel --slow").is_err());
+        assert_eq!(
+            parse("release"),
+            Ok(Command::Release(wheel::Build::Release))
+        );
+        assert!(parse("release --slow").is_err());
     }
 
     #[test]
@@ -250,6 +271,10 @@ mod tests {
         assert_eq!(
             parse("accuracy-cost"),
             Ok(Command::AccuracyCost(bench::Options::default()))
+        );
+        assert_eq!(
+            parse("accuracy-cost elements"),
+            Ok(Command::AccuracyCostElements(bench::Options::default()))
         );
         assert_eq!(parse("accuracy-cost --help"), Ok(Command::Help));
         assert_eq!(

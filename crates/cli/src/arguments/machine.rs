@@ -12,6 +12,9 @@ pub struct InitArguments {
     /// Folder; files that are there are left as they are
     #[arg(short, long, default_value = ".")]
     pub output: PathBuf,
+    /// Print the names of the files as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What `gearmesh init` writes.

@@ -18,6 +18,9 @@ pub enum SignalAnalysis {
     Columns {
         /// Result of a multibody run in time
         result: PathBuf,
+        /// Print them as JSON
+        #[arg(long)]
+        json: bool,
     },
     /// Mean, RMS, peak to peak, kurtosis and crest factor
     Statistics {

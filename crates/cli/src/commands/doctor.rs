@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::process::{Command, Stdio};
 
 /// Packages of the Python environment and what uses them.
-const PACKAGES: [(&str, &str); 3] = [
+const PACKAGES: [(&str, &str); 4] = [
     ("gmsh", "meshing: reduce, mesh, modes"),
     (
         "meshio",
@@ -19,7 +19,11 @@ const PACKAGES: [(&str, &str); 3] = [
         "gearmesh",
         "the Python module, through which meshes are exchanged",
     ),
+    ("pyuff", UNIVERSAL_FILES),
 ];
+
+/// What the one package is for that little needs.
+const UNIVERSAL_FILES: &str = "universal files: export to .uff, record";
 
 /// Imports each package and prints one line for it: name, version or what went wrong.
 const PROBE: &str = r#"
@@ -147,7 +151,7 @@ fn python() -> Vec<Finding> {
             text,
             is_sound: problem.is_none(),
             advice,
-            is_needed: true,
+            is_needed: used != UNIVERSAL_FILES,
         });
     }
     findings

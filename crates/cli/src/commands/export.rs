@@ -1,96 +1,43 @@
-//! `gearmesh export`: a result as a table of another program.
+//! `gearmesh export`: a result for other programs; a gear for CAD.
+//!
+//! | what | file |
+//! | --- | --- |
+//! | tables | `export/tables.rs` |
+//! | gears that move | `export/series.rs`, of multibody scenes `export/system_moments.rs` |
+//! | a gear's flanks as STEP | `export/step.rs` |
+
+mod series;
+mod step;
+mod system_moments;
+mod tables;
 
 use crate::arguments::ExportArguments;
-use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_geometry::input::InputDocument;
-use gearmesh_model::write_bytes;
-use gearmesh_report::export::{
-    ExportError, Table, csv_text, mat_bytes, pair_tables, parquet_bytes, study_table, system_tables,
-};
-use gearmesh_scene::ResultFile;
-use serde_json::json;
-use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &ExportArguments) -> Result<(), Failure> {
-    let ending = output_name::table_ending(&a.output)?;
-    let tables = tables_of(&a.result)?;
-    let names: Vec<&str> = tables.iter().map(|table| &*table.name).collect();
-    let chosen = match &a.table {
-        None => None,
-        Some(wanted) => {
-            let place = names.iter().position(|name| name == wanted);
-            let place = place.ok_or_else(|| {
-                Failure::input(format!(
-                    "--table: {} has no table `{wanted}`; allowed are {}",
-                    a.result.display(),
-                    names.join(" ")
-                ))
-            })?;
-            Some(place)
-        }
-    };
-    let first = &tables[chosen.unwrap_or(0)];
-    let bytes = match ending {
-        ".csv" => csv_text(first).map(String::into_bytes),
-        ".parquet" => parquet_bytes(first),
-        _ => mat_bytes(chosen.map_or(&tables[..], |place| &tables[place..=place])),
-    };
-    write_bytes(&a.output, &bytes.map_err(blame)?).map_err(Failure::work)?;
-    let written: Vec<&Table> = match (ending, chosen) {
-        (".mat", None) => tables.iter().collect(),
-        _ => vec![first],
-    };
-    if a.json {
-        let tables: Vec<_> = (written.iter())
-            .map(|table| {
-                let heads: Vec<&str> = table.columns.iter().map(|c| &c.0[..]).collect();
-                json!({ "name": table.name, "rows": table.rows(), "columns": heads })
-            })
-            .collect();
-        console::json(&json!({ "file": a.output, "tables": tables }));
+    let ending = output_name::export_ending(&a.output)?;
+    let moves = ending == ".pvd";
+    let is_table = !matches!(ending, ".pvd" | ".step" | ".stp");
+    let of_series = [
+        ("--moments", a.moments.is_some()),
+        ("--torque-Nm", a.torque_Nm.is_some()),
+        ("--from-s", a.from_s.is_some()),
+        ("--to-s", a.to_s.is_some()),
+        ("--scene-folder", a.scene_folder.is_some()),
+    ];
+    let given = of_series.iter().filter(|(_, given)| *given && !moves);
+    let unused = given.map(|(name, _)| *name);
+    let unused = unused.chain((a.table.is_some() && !is_table).then_some("--table"));
+    if let Some(name) = unused.into_iter().next() {
+        return Err(Failure::input(format!(
+            "{name} has no use for a {ending} file; leave it out"
+        )));
     }
-    for table in &written {
-        let columns = table.columns.len();
-        console::note(format!(
-            "table `{}`: {} rows of {columns} columns",
-            table.name,
-            table.rows()
-        ));
-    }
-    if written.len() < tables.len() && chosen.is_none() {
-        console::note(format!(
-            "a {ending} file holds one table; --table takes another: {}",
-            names[1..].join(" ")
-        ));
-    }
-    Ok(())
-}
-
-/// All tables of a result, or of the folder of a study; the most wanted one first.
-fn tables_of(path: &Path) -> Result<Vec<Table>, Failure> {
-    if path.is_dir() || path.extension().is_some_and(|ending| ending == "csv") {
-        let file = if path.is_dir() {
-            path.join("study.csv")
-        } else {
-            path.to_owned()
-        };
-        let text = InputDocument::read(&file)?.text;
-        let table = study_table(&text)
-            .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
-        return Ok(vec![table]);
-    }
-    match ResultFile::open(path).map_err(Failure::input)? {
-        ResultFile::System(result) => system_tables(&result).map_err(blame),
-        ResultFile::Pair(result) => Ok(pair_tables(&result)),
-    }
-}
-
-fn blame(error: ExportError) -> Failure {
-    match error {
-        ExportError::Parquet(_) => Failure::work(error),
-        _ => Failure::input(error),
+    match ending {
+        ".pvd" => series::run(a),
+        ".step" | ".stp" => step::run(a),
+        _ => tables::run(a, ending),
     }
 }

@@ -7,7 +7,7 @@ use crate::overwriting::apart;
 use gearmesh_geometry::input::read_bytes;
 use gearmesh_model::write_text;
 use gearmesh_rexs::container::MOST_MB;
-use gearmesh_rexs::{Entry, Import, import};
+use gearmesh_rexs::{Entry, Import, Meshes, import, model_file};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -17,7 +17,13 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
     let bytes = read_bytes(&a.model, MOST_MB << 20)
         .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
     let stem = a.model.file_stem().unwrap_or_default().to_string_lossy();
-    let made = import(bytes, &stem).map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
+    let with = if a.reduced {
+        Meshes::Hybrid
+    } else {
+        Meshes::Iso6336
+    };
+    let made =
+        import(bytes, &stem, with).map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
     let list = (
         "import.md".to_owned(),
         made.ledger.page(&format!(
@@ -34,7 +40,7 @@ pub fn run(a: &ImportArguments) -> Result<(), Failure> {
     if a.json {
         console::json(&figures(&made));
     } else {
-        table(&made, &a.output);
+        table(&made, a);
     }
     Ok(())
 }
@@ -44,7 +50,8 @@ fn write(path: &Path, text: &str, model: &Path) -> Result<(), Failure> {
     Ok(write_text(path, text)?)
 }
 
-fn table(made: &Import, folder: &Path) {
+fn table(made: &Import, a: &ImportArguments) {
+    let folder = &a.output;
     let ledger = &made.ledger;
     console::data(format!(
         "REXS {}, {}: {} values taken, {} assumed, {} not represented ({})",
@@ -60,6 +67,15 @@ fn table(made: &Import, folder: &Path) {
     }
     for entry in &ledger.assumed {
         console::note(format!("assumed: {}: {}", entry.subject, entry.text));
+    }
+    if a.reduced {
+        for gear in &made.gears {
+            console::note(format!(
+                "next: gearmesh reduce {} -o {}",
+                folder.join(gear).display(),
+                folder.join(model_file(gear)).display()
+            ));
+        }
     }
     if let Some(scene) = made.scenes.first() {
         console::note(format!(
@@ -81,6 +97,7 @@ fn figures(made: &Import) -> Value {
         "application": made.application,
         "files": made.files.iter().map(|f| &f.name).collect::<Vec<_>>(),
         "scenes": made.scenes,
+        "gears": made.gears,
         "taken": list(&made.ledger.taken),
         "assumed": list(&made.ledger.assumed),
         "not_represented": list(&made.ledger.not_represented),

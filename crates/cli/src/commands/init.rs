@@ -4,6 +4,7 @@ use crate::arguments::{InitArguments, InitKind};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_model::write_text;
+use serde_json::json;
 
 const PINION: (&str, &str) = ("pinion.toml", include_str!("../../templates/pinion.toml"));
 const WHEEL: (&str, &str) = ("wheel.toml", include_str!("../../templates/wheel.toml"));
@@ -45,7 +46,13 @@ pub fn run(a: &InitArguments) -> Result<(), Failure> {
     for (name, text) in files {
         let path = a.output.join(name);
         write_text(&path, text)?;
-        console::data(path.display());
+        if !a.json {
+            console::data(path.display());
+        }
+    }
+    if a.json {
+        let paths: Vec<_> = files.iter().map(|f| a.output.join(f.0)).collect();
+        console::json(&json!({ "files": paths }));
     }
     console::note(format!("next, in that folder: {next}"));
     Ok(())

@@ -13,6 +13,7 @@ use gearmesh_report::page::Page;
 use gearmesh_report::scene_page::{SceneChapter, scene_page};
 use gearmesh_scene::ResultFile;
 use gearmesh_scene::system_run::SystemResult;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Runs the command.
@@ -68,7 +69,11 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
     let others: Vec<_> = names[1].iter().cloned().zip(&systems).collect();
     let overlaid = overlaid_systems(&others).map_err(Failure::work)?;
     let sections = overlaid.into_iter().chain(overlaid_pairs(&pairs));
-    page_file::write(&sections.fold(page, Page::first_section), &a.output)
+    page_file::write(&sections.fold(page, Page::first_section), &a.output)?;
+    if a.json {
+        console::json(&json!({ "file": a.output, "results": a.results }));
+    }
+    Ok(())
 }
 
 /// Names of files as a chart tells them apart: bare, or as given where two are alike.

@@ -15,15 +15,21 @@ use gearmesh_signal::{
     sideband_table, synchronous_average,
 };
 use outcome::{Curve, LineSpectrum, Outcome};
+use serde_json::json;
 use series::{Series, open};
 use std::f64::consts::TAU;
 
 /// Runs the command.
 pub fn run(a: &SignalArguments) -> Result<(), Failure> {
     match &a.analysis {
-        SignalAnalysis::Columns { result } => {
+        SignalAnalysis::Columns { result, json } => {
             let result = open(result)?;
             let columns = result.rows.columns().iter();
+            if *json {
+                let each = |c: &Column| json!({ "name": c.name, "unit": c.unit, "description": c.description });
+                console::json(&json!({ "columns": columns.map(each).collect::<Vec<_>>() }));
+                return Ok(());
+            }
             let width = columns
                 .clone()
                 .map(|column| column.name.chars().count())

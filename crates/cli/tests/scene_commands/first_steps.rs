@@ -4,6 +4,14 @@ use crate::common::{Desk, argument, changed, gearmesh, names_in, refused, succee
 use std::process::Command;
 
 #[test]
+fn what_was_written_is_told_as_json_on_request() {
+    let desk = Desk::new();
+    let folder = desk.path("gear");
+    let told = succeeds(&["init", "gear", "-o", argument(&folder), "--json"]).json();
+    assert_eq!(told["files"][0], argument(&folder.join("pinion.toml")));
+}
+
+#[test]
 fn what_init_writes_passes_check_and_runs() {
     let desk = Desk::new();
     for (kind, files) in [

@@ -15,6 +15,8 @@ mod drilled_pair;
 mod export;
 mod first_steps;
 mod import;
+mod measured;
+mod moving;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;
 mod plan;

@@ -16,7 +16,7 @@ fn shipped(name: &str) -> String {
 
 /// Long elements (flank, fillet, body in modules, axis in face widths), few loads: where the teeth carry hardly depends
 /// on them, and the bearings feel nothing else.
-fn coarse(gear: &str) -> String {
+pub fn coarse(gear: &str) -> String {
     let value = |key: &str| -> f64 {
         let line = gear.lines().find(|line| line.starts_with(key)).unwrap();
         let number = line.split(['=', '#']).nth(1).unwrap();
@@ -28,7 +28,7 @@ fn coarse(gear: &str) -> String {
     } else {
         (2, [0.5, 0.2, 4.0])
     };
-    let end = gear.find("[reduction]").unwrap();
+    let end = gear.find("[reduction]").unwrap_or(gear.len());
     let sound = gear[..end].split("[mesh]").next().unwrap();
     let side = if gear.contains("flanks = [\"left\"]") {
         "left"

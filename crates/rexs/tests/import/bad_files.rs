@@ -2,7 +2,7 @@
 
 use crate::containers::zipped;
 use crate::{GEARBOX, changed, message, read, small};
-use gearmesh_rexs::import;
+use gearmesh_rexs::{Meshes, import};
 
 fn refused(text: &str, words: &[&str]) {
     let found = message(text.as_bytes().to_vec());
@@ -175,13 +175,13 @@ fn circles() {
 fn mutilated_files_do_not_panic() {
     let text = small();
     for end in (0..text.len()).step_by(7) {
-        let _ = import(text.as_bytes()[..end].to_vec(), "box");
+        let _ = import(text.as_bytes()[..end].to_vec(), "box", Meshes::Iso6336);
     }
     for at in (0..text.len()).step_by(5) {
         for byte in [b'<', b'"', b'0', b'-'] {
             let mut bytes = text.clone().into_bytes();
             bytes[at] = byte;
-            let _ = import(bytes, "box");
+            let _ = import(bytes, "box", Meshes::Iso6336);
         }
     }
 }

@@ -6,16 +6,17 @@ mod bad_files;
 mod bevel_force;
 mod containers;
 mod dialects;
+mod other_gearboxes;
 mod power;
 
-use gearmesh_rexs::{Import, import};
+use gearmesh_rexs::{Import, Meshes, import};
 
 /// The shipped gearbox, REXS 1.7.
 pub const GEARBOX: &str = include_str!("../../../../fe_models/gearbox_three_stage.rexs");
 
 /// Imports a text.
 pub fn read(text: &str) -> Import {
-    import(text.as_bytes().to_vec(), "box").unwrap()
+    import(text.as_bytes().to_vec(), "box", Meshes::Iso6336).unwrap()
 }
 
 /// A file that was made.
@@ -55,7 +56,9 @@ pub fn demand_same(a: &Import, b: &Import) {
 
 /// The message of a file that cannot be read.
 pub fn message(bytes: Vec<u8>) -> String {
-    import(bytes, "box").unwrap_err().to_string()
+    import(bytes, "box", Meshes::Iso6336)
+        .unwrap_err()
+        .to_string()
 }
 
 /// A gear unit with two shafts, a spur stage and nothing else, for changes.

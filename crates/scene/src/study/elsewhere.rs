@@ -13,12 +13,12 @@ use gearmesh_geometry::input::InputDocument;
 use rayon::prelude::*;
 
 use super::cases::{Found, StudyError, StudyOutcome, StudyScenes, finished, make_folder};
-use super::pair_cases::PairCases;
+use super::rest_cases::RestCases;
 use super::study_file::Study;
+use super::subject::Subject;
 use super::system_cases;
 use super::varied_scene::{MadeFile, MadeFiles};
 use crate::named_files;
-use crate::scene_file::SceneFile;
 
 /// A case that can be sent.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub struct SentCase {
     pub title: String,
     /// Files that the scene names: as it writes them, and where they are here.
     pub named: Vec<(String, PathBuf)>,
-    /// Names and digests of the files of a multibody scene, as its result states them; empty for a pair.
+    /// Names and digests of the files of a multibody scene, as its result states them; empty for what is at rest.
     pub inputs: Vec<String>,
 }
 
@@ -41,8 +41,8 @@ pub struct SentCase {
 pub struct StudyCases {
     /// Files that they need and that the study makes, in its folder.
     pub files: MadeFiles,
-    scenes: Vec<SceneFile>,
-    pairs: PairCases,
+    scenes: Vec<Subject>,
+    rest: RestCases,
 }
 
 impl StudyCases {
@@ -52,12 +52,12 @@ impl StudyCases {
     /// As [`super::run_study`] before its first case.
     pub fn new(study: &Study, out: &Path) -> Result<Self, StudyError> {
         let scenes = StudyScenes::new(study, out)?;
-        let pairs = PairCases::default();
-        scenes.check_columns(study, &pairs)?;
+        let rest = RestCases::default();
+        scenes.check_columns(study, &rest)?;
         Ok(Self {
             files: scenes.files,
             scenes: scenes.scenes,
-            pairs,
+            rest,
         })
     }
 
@@ -77,23 +77,24 @@ impl StudyCases {
         self.scenes.iter().map(|scene| self.sent(scene)).collect()
     }
 
-    fn sent(&self, scene: &SceneFile) -> Result<SentCase, StudyError> {
-        let (document, folder) = match scene {
-            SceneFile::Pair(scene) => (&scene.document, &scene.folder),
-            SceneFile::System(scene) => (&scene.document, &scene.folder),
-        };
+    fn sent(&self, scene: &Subject) -> Result<SentCase, StudyError> {
+        let document = scene.document();
         let absolute = |path: PathBuf| std::path::absolute(&path).unwrap_or(path);
-        let named = named_files(&document.text, folder).into_iter();
-        let named = named.map(|(name, path)| (name, absolute(path)));
+        let folder = scene.folder();
+        let named = folder.map(|folder| named_files(&document.text, folder));
+        let named = named
+            .into_iter()
+            .flatten()
+            .map(|(name, path)| (name, absolute(path)));
         let (file, identity, inputs) = match scene {
-            SceneFile::Pair(scene) => {
-                let identity = self.pairs.identity(scene)?;
-                (PairCases::file_name(&identity), identity, Vec::new())
-            }
-            SceneFile::System(scene) => {
+            Subject::System(scene) => {
                 let head = system_cases::head(scene);
                 let identity = head.identity();
                 (system_cases::file_name(&identity), identity, head.inputs)
+            }
+            scene => {
+                let identity = self.rest.identity(scene)?;
+                (RestCases::file_name(&identity), identity, Vec::new())
             }
         };
         Ok(SentCase {
@@ -110,7 +111,7 @@ impl StudyCases {
 /// Runs cases that were sent. Threads may share it; models are read once.
 #[derive(Debug, Default)]
 pub struct CaseRunner {
-    pairs: PairCases,
+    rest: RestCases,
 }
 
 impl CaseRunner {
@@ -119,7 +120,7 @@ impl CaseRunner {
     pub fn is_there(case: &SentCase, folder: &Path) -> bool {
         let file = folder.join(&case.file);
         if file.extension().is_some_and(|ending| ending == "csv") {
-            return PairCases::stored(&file, &case.identity).is_some();
+            return RestCases::stored(&file, &case.identity).is_some();
         }
         system_cases::is_there(&file, &case.identity)
     }
@@ -139,12 +140,12 @@ impl CaseRunner {
         make_folder(folder)?;
         let document = relocated(case, places)?;
         // Whatever it names has its whole path by now.
-        match SceneFile::from_document(document, Path::new("/"))? {
-            SceneFile::Pair(scene) => {
-                let found = self.pairs.figures_as(&scene, &case.identity, folder)?;
+        match Subject::from_document(document, Path::new("/"))? {
+            Subject::System(scene) => system_cases::run_sent(*scene, case, folder, stop),
+            scene => {
+                let found = self.rest.figures_as(&scene, &case.identity, folder)?;
                 Ok(Some(found.computed))
             }
-            SceneFile::System(scene) => system_cases::run_sent(*scene, case, folder, stop),
         }
     }
 }
@@ -187,22 +188,21 @@ pub fn gather_study(
     failures: &BTreeMap<String, String>,
 ) -> Result<StudyOutcome, StudyError> {
     let scenes = StudyScenes::new(study, folder)?;
-    let pairs = PairCases::default();
-    scenes.check_columns(study, &pairs)?;
-    let outcome = |scene: &SceneFile| -> Result<Option<(PathBuf, Found)>, StudyError> {
+    let rest = RestCases::default();
+    scenes.check_columns(study, &rest)?;
+    let outcome = |scene: &Subject| -> Result<Option<(PathBuf, Found)>, StudyError> {
         let (name, found) = match scene {
-            SceneFile::Pair(scene) => {
-                let identity = pairs.identity(scene)?;
-                let name = PairCases::file_name(&identity);
-                let found = PairCases::stored(&folder.join(&name), &identity);
-                let found = found.map(|figures| figures.selected(&study.tables.columns));
-                (name, found)
-            }
-            SceneFile::System(scene) => {
+            Subject::System(scene) => {
                 let identity = system_cases::head(scene).identity();
                 let name = system_cases::file_name(&identity);
                 let found = system_cases::stored(study, &folder.join(&name), &identity);
                 (name, found)
+            }
+            scene => {
+                let identity = rest.identity(scene)?;
+                let name = RestCases::file_name(&identity);
+                let found = RestCases::stored(&folder.join(&name), &identity);
+                (name, found.map(|figures| figures.selected(&study.wanted())))
             }
         };
         match (found, failures.get(&name)) {

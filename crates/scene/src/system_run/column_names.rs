@@ -31,8 +31,9 @@ pub fn stem<'a>(name: &'a str, unit: &str) -> &'a str {
     stem.unwrap_or(name)
 }
 
-/// The unit of a column in files of version 1, which stated it only in the name; `1` for plain numbers.
-pub(super) fn unit_in_version_1(name: &str) -> &'static str {
+/// The unit that a column's name ends in; `1` for plain numbers. Results of version 1 state it nowhere else.
+#[must_use]
+pub fn unit_in_name(name: &str) -> &'static str {
     let found = UNITS.iter().find(|(suffix, _)| name.ends_with(suffix));
     found.map_or("1", |(_, unit)| unit)
 }
@@ -126,7 +127,7 @@ mod tests {
             ("acceleration_x_m_per_s2", "m/s²"),
             ("loaded_pairs", "1"),
         ] {
-            assert_eq!(unit_in_version_1(name), unit);
+            assert_eq!(unit_in_name(name), unit);
         }
     }
 

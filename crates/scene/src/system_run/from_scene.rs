@@ -1,6 +1,6 @@
 //! What a scene file asks for, as a job.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gearmesh_dynamics::{DynamicsError, Interpolation, Motion, System, Table, TimeFunction};
 use gearmesh_geometry::InputError;
@@ -247,6 +247,15 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
 
 /// Names and digests of all files that a scene names, and what tells the functions of the calling program apart.
 pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
+    let mut inputs = digests_of_named_files(&scene.document.text, &scene.folder);
+    if !scene.host.is_empty() {
+        inputs.push(format!("functions {}", scene.host.identity));
+    }
+    inputs
+}
+
+/// Names and digests of all files that a scene names, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.
+pub fn digests_of_named_files(text: &str, folder: &Path) -> Vec<String> {
     let digest = |(name, path): (String, PathBuf)| {
         // The seal of a model names its content; anything else is read.
         let sealed = file_digest(&path).ok();
@@ -256,9 +265,7 @@ pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
         });
         format!("{name} {}", digest.unwrap_or_default())
     };
-    let files = named_files(&scene.document.text, &scene.folder);
-    let host = (!scene.host.is_empty()).then(|| format!("functions {}", scene.host.identity));
-    files.into_iter().map(digest).chain(host).collect()
+    named_files(text, folder).into_iter().map(digest).collect()
 }
 
 /// What `[output]` names; all of a kind where it names none.

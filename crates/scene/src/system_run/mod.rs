@@ -38,11 +38,12 @@ mod static_series;
 mod stored_checkpoint;
 mod summary;
 
-pub use column_names::{is_prominent, rank, stem, varying};
+pub use column_names::{is_prominent, rank, stem, unit_in_name, varying};
 pub use column_statistics::{ColumnStatistics, Figures};
 pub use cost::RunCost;
 pub use eigen_run::participation;
 pub use error::SystemRunError;
+pub use from_scene::digests_of_named_files;
 pub(crate) use from_scene::inputs;
 pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,

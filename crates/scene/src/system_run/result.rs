@@ -8,7 +8,7 @@ use gearmesh_model::{
     read_record, utc_now, write_columns, write_record,
 };
 
-use super::column_names::{unit_in_version_1, varying};
+use super::column_names::{unit_in_name, varying};
 use super::column_statistics::Figures;
 use super::job::{EigenPoint, RunHead};
 use super::result_kind::ResultKind;
@@ -172,7 +172,7 @@ impl SystemResult {
     pub fn open(path: &Path) -> Result<Self, FileError> {
         let (mut rows, mut tree) = ColumnFile::open(path, &SYSTEM_RESULT_FORMAT)?;
         if rows.version() < STATED_UNITS {
-            rows = rows.with_units_of(unit_in_version_1);
+            rows = rows.with_units_of(unit_in_name);
         }
         let it: Contents = read_record(&mut tree, path, rows.version())?;
         let columns = rows.columns().len();

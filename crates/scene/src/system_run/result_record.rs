@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use gearmesh_dynamics::NaturalMode;
 use gearmesh_model::{Column, Fields, FileError, OPEN, Record};
 
-use super::column_names::unit_in_version_1;
+use super::column_names::unit_in_name;
 use super::column_statistics::Figures;
 use super::job::{MeshRecord, RunHead};
 use super::result::{EigenResult, SweepResult};
@@ -136,7 +136,7 @@ impl SweepResult {
         } else {
             units = names
                 .iter()
-                .map(|name| unit_in_version_1(name).to_owned())
+                .map(|name| unit_in_name(name).to_owned())
                 .collect();
             texts = vec![String::new(); names.len()];
         }

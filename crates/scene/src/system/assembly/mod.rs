@@ -17,6 +17,7 @@
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
+mod bevel_hybrid;
 mod bevel_mesh;
 mod bodies;
 mod carriers;
@@ -24,6 +25,7 @@ mod consistency;
 mod elements;
 mod gear_mesh;
 mod gears;
+mod gears_in_motion;
 mod joints;
 mod lump;
 mod mesh_effects;
@@ -43,6 +45,7 @@ mod stiffness;
 
 pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
+pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
 use std::sync::Arc;
@@ -343,7 +346,8 @@ impl LoadedSystem {
                 .gear
                 .as_ref()
                 .and_then(|gear| gear.model.as_ref());
-            let model = model.ok_or_else(|| {
+            let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
+            let model = model.or_else(of_bevel).ok_or_else(|| {
                 keys.error(
                     "body",
                     format!(

@@ -1,0 +1,168 @@
+//! Gears that move: a .pvd file that names a .vtu file for each moment, in a folder beside it.
+
+use super::system_moments::SystemMoments;
+use crate::arguments::ExportArguments;
+use crate::commands::recover::scene_of;
+use crate::console::{self, RunBar};
+use crate::failure::Failure;
+use gearmesh_model::write_text;
+use gearmesh_report::moving::{
+    GearSurface, Moment, Series, pair_moment, pair_surfaces, series_text,
+};
+use gearmesh_scene::{ResultFile, SceneResult};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Moments where nobody says how many.
+const MOMENTS: usize = 100;
+
+/// Runs the command.
+pub fn run(a: &ExportArguments) -> Result<(), Failure> {
+    match ResultFile::open(&a.result).map_err(Failure::input)? {
+        ResultFile::Pair(result) => pair(a, &result),
+        ResultFile::System(result) => {
+            if a.torque_Nm.is_some() {
+                return Err(Failure::input(
+                    "--torque-Nm is for results of a [pair]; leave it out",
+                ));
+            }
+            let mut moments = SystemMoments::new(a, *result)?;
+            let rows = chosen(moments.rows(), a);
+            let surfaces = moments.surfaces.clone();
+            write(a, &surfaces, "s", rows.len(), |k| moments.moment(rows[k]))
+        }
+    }
+}
+
+fn pair(a: &ExportArguments, result: &SceneResult) -> Result<(), Failure> {
+    for (name, given) in [
+        ("--from-s", a.from_s.is_some()),
+        ("--to-s", a.to_s.is_some()),
+        ("--scene-folder", a.scene_folder.is_some()),
+    ] {
+        if given {
+            let problem = format!("{name} is for results of multibody scenes; leave it out");
+            return Err(Failure::input(problem));
+        }
+    }
+    let torques = &result.torque_nm;
+    let torque = match a.torque_Nm {
+        None => (0..torques.len()).max_by(|i, j| torques[*i].abs().total_cmp(&torques[*j].abs())),
+        Some(wanted) => {
+            let near = |t: &f64| (t - wanted).abs() <= 1e-9 * wanted.abs();
+            torques.iter().position(near)
+        }
+    };
+    let torque = torque.ok_or_else(|| {
+        Failure::input(format!(
+            "--torque-Nm: found {}, the result has {torques:?}",
+            a.torque_Nm.unwrap_or_default()
+        ))
+    })?;
+    let loaded = scene_of(result, &a.result)?;
+    let [gear_1, gear_2] = &result.gears;
+    let gears = [
+        gear_1.definition_in("the result")?,
+        gear_2.definition_in("the result")?,
+    ];
+    let surfaces = pair_surfaces(&loaded, gears);
+    let angles = chosen((0..result.angles()).collect(), a);
+    console::note(format!("torque on gear 2: {} N m", torques[torque]));
+    write(a, &surfaces, "deg", angles.len(), |k| {
+        Ok(pair_moment(&loaded, result, &surfaces, (torque, angles[k])))
+    })
+}
+
+/// So many of them as are asked for, evenly.
+fn chosen(all: Vec<usize>, a: &ExportArguments) -> Vec<usize> {
+    let most = a.moments.map_or(MOMENTS, |count| count as usize);
+    if all.len() <= most {
+        return all;
+    }
+    console::note(format!(
+        "{most} of {} moments; --moments takes more",
+        all.len()
+    ));
+    (0..most).map(|k| all[k * all.len() / most]).collect()
+}
+
+/// Writes all moments into a new folder, which then takes the place of an earlier one, and the file that names them.
+fn write(
+    a: &ExportArguments,
+    surfaces: &[GearSurface],
+    unit: &str,
+    count: usize,
+    mut moment: impl FnMut(usize) -> Result<Moment, Failure>,
+) -> Result<(), Failure> {
+    let folder = frames_folder(&a.output)?;
+    let name = folder
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let work = |error: std::io::Error| Failure::work(format!("{}: {error}", folder.display()));
+    let parent = folder.parent().filter(|p| !p.as_os_str().is_empty());
+    let scratch = tempfile::Builder::new()
+        .prefix(".gearmesh-")
+        .suffix(".tmp")
+        .tempdir_in(parent.unwrap_or(Path::new(".")))
+        .map_err(work)?;
+    let series = Series::new(surfaces);
+    let bar = RunBar::new("moments");
+    let mut files = Vec::with_capacity(count);
+    for k in 0..count {
+        let moment = moment(k)?;
+        let file = format!("{k:05}.vtu");
+        std::fs::write(scratch.path().join(&file), series.moment_text(&moment)).map_err(work)?;
+        files.push((moment.at, format!("{name}/{file}")));
+        bar.advance((k + 1) as f64, count as f64);
+    }
+    bar.finish();
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(work)?;
+    }
+    std::fs::rename(scratch.keep(), &folder).map_err(work)?;
+    write_text(&a.output, &series_text(&files))?;
+    console::note(format!(
+        "{count} moments in {}, over {unit}; {} gears",
+        folder.display(),
+        surfaces.len()
+    ));
+    if a.json {
+        let at: Vec<f64> = files.iter().map(|(at, _)| *at).collect();
+        let paths: Vec<&String> = files.iter().map(|(_, file)| file).collect();
+        console::json(&json!({ "file": a.output, "moments": at, "unit": unit, "files": paths }));
+    }
+    Ok(())
+}
+
+/// The folder beside the file; one that is there must hold nothing but moments of an earlier export.
+fn frames_folder(output: &Path) -> Result<PathBuf, Failure> {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = output.with_file_name(format!("{stem}_moments"));
+    let Ok(found) = folder.symlink_metadata() else {
+        return Ok(folder);
+    };
+    let foreign = || -> std::io::Result<Option<PathBuf>> {
+        for entry in std::fs::read_dir(&folder)? {
+            let path = entry?.path();
+            if path.extension().is_none_or(|ending| ending != "vtu") {
+                return Ok(Some(path));
+            }
+        }
+        Ok(None)
+    };
+    let other = if found.is_dir() {
+        foreign().map_err(Failure::work)?
+    } else {
+        Some(folder.clone())
+    };
+    match other {
+        None => Ok(folder),
+        Some(path) => Err(Failure::input(format!(
+            "{}: the moments are written into {}, and this is none; move it, or choose another name",
+            path.display(),
+            folder.display()
+        ))),
+    }
+}

@@ -1,0 +1,138 @@
+//! A gear's exact flanks as STEP, by gmsh's OCC kernel in a Python process.
+
+use crate::arguments::ExportArguments;
+use crate::failure::Failure;
+use crate::{console, offline};
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
+use gearmesh_mesh::python::PythonError;
+use gearmesh_model::write_by;
+use serde_json::{Value, json};
+use std::f64::consts::PI;
+
+const WRITE: &str = include_str!("../../step/write.py");
+
+/// Points that a spline goes through, on a fillet and on a flank.
+const SPLINE_POINTS: usize = 24;
+
+/// Turn of a section against the next one, where a helical tooth is skinned \[rad\].
+const SECTION_TURN_RAD: f64 = 0.06;
+
+/// Places on a flank, along the profile and over the width, at which the file is compared with the exact flank.
+const CHECKED: [usize; 2] = [13, 7];
+
+/// Runs the command.
+pub fn run(a: &ExportArguments) -> Result<(), Failure> {
+    let gear = offline::gear(&a.result)?;
+    let python = offline::python()?;
+    let task = format!("writing {}", a.output.display());
+    let input = description(&gear).to_string();
+    let mut told = Vec::new();
+    let bar = console::StageBar::new(&gear.name);
+    gearmesh_reduction::Progress::stage(
+        &bar,
+        "making the solid and comparing it with the exact flanks",
+    );
+    let outcome = write_by(&a.output, |beside| {
+        let beside = beside.display().to_string();
+        let blame = |error: PythonError| Failure::work(error);
+        told = python
+            .run(&task, WRITE, &[&beside], input.as_bytes())
+            .map_err(blame)?;
+        Ok::<(), Failure>(())
+    });
+    bar.finish();
+    outcome?;
+    let told: Value = serde_json::from_slice(&told).map_err(Failure::work)?;
+    let left_out = left_out(&gear);
+    if a.json {
+        console::json(&json!({ "file": a.output, "solid": told, "left_out": left_out }));
+    } else {
+        let off_nm = 1e6 * told["largest_error_mm"].as_f64().unwrap_or_default();
+        console::data(format!(
+            "{}: one solid of {} faces, in mm; flanks within {off_nm:.3} nm of the exact ones",
+            a.output.display(),
+            told["faces"]
+        ));
+    }
+    if !left_out.is_empty() {
+        console::note(format!("not in the solid: {}", left_out.join(", ")));
+    }
+    Ok(())
+}
+
+/// What the gear has and the solid has not.
+fn left_out(gear: &GearDefinition) -> Vec<&'static str> {
+    let solid = gearmesh_geometry::Blank::solid(gear.blank.bore_radius_m());
+    let mut left_out = Vec::new();
+    if gear.blank != solid {
+        left_out.push("web, rim and openings (a disc of the face width)");
+    }
+    if !gear.microgeometry.is_none() {
+        left_out.push("microgeometry (ideal flanks)");
+    }
+    if gear.crack.is_some() {
+        left_out.push("the crack");
+    }
+    left_out
+}
+
+/// The outline in pieces, and points of the exact flanks of teeth 0 to compare with; lengths in mm.
+fn description(gear: &GearDefinition) -> Value {
+    let tooth = &gear.profile;
+    let curve = ProfileCurve::new(tooth);
+    let mm = |p: [f64; 2]| p.map(|x| 1e3 * x);
+    // Closer towards the ends, as splines want it.
+    let share = |k: usize, count: usize| 0.5 * (1.0 - (PI * k as f64 / (count - 1) as f64).cos());
+    let along = |from: f64, to: f64, count: usize| -> Vec<[f64; 2]> {
+        let at = |k| curve.point_at(from + (to - from) * share(k, count));
+        (0..count).map(|k| mm(at(k))).collect()
+    };
+    let rolls = |count: usize| {
+        let (from, to) = (tooth.form_roll_rad, tooth.flank_end_roll_rad);
+        (0..count).map(move |k| from + (to - from) * share(k, count))
+    };
+    let flank: Vec<[f64; 2]> = rolls(SPLINE_POINTS)
+        .map(|roll| mm(tooth.flank_point_m(Flank::Right, roll)))
+        .collect();
+    let mut pieces = Vec::new();
+    if curve.root_arc_end_m() > 1e-9 * tooth.root_radius_m {
+        pieces.push(json!({ "kind": "root", "points": along(0.0, curve.root_arc_end_m(), 2) }));
+    }
+    let mut fillet = along(curve.root_arc_end_m(), curve.flank_start_m(), SPLINE_POINTS);
+    // One point, however it was computed.
+    if let (Some(last), Some(first)) = (fillet.last_mut(), flank.first()) {
+        *last = *first;
+    }
+    pieces.push(json!({ "kind": "fillet", "points": fillet }));
+    pieces.push(json!({ "kind": "flank", "points": flank }));
+    let mut corner = tooth.flank_point_m(Flank::Right, tooth.flank_end_roll_rad);
+    if tooth.tip_chamfer_m > 0.0 {
+        let end = curve.point_at(curve.tip_start_m());
+        pieces.push(json!({ "kind": "chamfer", "points": [mm(corner), mm(end)] }));
+        corner = end;
+    }
+    pieces.push(json!({ "kind": "tip", "points": [mm(corner), [1e3 * tooth.tip_radius_m, 0.0]] }));
+    let (width_m, twist) = (gear.tooth.face_width_m, tooth.twist_rad_per_m());
+    let checked = Flank::ALL.map(|side| {
+        let mut points = Vec::new();
+        for roll in rolls(CHECKED[0]) {
+            for k in 0..CHECKED[1] {
+                let z = width_m * (k as f64 / (CHECKED[1] - 1) as f64 - 0.5);
+                let [x, y] = tooth.flank_point_m(side, roll);
+                let (s, c) = (twist * z).sin_cos();
+                points.push([c * x - s * y, s * x + c * y, z].map(|v| 1e3 * v));
+            }
+        }
+        points
+    });
+    let turn = (twist * width_m).abs();
+    json!({
+        "teeth": tooth.teeth,
+        "width": 1e3 * width_m,
+        "bore_radius": 1e3 * gear.blank.bore_radius_m(),
+        "twist_per_length": 1e-3 * twist,
+        "sections": 3 + (turn / SECTION_TURN_RAD).ceil() as usize,
+        "half_outline": pieces,
+        "flanks": checked,
+    })
+}

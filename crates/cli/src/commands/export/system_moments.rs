@@ -1,0 +1,155 @@
+//! Moments of a multibody result: gears where their bodies are, line loads and pressures computed again from places and speeds.
+
+use crate::arguments::ExportArguments;
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_report::moving::{FlankLoad, GearSurface, Moment, Placement};
+use gearmesh_scene::system::{GearState, GearsInMotion, SystemScene};
+use gearmesh_scene::system_run::{ResultKind, SystemResult, digests_of_named_files};
+use std::path::{Path, PathBuf};
+
+/// Sections of a gear's surface over its face.
+const SECTIONS: usize = 20;
+
+/// A result whose rows are moments.
+pub struct SystemMoments {
+    /// Surfaces of the gears.
+    pub surfaces: Vec<GearSurface>,
+    gears: GearsInMotion,
+    /// What the series runs over.
+    at: Vec<f64>,
+    /// `[gear][column][row]`.
+    states: Vec<Vec<Vec<f64>>>,
+    first: usize,
+    last: usize,
+}
+
+impl SystemMoments {
+    /// Reads the columns of all gears and builds their meshes.
+    pub fn new(a: &ExportArguments, result: SystemResult) -> Result<Self, Failure> {
+        let shown = a.result.display();
+        let axis = match result.kind {
+            ResultKind::Transient => "time_s",
+            ResultKind::Static => "point",
+            ResultKind::SpeedSweep | ResultKind::Eigen => {
+                return Err(Failure::input(format!(
+                    "{shown}: gears move in results of `transient` and `static` runs only"
+                )));
+            }
+        };
+        let folder = scene_folder(a, &result)?;
+        let document = InputDocument::new(
+            format!("scene inside {shown}"),
+            result.head.scene_toml.clone(),
+        );
+        let gears = SystemScene::from_document(document, &folder)?
+            .load()?
+            .gears_in_motion()?;
+        if gears.gears.is_empty() {
+            return Err(Failure::input(format!(
+                "{shown}: no body of the scene is a cylindrical gear"
+            )));
+        }
+        for mesh in &gears.without_forces {
+            console::note(format!("no forces on the teeth of {mesh}"));
+        }
+        let names: Vec<&str> = result.rows.columns().iter().map(|c| &*c.name).collect();
+        let read = |name: &str| result.rows.read(name).map_err(Failure::input);
+        let mut states = Vec::new();
+        for gear in &gears.gears {
+            let columns = GearState::columns(&gear.body);
+            let there = |name: &String| names.contains(&&**name);
+            if let Some(missing) = columns[..6].iter().find(|name| !there(name)) {
+                return Err(Failure::input(format!(
+                    "{shown} has no column `{missing}`: let [output] record the bodies of the gears, and run again"
+                )));
+            }
+            let own = columns.iter().filter(|name| there(name));
+            states.push(own.map(|name| read(name)).collect::<Result<_, _>>()?);
+        }
+        let at = read(axis)?;
+        let first = at.partition_point(|t| *t < a.from_s.unwrap_or(f64::NEG_INFINITY));
+        let last = at.partition_point(|t| *t <= a.to_s.unwrap_or(f64::INFINITY));
+        if first >= last {
+            return Err(Failure::input(format!(
+                "--from-s, --to-s: no row lies there; the result runs from {} to {}",
+                at.first().unwrap_or(&0.0),
+                at.last().unwrap_or(&0.0)
+            )));
+        }
+        let surfaces = gears.gears.iter().map(|gear| {
+            let width_m = gear.definition.tooth.face_width_m;
+            let share = |k: usize| k as f64 / SECTIONS as f64 - 0.5;
+            let heights: Vec<f64> = (0..=SECTIONS).map(|k| share(k) * width_m).collect();
+            GearSurface::new(&gear.definition, &heights)
+        });
+        Ok(Self {
+            surfaces: surfaces.collect(),
+            gears,
+            at,
+            states,
+            first,
+            last,
+        })
+    }
+
+    /// Rows that were asked for.
+    pub fn rows(&self) -> Vec<usize> {
+        (self.first..self.last).collect()
+    }
+
+    /// The moment of a row.
+    pub fn moment(&mut self, row: usize) -> Result<Moment, Failure> {
+        let state = |columns: &Vec<Vec<f64>>| {
+            let values: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+            GearState::from_values(&values)
+        };
+        let states: Vec<GearState> = self.states.iter().map(state).collect();
+        let loads = self.gears.loads(&states).map_err(|error| {
+            Failure::work(format!("at {} of the series: {error}", self.at[row]))
+        })?;
+        let placed = |state: &GearState| Placement {
+            rotation: state.rotation(),
+            origin_m: state.position_m,
+        };
+        let loads = loads.into_iter().map(|load| FlankLoad {
+            gear: load.gear,
+            tooth: load.tooth,
+            side: load.side,
+            roll_rad: load.roll_rad,
+            height_m: load.height_m,
+            force_n: load.force_n,
+            line_load_n_per_m: load.line_load_n_per_m,
+            pressure_pa: load.pressure_pa,
+        });
+        Ok(Moment {
+            at: self.at[row],
+            placements: states.iter().map(placed).collect(),
+            loads: loads.collect(),
+        })
+    }
+}
+
+/// The folder from which the scene names the files that the result was computed with.
+fn scene_folder(a: &ExportArguments, result: &SystemResult) -> Result<PathBuf, Failure> {
+    let beside = a.result.parent().unwrap_or(Path::new("")).to_owned();
+    let candidates = match &a.scene_folder {
+        Some(folder) => vec![folder.clone()],
+        None => vec![beside, PathBuf::new()],
+    };
+    let scene = &result.head.scene_toml;
+    let fits = |folder: &&PathBuf| digests_of_named_files(scene, folder) == result.head.inputs;
+    let found = candidates.iter().find(fits);
+    found.cloned().ok_or_else(|| {
+        let names = result.head.inputs.iter();
+        let names: Vec<&str> = names.filter_map(|line| line.rsplit_once(' ')).map(|(n, _)| n).collect();
+        let searched: Vec<String> = candidates.iter().map(|f| f.join(".").display().to_string()).collect();
+        Failure::input(format!(
+            "the files that the scene of {} names ({}) are not in {} as they were in the run; --scene-folder says where the scene is, else run it again",
+            a.result.display(),
+            names.join(", "),
+            searched.join(" or ")
+        ))
+    })
+}

@@ -1,0 +1,249 @@
+//! `gearmesh export` into series of moving gears, read back by meshio and PyVista, and into STEP, read back by gmsh.
+
+use crate::common::{Desk, SOLID, argument, changed, gearmesh, refused, run_scene, succeeds};
+use crate::hybrid_scene;
+use gearmesh_mesh::python::PythonEnvironment;
+use gearmesh_scene::SceneResult;
+use gearmesh_scene::system_run::SystemResult;
+use serde_json::Value;
+use std::path::Path;
+
+/// What a script prints as JSON.
+fn python(script: &str, arguments: &[&str]) -> Value {
+    let python = PythonEnvironment::find().unwrap();
+    let told = python.run("reading", script, arguments, b"").unwrap();
+    serde_json::from_slice(&told).unwrap()
+}
+
+/// Of each moment of a series: what PyVista says it is at, force on each gear (vector, sum of magnitudes), largest distance of loaded
+/// quadrilaterals of the two gears, open edges and volume of each gear's surface; figures of the first file by meshio.
+const READ: &str = "
+import json, sys
+import meshio, numpy as np, pyvista
+reader = pyvista.PVDReader(sys.argv[1])
+moments = []
+for at in reader.time_values:
+    reader.set_active_time_value(at)
+    mesh = reader.read()[0]
+    force = mesh.cell_data['contact_force_N'].astype(float)
+    gear, centre = mesh.cell_data['gear'], mesh.cell_centers().points
+    loaded = [centre[(gear == g) & (mesh.cell_data['line_load_N_per_m'] > 0)] for g in (1, 2)]
+    apart = max((np.linalg.norm(loaded[1] - p, axis=1).min() for p in loaded[0]), default=0.0)
+    surfaces = [mesh.extract_cells(gear == g).extract_surface(algorithm='dataset_surface') for g in (1, 2)]
+    moments.append({
+        'at': at, 'apart_m': float(apart),
+        'force': [force[gear == g].sum(axis=0).tolist() for g in (1, 2)],
+        'size': [float(np.linalg.norm(force[gear == g], axis=1).sum()) for g in (1, 2)],
+        'pressure': float(mesh.cell_data['hertz_pressure_Pa'].max()),
+        'open': [s.n_open_edges for s in surfaces], 'volume': [s.triangulate().volume for s in surfaces],
+    })
+own = meshio.read(sys.argv[2])
+cells = own.cells_dict['quad']
+json.dump({'moments': moments, 'quads': len(cells), 'largest_node': int(cells.max()), 'points': len(own.points),
+           'teeth': int(own.cell_data['tooth'][0].max()) + 1}, sys.stdout)
+";
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let all = value.as_array().unwrap().iter();
+    all.map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// Forces on both gears are opposite, of the size that is known, and their loaded flanks lie on each other.
+fn demand_contact(moment: &Value, force_n: f64, relative: f64) {
+    let [on_1, on_2] = [0, 1].map(|gear| numbers(&moment["force"][gear]));
+    for (a, b) in on_1.iter().zip(&on_2) {
+        assert!((a + b).abs() < 1e-3 * force_n.max(1.0), "{on_1:?} {on_2:?}");
+    }
+    for size in numbers(&moment["size"]) {
+        assert!(
+            (size - force_n).abs() <= relative * force_n,
+            "{size} {force_n}"
+        );
+    }
+    // Shorter than the diagonal of a quadrilateral of the flanks.
+    assert!(moment["apart_m"].as_f64().unwrap() < 1e-3, "{moment}");
+}
+
+#[test]
+fn a_pair_turns_under_load() {
+    let desk = Desk::new();
+    let (file, _) = run_scene(&desk, "");
+    let result = SceneResult::read(&file).unwrap();
+    let output = desk.path("pair.pvd");
+    let words = [
+        "export",
+        argument(&file),
+        "-o",
+        argument(&output),
+        "--moments",
+        "5",
+        "--json",
+    ];
+    let told = succeeds(&words).json();
+    let first = desk.path("").join(told["files"][0].as_str().unwrap());
+    let read = python(READ, &[argument(&output), argument(&first)]);
+    let moments = read["moments"].as_array().unwrap();
+    assert_eq!(moments.len(), 5);
+    assert_eq!(
+        (read["teeth"].as_u64(), told["unit"].as_str()),
+        (Some(18), Some("deg"))
+    );
+    assert!(read["largest_node"].as_u64() < read["points"].as_u64());
+    let forces = result.normal_force_n(1);
+    for (k, moment) in moments.iter().enumerate() {
+        let angle = k * result.angles() / 5;
+        let at = moment["at"].as_f64().unwrap();
+        assert!((at - result.angle_rad[angle].to_degrees()).abs() < 1e-9);
+        demand_contact(moment, forces[angle], 1e-5);
+        let size = result.slots * result.slices;
+        let here = &result.pressure_pa[(result.angles() + angle) * size..][..size];
+        let largest = here.iter().copied().fold(0.0, f64::max);
+        assert!((moment["pressure"].as_f64().unwrap() / largest - 1.0).abs() < 1e-6);
+        // Closed surfaces, seen from outside, between those of root and tip cylinders.
+        assert_eq!(numbers(&moment["open"]), [0.0, 0.0]);
+        let teeth = result.gears[0].definition_in("the result").unwrap();
+        let (root, tip) = (teeth.profile.root_radius_m, teeth.profile.tip_radius_m);
+        let disc = |r: f64| std::f64::consts::PI * (r * r - 7e-3_f64.powi(2)) * 12e-3;
+        for volume in numbers(&moment["volume"]) {
+            assert!(disc(root) < volume && volume < disc(tip), "{volume}");
+        }
+    }
+    // Again, into the same folder; not into one that holds something else, and not with options of others.
+    succeeds(&words);
+    let folder = desk.path("pair_moments");
+    std::fs::write(folder.join("notes.txt"), "mine").unwrap();
+    refused(
+        &gearmesh(&words[..4]),
+        2,
+        &["notes.txt", "choose another name"],
+    );
+    assert!(folder.join("00000.vtu").exists());
+    let unused = [&words[..4], &["--from-s", "1"]].concat();
+    refused(
+        &gearmesh(&unused),
+        2,
+        &["--from-s is for results of multibody scenes"],
+    );
+    let table = desk.path("x.csv");
+    let unused = [
+        "export",
+        argument(&file),
+        "-o",
+        argument(&table),
+        "--moments",
+        "3",
+    ];
+    refused(
+        &gearmesh(&unused),
+        2,
+        &["--moments has no use for a .csv file"],
+    );
+}
+
+#[test]
+fn gears_of_a_run_in_time_turn_under_the_forces_of_the_run() {
+    let desk = Desk::new();
+    let scene = desk.file("hybrid.toml", hybrid_scene());
+    let result = desk.path("hybrid.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    let output = desk.path("hybrid.pvd");
+    let words = [
+        "export",
+        argument(&result),
+        "-o",
+        argument(&output),
+        "--from-s",
+        "5e-4",
+        "--json",
+    ];
+    let told = succeeds(&words).json();
+    let first = desk.path("").join(told["files"][0].as_str().unwrap());
+    let read = python(READ, &[argument(&output), argument(&first)]);
+    let rows = SystemResult::open(&result).unwrap().rows;
+    let times = rows.read("time_s").unwrap();
+    let forces = rows.read("elements/mesh/normal_force_right_N").unwrap();
+    let moments = read["moments"].as_array().unwrap();
+    assert_eq!(moments.len(), times.iter().filter(|t| **t >= 5e-4).count());
+    let mut most = 0.0_f64;
+    for moment in moments {
+        let at = moment["at"].as_f64().unwrap();
+        let row = times.iter().position(|t| *t == at).unwrap();
+        most = most.max(forces[row]);
+        demand_contact(moment, forces[row], 1e-3);
+    }
+    assert!(most > 10.0, "{most}");
+    // Somewhere else the scene's gears are not found; another gear under the same name is not taken.
+    let folder = desk.path("elsewhere");
+    std::fs::create_dir(&folder).unwrap();
+    let moved = folder.join("hybrid.h5");
+    std::fs::copy(&result, &moved).unwrap();
+    succeeds(&[
+        "export",
+        argument(&moved),
+        "-o",
+        argument(&output),
+        "--moments",
+        "1",
+    ]);
+}
+
+/// Points of the flanks of tooth 0 by the closed form of the involute, written down once more, and their distance to the solid's faces.
+const DISTANCE: &str = "
+import json, math, os, sys
+import gmsh
+answer = os.fdopen(os.dup(1), 'w'); os.dup2(2, 1)
+z, m, x, beta, b = (float(a) for a in sys.argv[2:])
+alpha_t = math.atan(math.tan(math.radians(20)) / math.cos(beta))
+r = z * m / math.cos(beta) / 2
+base = r * math.cos(alpha_t)
+half = math.pi / (2 * z) + 2 * x * math.tan(math.radians(20)) / z + math.tan(alpha_t) - alpha_t
+gmsh.initialize(interruptible=False)
+gmsh.option.setNumber('General.Terminal', 0)
+gmsh.option.setString('Geometry.OCCTargetUnit', 'MM')
+gmsh.model.occ.importShapes(sys.argv[1]); gmsh.model.occ.synchronize()
+faces = [tag for _, tag in gmsh.model.getEntities(2)]
+worst = 0.0
+for side in (-1, 1):
+    for share in (0.02, 0.3, 0.61, 0.97):
+        low, high = r - 0.4 * m, r + 0.9 * m
+        radius = low + share * (high - low)
+        xi = math.sqrt((radius / base) ** 2 - 1)
+        for height in (-0.49, 0.13, 0.5):
+            angle = side * (half - xi + math.atan(xi)) + height * b * math.tan(beta) / r
+            p = (radius * math.cos(angle), radius * math.sin(angle), height * b)
+            worst = max(worst, min(math.dist(gmsh.model.getClosestPoint(2, tag, p)[0], p) for tag in faces))
+volume = sum(gmsh.model.occ.getMass(*e) for e in gmsh.model.getEntities(3))
+json.dump([worst, len(gmsh.model.getEntities(3)), volume], answer)
+";
+
+#[test]
+fn the_flanks_of_a_step_file_are_the_exact_ones() {
+    let desk = Desk::new();
+    let helical = changed(
+        SOLID,
+        "face_width_mm",
+        "helix_angle_deg = 15.0\nhand = \"left\"\nface_width_mm",
+    );
+    let mut volumes = Vec::new();
+    for (name, text, beta) in [("spur", SOLID, 0.0_f64), ("helical", &helical, -15.0)] {
+        let gear = desk.file(&format!("{name}.toml"), text);
+        let output = desk.path(&format!("{name}.step"));
+        let told = succeeds(&["export", argument(&gear), "-o", argument(&output), "--json"]).json();
+        let stated = told["solid"]["largest_error_mm"].as_f64().unwrap();
+        assert!(stated < 1e-4, "{stated}");
+        let beta = beta.to_radians();
+        let words = ["18", "3", "0.1", &beta.to_string(), "12"];
+        let found = python(DISTANCE, &[&[argument(&output)][..], &words].concat());
+        let found = numbers(&found);
+        // A tenth of a micrometre, and what the program states to the same order.
+        assert!(found[0] < 1e-4 && found[1] == 1.0, "{found:?}");
+        volumes.push(found[2]);
+        assert!((told["solid"]["volume_mm3"].as_f64().unwrap() / found[2] - 1.0).abs() < 1e-6);
+    }
+    assert!(volumes[1] > volumes[0], "{volumes:?}");
+    let scene = desk.file("scene.toml", "[run]\nkind = \"static\"\n");
+    let none = desk.path("none.step");
+    let answer = gearmesh(&["export", argument(&scene), "-o", argument(&none)]);
+    refused(&answer, 2, &["scene.toml"]);
+    assert!(!Path::new(&none).exists());
+}

@@ -1,0 +1,246 @@
+//! The two files of a record from measured channels.
+
+use super::unit::{ANGLE_DEG, LENGTH_UM, STRAIN_USTRAIN, TIME_S, Units, state_units};
+use super::{Channel, MeasuredError, channel};
+use crate::pair_orders::Shaft;
+use crate::quantity::Quantity;
+use crate::record_data::parse_head;
+use std::fmt::Write;
+
+/// What the record is, and which channels it takes.
+#[derive(Debug, Clone)]
+pub struct RecordRequest {
+    /// Title, for people.
+    pub title: String,
+    /// Where the numbers come from.
+    pub source: String,
+    /// What angle 0 is.
+    pub angle_origin: String,
+    /// Whose angle the axis is.
+    pub shaft: Shaft,
+    /// Revolutions of it after which the record repeats.
+    pub revolutions: usize,
+    /// Head of data.csv and channel; empty takes every channel whose name with its unit is such a head.
+    pub columns: Vec<(String, String)>,
+    /// Heads whose sign is changed.
+    pub negated: Vec<String>,
+    /// Units stated by the user: channel or axis, unit.
+    pub units: Vec<(String, String)>,
+    /// Constant speed of the shaft \[rpm\], where the axis is a time.
+    pub speed_rpm: Option<f64>,
+    /// Radius \[mm\] that makes a transmission error in angles one along the line of action.
+    pub base_radius_mm: Option<f64>,
+    /// Where the revolutions begin \[deg\], on the axis of the file; its begin where none.
+    pub from_deg: Option<f64>,
+    /// Added to the angle \[deg\].
+    pub angle_offset_deg: f64,
+}
+
+/// Contents of the two files, and what was left out or turned round, for people.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordFiles {
+    /// record.toml.
+    pub description: String,
+    /// data.csv.
+    pub data: String,
+    /// Remarks.
+    pub notes: Vec<String>,
+}
+
+/// Makes the files of a record.
+///
+/// # Errors
+/// [`MeasuredError`].
+pub fn record_files(
+    mut channels: Vec<Channel>,
+    request: &RecordRequest,
+) -> Result<RecordFiles, MeasuredError> {
+    state_units(&mut channels, &request.units)?;
+    let columns = columns_of(&channels, request)?;
+    let mut notes = Vec::new();
+    let first = columns[0].1;
+    let mut angle_deg = angles(first, request)?;
+    if angle_deg.last() < angle_deg.first() {
+        // A record's angle is positive in the shaft's own sense of turning.
+        angle_deg.iter_mut().for_each(|angle| *angle = -*angle);
+        notes.push("the angle falls: its sign is changed".to_owned());
+    }
+    let rows = window(&angle_deg, request)?;
+    let left_out = angle_deg.len() - rows.len();
+    if left_out > 0 {
+        notes.push(format!(
+            "{left_out} of {} values lie outside the revolutions and are left out",
+            angle_deg.len()
+        ));
+    }
+    let in_angles = |(head, channel): &(String, &Channel)| {
+        head.starts_with("te_") && ANGLE_DEG.factor(&channel.unit).is_some()
+    };
+    if request.base_radius_mm.is_some() && !columns.iter().any(in_angles) {
+        let problem =
+            "--base-radius-mm: no transmission error of this record is measured as an angle";
+        return Err(MeasuredError::Option(problem.to_owned()));
+    }
+    let mut values = Vec::new();
+    for (head, channel) in &columns {
+        if channel.x != first.x {
+            return Err(MeasuredError::OtherAxis {
+                first: first.name.clone(),
+                second: channel.name.clone(),
+            });
+        }
+        let sign = if request.negated.contains(head) {
+            -1.0
+        } else {
+            1.0
+        };
+        values.push((sign * factor(head, channel, request)?, &channel.y));
+    }
+    let mut data = String::from("angle_deg");
+    columns.iter().for_each(|(head, _)| {
+        data.push(',');
+        data.push_str(head);
+    });
+    data.push('\n');
+    for row in rows {
+        let _ = write!(data, "{}", angle_deg[row] + request.angle_offset_deg);
+        for (factor, y) in &values {
+            let _ = write!(data, ",{}", factor * y[row]);
+        }
+        data.push('\n');
+    }
+    Ok(RecordFiles {
+        description: description(request),
+        data,
+        notes,
+    })
+}
+
+/// Heads with their channels.
+fn columns_of<'a>(
+    channels: &'a [Channel],
+    request: &RecordRequest,
+) -> Result<Vec<(String, &'a Channel)>, MeasuredError> {
+    let mut columns = Vec::new();
+    for (head, name) in &request.columns {
+        parse_head(head).ok_or_else(|| MeasuredError::Head {
+            found: head.clone(),
+        })?;
+        columns.push((head.clone(), channel(channels, name)?));
+    }
+    if request.columns.is_empty() {
+        let named = channels.iter().filter(|c| parse_head(&c.name).is_some());
+        columns.extend(named.map(|c| (c.name.clone(), c)));
+    }
+    if columns.is_empty() {
+        let names: Vec<&str> = channels.iter().map(|c| &*c.name).collect();
+        return Err(MeasuredError::Option(format!(
+            "--column HEAD=CHANNEL says which channels the record takes, such as te_um_200Nm={}; there are: {}",
+            names.first().unwrap_or(&""),
+            names.join("; ")
+        )));
+    }
+    if let Some(head) = (request.negated.iter()).find(|head| columns.iter().all(|c| c.0 != **head))
+    {
+        let heads: Vec<&str> = columns.iter().map(|c| &*c.0).collect();
+        return Err(MeasuredError::Option(format!(
+            "--negate {head}: the record has no such column; it has {}",
+            heads.join(" ")
+        )));
+    }
+    Ok(columns)
+}
+
+/// The axis as an angle in degrees.
+fn angles(channel: &Channel, request: &RecordRequest) -> Result<Vec<f64>, MeasuredError> {
+    let unit = &channel.axis_unit;
+    let degrees = |factor: f64| channel.x.iter().map(|x| factor * x).collect();
+    match (TIME_S.factor(unit), request.speed_rpm) {
+        (Some(seconds), Some(rpm)) => Ok(degrees(6.0 * rpm.abs() * seconds)),
+        (Some(_), None) => Err(MeasuredError::Option(format!(
+            "the axis `{}` is a time; --angle names the channel with the shaft's angle, or --speed-rpm the constant speed of the shaft",
+            channel.axis
+        ))),
+        (None, Some(_)) if ANGLE_DEG.factor(unit).is_some() => Err(MeasuredError::Option(format!(
+            "--speed-rpm: the axis `{}` is an angle already",
+            channel.axis
+        ))),
+        _ => Ok(degrees(ANGLE_DEG.factor_of(&channel.axis, unit)?)),
+    }
+}
+
+/// Rows of the revolutions asked for.
+fn window(
+    angle_deg: &[f64],
+    request: &RecordRequest,
+) -> Result<std::ops::Range<usize>, MeasuredError> {
+    let mut widest = 0.0_f64;
+    for (k, pair) in angle_deg.windows(2).enumerate() {
+        if pair[1] <= pair[0] {
+            return Err(MeasuredError::AngleOrder {
+                place: k + 2,
+                before_deg: pair[0],
+                found_deg: pair[1],
+            });
+        }
+        widest = widest.max(pair[1] - pair[0]);
+    }
+    let from_deg = request.from_deg.unwrap_or(angle_deg[0]);
+    let needed_deg = 360.0 * request.revolutions as f64;
+    let begin = angle_deg.partition_point(|angle| *angle < from_deg);
+    // The angle that closes the revolutions repeats the first and is left out.
+    let close = from_deg + needed_deg - 1e-3 * widest;
+    let end = angle_deg.partition_point(|angle| *angle < close);
+    let covered_deg = match angle_deg.get(begin..end) {
+        Some([first, .., last]) => last - first,
+        _ => 0.0,
+    };
+    let starts = angle_deg.get(begin).is_some_and(|a| a - from_deg <= widest);
+    if !starts || covered_deg + 2.0 * widest < needed_deg {
+        return Err(MeasuredError::TooShort {
+            covered_deg,
+            from_deg,
+            revolutions: request.revolutions,
+            needed_deg,
+        });
+    }
+    Ok(begin..end)
+}
+
+/// From the unit of a channel to that of its column.
+fn factor(head: &str, channel: &Channel, request: &RecordRequest) -> Result<f64, MeasuredError> {
+    // A channel that is called like the column is in its unit.
+    let stated = !(channel.unit.is_empty() && channel.name == head);
+    let of = |units: &Units| match stated {
+        true => units.factor_of(&channel.name, &channel.unit),
+        false => Ok(1.0),
+    };
+    let Some((Quantity::TransmissionError, _)) = parse_head(head) else {
+        return of(&STRAIN_USTRAIN);
+    };
+    let degrees = ANGLE_DEG.factor(&channel.unit);
+    match (degrees, request.base_radius_mm) {
+        (Some(degrees), Some(radius_mm)) => Ok(degrees.to_radians() * radius_mm * 1e3),
+        (Some(_), None) => Err(MeasuredError::Option(format!(
+            "channel `{}` is a transmission error in {}: --base-radius-mm is the base radius of the gear whose angle it is",
+            channel.name, channel.unit
+        ))),
+        (None, _) => of(&LENGTH_UM),
+    }
+}
+
+fn description(request: &RecordRequest) -> String {
+    let text = |value: &str| toml::Value::String(value.to_owned()).to_string();
+    let shaft = match request.shaft {
+        Shaft::Gear1 => "gear_1",
+        Shaft::Gear2 => "gear_2",
+    };
+    format!(
+        "title = {}\nkind = \"measured\"\nsource = {}\nangle_origin = {}\nshaft = \"{shaft}\"\nrevolutions = {}\n\n\
+         [uncertainty]                           # as far as it is known\n# te_mean_um = 0.5\n# te_peak_to_peak_um = 0.2\n# strain_range_ustrain = 10.0\n",
+        text(&request.title),
+        text(&request.source),
+        text(&request.angle_origin),
+        request.revolutions
+    )
+}

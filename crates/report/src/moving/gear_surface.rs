@@ -1,0 +1,173 @@
+//! The surface of a gear in quadrilaterals: the exact outline of the teeth over the height, faces and bore of a solid disc.
+
+use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, ToothGeometry};
+use std::f64::consts::TAU;
+
+/// Quadrilaterals along half an outline: root arc, fillet, flank, chamfer, tip land.
+const ROOT: usize = 2;
+const FILLET: usize = 5;
+const FLANK: usize = 12;
+const TIP: usize = 2;
+
+/// A gear's surface in its own frame: z along the axis, tooth 0 on +x.
+#[derive(Debug, Clone)]
+pub struct GearSurface {
+    /// The teeth.
+    pub tooth: ToothGeometry,
+    /// Points \[m\].
+    pub points_m: Vec<[f64; 3]>,
+    /// Corners, counter-clockwise seen from outside.
+    pub quads: Vec<[u32; 4]>,
+    /// Tooth of each quadrilateral; −1 on faces and bore.
+    pub teeth: Vec<i32>,
+    /// Heights of the sections \[m\], rising.
+    heights_m: Vec<f64>,
+    /// Quadrilaterals along half an outline before the flank, and in all.
+    before_flank: usize,
+    half: usize,
+}
+
+impl GearSurface {
+    /// The surface with sections at these heights \[m\] within the face, and at both faces.
+    #[must_use]
+    pub fn new(gear: &GearDefinition, heights_m: &[f64]) -> Self {
+        let tooth = &gear.profile;
+        let half_width = 0.5 * gear.tooth.face_width_m;
+        let mut heights = vec![-half_width, half_width];
+        heights.extend(
+            heights_m
+                .iter()
+                .filter(|z| z.abs() < half_width * (1.0 - 1e-9)),
+        );
+        heights.sort_by(f64::total_cmp);
+        heights.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * half_width);
+        let (right, before_flank) = half_outline(tooth);
+        let half = right.len() - 1;
+        // From the middle of one tooth space to the next; its last point is the first of the next tooth.
+        let left = right[1..half].iter().rev().map(|p| [p[0], -p[1]]);
+        let whole: Vec<[f64; 2]> = right.iter().copied().chain(left).collect();
+        let columns = whole.len() * tooth.teeth;
+        let (mut points, mut quads, mut teeth) = (Vec::new(), Vec::new(), Vec::new());
+        for &z in &heights {
+            for number in 0..tooth.teeth {
+                let turn = TAU * number as f64 / tooth.teeth as f64 + z * tooth.twist_rad_per_m();
+                let (s, c) = turn.sin_cos();
+                points.extend(
+                    whole
+                        .iter()
+                        .map(|p| [c * p[0] - s * p[1], s * p[0] + c * p[1], z]),
+                );
+            }
+        }
+        let layers = heights.len();
+        let at = |column: usize, layer: usize| (layer * columns + column % columns) as u32;
+        for column in 0..columns {
+            for layer in 0..layers - 1 {
+                quads.push([
+                    at(column, layer),
+                    at(column + 1, layer),
+                    at(column + 1, layer + 1),
+                    at(column, layer + 1),
+                ]);
+                teeth.push((column / whole.len()) as i32);
+            }
+        }
+        let bore = gear.blank.bore_radius_m();
+        let rings: Vec<u32> = [0, layers - 1]
+            .into_iter()
+            .map(|layer| {
+                let first = points.len() as u32;
+                for column in 0..columns {
+                    let [x, y, z] = points[at(column, layer) as usize];
+                    let radius = x.hypot(y);
+                    points.push([bore * x / radius, bore * y / radius, z]);
+                }
+                first
+            })
+            .collect();
+        let on = |ring: usize, column: usize| rings[ring] + (column % columns) as u32;
+        for column in 0..columns {
+            let next = column + 1;
+            quads.push([at(column, 0), on(0, column), on(0, next), at(next, 0)]);
+            let top = layers - 1;
+            quads.push([at(column, top), at(next, top), on(1, next), on(1, column)]);
+            quads.push([on(0, column), on(1, column), on(1, next), on(0, next)]);
+            teeth.extend([-1; 3]);
+        }
+        Self {
+            tooth: tooth.clone(),
+            points_m: points,
+            quads,
+            teeth,
+            heights_m: heights,
+            before_flank,
+            half,
+        }
+    }
+
+    /// The quadrilateral of a flank at a roll angle and height; the nearest where they lie beyond its ends.
+    #[must_use]
+    pub fn flank_quad(&self, (tooth, side): (usize, Flank), roll_rad: f64, height_m: f64) -> usize {
+        let t = &self.tooth;
+        let share = (roll_rad - t.form_roll_rad) / (t.flank_end_roll_rad - t.form_roll_rad);
+        let place = ((FLANK as f64 * share) as usize).min(FLANK - 1) + self.before_flank;
+        let column = match side {
+            Flank::Right => place,
+            Flank::Left => 2 * self.half - 1 - place,
+        };
+        let layers = self.heights_m.len() - 1;
+        let above = self.heights_m.partition_point(|z| *z <= height_m);
+        let layer = above.saturating_sub(1).min(layers - 1);
+        (tooth % t.teeth * 2 * self.half + column) * layers + layer
+    }
+
+    /// Force along the inward normal and towards the tip in the gear's frame, of unit components.
+    #[must_use]
+    pub fn directions(
+        &self,
+        (tooth, side): (usize, Flank),
+        roll_rad: f64,
+        height_m: f64,
+    ) -> [[f64; 3]; 2] {
+        let t = &self.tooth;
+        let turn = TAU * tooth as f64 / t.teeth as f64 + height_m * t.twist_rad_per_m();
+        let (s, c) = turn.sin_cos();
+        let turned = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
+        let (_, [x, y]) = t.flank_frame(side, roll_rad);
+        [turned(t.flank_normal(side, roll_rad)), turned([x, y, 0.0])]
+    }
+}
+
+/// The right half of a tooth's outline from the middle of the space to that of the tip land, and how many quadrilaterals lie before the flank.
+fn half_outline(tooth: &ToothGeometry) -> (Vec<[f64; 2]>, usize) {
+    let curve = ProfileCurve::new(tooth);
+    let mut points = Vec::new();
+    let along = |points: &mut Vec<[f64; 2]>, from: f64, to: f64, count: usize| {
+        if to - from > 1e-9 * curve.length_m() {
+            let each = (0..count).map(|k| from + (to - from) * k as f64 / count as f64);
+            points.extend(each.map(|s| curve.point_at(s)));
+        }
+    };
+    along(&mut points, 0.0, curve.root_arc_end_m(), ROOT);
+    along(
+        &mut points,
+        curve.root_arc_end_m(),
+        curve.flank_start_m(),
+        FILLET,
+    );
+    let before_flank = points.len();
+    for k in 0..FLANK {
+        let share = k as f64 / FLANK as f64;
+        let roll = tooth.form_roll_rad + share * (tooth.flank_end_roll_rad - tooth.form_roll_rad);
+        points.push(tooth.flank_point_m(Flank::Right, roll));
+    }
+    along(&mut points, curve.flank_end_m(), curve.tip_start_m(), 1);
+    if points.len() == before_flank + FLANK {
+        points.push(tooth.flank_point_m(Flank::Right, tooth.flank_end_roll_rad));
+        points.push([tooth.tip_radius_m, 0.0]);
+    } else {
+        along(&mut points, curve.tip_start_m(), curve.length_m(), TIP);
+        points.push([tooth.tip_radius_m, 0.0]);
+    }
+    (points, before_flank)
+}

@@ -1,0 +1,90 @@
+//! Moments of a pair at rest: where the gears stand at a driver angle and torque, and what presses on their flanks.
+
+use super::{FlankLoad, GearSurface, Moment, Placement};
+use gearmesh_geometry::GearDefinition;
+use gearmesh_scene::{LoadedScene, SceneResult};
+use std::f64::consts::PI;
+
+/// The surfaces of both gears, with sections between the slices.
+#[must_use]
+pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [GearSurface; 2] {
+    let width_m = loaded.layout.width_m();
+    let patches = loaded.patches_at(0.0);
+    [0, 1].map(|gear| {
+        let middles = patches.iter().map(|patch| patch.places[gear].v);
+        let least = middles.clone().fold(f64::INFINITY, f64::min);
+        // From the lowest slice that touches on in steps of a slice, both ways, over the whole face.
+        let (count, half) = (loaded.layout.slices as i32, 0.5 * width_m);
+        let heights: Vec<f64> = if least.is_finite() {
+            let edges = -count..=2 * count;
+            edges
+                .map(|k| least - half + f64::from(k) * width_m)
+                .collect()
+        } else {
+            Vec::new()
+        };
+        GearSurface::new(gears[gear], &heights)
+    })
+}
+
+/// Gear 1 stands at the origin, gear 2 beside it on +x; both turn about z as the transmission error says. Misalignment and axes beside the bores
+/// are too small to be seen and left out.
+#[must_use]
+pub fn pair_moment(
+    loaded: &LoadedScene,
+    result: &SceneResult,
+    surfaces: &[GearSurface; 2],
+    (torque, angle): (usize, usize),
+) -> Moment {
+    let pair = &loaded.lines.pair;
+    let [base_1, base_2] = [&pair.gear_1, &pair.gear_2].map(|gear| gear.base_radius_m);
+    let turn_1 = result.angle_rad[angle];
+    let turn_2 = (result.curve(&result.te_m, torque)[angle] + base_1 * turn_1) / base_2;
+    // At zero the flanks of both teeth 0 touch at the pitch point.
+    let roll = pair.working_pressure_angle_rad.tan();
+    let half_1 = pair.gear_1.half_angle_rad(roll);
+    let half_2 = pair.gear_2.half_angle_rad(pair.roll_2_rad(roll));
+    let sense = pair.flank.mirror();
+    let placements = vec![
+        Placement::turned(sense * (half_1 - turn_1), [0.0; 3]),
+        Placement::turned(
+            PI + sense * (half_2 + turn_2),
+            [pair.centre_distance_m, 0.0, loaded.scene.axial_offset_m],
+        ),
+    ];
+    let patches = loaded.patches_at(turn_1);
+    let forces = result.position_forces(torque, angle);
+    let pressures = {
+        let size = result.slots * result.slices;
+        &result.pressure_pa[(torque * result.angles() + angle) * size..][..size]
+    };
+    let mut loads = Vec::new();
+    for patch in &patches {
+        let at = patch.line * result.slices + patch.slice;
+        if forces[at] <= 0.0 {
+            continue;
+        }
+        for gear in 0..2 {
+            let place = patch.places[gear];
+            let flank = (patch.teeth[gear], pair.flank);
+            let [normal, tip] = surfaces[gear].directions(flank, place.u, place.v);
+            let [a, b] = patch.force_components(gear).map(|part| part * forces[at]);
+            let own = std::array::from_fn(|k| a * normal[k] + b * tip[k]);
+            loads.push(FlankLoad {
+                gear,
+                tooth: patch.teeth[gear],
+                side: pair.flank,
+                roll_rad: place.u,
+                height_m: place.v,
+                force_n: placements[gear].direction(own),
+                line_load_n_per_m: forces[at] / (loaded.layout.width_m() * patch.share),
+                pressure_pa: pressures[at],
+            });
+        }
+    }
+    Moment {
+        at: turn_1.to_degrees(),
+        placements,
+        loads,
+    }
+}

@@ -1,0 +1,233 @@
+//! The gears of a scene where the bodies of a result stand: their teeth, and what presses on them there.
+
+use gearmesh_drivetrain::{DrivetrainError, GearMesh, Pose};
+use gearmesh_dynamics::{BodyMotion, Marker, MarkerPair};
+use gearmesh_geometry::{Flank, GearDefinition, InputError};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::LoadedSystem;
+use super::gear_mesh::PreparedMesh;
+use super::parts::Parts;
+use super::shafts::PlacedShaft;
+
+/// A body that is a gear. The frame of the body is that of the gear: z along the axis, origin at mid-face, tooth 0 on +x.
+#[derive(Debug, Clone)]
+pub struct MovingGear {
+    /// Body.
+    pub body: String,
+    /// The gear.
+    pub definition: GearDefinition,
+}
+
+/// Where a gear's body is, and how it moves, as columns of a result state it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GearState {
+    /// Reference point, world \[m\].
+    pub position_m: [f64; 3],
+    /// R = Rx Ry Rz \[rad\].
+    pub cardan_rad: [f64; 3],
+    /// Of the reference point, world \[m/s\].
+    pub velocity_m_per_s: [f64; 3],
+    /// Along the body's axes \[rad/s\].
+    pub angular_velocity_rad_per_s: [f64; 3],
+}
+
+impl GearState {
+    /// The columns of a body, in the order of the fields. Results at rest have the first six.
+    #[must_use]
+    pub fn columns(body: &str) -> [String; 12] {
+        let names = ["", "cardan_", "velocity_", "angular_velocity_"];
+        let units = ["m", "rad", "m_per_s", "rad_per_s"];
+        std::array::from_fn(|k| {
+            let axis = ["x", "y", "z"][k % 3];
+            format!("bodies/{body}/{}{axis}_{}", names[k / 3], units[k / 3])
+        })
+    }
+
+    /// From the values of those columns; the last six may be missing.
+    #[must_use]
+    pub fn from_values(values: &[f64]) -> Self {
+        let three = |first: usize| {
+            std::array::from_fn(|k| values.get(first + k).copied().unwrap_or_default())
+        };
+        Self {
+            position_m: three(0),
+            cardan_rad: three(3),
+            velocity_m_per_s: three(6),
+            angular_velocity_rad_per_s: three(9),
+        }
+    }
+
+    fn orientation(&self) -> UnitQuaternion<f64> {
+        let [x, y, z] = self.cardan_rad;
+        let about = |axis: Vector3<f64>, angle| UnitQuaternion::from_scaled_axis(axis * angle);
+        about(Vector3::x(), x) * about(Vector3::y(), y) * about(Vector3::z(), z)
+    }
+
+    /// World from body axes, by rows.
+    #[must_use]
+    pub fn rotation(&self) -> [[f64; 3]; 3] {
+        let matrix = self.orientation().to_rotation_matrix();
+        std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+    }
+
+    fn motion(&self) -> BodyMotion {
+        let orientation = self.orientation();
+        BodyMotion {
+            position_m: self.position_m.into(),
+            orientation,
+            rotation: *orientation.to_rotation_matrix().matrix(),
+            velocity_m_per_s: self.velocity_m_per_s.into(),
+            angular_velocity_rad_per_s: self.angular_velocity_rad_per_s.into(),
+        }
+    }
+}
+
+/// What presses on a slice of a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliceLoad {
+    /// Number of the gear among [`GearsInMotion::gears`].
+    pub gear: usize,
+    /// Tooth.
+    pub tooth: usize,
+    /// Flank.
+    pub side: Flank,
+    /// Roll angle \[rad\].
+    pub roll_rad: f64,
+    /// Height above mid-face \[m\].
+    pub height_m: f64,
+    /// Normal force on this gear, damping included, without friction; world axes \[N\].
+    pub force_n: [f64; 3],
+    /// Over the width that touches \[N/m\].
+    pub line_load_n_per_m: f64,
+    /// Largest pressure of the line contact after Hertz \[Pa\]: √(q E*/(π ρ)), q along the contact line.
+    pub pressure_pa: f64,
+}
+
+struct MovingMesh {
+    gears: [usize; 2],
+    seats: [Marker; 2],
+    mesh: GearMesh,
+    slice_width_m: f64,
+    /// E*: 1/E* = Σ (1 − ν²)/E \[Pa\].
+    contact_modulus_pa: f64,
+}
+
+/// Gears of a scene and the meshes of their teeth.
+pub struct GearsInMotion {
+    /// Gears, in the order of the bodies.
+    pub gears: Vec<MovingGear>,
+    /// Meshes whose forces are not known from the places of the bodies alone, and why.
+    pub without_forces: Vec<String>,
+    meshes: Vec<MovingMesh>,
+}
+
+impl LoadedSystem {
+    /// The gears of the scene, to be put where a result has them.
+    ///
+    /// # Errors
+    /// [`InputError`] as [`LoadedSystem::build`].
+    pub fn gears_in_motion(&self) -> Result<GearsInMotion, InputError> {
+        let tables = &self.scene.tables;
+        let files = (&self.scene.document, self.scene.folder.as_path());
+        let mut bodies = self.bodies()?;
+        for (i, table) in tables.shaft.iter().enumerate() {
+            PlacedShaft::new(table, (files.0, format!("shaft.{i}")), &mut bodies)?;
+        }
+        let mut places = vec![None; bodies.list.len()];
+        let mut gears = Vec::new();
+        for (place, body) in bodies.list.iter().enumerate() {
+            if let Some(gear) = &body.gear {
+                places[place] = Some(gears.len());
+                gears.push(MovingGear {
+                    body: body.body.name.clone(),
+                    definition: gear.definition.clone(),
+                });
+            }
+        }
+        let (mut meshes, mut without_forces) = (Vec::new(), Vec::new());
+        for (i, table) in tables.gear_mesh.iter().enumerate() {
+            let key = format!("gear_mesh.{i}");
+            let prepared = PreparedMesh::new(table, files, key, &bodies, &mut Parts::default())?;
+            let [Some(a), Some(b)] = prepared.bodies.map(|body| places[body]) else {
+                without_forces.push(format!("`{}`: no cylindrical gears", prepared.name));
+                continue;
+            };
+            let Some(mesh) = prepared.mesh else {
+                without_forces.push(format!("`{}`: kinematic", prepared.name));
+                continue;
+            };
+            let vibrates = |body: usize| bodies.list[body].modes > 0;
+            if prepared.bodies.into_iter().any(vibrates) {
+                let why = "its gears vibrate in their own modes";
+                without_forces.push(format!("`{}`: {why}", prepared.name));
+                continue;
+            }
+            let compliance = [a, b].map(|gear| {
+                let material = &gears[gear].definition.material;
+                (1.0 - material.poisson.powi(2)) / material.young_pa
+            });
+            meshes.push(MovingMesh {
+                gears: [a, b],
+                seats: prepared.seats,
+                mesh,
+                slice_width_m: prepared.slice_width_m,
+                contact_modulus_pa: 1.0 / (compliance[0] + compliance[1]),
+            });
+        }
+        Ok(GearsInMotion {
+            gears,
+            without_forces,
+            meshes,
+        })
+    }
+}
+
+impl GearsInMotion {
+    /// What presses on the flanks where the gears stand and move like this, in the order of [`GearsInMotion::gears`].
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] of a mesh.
+    pub fn loads(&mut self, states: &[GearState]) -> Result<Vec<SliceLoad>, DrivetrainError> {
+        let mut loads = Vec::new();
+        for at in &mut self.meshes {
+            let [a, b] = at.seats;
+            let pair = MarkerPair { a, b };
+            let [first, second] = at.gears.map(|gear| states[gear].motion());
+            let pose = Pose::from(&pair.motion(&first, &second));
+            at.mesh.evaluate(&pose, false)?;
+            at.mesh.remember();
+            for side in [Flank::Right, Flank::Left] {
+                let Some((found, forces)) = at.mesh.side(side) else {
+                    continue;
+                };
+                for (contact, &force_n) in found.contacts.iter().zip(forces) {
+                    if force_n <= 0.0 {
+                        continue;
+                    }
+                    let section = found.section(contact);
+                    let along_line = force_n / section.length_m;
+                    let pressure = along_line * at.contact_modulus_pa
+                        / (std::f64::consts::PI * section.radius_m);
+                    // The load of a unit force on gear 2, in gear 1's axes; edges press along the flank that they touch.
+                    let unit: Vector3<f64> = contact.gradient.fixed_rows::<3>(0).into();
+                    let on_2 = first.rotation * unit * force_n;
+                    for (k, gear) in at.gears.into_iter().enumerate() {
+                        let on_gear = if k == 0 { -on_2 } else { on_2 };
+                        loads.push(SliceLoad {
+                            gear,
+                            tooth: found.lines[contact.line].teeth[k],
+                            side,
+                            roll_rad: section.touching_roll_rad[k],
+                            height_m: contact.heights_m[k],
+                            force_n: on_gear.into(),
+                            line_load_n_per_m: force_n / (at.slice_width_m * section.share),
+                            pressure_pa: pressure.sqrt(),
+                        });
+                    }
+                }
+            }
+        }
+        Ok(loads)
+    }
+}
