@@ -85,7 +85,7 @@ def test_a_failed_case_is_told_and_the_others_are_kept(few, threads, tmp_path, m
         return run(case, *rest)
 
     monkeypatch.setattr(cluster_worker, "_runner", SimpleNamespace(run=broken))
-    with pytest.raises(gm.WorkError, match="1 of 4 cases failed"):
+    with pytest.raises(gm.WorkError, match="1 of 4 cases failed.*The first: no equilibrium"):
         gm.study(few[0], tmp_path / "out", client=threads)
     assert "no equilibrium" in (tmp_path / "out" / "study.csv").read_text()
     assert len(list((tmp_path / "out").glob("*.h5"))) == 3

@@ -1,6 +1,7 @@
 """What the program can, the package can: each command through its function."""
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -135,3 +136,9 @@ def test_a_result_is_a_table_in_a_notebook(pair):
     assert page.count("<tr>") == 3 and "TE pk-pk um" in page
     page = gm.Scene(PENDULUM).run(progress=False)._repr_html_()
     assert "Pendulum" in page and "<Result" not in page
+
+
+def test_a_missing_package_is_told_with_the_line_that_installs_it(pair, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match=r"pip install 'gearmesh\[tables\]'"):
+        pair.run(progress=False).to_pandas()

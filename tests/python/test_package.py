@@ -192,7 +192,8 @@ def test_the_program_answers_with_its_messages(tmp_path):
     assert bearing.frequencies(speed_rpm=6000) != bearing.frequencies(speed_rpm=3000)
     with pytest.raises(gm.InputError, match="--load-N"):
         bearing.rest([0.0, 0.0])
-    assert gm.BevelPair("fe_models/bevel_20_20.toml").tca()
+    assert gm.BevelPair("fe_models/bevel_20_20.toml").tca(tmp_path / "tca.html")
+    assert (tmp_path / "tca.html").stat().st_size > 10_000
     with pytest.raises(gm.InputError, match="none.toml"):
         gm.program("plan", tmp_path / "none.toml")
 

@@ -18,9 +18,12 @@ class BevelPair:
         """Blank, machine settings and checks of every flank."""
         return program("bevel", self.file)
 
-    def tca(self) -> dict[str, Any]:
-        """Tooth contact: path, transmission error, ellipses, ease-off, edges, sensitivity to the assembly."""
-        return program("tca", self.file)
+    def tca(self, report: str | Path | None = None) -> dict[str, Any]:
+        """Tooth contact: path, transmission error, ellipses, ease-off, edges, sensitivity to the assembly.
+
+        report: also write the page with the pictures.
+        """
+        return program("tca", self.file, *([] if report is None else ["--report", report]))
 
     def __repr__(self) -> str:
         return f"<BevelPair {self.file}>"

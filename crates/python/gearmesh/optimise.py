@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .optional import demanded
 from .program import program
 from .study import written
 from .toml_text import Tables
@@ -38,9 +39,7 @@ class Optimum:
 
     def to_pandas(self, table: str = "front") -> pandas.DataFrame:
         """The front, or with "tried" all choices, as a data frame: variables, then objectives. Needs pandas."""
-        import pandas
-
-        return pandas.read_csv(self.folder / f"{table}.csv")
+        return demanded("pandas", "tables").read_csv(self.folder / f"{table}.csv")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
         """Draws the front over the first two objectives; with one objective, that over the first variable of all tried."""

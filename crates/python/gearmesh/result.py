@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from .optional import demanded
 from .program import options, program
 
 if TYPE_CHECKING:
@@ -101,8 +102,7 @@ class Result:
 
     def to_pandas(self, table: str | None = None) -> pandas.DataFrame:
         """A table as a data frame: curves of a pair, rows of a run in time, windows of a sweep, modes. Needs pandas."""
-        import pandas
-
+        pandas = demanded("pandas", "tables")
         tables = self.tables()
         name = next(iter(tables)) if table is None else table
         if name not in tables:
@@ -111,8 +111,7 @@ class Result:
 
     def to_xarray(self) -> xarray.Dataset:
         """All arrays with named axes, coordinates, units and descriptions; they share the memory. Needs xarray."""
-        import xarray
-
+        xarray = demanded("xarray", "tables")
         names = [name for name in self.keys() if self.axes(name)]
         if self.kind == "pair":
             # Texts and lists of the gears have axes of their own, which no curve shares.

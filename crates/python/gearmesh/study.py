@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from .optional import demanded
 from .progress import Bar, Progress
 from .reduced import interpreter
 from .scene import Scene, with_whole_paths
@@ -35,9 +36,7 @@ class StudyResult:
 
     def to_pandas(self) -> pandas.DataFrame:
         """study.csv as a data frame. Needs pandas."""
-        import pandas
-
-        return pandas.read_csv(self.folder / "study.csv")
+        return demanded("pandas", "tables").read_csv(self.folder / "study.csv")
 
     def __repr__(self) -> str:
         failed = sum(case.get("failure") is not None for case in self.cases)
@@ -99,9 +98,11 @@ def study(
         failures = run_cases(it.path, folder, client, patience_s=patience_s, progress=progress)
         found = json.loads(_native.gather_study(it.path, Path(folder), failures))
     result = StudyResult(found["title"], found["cases"], Path(folder))
-    failed = sum(case["failure"] is not None for case in result.cases)
-    if failed:
-        raise _native.WorkError(f"{failed} of {len(result.cases)} cases failed; {Path(folder) / 'study.csv'} says why")
+    failures = [case["failure"] for case in result.cases if case["failure"] is not None]
+    if failures:
+        raise _native.WorkError(
+            f"{len(failures)} of {len(result.cases)} cases failed; {Path(folder) / 'study.csv'} says why. The first: {failures[0]}"
+        )
     return result
 
 
