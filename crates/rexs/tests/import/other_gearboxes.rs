@@ -24,7 +24,10 @@ fn model(parts: &str, relations: &[(&str, &[(usize, &str)])], after: &str) -> St
         let references: String = (references.iter())
             .map(|(id, role)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
             .collect();
-        format!("<relation id=\"{}\" type=\"{kind}\">{references}</relation>\n", i + 1)
+        format!(
+            "<relation id=\"{}\" type=\"{kind}\">{references}</relation>\n",
+            i + 1
+        )
     };
     let relations: String = relations.iter().enumerate().map(relation).collect();
     format!(
@@ -72,9 +75,8 @@ fn demand_all_listed(text: &str, made: &Import) {
         }
         if part.starts_with("attribute ") {
             let key = between(part, "id=\"").unwrap();
-            let of = |e: &&&Entry| {
-                e.subject == subject || e.subject.starts_with(&format!("{subject} "))
-            };
+            let of =
+                |e: &&&Entry| e.subject == subject || e.subject.starts_with(&format!("{subject} "));
             let found = all.iter().filter(of).any(|e| e.text.contains(&key));
             assert!(found, "{key} of {subject} is in no list");
             count += 1;
@@ -85,7 +87,12 @@ fn demand_all_listed(text: &str, made: &Import) {
 
 /// Motor - coupling - bevel pair 20/20 - pinion 18 and wheel 54 - machine; two load cases.
 fn bevel_and_cylindrical() -> String {
-    let load = |place| [("u_coordinate_on_shaft", "mm", place), ("transmits_torque", "none", "true")];
+    let load = |place| {
+        [
+            ("u_coordinate_on_shaft", "mm", place),
+            ("transmits_torque", "none", "true"),
+        ]
+    };
     let bevel = |hand| {
         [
             ("number_of_teeth", "none", "20"),
@@ -114,9 +121,19 @@ fn bevel_and_cylindrical() -> String {
             ("radial_stiffness", "N / mm", "1e6"),
         ]
     };
-    let mut parts = component(1, "gear_unit", "unit", &[("account_for_gravity", "none", "false")])
-        + &component(2, "gear_casing", "casing", &[])
-        + &shaft(10, "motor shaft", "210 0 0", "1 0 0", &[("rotational_speed", "1 / min", "1500")])
+    let mut parts = component(
+        1,
+        "gear_unit",
+        "unit",
+        &[("account_for_gravity", "none", "false")],
+    ) + &component(2, "gear_casing", "casing", &[])
+        + &shaft(
+            10,
+            "motor shaft",
+            "210 0 0",
+            "1 0 0",
+            &[("rotational_speed", "1 / min", "1500")],
+        )
         + &shaft(11, "pinion shaft", "0 0 0", "1 0 0", &[])
         + &shaft(12, "middle shaft", "0 0 0", "0 1 0", &[])
         + &shaft(13, "output shaft", "90 0 0", "0 1 0", &[])
@@ -124,48 +141,123 @@ fn bevel_and_cylindrical() -> String {
         + &component(21, "bevel_gear", "bevel gear", &bevel("right"))
         + &component(22, "cylindrical_gear", "pinion", &gear("18", "100"))
         + &component(23, "cylindrical_gear", "wheel", &gear("54", "100"))
-        + &component(30, "bevel_stage", "bevel stage", &[
-            ("shaft_angle", "deg", "90"),
-            ("nominal_design_pressure_angle_on_drive_side", "deg", "20"),
-        ])
-        + &component(31, "cylindrical_stage", "cylindrical stage", &[("center_distance", "mm", "90")])
-        + &component(40, "coupling", "coupling", &[
-            ("u_coordinate_on_shaft_inner_side", "mm", "200"),
-            ("u_coordinate_on_shaft_outer_side", "mm", "10"),
-            ("rotational_stiffness", "N mm / rad", "2e7"),
-            ("radial_stiffness", "N / mm", "5000"),
-            ("damping_ratio", "none", "0.1"),
-        ])
-        + &component(41, "additional_mass", "half coupling", &[
-            ("u_coordinate_on_shaft", "mm", "195"),
-            ("mass", "kg", "1.5"),
-            ("colour", "none", "grey"),
-        ])
-        + &component(50, "external_load", "motor", &[&load("190")[..], &[("torque_around_u_axis", "N m", "100")]].concat())
+        + &component(
+            30,
+            "bevel_stage",
+            "bevel stage",
+            &[
+                ("shaft_angle", "deg", "90"),
+                ("nominal_design_pressure_angle_on_drive_side", "deg", "20"),
+            ],
+        )
+        + &component(
+            31,
+            "cylindrical_stage",
+            "cylindrical stage",
+            &[("center_distance", "mm", "90")],
+        )
+        + &component(
+            40,
+            "coupling",
+            "coupling",
+            &[
+                ("u_coordinate_on_shaft_inner_side", "mm", "200"),
+                ("u_coordinate_on_shaft_outer_side", "mm", "10"),
+                ("rotational_stiffness", "N mm / rad", "2e7"),
+                ("radial_stiffness", "N / mm", "5000"),
+                ("damping_ratio", "none", "0.1"),
+            ],
+        )
+        + &component(
+            41,
+            "additional_mass",
+            "half coupling",
+            &[
+                ("u_coordinate_on_shaft", "mm", "195"),
+                ("mass", "kg", "1.5"),
+                ("colour", "none", "grey"),
+            ],
+        )
+        + &component(
+            50,
+            "external_load",
+            "motor",
+            &[&load("190")[..], &[("torque_around_u_axis", "N m", "100")]].concat(),
+        )
         + &component(51, "external_load", "machine", &load("190"));
     let mut relations: Vec<(&str, Vec<(usize, &str)>)> = vec![
-        ("side", vec![(40, "assembly"), (11, "inner_part"), (10, "outer_part")]),
+        (
+            "side",
+            vec![(40, "assembly"), (11, "inner_part"), (10, "outer_part")],
+        ),
         ("stage", vec![(30, "stage"), (20, "gear_1"), (21, "gear_2")]),
         ("stage", vec![(31, "stage"), (22, "gear_1"), (23, "gear_2")]),
     ];
-    for (whole, part) in [(1, 2), (1, 10), (1, 11), (1, 12), (1, 13), (1, 30), (1, 31), (11, 20), (12, 21), (12, 22), (13, 23), (11, 41), (10, 50), (13, 51), (10, 110), (11, 111), (12, 112), (13, 113)] {
+    for (whole, part) in [
+        (1, 2),
+        (1, 10),
+        (1, 11),
+        (1, 12),
+        (1, 13),
+        (1, 30),
+        (1, 31),
+        (11, 20),
+        (12, 21),
+        (12, 22),
+        (13, 23),
+        (11, 41),
+        (10, 50),
+        (13, 51),
+        (10, 110),
+        (11, 111),
+        (12, 112),
+        (13, 113),
+    ] {
         relations.push(("assembly", vec![(whole, "assembly"), (part, "part")]));
     }
     for (i, on) in [10, 11, 12, 13].into_iter().enumerate() {
-        for (k, (place, axial)) in [("60", "both_directions"), ("160", "no")].into_iter().enumerate() {
+        for (k, (place, axial)) in [("60", "both_directions"), ("160", "no")]
+            .into_iter()
+            .enumerate()
+        {
             let id = 60 + 2 * i + k;
-            parts += &component(id, "concept_bearing", &format!("bearing {on} {place}"), &bearing(place, axial));
-            relations.push(("side", vec![(id, "assembly"), (on, "inner_part"), (2, "outer_part")]));
+            parts += &component(
+                id,
+                "concept_bearing",
+                &format!("bearing {on} {place}"),
+                &bearing(place, axial),
+            );
+            relations.push((
+                "side",
+                vec![(id, "assembly"), (on, "inner_part"), (2, "outer_part")],
+            ));
         }
     }
-    let relations: Vec<_> = relations.iter().map(|(kind, list)| (*kind, &list[..])).collect();
+    let relations: Vec<_> = relations
+        .iter()
+        .map(|(kind, list)| (*kind, &list[..]))
+        .collect();
     let case = |id: usize, share: &str, torque: &str| {
-        let unit = component(1, "gear_unit", "", &[("operating_time_fraction", "%", share)]);
-        let load = component(50, "external_load", "", &[("torque_around_u_axis", "N m", torque)]);
+        let unit = component(
+            1,
+            "gear_unit",
+            "",
+            &[("operating_time_fraction", "%", share)],
+        );
+        let load = component(
+            50,
+            "external_load",
+            "",
+            &[("torque_around_u_axis", "N m", torque)],
+        );
         format!("<load_case id=\"{id}\">\n{unit}{load}</load_case>\n")
     };
     let cases = case(1, "70", "100") + &case(2, "30", "40");
-    model(&parts, &relations, &format!("<load_spectrum id=\"1\">\n{cases}</load_spectrum>\n"))
+    model(
+        &parts,
+        &relations,
+        &format!("<load_spectrum id=\"1\">\n{cases}</load_spectrum>\n"),
+    )
 }
 
 #[test]
@@ -176,7 +268,12 @@ fn nothing_is_dropped_in_silence() {
     demand_all_listed(&text, &made);
     assert_eq!(made.scenes.len(), 2, "{:?}", names(&made));
     let scene = file(&made, "box.toml");
-    for words in ["name = \"coupling\"", "[[bushing]]", "kind = \"iso6336\"", "mass_kg = 1.5"] {
+    for words in [
+        "name = \"coupling\"",
+        "[[bushing]]",
+        "kind = \"iso6336\"",
+        "mass_kg = 1.5",
+    ] {
         assert!(scene.contains(words), "{words} is not in {scene}");
     }
     assert!(file(&made, "box_case_2.toml").contains("30.0000 % of the time"));
@@ -199,17 +296,51 @@ fn of_a_planetary_stage_everything_is_told() {
     };
     let parts = component(1, "gear_unit", "unit", &[("gear_shift_index", "none", "1")])
         + &component(2, "gear_casing", "casing", &[("comment", "none", "ribbed")])
-        + &shaft(10, "sun shaft", "0 0 0", "1 0 0", &[("rotational_speed", "1 / min", "900")])
+        + &shaft(
+            10,
+            "sun shaft",
+            "0 0 0",
+            "1 0 0",
+            &[("rotational_speed", "1 / min", "900")],
+        )
         + &shaft(11, "carrier shaft", "150 0 0", "1 0 0", &[])
         + &shaft(12, "planet pin", "100 0 42", "1 0 0", &[])
         + &component(20, "cylindrical_gear", "sun", &gear("20", "100"))
         + &component(21, "cylindrical_gear", "planet", &gear("22", "0"))
         + &component(22, "ring_gear", "ring", &gear("64", "100"))
-        + &component(23, "planet_carrier", "carrier", &[("number_of_planets", "none", "3")])
-        + &component(30, "planetary_stage", "stage", &[("number_of_planets", "none", "3")])
-        + &component(31, "cylindrical_stage", "sun and planet", &[("center_distance", "mm", "42")])
-        + &component(32, "cylindrical_stage", "planet and ring", &[("center_distance", "mm", "42")])
-        + &component(50, "external_load", "in", &[("torque_around_u_axis", "N m", "20"), ("u_coordinate_on_shaft", "mm", "10")]);
+        + &component(
+            23,
+            "planet_carrier",
+            "carrier",
+            &[("number_of_planets", "none", "3")],
+        )
+        + &component(
+            30,
+            "planetary_stage",
+            "stage",
+            &[("number_of_planets", "none", "3")],
+        )
+        + &component(
+            31,
+            "cylindrical_stage",
+            "sun and planet",
+            &[("center_distance", "mm", "42")],
+        )
+        + &component(
+            32,
+            "cylindrical_stage",
+            "planet and ring",
+            &[("center_distance", "mm", "42")],
+        )
+        + &component(
+            50,
+            "external_load",
+            "in",
+            &[
+                ("torque_around_u_axis", "N m", "20"),
+                ("u_coordinate_on_shaft", "mm", "10"),
+            ],
+        );
     let relations: [(&str, &[(usize, &str)]); 13] = [
         ("assembly", &[(1, "assembly"), (10, "part")]),
         ("assembly", &[(1, "assembly"), (11, "part")]),
