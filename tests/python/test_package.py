@@ -155,6 +155,7 @@ def test_a_multibody_scene_runs_without_a_file(tmp_path):
     assert time_s[0] == 0.0 and (np.diff(time_s) > 0.0).all()
     # The file lives as long as the result.
     path = result.path
+    assert path is not None
     saved = result.save(tmp_path / "saved.h5")
     del result
     assert not path.exists()

@@ -22,10 +22,9 @@ mod vocabulary;
 const OFFLINE: [&str; 3] = ["mesh", "fe", "reduction"];
 
 /// The crates of the online side, which read a reduced model and never make one.
-const ONLINE: [&str; 10] = [
+const ONLINE: [&str; 9] = [
     "contact",
     "bearings",
-    "bevel",
     "dynamics",
     "drivetrain",
     "recovery",
@@ -39,10 +38,10 @@ const ONLINE: [&str; 10] = [
 const ALLOWED: [(&str, &[&str]); 20] = [
     ("elements", &[]),
     ("geometry", &["elements"]),
-    ("mesh", &["elements", "geometry"]),
+    ("mesh", &["bevel", "elements", "geometry"]),
     ("fe", &["elements"]),
     ("model", &["elements", "geometry"]),
-    ("reduction", &["geometry", "mesh", "fe", "model"]),
+    ("reduction", &["bevel", "geometry", "mesh", "fe", "model"]),
     ("contact", &["geometry", "model"]),
     ("dynamics", &[]),
     ("bearings", &["geometry", "dynamics"]),
@@ -84,6 +83,8 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "reduction",
             "model",
             "contact",
+            "drivetrain",
+            "drivetrain",
             "recovery",
             "signal",
             "scene",

@@ -1,10 +1,10 @@
-"""Draws the largest error over the time of a reduction: accuracy_plot.py POINTS.json PICTURE.
+"""Draws the largest error over the processor time of every setting: accuracy_plot.py PANELS.json PICTURE.
 
-Points are {space, element, flank_mm, local, wall_s, worst}; one panel for each space, a colour for each local term, a marker
-for each element, a line through the mesh sizes.
+A panel for each scene: single knobs lowered, knobs together, and the settings that are recommended.
 """
 
 import json
+import math
 import sys
 
 import matplotlib
@@ -13,39 +13,39 @@ matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "accuracy-cost"  # the same points give the same file
 import matplotlib.pyplot as plt  # noqa: E402
 
-COLOURS = {"none": "tab:gray", "weber-banaschek": "tab:orange", "calibrated": "tab:blue"}
-MARKERS = {"hex8": "s", "hex8-incompatible": "o", "hex20": "^"}
+
+def point(setting: dict) -> tuple[float, float]:
+    return setting["cpu_s"], 100 * max(setting["errors"].values())
 
 
 def main() -> None:
     with open(sys.argv[1], encoding="utf-8") as file:
-        points = json.load(file)
-    spaces = list(dict.fromkeys(p["space"] for p in points))
-    figure, axes = plt.subplots(1, len(spaces), figsize=(10, 4.6), sharey=True, squeeze=False, layout="constrained")
-    for axis, space in zip(axes[0], spaces):
-        for local, colour in COLOURS.items():
-            for element, marker in MARKERS.items():
-                line = [p for p in points if (p["space"], p["local"], p["element"]) == (space, local, element)]
-                if not line:
-                    continue
-                axis.plot(
-                    [p["wall_s"] for p in line], [100 * p["worst"] for p in line],
-                    color=colour, marker=marker, markersize=5, linewidth=1, label=f"{local}, {element}",
-                )
-                if local == "calibrated":
-                    for p in (line[0], line[-1]):
-                        axis.annotate(
-                            f"{p['flank_mm']:g}", (p["wall_s"], 100 * p["worst"]), fontsize=7,
-                            xytext=(4, 4), textcoords="offset points",
-                        )
-        axis.set(title=space, xlabel="time of `gearmesh reduce` [s]", xscale="log", yscale="log")
-        axis.grid(which="both", linewidth=0.3)
-        for scale in (axis.xaxis, axis.yaxis):
-            scale.set_major_formatter("{x:g}")
-            scale.set_minor_formatter("")
-    axes[0][0].set_ylabel("largest error of the deflection [%]")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8)
+        panels = json.load(file)
+    columns = max(1, min(3, len(panels)))
+    rows = max(1, math.ceil(len(panels) / columns))
+    figure, axes = plt.subplots(rows, columns, figsize=(4.4 * columns, 3.2 * rows), squeeze=False, layout="constrained")
+    for axis in axes.flat[len(panels):]:
+        axis.set_visible(False)
+    for axis, panel in zip(axes.flat, panels):
+        drawn = [one for one in panel["tried"] if point(one)[1] > 0]
+        for alone, colour, name in ((True, "tab:gray", "one knob lowered"), (False, "tab:blue", "knobs together")):
+            points = [point(one) for one in drawn if one["one_knob_alone"] == alone]
+            if points:
+                axis.plot(*zip(*points), "o", color=colour, markersize=4, label=name)
+        points = [point(one["run_again"]) for one in panel["advice"]]
+        points = [p for p in points if p[1] > 0]
+        if points:
+            axis.plot(*zip(*points), "D", color="tab:red", markersize=7, fillstyle="none", label="recommended")
+        axis.axvline(panel["tried"][0]["cpu_s"], color="tab:gray", linewidth=1, linestyle=":", label="reference's time")
+        for level in (1, 0.1):
+            axis.axhline(level, color="tab:green", linewidth=0.6)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_title(panel["title"], fontsize=8)
+        axis.set_xlabel("processor time s", fontsize=8)
+        axis.set_ylabel("largest error %", fontsize=8)
+        axis.tick_params(labelsize=7)
+    axes.flat[0].legend(fontsize=7)
     figure.savefig(sys.argv[2], metadata={"Date": None})
 
 

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -150,6 +151,18 @@ impl MemberBlank {
     pub fn cone_place(&self, z_m: f64, r_m: f64) -> [f64; 2] {
         let (sin, cos) = self.pitch_angle_rad.sin_cos();
         [z_m * cos + r_m * sin, -z_m * sin + r_m * cos]
+    }
+
+    /// Unit vectors at a point: along the pitch cone towards the heel, and away from the cone.
+    pub fn directions(&self, r: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        crate::flank::cone_directions(self, r)
+    }
+
+    /// z along the axis and radius from it \[m\] of a place along the pitch cone and a height above it: the inverse of
+    /// [`Self::cone_place`].
+    pub fn meridian_m(&self, cone_m: f64, height_m: f64) -> [f64; 2] {
+        let (sin, cos) = self.pitch_angle_rad.sin_cos();
+        [cone_m * cos - height_m * sin, cone_m * sin + height_m * cos]
     }
 }
 

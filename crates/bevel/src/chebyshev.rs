@@ -3,8 +3,8 @@
 use crate::jet::Jet;
 
 /// Polynomials along the first and the second variable.
-const ALONG: usize = 12;
-const UP: usize = 20;
+pub(crate) const ALONG: usize = 12;
+pub(crate) const UP: usize = 20;
 
 /// Coefficients below are rounding of the values that were interpolated, and left out (of angles: 1e-16 m on a gear).
 const ROUNDING: f64 = 1e-15;
@@ -43,11 +43,16 @@ impl Chebyshev2 {
                 }
             }
         }
+        Ok(Self::new(coefficients))
+    }
+
+    /// With given coefficients c_ij.
+    pub(crate) fn new(coefficients: [[f64; UP]; ALONG]) -> Self {
         let used = coefficients.map(|row| {
             let last = row.iter().rposition(|c| c.abs() > ROUNDING);
             last.map_or(0, |last| last + 1)
         });
-        Ok(Self { coefficients, used })
+        Self { coefficients, used }
     }
 
     /// Value.
@@ -81,7 +86,7 @@ impl Chebyshev2 {
 }
 
 /// T_0 … T_(N−1), each with its first and second derivative: T_(i+1) = 2x T_i − T_(i−1).
-fn polynomials<const N: usize>(x: f64) -> [[f64; 3]; N] {
+pub(crate) fn polynomials<const N: usize>(x: f64) -> [[f64; 3]; N] {
     let mut list = [[0.0; 3]; N];
     list[0] = [1.0, 0.0, 0.0];
     list[1] = [x, 1.0, 0.0];

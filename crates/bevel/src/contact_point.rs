@@ -33,8 +33,6 @@ pub struct Touch {
 pub struct EdgeLine {
     /// Member with the edge: 0 pinion, 1 gear.
     pub member: usize,
-    /// Which edge.
-    pub kind: EdgeKind,
     cone: f64,
     height: f64,
     offset_m: f64,
@@ -52,6 +50,9 @@ pub enum EdgeKind {
 }
 
 impl EdgeKind {
+    /// All.
+    pub const ALL: [Self; 3] = [Self::Tip, Self::Toe, Self::Heel];
+
     /// In words.
     pub fn word(self) -> &'static str {
         match self {
@@ -81,11 +82,21 @@ impl EdgeLine {
         };
         Self {
             member,
-            kind,
             cone,
             height,
             offset_m,
         }
+    }
+
+    /// The two lines of a member that cross at a place L, h.
+    pub fn through(member: usize, [cone_m, height_m]: [f64; 2]) -> [Self; 2] {
+        let line = |cone, height, offset_m| Self {
+            member,
+            cone,
+            height,
+            offset_m,
+        };
+        [line(1.0, 0.0, cone_m), line(0.0, 1.0, height_m)]
     }
 
     /// Value of the line's equation, its gradient and second derivatives by the flank's parameters.
@@ -114,6 +125,16 @@ impl EdgeLine {
 /// Newton steps at most.
 const MOST_STEPS: usize = 30;
 
+/// The two equations beside r₁ = r₂.
+enum Meeting {
+    /// The normals are opposite.
+    Faces,
+    /// A point of an edge, whose tangent lies in the mate's tangent plane.
+    Edge(EdgeLine),
+    /// Points of both lines.
+    Lines([EdgeLine; 2]),
+}
+
 impl Mesh<'_> {
     fn points(&self, at: &[[f64; 2]; 2]) -> Option<[SurfacePoint; 2]> {
         Some([self.flanks[0].point(at[0])?, self.flanks[1].point(at[1])?])
@@ -121,15 +142,26 @@ impl Mesh<'_> {
 
     /// Contact of both surfaces, also beyond the blanks' limits, from a contact nearby. None where Newton finds none.
     pub fn touch(&self, pinion_turn: f64, start: &Touch) -> Option<Touch> {
-        self.solve(pinion_turn, start, None)
+        self.solve(pinion_turn, start, &Meeting::Faces)
     }
 
     /// Contact of an edge with the other member's surface.
     pub fn edge_touch(&self, pinion_turn: f64, edge: &EdgeLine, start: &Touch) -> Option<Touch> {
-        self.solve(pinion_turn, start, Some(edge))
+        self.solve(pinion_turn, start, &Meeting::Edge(*edge))
     }
 
-    fn solve(&self, pinion_turn: f64, start: &Touch, edge: Option<&EdgeLine>) -> Option<Touch> {
+    /// Contact of the points that two lines fix: an edge of each member, or two lines of one member that meet in a point of its
+    /// flank.
+    pub fn lines_touch(
+        &self,
+        pinion_turn: f64,
+        lines: [EdgeLine; 2],
+        start: &Touch,
+    ) -> Option<Touch> {
+        self.solve(pinion_turn, start, &Meeting::Lines(lines))
+    }
+
+    fn solve(&self, pinion_turn: f64, start: &Touch, meeting: &Meeting) -> Option<Touch> {
         let size = self.flanks[0].blank.mean_cone_m;
         let [pinion, gear] = &self.assembly.members;
         let axis = gear.axis();
@@ -154,8 +186,8 @@ impl Mesh<'_> {
                 }
                 slopes[(i, 4)] = -arm[i] / size;
             }
-            match edge {
-                None => {
+            match meeting {
+                Meeting::Faces => {
                     // Tangents are held for the step.
                     let tangents = p[0].tangents(&p[0].dr[0]);
                     let turned = axis.cross(&p[1].n);
@@ -168,7 +200,17 @@ impl Mesh<'_> {
                         slopes[(3 + row, 4)] = t.dot(&turned);
                     }
                 }
-                Some(line) => {
+                Meeting::Lines(lines) => {
+                    for (row, line) in lines.iter().enumerate() {
+                        let m = line.member;
+                        let (value, c, _) = line.equation(self.flanks[m], &own[m]);
+                        residual[3 + row] = value / size;
+                        for k in 0..2 {
+                            slopes[(3 + row, 2 * m + k)] = c[k] / size;
+                        }
+                    }
+                }
+                Meeting::Edge(line) => {
                     let m = line.member;
                     let (value, c, cc) = line.equation(self.flanks[m], &own[m]);
                     residual[3] = value / size;
@@ -197,7 +239,7 @@ impl Mesh<'_> {
             }
             let error = residual.norm();
             if error < 1e-13 || (error < 1e-10 && error >= 0.5 * last) {
-                if p[0].n.dot(&p[1].n) > 0.0 && edge.is_none() {
+                if p[0].n.dot(&p[1].n) > 0.0 && matches!(meeting, Meeting::Faces) {
                     return None;
                 }
                 return Some(Touch {

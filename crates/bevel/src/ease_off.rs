@@ -18,7 +18,10 @@ pub struct EaseOff {
     pub gear_at: [f64; 2],
 }
 
-/// Where Newton begins and what it searches from.
+/// Cone distance and height of places of the pinion \[m\], with their ease-off.
+pub type EaseOffMap = Vec<([f64; 2], Option<EaseOff>)>;
+
+/// Newton steps at most.
 const MOST_STEPS: usize = 40;
 
 impl Mesh<'_> {
@@ -103,25 +106,46 @@ impl Mesh<'_> {
     }
 
     /// Ease-off over the pinion's flank: `along` × `up` places from toe to heel and from the lower end (or the start
-    /// of the gear's tip contact) to the
-    /// tip, each as cone distance, height and ease-off.
+    /// of the gear's tip contact) to the tip, each as cone distance, height and ease-off.
     ///
     /// # Errors
-    /// As [`Self::ease_off`].
+    /// [`BevelError::NoMate`] at the first place where the gear's surface is not met.
     pub fn ease_off_map(
         &self,
         along: usize,
         up: usize,
     ) -> Result<Vec<([f64; 2], EaseOff)>, BevelError> {
-        let flank = self.flanks[0];
-        let blank = &flank.blank;
-        let mate = &self.flanks[1].blank;
         let begin = EaseOff {
             gap_m: 0.0,
             pinion_turn_rad: 0.0,
             gear_at: self.flanks[1].mean().at,
         };
-        let first = self.ease_off(flank.mean().at, &begin)?;
+        let first = self.ease_off(self.flanks[0].mean().at, &begin)?;
+        let map = self.ease_off_map_from(&first, along, up)?;
+        let whole = map.into_iter().map(|([cone, height], found)| {
+            let none = BevelError::NoMate {
+                cone_mm: 1e3 * cone,
+                height_mm: 1e3 * height,
+            };
+            Ok(([cone, height], found.ok_or(none)?))
+        });
+        whole.collect()
+    }
+
+    /// As [`Self::ease_off_map`], from the ease-off at the pinion's mean point; none at places where the pinion's flank is
+    /// undercut or never meets the gear's surface.
+    ///
+    /// # Errors
+    /// [`BevelError::NoMate`] where the pinion's pitch line does not meet it.
+    pub fn ease_off_map_from(
+        &self,
+        first: &EaseOff,
+        along: usize,
+        up: usize,
+    ) -> Result<EaseOffMap, BevelError> {
+        let flank = self.flanks[0];
+        let blank = &flank.blank;
+        let mate = &self.flanks[1].blank;
         let mut list = Vec::with_capacity(along * up);
         let share = |i: usize, n: usize| {
             if n > 1 {
@@ -134,15 +158,17 @@ impl Mesh<'_> {
             let toe = blank.inner_cone_m().max(mate.inner_cone_m());
             let cone = toe + (blank.outer_cone_m - toe) * share(i, along);
             let pitch = flank.locate(cone, 0.0)?;
-            let middle = self.ease_off(pitch.at, &first)?;
-            let bottom = flank.bottom(cone)?;
+            let middle = self.ease_off(pitch.at, first)?;
+            let bottom = flank.bottom(cone).ok();
+            let bottom = bottom.map(|b| flank.place(&b.point.r)[1]);
             // Below the reach of the gear's tip nothing touches.
-            let low = flank.place(&bottom.point.r)[1].max(-mate.addendum_m(cone));
+            let low = bottom.map_or(-mate.addendum_m(cone), |b| b.max(-mate.addendum_m(cone)));
             let high = blank.addendum_m(cone);
             for k in 0..up {
                 let height = low + (high - low) * share(k, up);
-                let place = flank.locate_from(cone, height, &pitch)?;
-                list.push(([cone, height], self.ease_off(place.at, &middle)?));
+                let place = flank.locate_from(cone, height, &pitch);
+                let found = place.and_then(|place| self.ease_off(place.at, &middle));
+                list.push(([cone, height], found.ok()));
             }
         }
         Ok(list)

@@ -5,6 +5,7 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use crate::blank::MemberBlank;
 use crate::cut_surface::{CutSurface, SurfacePoint};
 use crate::error::BevelError;
+use crate::grid_surface::{GridFit, GridSurface};
 use crate::hand::FlankSide;
 use crate::settings::{MachineSettings, Tool};
 
@@ -16,10 +17,19 @@ pub struct Flank {
     pub blank: MemberBlank,
     /// Side of the tooth.
     pub side: FlankSide,
-    surface: CutSurface,
+    surface: FlankSurface,
     /// Sine and cosine of the turn from the surface's own frame.
     turn: [f64; 2],
     mean: Located,
+}
+
+/// What the flank is.
+#[derive(Debug, Clone, PartialEq)]
+enum FlankSurface {
+    /// What a tool leaves.
+    Cut(CutSurface),
+    /// Through points.
+    Points(Box<GridSurface>),
 }
 
 /// A point of a flank and its parameters.
@@ -64,6 +74,26 @@ impl Flank {
             settings: *settings,
             side,
         };
+        Self::new(blank, side, FlankSurface::Cut(surface))
+    }
+
+    /// The flank through a grid of points.
+    ///
+    /// # Errors
+    /// [`BevelError::NoFlankPoint`] where the grid is not one of this blank.
+    pub fn through(
+        blank: &MemberBlank,
+        side: FlankSide,
+        surface: GridSurface,
+    ) -> Result<Self, BevelError> {
+        Self::new(blank, side, FlankSurface::Points(Box::new(surface)))
+    }
+
+    fn new(
+        blank: &MemberBlank,
+        side: FlankSide,
+        surface: FlankSurface,
+    ) -> Result<Self, BevelError> {
         let mut flank = Self {
             blank: blank.clone(),
             side,
@@ -90,9 +120,30 @@ impl Flank {
         format!("{}'s {}", self.blank.name, self.side.word())
     }
 
-    /// The surface in the frame of the machine's start.
-    pub fn surface(&self) -> &CutSurface {
-        &self.surface
+    /// The surface in the frame of the machine's start; none for a flank from points.
+    pub fn cut_surface(&self) -> Option<&CutSurface> {
+        match &self.surface {
+            FlankSurface::Cut(surface) => Some(surface),
+            FlankSurface::Points(_) => None,
+        }
+    }
+
+    /// How well the surface fits its points; none for a flank that was cut.
+    pub fn grid_fit(&self) -> Option<&GridFit> {
+        match &self.surface {
+            FlankSurface::Cut(_) => None,
+            FlankSurface::Points(surface) => Some(&surface.fit),
+        }
+    }
+
+    /// A point in the surface's own frame.
+    fn own(&self, sheet: Sheet, at: [f64; 2]) -> Option<SurfacePoint> {
+        match (&self.surface, sheet) {
+            (FlankSurface::Cut(surface), Sheet::Flank) => surface.flank(at[0], at[1]),
+            (FlankSurface::Cut(surface), Sheet::Fillet) => surface.fillet(at[0], at[1]),
+            (FlankSurface::Points(surface), Sheet::Flank) => surface.point(at),
+            (FlankSurface::Points(_), Sheet::Fillet) => None,
+        }
     }
 
     /// The mean point.
@@ -130,12 +181,12 @@ impl Flank {
 
     /// The surface at parameters, also beyond the blank. None where there is no surface.
     pub fn point(&self, at: [f64; 2]) -> Option<SurfacePoint> {
-        self.surface.flank(at[0], at[1]).map(|p| self.turned(p))
+        self.own(Sheet::Flank, at).map(|p| self.turned(p))
     }
 
-    /// The fillet at parameters of the flank.
+    /// The fillet at parameters of the flank; none for a flank from points.
     pub fn fillet(&self, at: [f64; 2]) -> Option<SurfacePoint> {
-        self.surface.fillet(at[0], at[1]).map(|p| self.turned(p))
+        self.own(Sheet::Fillet, at).map(|p| self.turned(p))
     }
 
     /// Cone distance L and height h above the pitch cone of a point \[m\].
@@ -166,13 +217,14 @@ impl Flank {
     }
 
     /// Lower end of the fillet at a cone distance, where the root's bottom begins; that of the flank where the tool
-    /// has no edge.
+    /// has no edge, or the flank is one from points.
     ///
     /// # Errors
     /// As [`Self::bottom`].
     pub fn root(&self, cone_m: f64) -> Result<Located, BevelError> {
         let bottom = self.bottom(cone_m)?;
-        if self.surface.settings.face_mill().is_none() {
+        let milled = |cut: &CutSurface| cut.settings.face_mill().is_some();
+        if !self.cut_surface().is_some_and(milled) {
             return Ok(bottom);
         }
         let height = -self.blank.dedendum_m(cone_m);
@@ -183,6 +235,31 @@ impl Flank {
         begin
             .and_then(|begin| self.march(Sheet::Fillet, Row::End, [cone_m, 0.0], &begin))
             .ok_or_else(|| self.no_point([cone_m, height]))
+    }
+
+    /// Points of the fillet at a cone distance, from where the flank begins (share 1) downwards (0 the lower end): `shares` fall.
+    ///
+    /// # Errors
+    /// As [`Self::bottom`].
+    pub fn fillet_line(&self, cone_m: f64, shares: &[f64]) -> Result<Vec<Located>, BevelError> {
+        let bottom = self.bottom(cone_m)?;
+        let lost = || self.no_point([cone_m, -self.blank.dedendum_m(cone_m)]);
+        let point = self.fillet(bottom.at).ok_or_else(lost)?;
+        let whole = point.above_end;
+        let mut here = Located {
+            at: bottom.at,
+            point,
+        };
+        shares
+            .iter()
+            .map(|share| {
+                let target = [cone_m, share * whole];
+                here = self
+                    .march(Sheet::Fillet, Row::End, target, &here)
+                    .ok_or_else(lost)?;
+                Ok(here)
+            })
+            .collect()
     }
 
     /// Whether a point lies on the flank: between toe and heel, below the tip, above the fillet.
@@ -262,8 +339,11 @@ impl Flank {
 
     /// Parameters near the mean point: cradle at 0, blade from the cutter's centre towards the mean point.
     fn first_guess(&self) -> [f64; 2] {
-        let s = &self.surface.settings;
         let mean = self.blank.mean_cone_m;
+        let s = match &self.surface {
+            FlankSurface::Cut(surface) => &surface.settings,
+            FlankSurface::Points(surface) => return surface.at([mean, 0.0]),
+        };
         let along = mean * (self.blank.pitch_angle_rad - s.root_angle_rad).cos()
             + s.work_offset_m * s.root_angle_rad.cos();
         match s.tool {
@@ -279,10 +359,7 @@ impl Flank {
 
     /// Damped Newton for a place, in the surface's own frame.
     fn newton(&self, sheet: Sheet, row: Row, target: [f64; 2], start: [f64; 2]) -> Option<Located> {
-        let surface = |at: [f64; 2]| match sheet {
-            Sheet::Flank => self.surface.flank(at[0], at[1]),
-            Sheet::Fillet => self.surface.fillet(at[0], at[1]),
-        };
+        let surface = |at: [f64; 2]| self.own(sheet, at);
         let miss = |p: &SurfacePoint| {
             let [cone, second] = self.coordinates(row, p);
             Vector2::new(cone - target[0], second - target[1])

@@ -2,23 +2,17 @@
 //! or a measurement gave it.
 //!
 //! A place is s along the face, 0 at the toe and 1 at the heel, and v up the flank, 0 at the lower line and 1 at the
-//! tip. With L, h of the blank the point is
-//!
-//! ```text
-//! r = (ρ cos χ, ρ sin χ, z),   ρ = L sin γ + h cos γ,   z = L cos γ − h sin γ
-//! ```
-//!
-//! χ(s, v) is interpolated from the exact surface by Chebyshev polynomials; all derivatives follow.
+//! tip. Its azimuth is interpolated from the exact surface (`azimuth_surface.rs`).
 
-use nalgebra::{Matrix3, Vector3};
-
+use crate::azimuth_surface::{AzimuthSurface, SectionFrame, unscaled};
 use crate::blank::MemberBlank;
 use crate::chebyshev::Chebyshev2;
-use crate::cut_surface::curvature_tensor;
 use crate::error::BevelError;
+use crate::flank::Flank;
 use crate::hand::FlankSide;
-use crate::jet::{Jet, JetVector};
 use crate::tooth::Tooth;
+
+pub use crate::azimuth_surface::PatchPoint;
 
 /// How far a patch goes on beyond toe and heel, and below and above its lines, as shares of its size.
 const BEYOND: [[f64; 2]; 2] = [[0.1, 0.1], [0.0, 0.12]];
@@ -45,33 +39,7 @@ pub struct FlankPatch {
     pub facing: f64,
     /// Place of the mean point, on the pitch cone.
     pub mean: [f64; 2],
-    /// Sine and cosine of the pitch angle.
-    pitch: [f64; 2],
-    /// Heights of the lower line and of the tip at toe and heel \[m\].
-    heights_m: [[f64; 2]; 2],
-    azimuth: Chebyshev2,
-}
-
-/// A point of a patch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PatchPoint {
-    /// Place \[m\].
-    pub r: Vector3<f64>,
-    /// ∂r/∂s, ∂r/∂v.
-    pub dr: [Vector3<f64>; 2],
-    /// ∂²r/∂s², ∂²r/∂s∂v, ∂²r/∂v².
-    pub ddr: [Vector3<f64>; 3],
-    /// Unit normal into the material.
-    pub n: Vector3<f64>,
-    /// ∂n/∂s, ∂n/∂v.
-    pub dn: [Vector3<f64>; 2],
-}
-
-impl PatchPoint {
-    /// Curvature tensor in the member's frame, as [`crate::SurfacePoint::curvature`] \[1/m\].
-    pub fn curvature(&self) -> Matrix3<f64> {
-        curvature_tensor(&self.dr, &self.dn)
-    }
+    surface: AzimuthSurface,
 }
 
 impl FlankPatch {
@@ -84,46 +52,16 @@ impl FlankPatch {
         mate: &MemberBlank,
         side: FlankSide,
     ) -> Result<Self, BevelError> {
-        let (blank, flank) = (&tooth.blank, tooth.flank(side));
-        let cones_m = [blank.inner_cone_m(), blank.outer_cone_m];
-        // The lower line is straight, and nowhere above where the flank ends or the mate's tip reaches.
-        let mut depths = [0.0; LOOKS];
-        for (i, height) in depths.iter_mut().enumerate() {
-            let cone = cones_m[0] + blank.face_width_m * share(i);
-            let bottom = flank.bottom(cone)?;
-            let of_mate = -REACH * mate.addendum_m(cone);
-            *height = of_mate.max(flank.place(&bottom.point.r)[1]);
-        }
-        let [toe, heel] = [depths[0], depths[LOOKS - 1]];
-        let above = |i: usize| toe + (heel - toe) * share(i) - depths[i];
-        let sag = (0..LOOKS).map(above).fold(0.0, f64::max);
-        let lower = [toe - sag, heel - sag];
-        let frame = Frame {
-            cones_m,
-            heights_m: [lower, cones_m.map(|cone| blank.addendum_m(cone))],
-        };
         let turn = tooth.half_angle_rad(side);
-        let mut start = *flank.mean();
-        let azimuth = Chebyshev2::interpolate(|x, y| {
-            let [cone, height] = frame.place_m(unscaled([x, y]));
-            let found = flank
-                .locate_from(cone, height, &start)
-                .or_else(|_| flank.locate(cone, height))?;
-            start = found;
-            let r = found.point.r;
-            Ok::<f64, BevelError>(turn + r.y.atan2(r.x))
-        })?;
-        let (sin, cos) = blank.pitch_angle_rad.sin_cos();
-        let along = (blank.mean_cone_m - cones_m[0]) / blank.face_width_m;
-        let [low, high] = frame.heights_m.map(|h| h[0] + (h[1] - h[0]) * along);
+        let surface = patch_of(tooth.flank(side), mate, Self::domain(), turn)?;
+        let blank = &tooth.blank;
+        let frame = &surface.frame;
         Ok(Self {
             teeth: blank.teeth,
-            cones_m,
-            facing: side.facing(blank.hand),
-            mean: [along, -low / (high - low)],
-            pitch: [sin, cos],
-            heights_m: frame.heights_m,
-            azimuth,
+            cones_m: frame.cones_m,
+            facing: surface.facing,
+            mean: frame.at([blank.mean_cone_m, 0.0]),
+            surface,
         })
     }
 
@@ -135,59 +73,17 @@ impl FlankPatch {
 
     /// Cone distance and height above the pitch cone of a place \[m\].
     pub fn place_m(&self, at: [f64; 2]) -> [f64; 2] {
-        let frame = Frame {
-            cones_m: self.cones_m,
-            heights_m: self.heights_m,
-        };
-        frame.place_m(at)
+        self.surface.frame.place_m(at)
     }
 
     /// The point at a place.
     pub fn point(&self, at: [f64; 2]) -> PatchPoint {
-        let [s, v] = [Jet::parameter(at[0], 0), Jet::parameter(at[1], 1)];
-        let number = Jet::constant;
-        let [toe, heel] = self.cones_m;
-        let cone = number(toe) + number(heel - toe) * s;
-        let [low, high] = self
-            .heights_m
-            .map(|h| number(h[0]) + number(h[1] - h[0]) * s);
-        let height = low + (high - low) * v;
-        let [sin, cos] = self.pitch.map(number);
-        let radius = cone * sin + height * cos;
-        let [x, y] = scaled(at);
-        let mut azimuth = self.azimuth.jet(x, y);
-        let [by_s, by_v] = scale();
-        azimuth.d = [azimuth.d[0] * by_s, azimuth.d[1] * by_v];
-        azimuth.dd = [
-            azimuth.dd[0] * by_s * by_s,
-            azimuth.dd[1] * by_s * by_v,
-            azimuth.dd[2] * by_v * by_v,
-        ];
-        let (sine, cosine) = azimuth.sin_cos();
-        let r = JetVector([radius * cosine, radius * sine, cone * cos - height * sin]);
-        let (dr, ddr) = (r.first(), r.second());
-        let across = dr[0].cross(&dr[1]);
-        let size = across.norm();
-        // r_s × r_v looks counter-clockwise, the normal of a flank that faces counter-clockwise the other way.
-        let inwards = -self.facing / size;
-        let n = across * inwards;
-        let dn = [0, 1].map(|k| {
-            let step = (ddr[k].cross(&dr[1]) + dr[0].cross(&ddr[k + 1])) * inwards;
-            step - n * n.dot(&step)
-        });
-        PatchPoint {
-            r: r.value(),
-            dr,
-            ddr,
-            n,
-            dn,
-        }
+        self.surface.point(at)
     }
 
     /// Azimuth of a place in the member's frame \[rad\].
     pub fn azimuth_rad(&self, at: [f64; 2]) -> f64 {
-        let [x, y] = scaled(at);
-        self.azimuth.value(x, y)
+        self.surface.azimuth_rad(at)
     }
 
     /// Lever of the normal at the mean point about the member's axis \[m\], above zero.
@@ -197,33 +93,61 @@ impl FlankPatch {
     }
 }
 
-/// Lines of the blank.
-struct Frame {
-    cones_m: [f64; 2],
-    heights_m: [[f64; 2]; 2],
-}
-
-impl Frame {
-    fn place_m(&self, [s, v]: [f64; 2]) -> [f64; 2] {
-        let along = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * s;
-        let [low, high] = self.heights_m.map(along);
-        [along(self.cones_m), low + (high - low) * v]
+/// The part of a flank that the mate can reach: its lower line is straight, and nowhere above where the flank ends or the mate's
+/// tip reaches.
+///
+/// # Errors
+/// [`BevelError::NoFlankPoint`] where the flank ends above its fillet.
+pub(crate) fn reach_of(flank: &Flank, mate: &MemberBlank) -> Result<SectionFrame, BevelError> {
+    let blank = &flank.blank;
+    let cones_m = [blank.inner_cone_m(), blank.outer_cone_m];
+    let mut depths = [0.0; LOOKS];
+    for (i, height) in depths.iter_mut().enumerate() {
+        let cone = cones_m[0] + blank.face_width_m * share(i);
+        let bottom = flank.bottom(cone)?;
+        let of_mate = -REACH * mate.addendum_m(cone);
+        *height = of_mate.max(flank.place(&bottom.point.r)[1]);
     }
+    let [toe, heel] = [depths[0], depths[LOOKS - 1]];
+    let above = |i: usize| toe + (heel - toe) * share(i) - depths[i];
+    let sag = (0..LOOKS).map(above).fold(0.0, f64::max);
+    Ok(SectionFrame {
+        cones_m,
+        heights_m: [
+            [toe - sag, heel - sag],
+            cones_m.map(|cone| blank.addendum_m(cone)),
+        ],
+    })
 }
 
-/// s, v to the square of the polynomials.
-fn scaled(at: [f64; 2]) -> [f64; 2] {
-    let [by_s, by_v] = scale();
-    let [[s, _], [v, _]] = FlankPatch::domain();
-    [(at[0] - s) * by_s - 1.0, (at[1] - v) * by_v - 1.0]
-}
-
-fn unscaled(xy: [f64; 2]) -> [f64; 2] {
-    let [by_s, by_v] = scale();
-    let [[s, _], [v, _]] = FlankPatch::domain();
-    [s + (xy[0] + 1.0) / by_s, v + (xy[1] + 1.0) / by_v]
-}
-
-fn scale() -> [f64; 2] {
-    FlankPatch::domain().map(|[low, high]| 2.0 / (high - low))
+/// That part over a domain of s and v, turned by an angle about the axis.
+///
+/// # Errors
+/// [`BevelError::NoFlankPoint`] where the surface does not reach over it.
+pub(crate) fn patch_of(
+    flank: &Flank,
+    mate: &MemberBlank,
+    domain: [[f64; 2]; 2],
+    turn_rad: f64,
+) -> Result<AzimuthSurface, BevelError> {
+    let blank = &flank.blank;
+    let frame = reach_of(flank, mate)?;
+    let mut start = *flank.mean();
+    let azimuth = Chebyshev2::interpolate(|x, y| {
+        let [cone, height] = frame.place_m(unscaled(&domain, [x, y]));
+        let found = flank
+            .locate_from(cone, height, &start)
+            .or_else(|_| flank.locate(cone, height))?;
+        start = found;
+        let r = found.point.r;
+        Ok::<f64, BevelError>(turn_rad + r.y.atan2(r.x))
+    })?;
+    let (sin, cos) = blank.pitch_angle_rad.sin_cos();
+    Ok(AzimuthSurface {
+        frame,
+        pitch: [sin, cos],
+        facing: flank.side.facing(blank.hand),
+        domain,
+        azimuth,
+    })
 }

@@ -4,6 +4,7 @@ use crate::basic_settings::{Process, basic_settings, crown_settings};
 use crate::blank::{PairBlank, ToothForm};
 use crate::error::BevelError;
 use crate::flank::Flank;
+use crate::grid_surface::GridSurface;
 use crate::hand::FlankSide;
 use crate::local_synthesis::{Synthesis, SynthesisTarget};
 use crate::settings::MachineSettings;
@@ -23,13 +24,15 @@ pub enum Cutting {
     EaseOff([AskedEaseOff; 2]),
     /// As stated.
     Given([MachineSettings; 2]),
+    /// Not cut here: through measured or published points.
+    Points(Box<[GridSurface; 2]>),
 }
 
 /// A pair with settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairDesign {
-    /// Settings of pinion and gear, each concave, convex.
-    pub settings: [[MachineSettings; 2]; 2],
+    /// Settings of pinion and gear, each concave, convex; none of a member from points.
+    pub settings: [Option<[MachineSettings; 2]>; 2],
     /// Pinion and gear.
     pub teeth: [Tooth; 2],
     /// Root mean square of what a fit to an ease-off left, concave and convex flank of the pinion \[m\].
@@ -57,13 +60,25 @@ impl PairDesign {
                 Cutting::Basic(_) if data.form == ToothForm::Straight => Ok(crown()),
                 Cutting::Basic(process) => basic_settings(member, data, edge_radius_m[i], *process),
                 // Where the search begins.
-                Cutting::Synthesis(_) | Cutting::EaseOff(_) => {
+                Cutting::Synthesis(_) | Cutting::EaseOff(_) | Cutting::Points(_) => {
                     basic_settings(member, data, edge_radius_m[i], Process::Generated)
                 }
             }
         };
-        let gear_settings = derived(1)?;
-        let gear = Tooth::cut(&blank.members[1], &gear_settings)?;
+        let (gear_settings, gear) = match &cutting[1] {
+            Cutting::Points(grids) => (None, Tooth::through(&blank.members[1], grids)?),
+            _ => {
+                let settings = derived(1)?;
+                (Some(settings), Tooth::cut(&blank.members[1], &settings)?)
+            }
+        };
+        if let Cutting::Points(grids) = &cutting[0] {
+            return Ok(Self {
+                settings: [None, gear_settings],
+                teeth: [Tooth::through(&blank.members[0], grids)?, gear],
+                fit_rms_m: None,
+            });
+        }
         let mut pinion_settings = derived(0)?;
         let mut fit_rms_m = None;
         match &cutting[0] {
@@ -89,7 +104,7 @@ impl PairDesign {
         }
         let pinion = Tooth::cut(&blank.members[0], &pinion_settings)?;
         Ok(Self {
-            settings: [pinion_settings, gear_settings],
+            settings: [Some(pinion_settings), gear_settings],
             teeth: [pinion, gear],
             fit_rms_m,
         })

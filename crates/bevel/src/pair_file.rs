@@ -2,9 +2,11 @@
 
 mod assembly_table;
 mod blank_table;
+mod load_table;
 mod member_table;
 mod settings_table;
 
+pub use load_table::LoadRequest;
 pub use member_table::MemberRequest;
 pub use settings_table::settings_toml;
 
@@ -22,6 +24,7 @@ use crate::pair_design::PairDesign;
 use crate::tca::TcaRequest;
 use assembly_table::AssemblyTable;
 use blank_table::BlankTable;
+use load_table::LoadTable;
 use member_table::MemberTable;
 
 /// JSON Schema (draft 2020-12) of bevel pair files.
@@ -44,6 +47,8 @@ struct BevelFile {
     gear: MemberTable,
     /// Contact analysis and assembly.
     tca: Option<AssemblyTable>,
+    /// Contact under load.
+    load: Option<LoadTable>,
 }
 
 /// What a pair file holds.
@@ -59,6 +64,8 @@ pub struct PairFile {
     pub pinion_flank: FlankSide,
     /// Assembly and fineness of the contact analysis.
     pub tca: TcaRequest,
+    /// Contact under load, where the file asks for it.
+    pub load: Option<LoadRequest>,
 }
 
 impl PairFile {
@@ -95,12 +102,14 @@ impl PairFile {
             file.gear.request(document, "gear", &blank)?,
         ];
         let (pinion_flank, tca) = file.tca.unwrap_or_default().request(document)?;
+        let load = file.load.map(|table| table.request(document)).transpose()?;
         Ok(Self {
             title: file.title,
             blank,
             members,
             pinion_flank,
             tca,
+            load,
         })
     }
 

@@ -4,9 +4,9 @@
 use crate::assembly::{Assembly, AssemblyError};
 use crate::blank::PairBlank;
 use crate::contact_ellipse::ContactEllipse;
-use crate::contact_path::{ContactKind, PairContacts, first_touch};
+use crate::contact_path::{ContactKind, first_touch, pair_contacts};
 use crate::contact_point::{Mesh, Touch};
-use crate::ease_off::EaseOff;
+use crate::ease_off::{EaseOff, EaseOffMap};
 use crate::error::BevelError;
 use crate::flank::Flank;
 
@@ -66,60 +66,58 @@ pub struct ToothContact {
     pub peak_to_peak_rad: f64,
     /// Pitches during which a pair's flanks touch at the path inside their limits; 0 where only edges touch.
     pub contact_ratio: f64,
-    /// Contact at which the ratio of speeds is exactly that of the teeth.
-    pub mean: Touch,
-    /// Ease-off over the pinion's flank in this assembly: L, h and gap.
-    pub ease_off: Vec<([f64; 2], EaseOff)>,
+    /// Contact of the extended flanks at which the ratio of speeds is exactly that of the teeth; none where only edges touch, and
+    /// of conjugate flanks.
+    pub mean: Option<Touch>,
+    /// Ease-off over the pinion's flank in this assembly.
+    pub ease_off: EaseOffMap,
     /// Positions at which an edge is the first to touch, of all positions of the path that lead.
     pub edge_share: f64,
 }
 
 /// Least relative curvature over the largest below which flanks touch along a line.
 const LINE_CONTACT: f64 = 1e-8;
+/// Steps in which errors of assembly are brought into the ease-off.
+const EASE_OFF_PARTS: i32 = 8;
 
 /// Analyses a pair of flanks.
 ///
 /// # Errors
-/// [`BevelError`] where the flanks do not touch, or only in lines.
+/// [`BevelError`] where the flanks do not touch, or along a line.
 pub fn tooth_contact(
     flanks: [&Flank; 2],
     blank: &PairBlank,
     request: &TcaRequest,
 ) -> Result<ToothContact, BevelError> {
-    let (assembly, first) = first_touch(flanks, blank, &request.error)?;
+    let assembly = Assembly::new(blank, &request.error);
     let mesh = Mesh {
         flanks,
         assembly: &assembly,
     };
-    let [least, largest] = ContactEllipse::at(&first).curvatures_per_m;
-    if least.abs() < LINE_CONTACT * largest.abs() {
+    let is_conjugate = first_touch(flanks, blank, &AssemblyError::default())
+        .is_ok_and(|(_, touch)| touches_along_line(&touch));
+    if is_conjugate && request.error == AssemblyError::default() {
         return Err(BevelError::NoContact {
             hint: "they are conjugate and touch along a line, which has no path of contact; look at their ease-off",
         });
     }
-    let contacts = mesh.pair_contacts(&first, request.per_pitch);
-    let best = first_of_each_turn(&mesh, &contacts);
-    if best.is_empty() {
-        return Err(BevelError::NoContact {
-            hint: "the path of contact passes beside the flanks; make the errors smaller",
-        });
-    }
+    let contacts = pair_contacts(&mesh, request.per_pitch)?;
     // The gear is pushed by the pair that brings it farthest.
     let n = request.per_pitch as i64;
     let mut composite = vec![f64::NEG_INFINITY; request.per_pitch];
-    for (i, _, touch) in &best {
+    for (i, _, touch) in &contacts.contacts {
         let slot = &mut composite[i.rem_euclid(n) as usize];
         *slot = slot.max(mesh.lead_rad(touch));
     }
     if composite.iter().any(|x| !x.is_finite()) {
         return Err(BevelError::NoContact {
-            hint: "between two pairs no tooth touches: the contact ratio is below one, edges included",
+            hint: "at some turns no tooth reaches its mate, edges included; make the errors smaller",
         });
     }
     let largest = composite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let smallest = composite.iter().copied().fold(f64::INFINITY, f64::min);
-    let mut path = Vec::with_capacity(best.len());
-    for (i, kind, touch) in &best {
+    let mut path = Vec::with_capacity(contacts.contacts.len());
+    for (i, kind, touch) in &contacts.contacts {
         let lead = mesh.lead_rad(touch);
         let places = [0, 1].map(|k| {
             flanks[k]
@@ -141,6 +139,23 @@ pub fn tooth_contact(
         .iter()
         .filter(|p| p.leading && p.kind != ContactKind::Flanks)
         .count() as f64;
+    let best = path
+        .iter()
+        .filter(|p| p.kind == ContactKind::Flanks)
+        .max_by(|a, b| a.error_rad.total_cmp(&b.error_rad));
+    // From the mean points as designed, and where errors are too large for that, from the contact that is farthest ahead.
+    let designed = first_touch(flanks, blank, &request.error).map(|(_, touch)| touch);
+    let starts = [designed.ok(), best.map(|p| p.touch)];
+    let mut means = starts.into_iter().flatten();
+    let mean = if is_conjugate {
+        None
+    } else {
+        means.find_map(|start| {
+            let found = mean_contact(&mesh, &start).ok();
+            found.filter(|touch| mesh.is_near_flanks(touch))
+        })
+    };
+    keep_near_leading(&mut path, n as usize);
     let pitch = contacts.step_rad * request.per_pitch as f64;
     Ok(ToothContact {
         error_rad: composite.iter().map(|x| x - largest).collect(),
@@ -148,27 +163,58 @@ pub fn tooth_contact(
         contact_ratio: contacts
             .flank_span_rad
             .map_or(0.0, |[a, b]| (b - a) / pitch),
-        mean: mean_contact(&mesh, &first)?,
-        ease_off: mesh.ease_off_map(request.map[0], request.map[1])?,
+        mean,
+        ease_off: ease_off_map(flanks, blank, &request.error, request.map)?,
         edge_share: edges / leading,
         path,
     })
 }
 
-/// At each turn the contact at which the pair touches first.
-fn first_of_each_turn(mesh: &Mesh<'_>, contacts: &PairContacts) -> Vec<(i64, ContactKind, Touch)> {
-    let mut best: Vec<(i64, ContactKind, Touch)> = Vec::new();
-    for contact in &contacts.contacts {
-        match best.last_mut() {
-            Some(last) if last.0 == contact.0 => {
-                if mesh.lead_rad(&contact.2) > mesh.lead_rad(&last.2) {
-                    *last = *contact;
-                }
-            }
-            _ => best.push(*contact),
-        }
+/// Whether flanks touch along a line.
+fn touches_along_line(touch: &Touch) -> bool {
+    let [least, largest] = ContactEllipse::at(touch).curvatures_per_m;
+    least.abs() < LINE_CONTACT * largest.abs()
+}
+
+/// Leaves out what lies more than half a pitch before or after the turns at which the pair leads.
+fn keep_near_leading(path: &mut Vec<PathPoint>, per_pitch: usize) {
+    let leads = |p: &PathPoint| p.leading || p.kind == ContactKind::Flanks;
+    let first = path.iter().position(leads).unwrap_or(0);
+    let last = path.iter().rposition(leads).unwrap_or(0);
+    path.truncate(last + 1 + per_pitch / 2);
+    path.drain(..first.saturating_sub(per_pitch / 2));
+}
+
+/// Ease-off over the pinion's flank in an assembly with errors, which are brought in step by step.
+///
+/// # Errors
+/// [`BevelError::NoMate`] where the pinion's pitch line never meets the gear's surface.
+pub fn ease_off_map(
+    flanks: [&Flank; 2],
+    blank: &PairBlank,
+    error: &AssemblyError,
+    map: [usize; 2],
+) -> Result<EaseOffMap, BevelError> {
+    let mut start = EaseOff {
+        gap_m: 0.0,
+        pinion_turn_rad: 0.0,
+        gear_at: flanks[1].mean().at,
+    };
+    for part in 0..=EASE_OFF_PARTS {
+        let share = f64::from(part) / f64::from(EASE_OFF_PARTS);
+        let assembly = Assembly::new(blank, &error.scaled(share));
+        let mesh = Mesh {
+            flanks,
+            assembly: &assembly,
+        };
+        start = mesh.ease_off(flanks[0].mean().at, &start)?;
     }
-    best
+    let assembly = Assembly::new(blank, error);
+    let mesh = Mesh {
+        flanks,
+        assembly: &assembly,
+    };
+    mesh.ease_off_map_from(&start, map[0], map[1])
 }
 
 /// The contact of the extended surfaces at which the ratio of speeds is that of the teeth: n·v₁₂ = 0 with constant

@@ -3,6 +3,7 @@
 use crate::blank::MemberBlank;
 use crate::error::BevelError;
 use crate::flank::{Flank, Located, cone_directions};
+use crate::grid_surface::GridSurface;
 use crate::hand::FlankSide;
 use crate::settings::MachineSettings;
 
@@ -20,8 +21,8 @@ pub struct Tooth {
 pub struct ToothCheck {
     /// Thinnest top land along the circle \[m\].
     pub least_top_m: f64,
-    /// Narrowest bottom of the slot, normal to the tooth \[m\].
-    pub least_slot_m: f64,
+    /// Narrowest bottom of the slot, normal to the tooth \[m\]; none of flanks from points, whose roots are not known.
+    pub least_slot_m: Option<f64>,
 }
 
 /// Places of the checks along the face and up the flank.
@@ -39,6 +40,21 @@ impl Tooth {
             flanks: [
                 Flank::cut(blank, FlankSide::Concave, &settings[0])?,
                 Flank::cut(blank, FlankSide::Convex, &settings[1])?,
+            ],
+        })
+    }
+
+    /// A tooth whose concave and convex flanks go through grids of points.
+    ///
+    /// # Errors
+    /// [`BevelError::NoFlankPoint`].
+    pub fn through(blank: &MemberBlank, grids: &[GridSurface; 2]) -> Result<Self, BevelError> {
+        let [concave, convex] = grids;
+        Ok(Self {
+            blank: blank.clone(),
+            flanks: [
+                Flank::through(blank, FlankSide::Concave, concave.clone())?,
+                Flank::through(blank, FlankSide::Convex, convex.clone())?,
             ],
         })
     }
@@ -76,13 +92,13 @@ impl Tooth {
     /// # Errors
     /// [`BevelError`] with the place.
     pub fn check(&self, least_top_m: f64, point_width_m: f64) -> Result<ToothCheck, BevelError> {
-        for flank in &self.flanks {
+        for flank in self.flanks.iter().filter(|f| f.cut_surface().is_some()) {
             check_envelope(flank)?;
         }
         let blank = &self.blank;
         let mut found = ToothCheck {
             least_top_m: f64::INFINITY,
-            least_slot_m: f64::INFINITY,
+            least_slot_m: None,
         };
         for i in 0..ALONG {
             let cone = along(blank, i);
@@ -99,7 +115,10 @@ impl Tooth {
                     least_mm: 1e3 * least_top_m,
                 });
             }
-            let width = self.slot_width_m(cone)?;
+            found.least_top_m = found.least_top_m.min(top);
+            let Some(width) = self.slot_width_m(cone)? else {
+                continue;
+            };
             if width < point_width_m - 1e-9 * blank.mean_cone_m || width <= 0.0 {
                 return Err(BevelError::BladeTooWide {
                     member: blank.name,
@@ -108,25 +127,28 @@ impl Tooth {
                     blade_mm: 1e3 * point_width_m,
                 });
             }
-            found.least_top_m = found.least_top_m.min(top);
-            found.least_slot_m = found.least_slot_m.min(width);
+            let least = found.least_slot_m.unwrap_or(f64::INFINITY);
+            found.least_slot_m = Some(least.min(width));
         }
         Ok(found)
     }
 
     /// Width of the blade's point that leaves the slot's bottom as it is \[m\]: its width normal to the tooth between
     /// the points of blades without edge
-    /// radius, seen in the plane of the crown gear that cuts it.
+    /// radius, seen in the plane of the crown gear that cuts it. None of flanks from points.
     ///
     /// # Errors
     /// [`BevelError::NoFlankPoint`].
-    pub fn slot_width_m(&self, cone_m: f64) -> Result<f64, BevelError> {
+    pub fn slot_width_m(&self, cone_m: f64) -> Result<Option<f64>, BevelError> {
         let mut angle = std::f64::consts::TAU / self.blank.teeth as f64;
         let (mut radius, mut cosine, mut edges, mut slip) = (0.0, 0.0, 0.0, 0.0);
         for flank in &self.flanks {
+            let Some(cut) = flank.cut_surface() else {
+                return Ok(None);
+            };
+            let settings = cut.settings;
             let root = flank.root(cone_m)?;
             let r = root.point.r;
-            let settings = flank.surface().settings;
             // A generated root is slower than the pitch cone that rolls: the slot is narrower there than the blade.
             slip += 0.5
                 * settings
@@ -145,7 +167,7 @@ impl Tooth {
                 }
             }
         }
-        Ok(angle * radius * cosine / slip + edges)
+        Ok(Some(angle * radius * cosine / slip + edges))
     }
 }
 

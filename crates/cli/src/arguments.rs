@@ -222,21 +222,37 @@ pub struct CheckArguments {
 /// `gearmesh accuracy`.
 #[derive(Debug, Args)]
 pub struct AccuracyArguments {
-    /// Scene: a gear pair, or a multibody run that is transient or static
+    /// Scene of a gear pair, multibody scene, or bevel pair
     pub scene: PathBuf,
-    /// What is to be exact: columns of a study of the pair, or COLUMN:FIGURE of a multibody result, with mean,
-    /// deviation, peak-to-peak, largest or least
+    /// What is to be exact: columns of a study of the scene, of series COLUMN:FIGURE, with mean, deviation, rms,
+    /// peak-to-peak, largest, least; of runs in time line-250Hz; of sweeps resonance-rpm
     #[arg(long, required = true, value_delimiter = ',')]
     pub columns: Vec<String>,
-    /// Multibody runs: figures from this time on
+    /// Runs in time: figures from this time on
     #[arg(long, default_value = "0")]
     pub from_s: f64,
+    /// Vary elements and element lengths of the reduced gears, too, which reduces each several times; keep the models
+    /// in this folder
+    #[arg(long)]
+    pub elements: Option<PathBuf>,
+    /// Judge settings by this time; processor time where other work shares the machine
+    #[arg(long, default_value = "wall")]
+    pub time: TimeWord,
     /// Page with the picture of error against time
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// A time that settings are judged by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TimeWord {
+    /// Wall time
+    Wall,
+    /// Processor time
+    Processor,
 }
 
 /// `gearmesh optimise`.
@@ -257,9 +273,16 @@ pub struct OptimiseArguments {
 pub struct StudyArguments {
     /// Study file
     pub study: PathBuf,
-    /// Folder for the results and study.csv; what is there already is not run again
+    /// Folder for the results, study.csv and the page study.html; what is there already is not run again
     #[arg(short, long)]
     pub output: PathBuf,
+    /// Run the cases on a Dask cluster: the address of its scheduler (tcp://HOST:8786), its scheduler file, or "local" for
+    /// one that is started for this study (docs/cluster.md)
+    #[arg(long)]
+    pub scheduler: Option<String>,
+    /// Compute nothing: make the table of what lies in the folder, with the failures that this file lists
+    #[arg(long, hide = true, conflicts_with = "scheduler")]
+    pub gather: Option<PathBuf>,
     /// Print figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -306,6 +329,8 @@ pub enum SchemaKind {
     Bearing,
     /// Bevel pairs
     Bevel,
+    /// Members of bevel pairs as bodies
+    BevelGear,
     /// Reduced gear bodies: data sets of the HDF5 file
     Model,
     /// Results of gear pairs: data sets of the HDF5 file

@@ -4,11 +4,12 @@ use crate::console::{self, StageBar};
 use crate::failure::Failure;
 use crate::interrupt::Scratch;
 use crate::length_unit::LengthUnit;
+use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::input::{InputDocument, MOST_MESH_BYTES, demand_readable};
-use gearmesh_geometry::{Element, GearDefinition, MeshedBody};
-use gearmesh_mesh::GearMesh;
+use gearmesh_geometry::{Element, Flank, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
-use gearmesh_model::{Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
+use gearmesh_mesh::{BevelMesh, ElementList, GearMesh};
+use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
 use gearmesh_reduction::{
@@ -29,6 +30,18 @@ pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
     let gear = GearDefinition::from_document(&document)?;
     judge_gear(&gear, &document)?;
     Ok(gear)
+}
+
+/// Reads a file as that of a bevel gear; none where it is not meant as one.
+pub fn bevel_gear(path: &Path) -> Result<Option<BevelGear>, Failure> {
+    let document = InputDocument::read(path)?;
+    if !BevelGear::recognises(&document)? {
+        return Ok(None);
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let gear = BevelGear::from_document(&document, folder)?;
+    console::unit_slips(document.unit_slips());
+    Ok(Some(gear))
 }
 
 /// What a gear file leaves to find before the offline stage: whether its mesh is there, and numbers that look like
@@ -145,21 +158,57 @@ pub fn export_mesh(
     unit: LengthUnit,
     output: &Path,
 ) -> Result<(), Failure> {
-    let mut data = MeshData {
+    let data = MeshData {
         points: mesh.nodes.clone(),
+        cells: cells_of(&mesh.elements),
         point_sets: mesh.node_sets(gear),
         point_fields: fields.point,
         cell_fields: fields.cell,
+    };
+    export((&data, gear.mesh.element), unit, output)
+}
+
+/// The same of a bevel gear: sets are the bore and the flanks of all teeth.
+pub fn export_bevel_mesh(
+    gear: &BevelGear,
+    mesh: &BevelMesh,
+    unit: LengthUnit,
+    output: &Path,
+) -> Result<(), Failure> {
+    let mut point_sets = BTreeMap::from([("bore".to_owned(), mesh.bore())]);
+    for tooth in 0..mesh.teeth() {
+        for side in [Flank::Right, Flank::Left] {
+            let name = format!("tooth{tooth}_{side}_flank");
+            point_sets.insert(name, mesh.flank_nodes(tooth, side));
+        }
+    }
+    for set in point_sets.values_mut() {
+        set.sort_unstable();
+        set.dedup();
+    }
+    let data = MeshData {
+        points: mesh.nodes.clone(),
+        cells: cells_of(&mesh.elements),
+        point_sets,
         ..MeshData::default()
     };
-    let kind = mesh.elements.shape();
-    data.cells
-        .insert(kind, mesh.elements.connectivity().to_vec());
+    export((&data, gear.mesh.element), unit, output)
+}
+
+fn cells_of(elements: &ElementList) -> BTreeMap<CellKind, Vec<u32>> {
+    BTreeMap::from([(elements.shape(), elements.connectivity().to_vec())])
+}
+
+fn export(
+    (data, element): (&MeshData, Element),
+    unit: LengthUnit,
+    output: &Path,
+) -> Result<(), Failure> {
     let folder = tempfile::tempdir().map_err(Failure::work)?.keep();
     let folder = Scratch::new(folder);
     let exchange = folder.path().join("mesh.h5");
-    write_mesh(&exchange, &data).map_err(Failure::work)?;
-    let incompatible_modes = if gear.mesh.element == Element::Hex8Incompatible {
+    write_mesh(&exchange, data).map_err(Failure::work)?;
+    let incompatible_modes = if element == Element::Hex8Incompatible {
         "yes"
     } else {
         "no"

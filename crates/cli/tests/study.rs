@@ -34,9 +34,11 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     let files = succeeds(&[&command[..], &["--json"]].concat()).json();
     assert_eq!(common::names_in(&out), names);
     assert!(
-        names.contains(&"study.csv".to_owned()) && names.len() == 3,
+        names.contains(&"study.csv".to_owned()) && names.len() == 4,
         "{names:?}"
     );
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    assert!(page.contains("All cases") && page.contains("torque = 4.0"));
     let case = &files["cases"][1];
     assert_eq!(number(&case["parameters"]["torque"]), 4.0);
     assert!((number(&case["columns"][0]["largest"]) - 8.0).abs() < 1e-9);
@@ -123,10 +125,53 @@ fn two_studies_in_one_folder_end_clean() {
     }
     let names = common::names_in(&out);
     let results = names.iter().filter(|name| name.ends_with(".h5")).count();
-    assert_eq!((names.len(), results), (14, 13), "{names:?}");
+    assert_eq!((names.len(), results), (15, 13), "{names:?}");
     // What they left is whole: a third study has nothing to run.
     let csv = std::fs::read(out.join("study.csv")).unwrap();
     succeeds(&["study", argument(&study), "-o", argument(&out)]);
     assert_eq!(std::fs::read(out.join("study.csv")).unwrap(), csv);
     assert_eq!(common::names_in(&out), names);
+}
+
+/// Functions of Python are told apart from what the program can compute, and what to do is said.
+#[test]
+fn a_scene_with_a_python_function_is_refused() {
+    let desk = Desk::new();
+    let text = changed(SCENE, "torque_Nm = 2.0", "torque_Nm = { python = \"fan\" }");
+    let scene = desk.file("scene.toml", text);
+    let out = desk.path("out.h5");
+    let answer = gearmesh(&["run", argument(&scene), "-o", argument(&out)]);
+    refused(
+        &answer,
+        2,
+        &[
+            "load.0.torque_Nm.python",
+            "`fan`",
+            "gearmesh.Scene",
+            "functions",
+        ],
+    );
+    assert!(!out.exists());
+}
+
+/// The table of what lies in the folder, where nothing is computed.
+#[test]
+fn a_study_is_gathered_from_its_folder() {
+    let desk = Desk::new();
+    desk.file("scene.toml", SCENE);
+    let study = desk.file("study.toml", STUDY);
+    let out = desk.path("out");
+    let command = ["study", argument(&study), "-o", argument(&out)];
+    let whole = succeeds(&command).stdout;
+    let failures = desk.file("failures.json", "{}");
+    let gather = [&command[..], &["--gather", argument(&failures)]].concat();
+    assert_eq!(succeeds(&gather).stdout, whole);
+    let file = common::names_in(&out)
+        .into_iter()
+        .find(|name| name.ends_with(".h5"));
+    std::fs::remove_file(out.join(file.unwrap())).unwrap();
+    let answer = gearmesh(&gather);
+    assert_eq!(answer.code, Some(1));
+    assert!(answer.stderr.contains("1 of 2 cases failed"), "{answer:#?}");
+    assert!(answer.stdout.contains("broken off"), "{answer:#?}");
 }

@@ -188,6 +188,7 @@ impl ContactLines {
             length_m: width_m / self.helix_cos(),
             radius_m: self.pair.relative_radius_m(rolls[0], rolls[1]),
             radius_growth: self.pair.relative_radius_growth(rolls),
+            length_growth: [0.0; 2],
             normal: self.normal(section),
             gap_m: 0.0,
             balance: PatchBalance {

@@ -63,6 +63,8 @@ pub struct ContactPatch {
     pub radius_m: f64,
     /// ∂(ln ρ)/∂u on gear 1 and gear 2.
     pub radius_growth: [f64; 2],
+    /// ∂(ln length)/∂u on gear 1 and gear 2, besides what the share says: where the line's slant against the slices changes.
+    pub length_growth: [f64; 2],
     /// Unit normal: direction of the force on gear 2, in the frame of the kinematics, whose z is gear 1's axis.
     pub normal: [f64; 3],
     /// Gap along the normal \[m\], open positive, where the approach is zero.

@@ -4,13 +4,16 @@
 //! | --- | --- | --- |
 //! | what is a slice of a contact line, of whatever gears | [`ContactPatch`] | `contact_patch.rs` |
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `station_blocks.rs` |
+//! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
+//! | where does a slice stand that has walked along the tooth | | `walked_slice.rs` |
 //! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
 //! | which stations along the tooth carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
 //! | which unit loads make a force at a place along the profile | [`ProfileHats`] | `profile_shares.rs` |
 //! | what completes it under the contact itself | [`LocalContact`] | `local_contact.rs` |
 //! | the same of a calibrated model | | `calibrated_field.rs` |
 //! | what short slices pass to their neighbours of it | [`slice_spread`] | `slice_spread.rs` |
+//! | bodies that give way at their surfaces only, as Hertz has it | [`HalfSpaces`] | `half_spaces.rs` |
 //! | which patches of an involute pair touch at a driver angle, and how far apart are they | [`ContactLines`] | `contact_lines.rs` |
 //! | errors and faults of single flanks | [`FlankDeviations`] | `flank_deviations.rs` |
 //! | gears that stand beside their axes | [`Runout`] | `runout.rs` |
@@ -30,6 +33,7 @@
 //! The theory is in docs/theory/contact.md.
 
 pub mod axial_spread;
+pub mod bevel_slices;
 mod calibrated_field;
 mod contact_error;
 pub mod contact_lines;
@@ -41,6 +45,7 @@ pub mod flank_deflection;
 pub mod flank_deviations;
 pub mod flank_surface;
 pub mod flanks_at_rest;
+pub mod half_spaces;
 pub mod hertz;
 mod involute_at_rest;
 pub mod local_contact;
@@ -55,6 +60,7 @@ pub mod slice_spread;
 pub mod static_contact;
 pub mod station_blocks;
 pub mod tip_contact;
+mod walked_slice;
 
 pub use axial_spread::AxialSpread;
 pub use contact_error::ContactError;
@@ -65,6 +71,7 @@ pub use drive::Drive;
 pub use flank_deviations::FlankDeviations;
 pub use flank_surface::{FlankSurface, InvoluteSurface, RelativeCurvature, SurfaceCurvature};
 pub use flanks_at_rest::FlanksAtRest;
+pub use half_spaces::HalfSpaces;
 pub use involute_at_rest::InvoluteAtRest;
 pub use local_contact::LocalContact;
 pub use profile_shares::{ProfileHats, ProfilePlace};

@@ -81,10 +81,22 @@ impl LocalContact {
 pub struct LawRate {
     /// α′ \[m/(N·rad)\].
     pub alpha: f64,
-    /// β′ \[m/(N·rad)\]: only a changing width changes β.
+    /// β′ \[m/(N·rad)\]: only a changing width or length changes β.
     pub beta: f64,
     /// Derivative of the cap \[N/rad\].
     pub cap: f64,
+}
+
+impl LawRate {
+    /// This and so many times another.
+    #[must_use]
+    pub fn plus(self, times: f64, other: Self) -> Self {
+        Self {
+            alpha: self.alpha + times * other.alpha,
+            beta: self.beta + times * other.beta,
+            cap: self.cap + times * other.cap,
+        }
+    }
 }
 
 impl LocalContact {
@@ -138,8 +150,12 @@ impl LocalContact {
         };
         let cap = match self {
             Self::None => return LawRate::default(),
-            // (½ h/c)², 1/c² in proportion to the width; the depth is that of the body.
-            Self::WeberBanaschek => law.cap_n() / share,
+            // (½ h/c)² with the smaller h, 1/c² in proportion to the width.
+            Self::WeberBanaschek => {
+                let [own, other] = [0, 1].map(|i: usize| contact.bodies[i].depth_m);
+                let depth = depth_growths[usize::from(own > other)];
+                law.cap_n() * (1.0 / share + 2.0 * depth)
+            }
             Self::Calibrated => {
                 law.cap_n() * (rate.alpha * beta - alpha * rate.beta) / (beta * beta)
             }

@@ -1,9 +1,10 @@
 //! A place on the profile of a tooth, and how the force of a slice there sits on the stations along the tooth.
 
 use crate::profile_shares::ProfilePlace;
+use crate::walked_slice::WalkedSlice;
 
 /// A place on the profile of a tooth, where one or more slices of a contact line stand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ToothPlace {
     /// Tooth.
     pub tooth: usize,
@@ -13,6 +14,8 @@ pub struct ToothPlace {
     pub(crate) shared: (f64, f64),
     /// Tooth of the sector, whose flanks are stored, that this one repeats, and by how many teeth the sector is turned.
     pub(crate) in_sector: (usize, usize),
+    /// Where along the tooth the slice stands, if not in its own middle.
+    pub(crate) walked: Option<WalkedSlice>,
 }
 
 /// Share of a slice's force on the middle of each of its neighbours.

@@ -34,7 +34,7 @@ pub struct ProfileHats {
 }
 
 /// A place between two hats' centroids and the shares of a force there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ProfilePlace {
     /// Lower station.
     pub station: usize,

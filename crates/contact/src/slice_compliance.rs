@@ -13,6 +13,7 @@ use crate::placed_slice::ToothPlace;
 use crate::profile_shares::{ProfileHats, ProfilePlace};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::{CombinedBlocks, Coupling, StationBlocks};
+use crate::walked_slice::WalkedSlice;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
@@ -36,6 +37,18 @@ pub struct SliceCompliance {
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
+    /// Width of the face \[m\] of gears on which slices walk along the teeth.
+    walks_on_m: Option<f64>,
+}
+
+/// What a family of flanks says of one, besides its compliance.
+pub(crate) struct FlankGeometry {
+    /// Along the profile.
+    pub hats: ProfileHats,
+    /// Length along the tooth over the width along the face by which slices are counted.
+    pub stretch: f64,
+    /// Where the local contact is calibrated.
+    pub near_field: Option<CalibratedField>,
 }
 
 /// Depth of the local logarithm on one flank, and how it grows as the contact moves.
@@ -65,7 +78,7 @@ impl SliceCompliance {
     /// Condenses a reduced gear to slices that lie anywhere on its face.
     ///
     /// # Errors
-    /// [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
+    /// [`ReducedGearError::BevelGear`] for one, [`ReducedGearError::FlankNotReduced`] when the model carries no loads on `flank`,
     /// [`ReducedGearError::NotCalibrated`] when `local` is calibrated and the model is not.
     pub fn on_slices(
         gear: &ReducedGear,
@@ -73,6 +86,7 @@ impl SliceCompliance {
         local: LocalContact,
         spread: &AxialSpread,
     ) -> Result<Self, ReducedGearError> {
+        gear.demand_cylindrical()?;
         let hats = ProfileHats::of_involute(&gear.grid.roll_angles_rad);
         Self::on_grid(gear, flank, local, (hats, spread))
     }
@@ -93,6 +107,26 @@ impl SliceCompliance {
             LocalContact::Calibrated => Some(CalibratedField::new(gear, flank_index)?),
             LocalContact::None | LocalContact::WeberBanaschek => None,
         };
+        let geometry = FlankGeometry {
+            hats,
+            stretch: 1.0,
+            near_field,
+        };
+        Self::condensed(gear, flank, local, (geometry, spread))
+    }
+
+    pub(crate) fn condensed(
+        gear: &ReducedGear,
+        flank: Flank,
+        local: LocalContact,
+        (geometry, spread): (FlankGeometry, &AxialSpread),
+    ) -> Result<Self, ReducedGearError> {
+        gear.flank_index(flank)?;
+        let FlankGeometry {
+            hats,
+            stretch,
+            near_field,
+        } = geometry;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
         let loads = grid.len();
@@ -147,8 +181,8 @@ impl SliceCompliance {
                     let c = hats.centroids();
                     let roll = (1.0 - share) * c[station] + share * c[station + 1];
                     let place = hats.place(roll);
-                    let missing = field.missing(roll, &place, 1.0).value;
-                    let sizes = (opposite_m[half.div_ceil(2)], slice_width_m);
+                    let missing = field.missing(roll, &place, (slices / 2, 1.0)).value;
+                    let sizes = (opposite_m[half.div_ceil(2)], stretch * slice_width_m);
                     let term = neighbours.at(k, missing, field.half_width_m, sizes);
                     term.min(largest_neighbour_term(&blocks, slices, &place))
                 })
@@ -168,7 +202,31 @@ impl SliceCompliance {
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
+            walks_on_m: None,
         })
+    }
+
+    /// Lets slices stand where the places of their patches are along the tooth, v from the middle of the face, not where they
+    /// were laid. Of own slices over the whole face, at least three.
+    #[must_use]
+    pub fn walking_along(mut self) -> Self {
+        let enough = self.slices >= crate::walked_slice::SLICES;
+        self.walks_on_m = enough.then_some(self.slices as f64 * self.slice_width_m);
+        self
+    }
+
+    /// Whether they do.
+    pub(crate) fn walks_along(&self) -> bool {
+        self.walks_on_m.is_some()
+    }
+
+    /// A place of a slice with where it stands along the tooth \[m\].
+    pub(crate) fn walked(&self, place: ToothPlace, slice: usize, v: f64) -> ToothPlace {
+        let walked = self.walks_on_m.map(|face_m| {
+            let laid = (slice as f64 + 0.5) * self.slice_width_m - 0.5 * face_m;
+            WalkedSlice::new(slice, self.slices, v - laid, self.slice_width_m)
+        });
+        ToothPlace { walked, ..place }
     }
 
     /// Number of slices.
@@ -204,6 +262,7 @@ impl SliceCompliance {
             place,
             shared: self.shared_at(&place),
             in_sector: (own, tooth - own),
+            walked: None,
         }
     }
 
@@ -214,12 +273,18 @@ impl SliceCompliance {
     /// q = F/(share b_s), but its hats still spread F over the whole slice: the calibration then adds
     /// q (c₀ − share w_h − k ln(a/a₀)). With the share the force goes to zero, as it must.
     pub fn local_depth_m(&self, roll_rad: f64, share: f64) -> f64 {
-        self.local_depth(roll_rad, &self.place(roll_rad), share)
+        let middle = self.slices / 2;
+        self.local_depth(roll_rad, &self.place(roll_rad), (middle, share))
             .depth_m
     }
 
-    /// [`Self::local_depth_m`] at a roll angle whose place is known, and how it changes.
-    pub fn local_depth(&self, roll_rad: f64, place: &ProfilePlace, share: f64) -> LocalDepth {
+    /// [`Self::local_depth_m`] of a slice that touches over a share, at a place that is known, and how it changes.
+    pub fn local_depth(
+        &self,
+        roll_rad: f64,
+        place: &ProfilePlace,
+        (slice, share): (usize, f64),
+    ) -> LocalDepth {
         let Some(field) = &self.near_field else {
             let (low, high) = (
                 self.opposite_distance_m[place.station],
@@ -238,7 +303,7 @@ impl SliceCompliance {
                 growth_by_share: 0.0,
             };
         };
-        let missing = field.missing(roll_rad, place, share);
+        let missing = field.missing(roll_rad, place, (slice, share));
         let k = 2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young_pa);
         LocalDepth {
             depth_m: effective_depth_m(missing.value, field.half_width_m, self.material()),
@@ -315,6 +380,23 @@ impl CoupledPlaces<'_> {
     #[inline]
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
+        if let [Some(a), Some(b)] = self.walked() {
+            return combined(&a.shares, &b.shares, [a, b], |slices| {
+                self.at_middles(slices)
+            });
+        }
+        self.at_middles(slices)
+    }
+
+    /// Where both stand along the tooth.
+    #[inline]
+    fn walked(&self) -> [Option<&WalkedSlice>; 2] {
+        self.places.map(|place| place.walked.as_ref())
+    }
+
+    /// Of slices where they were laid.
+    #[inline]
+    fn at_middles(&self, slices: [usize; 2]) -> f64 {
         let whole = self.blocks.between(slices);
         if self.has_more {
             whole + self.more(slices).value
@@ -327,6 +409,41 @@ impl CoupledPlaces<'_> {
     #[inline]
     #[must_use]
     pub fn coupling(&self, slices: [usize; 2]) -> Coupling {
+        if let [Some(a), Some(b)] = self.walked() {
+            let mut sum = Coupling::default();
+            for (share_a, i) in a.shares.iter().zip(a.first..) {
+                for (share_b, j) in b.shares.iter().zip(b.first..) {
+                    let share = share_a * share_b;
+                    let one = self.coupling_at_middles([i, j]);
+                    sum += Coupling {
+                        value: share * one.value,
+                        by_a: share * one.by_a,
+                        by_b: share * one.by_b,
+                    };
+                }
+            }
+            return sum;
+        }
+        self.coupling_at_middles(slices)
+    }
+
+    /// Derivatives by the places of both along the teeth \[m/N per m\]; zero where slices do not walk that way. Of a slice with
+    /// itself half of what its compliance changes by.
+    #[inline]
+    #[must_use]
+    pub fn along_teeth(&self) -> [f64; 2] {
+        let [Some(a), Some(b)] = self.walked() else {
+            return [0.0; 2];
+        };
+        let at = |slices| self.at_middles(slices);
+        [
+            combined(&a.rates, &b.shares, [a, b], at),
+            combined(&a.shares, &b.rates, [a, b], at),
+        ]
+    }
+
+    #[inline]
+    fn coupling_at_middles(&self, slices: [usize; 2]) -> Coupling {
         let mut whole = self.blocks.between_with_rates(slices);
         if self.has_more {
             whole += self.more(slices);
@@ -363,6 +480,23 @@ impl CoupledPlaces<'_> {
             by_b: each * at_b.1,
         }
     }
+}
+
+/// Σ_i Σ_j w_i w_j C_ij over the slices around two places.
+#[inline]
+fn combined(
+    weights_a: &[f64; 3],
+    weights_b: &[f64; 3],
+    [a, b]: [&WalkedSlice; 2],
+    at: impl Fn([usize; 2]) -> f64,
+) -> f64 {
+    let mut sum = 0.0;
+    for (weight_a, i) in weights_a.iter().zip(a.first..) {
+        for (weight_b, j) in weights_b.iter().zip(b.first..) {
+            sum += weight_a * weight_b * at([i, j]);
+        }
+    }
+    sum
 }
 
 /// The largest term between neighbours that leaves the compliance positive \[m/N\]: half of the least xᵀCx/xᵀLx of the loads x

@@ -7,6 +7,7 @@ use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
 use crate::contact_zone::SliceLayout;
 use crate::drive::Drive;
+use crate::half_spaces::HalfSpaces;
 use crate::local_contact::{LawRate, LocalContact};
 use crate::nlcp::{
     ContactBody, EdgeContact, Info, LineContact, LocalLaw, Params, Problem, Workspace, solve_load,
@@ -16,13 +17,26 @@ use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
 use gearmesh_model::{Flank, ReducedGear};
 
+mod compliance;
 mod energy_rates;
+
+/// What gives way.
+#[derive(Debug, Clone)]
+enum Elastic {
+    /// Two reduced gears.
+    Reduced(Box<[SliceCompliance; 2]>),
+    /// The surfaces of two bodies that are rigid otherwise.
+    HalfSpaces(HalfSpaces),
+}
 
 /// Patches one after the other that stand at one place and press alike, as those of a spur line do.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     /// First of its patches, and the one after the last.
     patches: [usize; 2],
+    teeth: [usize; 2],
+    /// ∂(ln length)/∂u of both gears.
+    length_growth: [f64; 2],
     /// Where they stand on both gears.
     places: [ToothPlace; 2],
     /// Components of their normal along the flank normals.
@@ -39,7 +53,7 @@ struct Run {
 #[derive(Debug, Clone)]
 pub struct SliceContact {
     layout: SliceLayout,
-    compliance: [SliceCompliance; 2],
+    elastic: Elastic,
     local_contact: LocalContact,
     params: Params,
     runs: Vec<Run>,
@@ -50,6 +64,8 @@ pub struct SliceContact {
     c: Vec<f64>,
     /// ∂C_ij/∂u_i of each gear, `[i][j]`; of a patch with itself half of what its compliance changes by.
     rates: [Vec<f64>; 2],
+    /// The same along the teeth, of gears on which slices walk that way; else empty.
+    along: [Vec<f64>; 2],
     /// Without a local law: compliance of each patch before it was divided by its share \[m/N\].
     own_compliance: Vec<f64>,
     local: Vec<LocalLaw>,
@@ -99,12 +115,32 @@ impl SliceContact {
         local_contact: LocalContact,
         most_lines: usize,
     ) -> Self {
+        let walks = [0, 1].map(|gear: usize| compliance[gear].walks_along());
+        let elastic = Elastic::Reduced(Box::new(compliance));
+        Self::of_elastic(layout, (elastic, walks), local_contact, most_lines)
+    }
+
+    /// The contact of two bodies that give way at their surfaces only.
+    ///
+    /// The local law is a logarithm up to where its slope is all but zero, as that of calibrated models.
+    #[must_use]
+    pub fn of_half_spaces(layout: SliceLayout, bodies: HalfSpaces, most_lines: usize) -> Self {
+        let elastic = (Elastic::HalfSpaces(bodies), [false; 2]);
+        Self::of_elastic(layout, elastic, LocalContact::Calibrated, most_lines)
+    }
+
+    fn of_elastic(
+        layout: SliceLayout,
+        (elastic, walks): (Elastic, [bool; 2]),
+        local_contact: LocalContact,
+        most_lines: usize,
+    ) -> Self {
         let capacity = most_lines * layout.slices;
         let empty = || Vec::with_capacity(capacity);
         let square = || vec![0.0; capacity * capacity];
         Self {
             layout,
-            compliance,
+            elastic,
             local_contact,
             params: Params::default(),
             runs: Vec::with_capacity(capacity),
@@ -113,6 +149,7 @@ impl SliceContact {
             shares: empty(),
             c: square(),
             rates: [square(), square()],
+            along: walks.map(|walks| if walks { square() } else { Vec::new() }),
             own_compliance: empty(),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
@@ -202,11 +239,7 @@ impl SliceContact {
             });
         }
         self.take(patches, floor_n, with_rates)?;
-        if with_rates {
-            self.fill_compliance_with_rates();
-        } else {
-            self.fill_compliance();
-        }
+        self.fill(with_rates);
         self.divide_by_shares();
         Ok(())
     }
@@ -235,7 +268,7 @@ impl SliceContact {
             self.lever_m.push(patch.balance.levers_m[1]);
             self.shares.push(patch.share);
             self.slice.push(patch.slice);
-            let goes_on = number > 0 && patches[number - 1].is_like(patch);
+            let goes_on = self.shares_places() && number > 0 && patches[number - 1].is_like(patch);
             match self.runs.last_mut().filter(|_| goes_on) {
                 Some(run) => run.patches[1] = number + 1,
                 None => {
@@ -256,18 +289,9 @@ impl SliceContact {
         floor_n: f64,
         with_rates: bool,
     ) -> Result<Run, ContactError> {
-        let us = patch.places.map(|place| place.u);
-        let [flank_1, flank_2] = &self.compliance;
-        let places = [
-            flank_1.on_tooth(patch.teeth[0], us[0]),
-            flank_2.on_tooth(patch.teeth[1], us[1]),
-        ];
-        let depths = [
-            flank_1.local_depth(us[0], &places[0].place, patch.share),
-            flank_2.local_depth(us[1], &places[1].place, patch.share),
-        ];
+        let (places, depths, materials) = self.stand(patch);
         let body = |gear: usize| {
-            let (youngs_modulus_pa, poisson_ratio) = self.compliance[gear].material();
+            let (youngs_modulus_pa, poisson_ratio) = materials[gear];
             ContactBody {
                 youngs_modulus_pa,
                 poisson_ratio,
@@ -293,7 +317,15 @@ impl SliceContact {
             .with_edge(edge);
         let rate = |gear: usize| {
             let growths = [depths[gear].growth_by_u, patch.radius_growth[gear]];
-            self.local_contact.law_rate((&contact, &law), gear, growths)
+            let rate = self.local_contact.law_rate((&contact, &law), gear, growths);
+            let longer = patch.length_growth[gear];
+            if longer == 0.0 {
+                return rate;
+            }
+            // α and β of a line load, as with the share of a slice.
+            let deeper = [self.depth_by_length(); 2];
+            let by_length = (self.local_contact).law_rate_by_share((&contact, &law), deeper, 1.0);
+            rate.plus(longer, by_length)
         };
         let rates = if with_rates {
             [rate(0), rate(1)]
@@ -302,6 +334,8 @@ impl SliceContact {
         };
         Ok(Run {
             patches: [number, number + 1],
+            teeth: patch.teeth,
+            length_growth: patch.length_growth,
             places,
             along_normals,
             contact,
@@ -310,68 +344,6 @@ impl SliceContact {
             depths,
             rates,
         })
-    }
-
-    fn fill_compliance(&mut self) {
-        let n = self.slice.len();
-        let [flank_1, flank_2] = &self.compliance;
-        for (number, a) in self.runs.iter().enumerate() {
-            for b in &self.runs[number..] {
-                let on_1 = flank_1.between(&a.places[0], &b.places[0]);
-                let on_2 = flank_2.between(&a.places[1], &b.places[1]);
-                let along = [0, 1].map(|gear: usize| a.along_normals[gear] * b.along_normals[gear]);
-                for i in a.patches[0]..a.patches[1] {
-                    for j in b.patches[0].max(i)..b.patches[1] {
-                        let slices = [self.slice[i], self.slice[j]];
-                        let value = along[0] * on_1.value(slices) + along[1] * on_2.value(slices);
-                        self.c[i * n + j] = value;
-                        self.c[j * n + i] = value;
-                    }
-                }
-            }
-        }
-    }
-
-    fn fill_compliance_with_rates(&mut self) {
-        let n = self.slice.len();
-        let [flank_1, flank_2] = &self.compliance;
-        let [rates_1, rates_2] = &mut self.rates;
-        for (number, a) in self.runs.iter().enumerate() {
-            for b in &self.runs[number..] {
-                let on_1 = flank_1.between(&a.places[0], &b.places[0]);
-                let on_2 = flank_2.between(&a.places[1], &b.places[1]);
-                for i in a.patches[0]..a.patches[1] {
-                    for j in b.patches[0].max(i)..b.patches[1] {
-                        let slices = [self.slice[i], self.slice[j]];
-                        let (of_1, of_2) = (on_1.coupling(slices), on_2.coupling(slices));
-                        let value = of_1.value + of_2.value;
-                        let (here, across) = (i * n + j, j * n + i);
-                        self.c[across] = value;
-                        self.c[here] = value;
-                        rates_1[across] = of_1.by_b;
-                        rates_1[here] = of_1.by_a;
-                        rates_2[across] = of_2.by_b;
-                        rates_2[here] = of_2.by_a;
-                    }
-                }
-            }
-        }
-    }
-
-    /// No local term takes the force of a slice that touches in part only to zero with its share: the slice's own compliance grows instead.
-    fn divide_by_shares(&mut self) {
-        self.own_compliance.clear();
-        if self.local_contact != LocalContact::None {
-            return;
-        }
-        let n = self.shares.len();
-        for (i, share) in self.shares.iter().enumerate() {
-            let own = i * n + i;
-            self.own_compliance.push(self.c[own]);
-            self.c[own] /= share;
-            self.rates[0][own] /= share;
-            self.rates[1][own] /= share;
-        }
     }
 
     /// Solves for the forces of the patches that were prepared; returns the approach at which the first would touch, and the solver's

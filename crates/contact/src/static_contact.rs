@@ -88,11 +88,38 @@ impl StaticContact {
         options: ContactOptions,
         layout: SliceLayout,
     ) -> Result<Self, ContactError> {
+        let slices = Self::condensed(&lines, models, options.local, layout)?;
+        Self::of_condensed(lines, slices, options.friction)
+    }
+
+    /// The bodies condensed to the slices of a layout: what of a contact does not depend on microgeometry, load or friction.
+    ///
+    /// # Errors
+    /// As [`StaticContact::new`].
+    pub fn condensed(
+        lines: &ContactLines,
+        models: [&ReducedGear; 2],
+        local: LocalContact,
+        layout: SliceLayout,
+    ) -> Result<SliceContact, ContactError> {
         lines.refuse_helical_edges()?;
         let teeth = [lines.pair.gear_1.teeth, lines.pair.gear_2.teeth];
-        let (flanks, placed) = ((teeth, lines.pair.flank), (options.local, layout));
-        let slices = SliceContact::of_gears(models, flanks, placed, most_lines(&lines))?;
-        let flanks = InvoluteAtRest::new(lines, *slices.layout(), options.friction)?;
+        let flanks = (teeth, lines.pair.flank);
+        SliceContact::of_gears(models, flanks, (local, layout), most_lines(lines))
+    }
+
+    /// The contact of bodies that [`StaticContact::condensed`] has condensed for these lines, or for others of the same gears that are as
+    /// many at most.
+    ///
+    /// # Errors
+    /// [`ContactError`] for lines that the contact does not know.
+    pub fn of_condensed(
+        lines: ContactLines,
+        slices: SliceContact,
+        friction: Option<Friction>,
+    ) -> Result<Self, ContactError> {
+        lines.refuse_helical_edges()?;
+        let flanks = InvoluteAtRest::new(lines, *slices.layout(), friction)?;
         Ok(Self::of_flanks(flanks, slices))
     }
 

@@ -145,6 +145,27 @@ pub enum DrivetrainError {
         /// Side of the teeth.
         flank: Flank,
     },
+    /// A bevel pair whose line of contact cannot be followed over the flank.
+    #[error(
+        "the line of contact on {} flanks is not smooth over the flank, so that it cannot be cut into slices; take kind = \"impact\", or another ease-off",
+        flank.name()
+    )]
+    BevelLine {
+        /// The side.
+        flank: Flank,
+    },
+    /// A reduced gear that is not the member of the bevel pair.
+    #[error(
+        "the model \"{model}\" is not that of gear {gear} of the bevel pair: {problem}; reduce that member with this pair file"
+    )]
+    OtherBevel {
+        /// Gear 1 or 2.
+        gear: usize,
+        /// Name of the model.
+        model: String,
+        /// How they differ.
+        problem: String,
+    },
     /// Bevel gears too far from where they belong.
     #[error(
         "the axes of the bevel gears stand at {shaft_deg:.4} degrees, the pair is made for {designed_deg:.4} (2.8 degrees off are allowed); their \

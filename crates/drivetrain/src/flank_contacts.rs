@@ -35,6 +35,10 @@ pub struct Section {
     pub radius_m: f64,
     /// See `radius_m`.
     pub radius_growth: [f64; 2],
+    /// ∂(ln length)/∂u on gear 1 and gear 2, besides what the share says.
+    pub length_growth: [f64; 2],
+    /// Derivatives of the places along the teeth of gear 1 and gear 2 by the increments of the pose, where slices walk along them.
+    pub along_gradient: [Vector6; 2],
     /// First of its contacts, and how many there are.
     pub contacts: (usize, usize),
 }
@@ -224,6 +228,7 @@ impl FlankContacts {
             length_m: section.length_m,
             radius_m: section.radius_m,
             radius_growth: section.radius_growth,
+            length_growth: section.length_growth,
             normal: [0, 1, 2].map(|axis: usize| contact.gradient[axis]),
             gap_m: contact.gap_m,
             balance: PatchBalance::ALONG_NORMALS,

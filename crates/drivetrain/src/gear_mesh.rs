@@ -389,6 +389,13 @@ impl Assembly<'_> {
                 result.load += *rate * gradient;
             }
         }
+        for (section, energy) in found.sections.iter().zip(&loads.energy_by_height) {
+            for (rate, gradient) in energy.iter().zip(&section.along_gradient) {
+                if *rate != 0.0 {
+                    result.load += *rate * gradient;
+                }
+            }
+        }
         for (section, energy) in found.sections.iter().zip(&loads.energy_by_share) {
             result.load += *energy * section.share_gradient;
         }

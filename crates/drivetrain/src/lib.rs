@@ -55,7 +55,7 @@ pub mod tooth_compliance;
 pub mod tooth_overlap;
 mod tooth_zero;
 
-pub use bevel::BevelMesh;
+pub use bevel::{BevelMesh, BevelSlices, LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;

@@ -393,6 +393,8 @@ impl MeshKinematics {
             length_m: 0.0,
             radius_m: 0.0,
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (0, 0),
         }
     }

@@ -23,6 +23,8 @@ pub struct TeethLoads {
     /// ∂E*/∂ξ at constant forces \[J/rad\] for each section, gear 1 and gear 2: how the complementary energy of the teeth changes as the
     /// contacts walk over them. The mesh feels it as a generalised force.
     pub energy_by_roll: Vec<[f64; 2]>,
+    /// The same as they walk along the teeth \[J/m\].
+    pub energy_by_height: Vec<[f64; 2]>,
     /// ∂E*/∂(share of the width) \[J\] for each section; felt alike.
     pub energy_by_share: Vec<f64>,
     /// Elastic energy \[J\].
@@ -43,6 +45,8 @@ impl TeethLoads {
         zero(&mut self.damping_n_s_per_m, contacts * contacts);
         self.energy_by_roll.clear();
         self.energy_by_roll.resize(sections, [0.0; 2]);
+        self.energy_by_height.clear();
+        self.energy_by_height.resize(sections, [0.0; 2]);
         zero(&mut self.energy_by_share, sections);
         self.stored_j = 0.0;
         self.dissipated_w = 0.0;

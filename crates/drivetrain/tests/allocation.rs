@@ -80,3 +80,46 @@ fn steps_do_not_allocate(pair: &gearmesh_geometry::GearPair) {
     assert!(steps > 190);
     assert_eq!(allocations() - before, 0);
 }
+
+/// Bevel gears in slices, reduced ones.
+#[test]
+fn bevel_evaluations_do_not_allocate() {
+    use mesh_common::made_up_bevel::made_up_bevel;
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../fe_models/bevel_20_20.toml"
+    );
+    let file = gearmesh_bevel::PairFile::read(path.as_ref()).unwrap();
+    let flanks = BevelSlices::new(&file.blank, &file.design().unwrap(), 12).unwrap();
+    let bodies = [0, 1].map(|member| made_up_bevel(&flanks, member));
+    let teeth = |side: Flank| {
+        let local = (gearmesh_contact::LocalContact::Calibrated, 2000.0);
+        let models = [&bodies[0], &bodies[1]];
+        flanks.reduced_teeth(side, models, local).unwrap()
+    };
+    let mesh = GearMesh::of_flanks(Box::new(flanks.clone()), Flank::Right, teeth(Flank::Right));
+    let mut mesh = mesh
+        .unwrap()
+        .with_side(Flank::Left, teeth(Flank::Left))
+        .unwrap();
+    // Turning over a pitch, rocked from one side of the teeth to the other.
+    let poses: Vec<Pose> = (0..200)
+        .map(|k| {
+            let turn = 0.0016 * f64::from(k);
+            let rock = 8e-4 * (0.31 * f64::from(k)).sin();
+            flanks.pair().nominal_pose([turn, -turn + rock])
+        })
+        .collect();
+    let mut loaded = 0;
+    for at in &poses {
+        loaded += usize::from(mesh.evaluate(at, true).unwrap().load.norm() > 100.0);
+        mesh.remember();
+    }
+    assert!(loaded > 100, "{loaded}");
+    let before = allocations();
+    for at in &poses {
+        mesh.evaluate(at, true).unwrap();
+        mesh.remember();
+    }
+    assert_eq!(allocations() - before, 0);
+}

@@ -12,11 +12,13 @@
 //! | linear bearing, spins freely | `linear_bearing.rs` |
 //! | bearing of a whole matrix about an operating point, spins freely | `matrix_bearing.rs` |
 //! | Timoshenko beam | `beam.rs` |
+//! | a law of the calling program | `host_element.rs` |
 
 mod applied_load;
 mod beam;
 mod bushing;
 mod gravity;
+mod host_element;
 mod linear_bearing;
 mod marker_element;
 mod matrix_bearing;
@@ -27,6 +29,7 @@ pub use applied_load::{AppliedLoad, Axes, LoadKind};
 pub use beam::BeamSection;
 pub use bushing::Bushing;
 pub use gravity::Gravity;
+pub use host_element::{HostElement, HostLaw, HostMotion};
 pub use linear_bearing::{AxialSupport, LinearBearing};
 pub use marker_element::{Law, LawTangent, MarkerElement, PairLoad, load_channels};
 pub use matrix_bearing::MatrixBearing;

@@ -96,7 +96,8 @@ pub enum DynamicsError {
     },
     /// A prescribed speed cannot be integrated in closed form.
     #[error(
-        "joint `{joint}`: a speed that is a product of functions cannot be prescribed: prescribe the position, or use a table or a sum"
+        "joint `{joint}`: a speed that is a product of functions, or that the calling program computes, cannot be prescribed: prescribe the position, or \
+         use a table or a sum"
     )]
     SpeedOfProduct {
         /// Name of the joint.

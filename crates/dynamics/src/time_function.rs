@@ -2,6 +2,7 @@
 
 use crate::derivatives::Derivatives;
 use crate::error::DynamicsError;
+use crate::host_function::HostFunction;
 use crate::table::Table;
 
 /// A function of time. Its unit is that of what it drives; times are in seconds.
@@ -36,6 +37,8 @@ pub enum TimeFunction {
     Sum(Vec<TimeFunction>),
     /// Product of two functions.
     Product(Box<TimeFunction>, Box<TimeFunction>),
+    /// Computed by the calling program.
+    Host(HostFunction),
 }
 
 /// The parameters of [`TimeFunction::Step`]; made by [`TimeFunction::step`].
@@ -97,6 +100,7 @@ impl TimeFunction {
                 }
             }
             Self::Table(table) => table.at(time_s),
+            Self::Host(function) => function.at(time_s),
             Self::Sum(terms) => terms.iter().fold(Derivatives::default(), |sum, term| {
                 let y = term.at(time_s);
                 Derivatives {
@@ -118,7 +122,8 @@ impl TimeFunction {
         }
     }
 
-    /// ∫₀ᵗ y dt; `None` for a product, whose integral has no closed form here.
+    /// ∫₀ᵗ y dt; `None` for a product and for what the calling program computes, whose integrals have no closed form
+    /// here.
     #[must_use]
     pub fn integral(&self, time_s: f64) -> Option<f64> {
         match self {
@@ -146,7 +151,7 @@ impl TimeFunction {
             Self::Sum(terms) => terms
                 .iter()
                 .try_fold(0.0, |sum, term| Some(sum + term.integral(time_s)?)),
-            Self::Product(..) => None,
+            Self::Product(..) | Self::Host(_) => None,
         }
     }
 }

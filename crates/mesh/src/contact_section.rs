@@ -46,6 +46,20 @@ pub struct ContactSection {
     pub held: Vec<usize>,
 }
 
+/// The tooth above the cut by its four edges, the loaded side clockwise of the other.
+pub struct ToothEdges<'a> {
+    /// The loaded outline by its arc length.
+    pub loaded: &'a dyn Fn(f64) -> [f64; 2],
+    /// The other one by its share of the way from the cut to the tip.
+    pub opposite: &'a dyn Fn(f64) -> [f64; 2],
+    /// The tip land by the share of the way from the loaded side.
+    pub tip: &'a dyn Fn(f64) -> [f64; 2],
+    /// The cut from the loaded side to the other.
+    pub cut: &'a [[f64; 2]],
+    /// Arc lengths of the loaded outline: the cut, the beginning and the end of the flank, the tip corner.
+    pub marks_m: [f64; 4],
+}
+
 impl ContactSection {
     /// Meshes the tooth above a cut for a load on the right flank at an arc length from the tooth space.
     ///
@@ -57,9 +71,37 @@ impl ContactSection {
         centre_arc_m: f64,
         grading: ContactGrading,
     ) -> Self {
-        let (s_cut, s_end, s_tip) = (cut.arc_m, curve.flank_end_m(), curve.tip_start_m());
-        let cut = Polyline::new(cut.points_m.clone());
-        let s_centre = centre_arc_m.clamp(curve.flank_start_m(), s_end);
+        let marks_m = [
+            cut.arc_m,
+            curve.flank_start_m(),
+            curve.flank_end_m(),
+            curve.tip_start_m(),
+        ];
+        let tip_half = tooth.tip_half_angle_rad();
+        let edges = ToothEdges {
+            loaded: &|arc| curve.point_at(arc),
+            opposite: &|share| {
+                let p = curve.point_at(marks_m[0] + share * (marks_m[3] - marks_m[0]));
+                [p[0], -p[1]]
+            },
+            tip: &|share| {
+                let angle = tip_half * (2.0 * share - 1.0);
+                [
+                    tooth.tip_radius_m * angle.cos(),
+                    tooth.tip_radius_m * angle.sin(),
+                ]
+            },
+            cut: &cut.points_m,
+            marks_m,
+        };
+        Self::of_edges(&edges, centre_arc_m, grading)
+    }
+
+    /// The same of any tooth.
+    pub fn of_edges(edges: &ToothEdges<'_>, centre_arc_m: f64, grading: ContactGrading) -> Self {
+        let [s_cut, s_start, s_end, s_tip] = edges.marks_m;
+        let cut = Polyline::new(edges.cut.to_vec());
+        let s_centre = centre_arc_m.clamp(s_start, s_end);
         let growing = |distance: f64| {
             (grading.smallest_m + grading.growth * distance.max(0.0)).min(grading.largest_m)
         };
@@ -79,10 +121,14 @@ impl ContactSection {
             }
         }
         let centre = arcs.partition_point(|&s| s < s_centre - 1e-3 * grading.smallest_m);
+        let share_of = |arc: f64| (arc - s_cut) / (s_tip - s_cut);
 
         // Columns, graded by the depth below the load.
-        let at = curve.point_at(s_centre);
-        let width = 2.0 * at[1].abs();
+        let (at, beyond) = (
+            (edges.loaded)(s_centre),
+            (edges.opposite)(share_of(s_centre)),
+        );
+        let width = (beyond[0] - at[0]).hypot(beyond[1] - at[1]);
         let shares: Vec<f64> = graded(
             0.0,
             width,
@@ -96,26 +142,23 @@ impl ContactSection {
         .map(|depth| depth / width)
         .collect();
 
-        let mirrored = |p: [f64; 2]| [p[0], -p[1]];
-        let right: Vec<[f64; 2]> = arcs.iter().map(|&s| curve.point_at(s)).collect();
-        let (low, high) = (right[0], right[right.len() - 1]);
-        let tip_half = tooth.tip_half_angle_rad();
+        let right: Vec<[f64; 2]> = arcs.iter().map(|&s| (edges.loaded)(s)).collect();
+        let left: Vec<[f64; 2]> = arcs
+            .iter()
+            .map(|&s| (edges.opposite)(share_of(s)))
+            .collect();
+        let last = arcs.len() - 1;
         let columns = shares.len();
         let mut nodes = Vec::with_capacity(arcs.len() * columns);
-        for (&arc, &r) in arcs.iter().zip(&right) {
-            let s = (arc - s_cut) / (s_tip - s_cut);
+        for ((&arc, &r), &l) in arcs.iter().zip(&right).zip(&left) {
+            let s = share_of(arc);
             for &t in &shares {
                 let bottom = cut.at(t);
-                let angle = tip_half * (2.0 * t - 1.0);
-                let top = [
-                    tooth.tip_radius_m * angle.cos(),
-                    tooth.tip_radius_m * angle.sin(),
-                ];
+                let top = (edges.tip)(t);
                 nodes.push(std::array::from_fn(|axis| {
-                    let left = mirrored(r)[axis];
-                    let corners = (1.0 - s) * ((1.0 - t) * low[axis] + t * mirrored(low)[axis])
-                        + s * ((1.0 - t) * high[axis] + t * mirrored(high)[axis]);
-                    (1.0 - t) * r[axis] + t * left + (1.0 - s) * bottom[axis] + s * top[axis]
+                    let corners = (1.0 - s) * ((1.0 - t) * right[0][axis] + t * left[0][axis])
+                        + s * ((1.0 - t) * right[last][axis] + t * left[last][axis]);
+                    (1.0 - t) * r[axis] + t * l[axis] + (1.0 - s) * bottom[axis] + s * top[axis]
                         - corners
                 }));
             }

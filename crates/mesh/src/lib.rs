@@ -20,6 +20,8 @@
 //! | a body of tetrahedra, with fillets | [`solid_problem`], [`solid_mesher`] | `solid_problem.rs`, `solid_mesher.rs`, `solid_mesher.py` |
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
+//! | bevel gears: sections along the tooth, nodes, elements and sets | [`bevel_level::Levels`], [`BevelMesh`] | `bevel_level.rs`, `bevel_mesh.rs` |
+//! | its tooth in the section normal to it | [`BevelSection`] | `bevel_section.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | how large the mesh will be, before it is made | [`MeshSize`] | `mesh_size.rs` |
 //! | fine section of one tooth under a narrow load | [`contact_section::ContactSection`] | `contact_section.rs` |
@@ -27,6 +29,9 @@
 //! Every node of the tooth outline lies on the exact profile, and its place along the outline is kept: loads and
 //! gauges find their faces by arc length and z, never by projection on a facet.
 
+pub mod bevel_level;
+pub mod bevel_mesh;
+pub mod bevel_section;
 pub mod body;
 pub mod contact_section;
 pub mod crack_line;
@@ -52,6 +57,8 @@ pub mod tooth_blocks;
 pub mod tooth_cell;
 pub mod twist;
 
+pub use bevel_mesh::BevelMesh;
+pub use bevel_section::BevelSection;
 pub use cut_line::CutLine;
 pub use elements::ElementList;
 pub use face::{FaceShape, OutlineFace};
@@ -76,6 +83,9 @@ pub enum MeshError {
         /// Its file.
         file: String,
     },
+    /// The tool leaves no surface where a bevel tooth should be.
+    #[error(transparent)]
+    Bevel(#[from] gearmesh_bevel::BevelError),
     /// The free mesh of the body failed.
     #[error(transparent)]
     Solid(#[from] solid_mesher::SolidMeshError),

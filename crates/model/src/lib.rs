@@ -16,6 +16,8 @@
 //! No other crate calls HDF5.
 
 mod atomic_file;
+mod bevel_body;
+mod bevel_body_file;
 mod column_file;
 mod data_tree;
 mod data_tree_file;
@@ -50,6 +52,7 @@ mod text_heap;
 mod timestamp;
 
 pub use atomic_file::{wait_for_writes, write_by, write_bytes, write_text};
+pub use bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
 pub use column_file::{Column, ColumnFile, write_columns};
 pub use data_tree::{DataArray, DataTree, FileFormat, Values};
 pub use data_tree_read::format_of;

@@ -29,19 +29,15 @@ impl NearField {
     /// c₀ over the roll angle on a gear with this base radius.
     pub fn contact_curve(&self, base_radius_m: f64) -> ContactCurve {
         let end_rad = self.roll_angles_rad[self.roll_angles_rad.len() - 1];
-        let mut curve = ContactCurve {
-            base_radius_m,
-            half_width_m: self.half_width_m,
-            end_rad,
-            rolls_rad: self.roll_angles_rad.clone(),
-            values: self.contact_m2_per_n.clone(),
-            places: Vec::new(),
-            slopes: Vec::new(),
-        };
-        let places = self.roll_angles_rad.iter();
-        curve.places = places.map(|roll| curve.coordinate(*roll)).collect();
-        curve.slopes = (0..curve.values.len()).map(|k| curve.slope(k)).collect();
-        curve
+        ContactCurve::new(
+            EdgeDistance::Involute {
+                base_radius_m,
+                end_rad,
+            },
+            self.half_width_m,
+            &self.roll_angles_rad,
+            &self.contact_m2_per_n,
+        )
     }
 
     /// c₀ in m²/N at a roll angle; for many of them make the curve once.
@@ -52,14 +48,13 @@ impl NearField {
 
 /// c₀ over the roll angle. Beyond the ends the end's value.
 ///
-/// Towards the edge c₀ grows like the logarithm of the distance d = r_b (ξ_end² − ξ²)/2 to it. The interpolation is
+/// Towards the edge c₀ grows like the logarithm of the distance d to it, r_b (ξ_end² − ξ²)/2 on an involute flank. The interpolation is
 /// therefore in u = −ln(1 + d/a₀): cubic Hermite between the places, the slope at a place that of the parabola through
 /// it and its neighbours (one-sided at the ends).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactCurve {
-    base_radius_m: f64,
+    distance: EdgeDistance,
     half_width_m: f64,
-    end_rad: f64,
     rolls_rad: Vec<f64>,
     values: Vec<f64>,
     /// u of each place.
@@ -68,7 +63,52 @@ pub struct ContactCurve {
     slopes: Vec<f64>,
 }
 
+/// How far a place along the profile is from the tip's edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum EdgeDistance {
+    /// Of an involute, by the roll angle.
+    Involute { base_radius_m: f64, end_rad: f64 },
+    /// By the share of the way up the flank.
+    Share { length_m: f64 },
+}
+
+impl EdgeDistance {
+    /// d \[m\], and −∂d by the place.
+    fn at(self, place: f64) -> [f64; 2] {
+        match self {
+            Self::Involute {
+                base_radius_m,
+                end_rad,
+            } => [
+                0.5 * base_radius_m * (end_rad * end_rad - place * place),
+                base_radius_m * place,
+            ],
+            Self::Share { length_m } => [length_m * (1.0 - place), length_m],
+        }
+    }
+}
+
 impl ContactCurve {
+    /// c₀ given at places, `distance` telling how far they are from the edge.
+    pub(crate) fn new(
+        distance: EdgeDistance,
+        half_width_m: f64,
+        at: &[f64],
+        values: &[f64],
+    ) -> Self {
+        let mut curve = Self {
+            distance,
+            half_width_m,
+            rolls_rad: at.to_vec(),
+            values: values.to_vec(),
+            places: Vec::new(),
+            slopes: Vec::new(),
+        };
+        curve.places = at.iter().map(|place| curve.coordinate(*place)).collect();
+        curve.slopes = (0..values.len()).map(|k| curve.slope(k)).collect();
+        curve
+    }
+
     /// c₀ in m²/N at a roll angle, and its derivative by it. No allocation.
     pub fn at(&self, roll_rad: f64) -> (f64, f64) {
         let (rolls, y) = (&self.rolls_rad, &self.values);
@@ -87,19 +127,16 @@ impl ContactCurve {
         let value = y[k] + t * rise + t * u * (u * low - t * high);
         let slope = rise + low * u * (u - 2.0 * t) - high * t * (2.0 * u - t);
         let moves = if inside == roll_rad {
-            self.base_radius_m * inside / (self.half_width_m + self.distance_m(inside))
+            let [distance, rate] = self.distance.at(inside);
+            rate / (self.half_width_m + distance)
         } else {
             0.0
         };
         (value, slope / length * moves)
     }
 
-    fn distance_m(&self, roll_rad: f64) -> f64 {
-        0.5 * self.base_radius_m * (self.end_rad * self.end_rad - roll_rad * roll_rad)
-    }
-
     fn coordinate(&self, roll_rad: f64) -> f64 {
-        -(self.distance_m(roll_rad) / self.half_width_m).ln_1p()
+        -(self.distance.at(roll_rad)[0] / self.half_width_m).ln_1p()
     }
 
     /// Slope of c₀ over u at a place.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use gearmesh_geometry::Flank;
 
+use crate::bevel_body::BevelBody;
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
@@ -15,9 +16,10 @@ use crate::stored_gear::StoredGear;
 /// axial station. Between the points a load is spread by hat functions in roll angle and z.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlankGrid {
-    /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²).
+    /// Roll angles ξ = tan α of the stations, increasing from root to tip; radius r = r_b √(1 + ξ²). Of a bevel flank the share of
+    /// the way up it, 0 to 1 ([`BevelBody`]).
     pub roll_angles_rad: Vec<f64>,
-    /// Axial positions of the stations, increasing; zero at mid-face.
+    /// Axial positions of the stations, increasing; zero at mid-face. Of a bevel flank places along the pitch cone.
     pub z_m: Vec<f64>,
     /// Slices across the face width that the grid was made for.
     pub slices: usize,
@@ -133,9 +135,9 @@ pub struct ReducedGear {
     pub teeth: usize,
     /// The body repeats N times around; a divisor of z.
     pub sectors: usize,
-    /// Base circle radius r_b.
+    /// Base circle radius r_b; of a bevel gear the lever of its first flank's normal at the mean point.
     pub base_radius_m: f64,
-    /// Face width.
+    /// Face width; of a bevel gear along the pitch cone.
     pub face_width_m: f64,
     /// Young's modulus.
     pub young_pa: f64,
@@ -167,6 +169,8 @@ pub struct ReducedGear {
     pub modes: Option<ModalBasis>,
     /// Crack in a tooth's root, whose compliance is not in `c_hub`; the gauges' rows have it. None where there is none.
     pub crack: Option<RootCrack>,
+    /// What a bevel gear has besides; none of a cylindrical gear. Its `near_field` stands there, not in `near_field`.
+    pub bevel: Option<BevelBody>,
     /// Where it comes from.
     pub provenance: Provenance,
     /// How well the reduction fulfilled its identities.

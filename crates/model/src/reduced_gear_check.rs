@@ -81,6 +81,7 @@ impl ReducedGear {
         }
         self.check_dynamics()?;
         self.check_crack()?;
+        self.check_bevel()?;
         let times = self
             .provenance
             .stage_seconds
@@ -321,7 +322,11 @@ fn check_near_field(near_field: &NearField, expected: usize) -> Result<(), Reduc
     )
 }
 
-fn out_of_range(item: &str, found: impl fmt::Display, allowed: &'static str) -> ReducedGearError {
+pub(crate) fn out_of_range(
+    item: &str,
+    found: impl fmt::Display,
+    allowed: &'static str,
+) -> ReducedGearError {
     ReducedGearError::OutOfRange {
         item: item.to_owned(),
         found: found.to_string(),
@@ -329,7 +334,7 @@ fn out_of_range(item: &str, found: impl fmt::Display, allowed: &'static str) -> 
     }
 }
 
-fn in_range(
+pub(crate) fn in_range(
     item: &str,
     value: f64,
     holds: impl Fn(f64) -> bool,
@@ -342,7 +347,7 @@ fn in_range(
     }
 }
 
-fn check_array(
+pub(crate) fn check_array(
     item: &str,
     values: &[f64],
     expected: usize,
@@ -367,7 +372,7 @@ fn check_array(
 }
 
 /// At least two finite values, strictly increasing.
-fn check_stations(item: &str, values: &[f64]) -> Result<(), ReducedGearError> {
+pub(crate) fn check_stations(item: &str, values: &[f64]) -> Result<(), ReducedGearError> {
     check_array(item, values, values.len(), "any number")?;
     if values.len() < 2 || values.windows(2).any(|pair| pair[0] >= pair[1]) {
         return Err(out_of_range(
@@ -379,7 +384,7 @@ fn check_stations(item: &str, values: &[f64]) -> Result<(), ReducedGearError> {
     Ok(())
 }
 
-fn smallest(values: &[f64]) -> f64 {
+pub(crate) fn smallest(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 

@@ -52,6 +52,22 @@ pub enum ReducedGearError {
         /// The flank that carries no loads.
         missing: Flank,
     },
+    /// A bevel gear where a cylindrical one is meant.
+    #[error(
+        "gear \"{gear}\" is a bevel gear, its flanks have no roll angles; allowed here is the model of a cylindrical gear"
+    )]
+    BevelGear {
+        /// The gear.
+        gear: String,
+    },
+    /// A cylindrical gear where a bevel gear is needed.
+    #[error(
+        "gear \"{gear}\" is a cylindrical gear; a bevel pair needs the models of its own members"
+    )]
+    NotBevel {
+        /// The gear.
+        gear: String,
+    },
     /// The model carries no calibration of the near field.
     #[error(
         "gear \"{gear}\" carries no calibration of the near field, which local = \"calibrated\" needs: its file was \

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::bevel_body_file::{BevelSizes, bevel_fields};
 use crate::data_tree::{DataTree, FileFormat};
 use crate::file_error::FileError;
 use crate::modal_basis::ModalBasis;
@@ -15,8 +16,8 @@ use gearmesh_geometry::Flank;
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear
-    version: 5,
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body
+    version: 6,
 };
 
 /// The first version that holds what the gear file says, besides its text.
@@ -105,6 +106,14 @@ impl Record for ReducedGear {
         })?;
         f.optional("modes", &mut self.modes, |it, f| mode_fields(it, f, sizes))?;
         f.optional("crack", &mut self.crack, |it, f| crack_fields(it, f, sizes))?;
+        let bevel_sizes = BevelSizes {
+            flanks: sizes.hands,
+            stations: sizes.stations,
+            along: self.grid.z_m.len(),
+        };
+        f.optional("bevel", &mut self.bevel, |it, f| {
+            bevel_fields(it, f, &bevel_sizes)
+        })?;
         f.group("provenance", |f| self.provenance.fields(f))?;
         self.check_fields(f)
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
@@ -154,6 +155,7 @@ pub fn small_reduced_gear() -> ReducedGear {
             coupling: (0..12).map(|i| 0.01 * f64::from(i)).collect(),
         }),
         crack: None,
+        bevel: None,
         provenance: Provenance {
             program: "gearmesh".to_owned(),
             version: "0.0.0".to_owned(),
@@ -171,6 +173,98 @@ pub fn small_reduced_gear() -> ReducedGear {
             pattern_identity: 2e-12,
             further: vec![("residual".to_owned(), 3e-13)],
         },
+    }
+}
+
+/// The gear of a bevel pair with 20 teeth, three by five loads on both hands: points on cones, compliance that decays with distance.
+pub fn small_bevel_gear() -> ReducedGear {
+    let teeth = 20;
+    let grid = FlankGrid {
+        roll_angles_rad: vec![0.0, 0.5, 1.0],
+        z_m: (0..5)
+            .map(|j| 0.015 * (0.25 * f64::from(j) - 0.5))
+            .collect(),
+        slices: 2,
+    };
+    let loads = grid.len();
+    let flanks = vec![Flank::Right, Flank::Left];
+    // Symmetric in (tooth, flank, load): by distance round the gear and between loads only.
+    let compliance = |around: usize, other_side: bool, a: usize, b: usize| {
+        let side = if other_side { -0.4 } else { 1.0 };
+        let apart = around.min(teeth - around) as f64 + 0.2 * (a as f64 - b as f64).abs();
+        2e-9 * side * (-apart).exp()
+    };
+    let mut c_hub = Vec::new();
+    for load_flank in 0..2 {
+        for block in 0..teeth * 2 {
+            for l in 0..loads {
+                let other = block % 2 != load_flank;
+                c_hub.extend((0..loads).map(|m| compliance(block / 2, other, l, m)));
+            }
+        }
+    }
+    let (mut points_m, mut normals) = (Vec::new(), Vec::new());
+    for facing in [-1.0, 1.0] {
+        for u in &grid.roll_angles_rad {
+            for along in &grid.z_m {
+                let [cone, height] = [0.042 + along, 0.005 * (u - 0.5)];
+                let radius = (cone + height) * 0.5_f64.sqrt();
+                let turn = facing * 0.06 - 10.0 * along;
+                let (sin, cos) = turn.sin_cos();
+                points_m.extend([radius * cos, radius * sin, (cone - height) * 0.5_f64.sqrt()]);
+                normals.extend([facing * sin, -facing * cos, 0.0]);
+            }
+        }
+    }
+    let stations = grid.roll_angles_rad.len();
+    ReducedGear {
+        name: "synthetic bevel gear".to_owned(),
+        input: StoredGear::without_definition("# made up\n".to_owned()),
+        teeth,
+        sectors: teeth,
+        base_radius_m: 0.028,
+        face_width_m: 0.015,
+        opposite_distance_m: vec![0.004; 2 * stations],
+        c_hub,
+        c_tooth: (0..2 * loads * loads)
+            .map(|i| {
+                let apart = (i / loads % loads).abs_diff(i % loads) as f64;
+                4e-10 * (-apart).exp()
+            })
+            .collect(),
+        near_field: None,
+        gauges: Vec::new(),
+        reference_point: None,
+        modes: None,
+        bevel: Some(BevelBody {
+            pair_text: "# made up\n".to_owned(),
+            member: BevelMember::Gear,
+            hand: SpiralHand::Left,
+            pitch_angle_rad: std::f64::consts::FRAC_PI_4,
+            cones_m: [0.0345, 0.0495],
+            points_m,
+            normals,
+            areas_m2: vec![9e-5; 2 * loads],
+            near_field: Some(BevelNearField {
+                half_width_m: 1e-4,
+                sections_m: vec![-0.005, 0.005],
+                profile: vec![0.0, 0.4, 0.8, 1.0],
+                profile_length_m: vec![5e-3, 6e-3, 5e-3, 6e-3],
+                contact_m2_per_n: [1.4e-11, 1.2e-11, 1.3e-11, 2.0e-11].repeat(4),
+                mesh_m2_per_n: (0..4 * stations * stations)
+                    .map(|i| {
+                        let apart = (i / stations % stations).abs_diff(i % stations) as f64;
+                        9e-12 * (-apart).exp()
+                    })
+                    .collect(),
+                opposite_distance_m: vec![0.004; 4 * stations],
+                element_m: 1.25e-5,
+                residual: 2e-3,
+            }),
+        }),
+        grid,
+        flanks,
+        ..small_reduced_gear()
     }
 }
 

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use gearmesh_model::synthetic::small_reduced_gear;
+use gearmesh_model::synthetic::{small_bevel_gear, small_reduced_gear};
 use gearmesh_model::{
     DataArray, DataTree, FileError, FileFormat, REDUCED_GEAR_FORMAT, Values, read_reduced_gear,
     write_reduced_gear,
@@ -144,7 +144,7 @@ fn other_versions_and_formats() {
     let Sample { path, .. } = &sample();
     let tree = DataTree::read(path, &REDUCED_GEAR_FORMAT).unwrap();
     let newest = REDUCED_GEAR_FORMAT.version;
-    for version in [0, newest + 1, 7] {
+    for version in [0, newest + 1, newest + 3] {
         tree.write(
             path,
             &FileFormat {
@@ -174,16 +174,63 @@ fn other_versions_and_formats() {
 #[test]
 fn every_missing_item_is_named() {
     let Sample { path, .. } = &sample();
+    for gear in [small_reduced_gear(), small_bevel_gear()] {
+        write_reduced_gear(path, &gear).unwrap();
+        let good = DataTree::read(path, &REDUCED_GEAR_FORMAT).unwrap();
+        for name in good.arrays.keys().chain(good.texts.keys()) {
+            let mut tree = good.clone();
+            tree.arrays.remove(name);
+            tree.texts.remove(name);
+            tree.write(path, &REDUCED_GEAR_FORMAT).unwrap();
+            let error = error_of(path);
+            let named =
+                matches!(&error, FileError::Missing { item, .. } if item.contains(name.as_str()));
+            assert!(named, "without {name}: {error}");
+        }
+    }
+}
+
+#[test]
+fn wrong_figures_and_names_of_a_bevel_body() {
+    let Sample { path, .. } = &sample();
+    write_reduced_gear(path, &small_bevel_gear()).unwrap();
     let good = DataTree::read(path, &REDUCED_GEAR_FORMAT).unwrap();
-    for name in good.arrays.keys().chain(good.texts.keys()) {
+    for name in good.arrays.keys().filter(|name| name.starts_with("bevel/")) {
         let mut tree = good.clone();
-        tree.arrays.remove(name);
-        tree.texts.remove(name);
+        let array = tree.arrays.get_mut(name).unwrap();
+        let Values::F64(values) = &mut array.values else {
+            continue;
+        };
+        values[0] = f64::INFINITY;
         tree.write(path, &REDUCED_GEAR_FORMAT).unwrap();
         let error = error_of(path);
-        let named =
-            matches!(&error, FileError::Missing { item, .. } if item.contains(name.as_str()));
-        assert!(named, "without {name}: {error}");
+        assert!(
+            matches!(error, FileError::ReducedGear { .. }),
+            "{name}: {error}"
+        );
+        let mut tree = good.clone();
+        let array = tree.arrays.get_mut(name).unwrap();
+        if array.shape.is_empty() {
+            continue;
+        }
+        array.shape[0] += 1;
+        let Values::F64(values) = &mut array.values else {
+            continue;
+        };
+        values.resize(array.shape.iter().product(), 1.0);
+        tree.write(path, &REDUCED_GEAR_FORMAT).unwrap();
+        let error = error_of(path);
+        assert!(
+            matches!(error, FileError::WrongShape { .. }),
+            "{name}: {error}"
+        );
+    }
+    for (name, word) in [("bevel/member", "wheel"), ("bevel/hand", "sinister")] {
+        let mut tree = good.clone();
+        tree.texts.insert(name.to_owned(), word.to_owned());
+        tree.write(path, &REDUCED_GEAR_FORMAT).unwrap();
+        let message = error_of(path).to_string();
+        assert!(message.contains(word), "{message}");
     }
 }
 

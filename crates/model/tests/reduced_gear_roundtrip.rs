@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use gearmesh_model::synthetic::{small_crack, small_reduced_gear};
+use gearmesh_model::synthetic::{small_bevel_gear, small_crack, small_reduced_gear};
 use gearmesh_model::{
     DataArray, DataTree, FileError, FileFormat, Flank, FlankGrid, GaugeRows, ReducedGear,
     StoredGear, Values, file_digest, read_reduced_gear, write_reduced_gear,
@@ -45,6 +45,18 @@ fn a_crack_comes_back_equal() {
     let read = read_reduced_gear(&path).unwrap();
     assert_eq!(read, gear);
     assert!(read.crack_for(Flank::Right).is_some() && read.crack_for(Flank::Left).is_none());
+}
+
+#[test]
+fn a_bevel_gear_comes_back_equal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gear.h5");
+    let mut gear = small_bevel_gear();
+    write_reduced_gear(&path, &gear).unwrap();
+    assert_eq!(read_reduced_gear(&path).unwrap(), gear);
+    gear.bevel.as_mut().unwrap().near_field = None;
+    write_reduced_gear(&path, &gear).unwrap();
+    assert_eq!(read_reduced_gear(&path).unwrap(), gear);
 }
 
 #[test]

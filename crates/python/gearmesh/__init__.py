@@ -16,7 +16,6 @@ from ._native import (
     InputError,
     WorkError,
     __version__,
-    _write_synthetic_reduced,
     export_mesh,
     import_mesh,
     mass,
@@ -29,9 +28,23 @@ from ._native import (
     strain,
     write_mesh,
 )
+from ._native import _write_synthetic_reduced as _write_synthetic_reduced
 from .bearing import Bearing
 from .bevel import BevelPair
+from .commands import (
+    Record,
+    accuracy,
+    check,
+    compliance,
+    demo,
+    doctor,
+    import_rexs,
+    init,
+    mesh,
+    natural_frequencies,
+)
 from .gear import STEEL, Gear
+from .optimise import Optimum, optimise
 from .program import program
 from .reduced import ReducedGear, reduce
 from .result import Result, compare
@@ -39,23 +52,35 @@ from .scene import Pair, Scene, run
 from .study import Study, StudyResult, study
 
 __all__ = [
-    "STEEL",
     "Bearing",
     "BevelPair",
     "Gear",
     "InputError",
+    "Optimum",
     "Pair",
+    "Record",
     "ReducedGear",
     "Result",
+    "STEEL",
     "Scene",
     "Study",
     "StudyResult",
     "WorkError",
+    "accuracy",
+    "check",
     "compare",
+    "compliance",
+    "demo",
+    "doctor",
     "export_mesh",
     "import_mesh",
+    "import_rexs",
+    "init",
     "mass",
+    "mesh",
+    "natural_frequencies",
     "natural_modes",
+    "optimise",
     "program",
     "read_mesh",
     "read_reduced",

@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Sequence
 
-from .program import program
+from .program import options, program
 from .toml_text import Tables, to_toml
 
 
@@ -19,34 +19,26 @@ class Bearing:
     def __init__(self, file: str | Path | Tables) -> None:
         self._file = file
 
-    def rest(self, load_N: Sequence[float], **options: Any) -> dict[str, Any]:
+    def rest(self, load_N: Sequence[float], **given: Any) -> dict[str, Any]:
         """Where the inner ring comes to rest under load_N (x, y, z), and what every ball or roller bears.
 
         Options are those of `gearmesh bearing` with underscores: speed_rpm, outer_speed_rpm, control, moment_Nm ...
         Returns what the program prints: displacement_um (3,), tilt_mrad (2,), stiffness_SI (5, 5), rows (loads,
         contact angles, pressures of each element), ratings, life.
         """
-        return self._ask("bearing", "--load-N", ",".join(repr(float(part)) for part in load_N), **options)
+        return self._ask("bearing", "--load-N", ",".join(repr(float(part)) for part in load_N), **given)
 
-    def frequencies(self, **options: Any) -> dict[str, Any]:
+    def frequencies(self, **given: Any) -> dict[str, Any]:
         """Frequencies of cage, elements and passing of the races; options of `gearmesh bearing-frequencies`."""
-        return self._ask("bearing-frequencies", **options)
+        return self._ask("bearing-frequencies", **given)
 
-    def _ask(self, command: str, *words: str, **options: Any) -> dict[str, Any]:
-        further = [word for name, value in options.items() for word in _option(name, value)]
+    def _ask(self, command: str, *words: str, **given: Any) -> dict[str, Any]:
         if not isinstance(self._file, dict):
-            return program(command, self._file, *words, *further)
+            return program(command, self._file, *words, *options(given))
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "bearing.toml"
             path.write_text(to_toml(self._file), encoding="utf-8")
-            return program(command, path, *words, *further)
+            return program(command, path, *words, *options(given))
 
     def __repr__(self) -> str:
         return f"<Bearing {'of a dict' if isinstance(self._file, dict) else self._file}>"
-
-
-def _option(name: str, value: Any) -> list[str]:
-    """`speed_rpm=100` as `--speed-rpm=100`."""
-    if isinstance(value, (list, tuple)):
-        value = ",".join(str(part) for part in value)
-    return [f"--{name.replace('_', '-')}={value}"]

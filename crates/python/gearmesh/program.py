@@ -9,7 +9,7 @@ import subprocess
 import sys
 import sysconfig
 from pathlib import Path
-from typing import Any
+from typing import Any, Mapping
 
 from ._native import InputError, WorkError
 
@@ -22,8 +22,11 @@ def program(*arguments: str | os.PathLike[str] | float) -> Any:
     Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt (130),
     FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
     """
-    words = [str(argument) for argument in arguments]
-    environment = {**os.environ}
+    words = [str(os.fspath(a)) if isinstance(a, os.PathLike) else str(a) for a in arguments]
+    # Notebooks ask for colours, which would stand in the messages.
+    asks = ("FORCE_COLOR", "CLICOLOR_FORCE")
+    environment = {name: value for name, value in os.environ.items() if name not in asks}
+    environment["NO_COLOR"] = "1"
     environment.setdefault("GEARMESH_PYTHON", sys.executable)
     answer = _call([*words, "--json"], environment)
     if answer.returncode == 2 and "unexpected argument '--json'" in answer.stderr:
@@ -37,6 +40,20 @@ def program(*arguments: str | os.PathLike[str] | float) -> Any:
         return json.loads(answer.stdout)
     except json.JSONDecodeError:
         return answer.stdout
+
+
+def options(given: Mapping[str, Any]) -> list[str]:
+    """Keywords as the program's options: `speed_rpm=100` is `--speed-rpm=100`, True a switch, None nothing, a list its items
+    with commas."""
+    words: list[str] = []
+    for name, value in given.items():
+        if value is None or value is False:
+            continue
+        if isinstance(value, (list, tuple)):
+            value = ",".join(str(part) for part in value)
+        option = f"--{name.replace('_', '-')}"
+        words.append(option if value is True else f"{option}={value}")
+    return words
 
 
 def _call(words: list[str], environment: dict[str, str]) -> subprocess.CompletedProcess[str]:

@@ -22,7 +22,7 @@ class ReducedGear:
     FileNotFoundError, InputError for a file that is damaged or of another kind.
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path).absolute()
         self._parts = _native.read_reduced(self.path)
 
@@ -96,7 +96,7 @@ def reduce(
             return ReducedGear(path)
         path.parent.mkdir(parents=True, exist_ok=True)
     with Bar(progress, gear.name) as bar:
-        _native.reduce(gear.toml, gear.file, Path(path), _interpreter(), error_estimate, bar.call)
+        _native.reduce(gear.toml, gear.file, Path(path), interpreter(), error_estimate, bar.call)
     return ReducedGear(path)
 
 
@@ -111,6 +111,6 @@ def _digest(gear: Gear, error_estimate: bool) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _interpreter() -> Path:
+def interpreter() -> Path:
     """A Python with gmsh: the one that is running, unless told otherwise."""
     return Path(os.environ.get("GEARMESH_PYTHON") or sys.executable)

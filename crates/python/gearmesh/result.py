@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import html
 import os
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
-from .program import program
+from .program import options, program
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
+
+# Columns of a pair's table that a notebook shows: head, factor.
+_SHOWN = {
+    "torque_Nm": ("torque N m", 1.0),
+    "te_mean_m": ("TE mean um", 1e6),
+    "te_peak_to_peak_m": ("TE pk-pk um", 1e6),
+    "k_h_beta": ("K<sub>H&beta;</sub>", 1.0),
+}
 
 # Names of axes in files as those of coordinates, and the data sets that hold these.
 _DIMENSIONS = {"driver angle": "angle", "contact line": "line"}
@@ -30,7 +40,8 @@ class Result:
     from the file when it is asked for.
 
     Attributes: kind ("pair", "transient", "static", "speed-sweep", "eigen"), title, path (None in memory), notes and
-    warnings (what a user should know about the scene and the run), scene_toml.
+    warnings (what a user should know about the scene and the run), scene_toml, calls (how often the run has called each
+    Python function of the scene).
     """
 
     def __init__(
@@ -39,10 +50,12 @@ class Result:
         path: Path | None = None,
         notes: list[str] | None = None,
         folder: tempfile.TemporaryDirectory[str] | None = None,
+        calls: dict[str, int] | None = None,
     ) -> None:
         self._native, self.path, self.notes, self._folder = native, path, notes or [], folder
         self.kind, self.title, self.scene_toml = native.kind, native.title, native.scene_toml
         self.warnings = native.warnings
+        self.calls = calls or {}
         self._sets = native.data_sets()
         self._tables: dict[str, dict[str, Any]] | None = None
 
@@ -55,7 +68,7 @@ class Result:
         """Names of the data sets."""
         return list(self._sets) if self.kind == "pair" else self._native.names()
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         return self._set(name)[0]
 
     def __contains__(self, name: str) -> bool:
@@ -73,7 +86,7 @@ class Result:
         """Names of the axes of a data set."""
         return tuple(_DIMENSIONS.get(axis, axis) for axis in self._set(name)[1])
 
-    def _set(self, name: str) -> tuple[np.ndarray, list[str], str, str]:
+    def _set(self, name: str) -> tuple[NDArray[Any], list[str], str, str]:
         if name not in self._sets:
             if name not in self.keys():
                 raise KeyError(f"the result has no `{name}`; it has {', '.join(self.keys())}")
@@ -157,14 +170,16 @@ class Result:
 
     def _plot_modes(self, ax: matplotlib.axes.Axes) -> None:
         modes = self.tables()["modes"]
-        speed_rpm = np.asarray(modes["speed_rad_per_s"]) * 30.0 / np.pi
+        # A map is read by the amount of the speed, whichever way the shaft turns.
+        speed_rpm = np.abs(np.asarray(modes["speed_rad_per_s"]) * 30.0 / np.pi)
         across, head = (speed_rpm, "speed [rpm]")
         if np.isnan(speed_rpm).any():
             across, head = np.asarray(modes["load_factor"]), "load factor"
         number = np.asarray(modes["mode"])
         for mode in np.unique(number):
             chosen = number == mode
-            ax.plot(across[chosen], np.asarray(modes["frequency_Hz"])[chosen], ".-", markersize=3)
+            points = sorted(zip(across[chosen], np.asarray(modes["frequency_Hz"])[chosen]))
+            ax.plot(*zip(*points), ".-", markersize=3)
         ax.set(xlabel=head, ylabel="natural frequency [Hz]")
 
     def save(self, path: str | os.PathLike[str]) -> Result:
@@ -195,10 +210,46 @@ class Result:
         with tempfile.TemporaryDirectory() as folder:
             program("export", self._file(folder), "-o", path, *([] if table is None else ["--table", table]))
 
+    def recover(self, path: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
+        """Writes the strain of all gauges to a file; options of `gearmesh recover` with underscores.
+
+        recover("strain.h5", field_gear=1, field_angle_deg=0, field_output="field.vtu") also writes a whole stress field.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            return program("recover", self._file(folder), "-o", path, *options(given))
+
+    def signal(self, analysis: str, column: str | None = None, **given: Any) -> dict[str, Any]:
+        """What `gearmesh signal` finds in a column of a run in time; options with underscores.
+
+        analysis: "spectrum", "sidebands", "envelope", "average", "map", "statistics" or "columns" (without a column).
+        result.signal("spectrum", "gear_mesh/force_N", shaft="pinion", output="orders.csv")
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            words = [] if column is None else [column]
+            return program("signal", analysis, self._file(folder), *words, *options(given))
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the title, and of a pair a line of figures for each torque."""
+        title = html.escape(self.title)
+        if self.kind != "pair":
+            return f"<b>{title}</b><br>{html.escape(repr(self))}"
+        table = self.tables()["torques"]
+        shown = {name: head for name, head in _SHOWN.items() if name in table}
+        heads = "".join(f"<th>{head}</th>" for head, _ in shown.values())
+        rows = ""
+        for row in range(len(table["torque_Nm"])):
+            cells = "".join(f"<td>{scale * table[name][row]:.5g}</td>" for name, (_, scale) in shown.items())
+            rows += f"<tr>{cells}</tr>"
+        return f"<b>{title}</b><table><tr>{heads}</tr>{rows}</table>"
+
     def __repr__(self) -> str:
         if self.kind != "pair":
-            head = f"{self.kind}, {len(self.keys())} columns"
-            return f"<Result {self.title!r}: {head}>"
+            count, what = len(self.keys()), "columns"
+            if self.kind == "eigen":
+                count, what = len(self.tables()["modes"]["frequency_Hz"]), "natural frequencies"
+            head = f"{self.kind}, {count} {what}"
+            calls = "".join(f", `{name}` called {calls} times" for name, calls in self.calls.items())
+            return f"<Result {self.title!r}: {head}{calls}>"
         lines = [f"<Result {self.title!r}: {len(self['angle_rad'])} positions at each torque"]
         for row, torque in zip(self["te_m"], self["torque_Nm"]):
             mean_um, range_um = 1e6 * row.mean(), 1e6 * np.ptp(row)
@@ -208,11 +259,13 @@ class Result:
         return "\n".join(lines) + ">"
 
 
-def compare(result: Result | str | os.PathLike[str], record: str | os.PathLike[str], *options: str) -> dict[str, Any]:
+def compare(result: Result | str | os.PathLike[str], record: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
     """A result beside a reference record's folder (docs/records.md), both through the rig pipeline.
 
-    options are those of `gearmesh compare`. Returns what it prints: record, kind, shaft, revolutions, comparisons.
+    record: a Record or its folder. Options are those of `gearmesh compare` with underscores; column is a dict, column of the
+    record to column of the result. Returns what it prints: record, kind, shaft, revolutions, comparisons.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = result._file(folder) if isinstance(result, Result) else result
-        return program("compare", path, record, *options)
+        columns = [f"--column={head}={name}" for head, name in dict(given.pop("column", {})).items()]
+        return program("compare", path, record, *columns, *options(given))

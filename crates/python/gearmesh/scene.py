@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
+import time
+import uuid
 from pathlib import Path
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, Sequence, Union
 
 from . import _native
 from .progress import Bar, Progress
@@ -14,34 +17,55 @@ from .result import Result
 from .toml_text import Tables, from_toml, to_toml, with_keys
 
 GearModel = Union[ReducedGear, str, "os.PathLike[str]"]
+Functions = Mapping[str, Callable[..., Any]]
+"""Python functions by the names that the scene has for them."""
 
 
 class Scene:
     """A scene of either kind (docs/scene.md), checked: a gear pair at rest, or a multibody system.
 
     source: a scene file, or its tables as a dict. folder: where files lie that the scene names; that of the file, or
-    the working directory. Raises FileNotFoundError, InputError with file, line and key.
+    the working directory. functions: the Python functions that the scene names, see "Python functions in a scene" in
+    docs/python.md. Raises FileNotFoundError, InputError with file, line and key.
 
     Attributes: kind ("pair" or "system"), title, toml (text of the file), tables (the same as dicts).
     """
 
-    def __init__(self, source: str | os.PathLike[str] | Tables, folder: str | os.PathLike[str] | None = None) -> None:
+    def __init__(
+        self,
+        source: str | os.PathLike[str] | Tables,
+        folder: str | os.PathLike[str] | None = None,
+        functions: Functions | None = None,
+    ) -> None:
         if isinstance(source, dict):
-            self._take(to_toml(source), "Scene", Path(folder or ".").absolute())
+            self._take(to_toml(source), "Scene", Path(folder or ".").absolute(), functions)
         else:
-            file = Path(source)
-            self._take(file.read_text(encoding="utf-8"), str(source), Path(folder or file.parent).absolute())
+            file, beside = Path(source), Path(folder or Path(source).parent)
+            self._take(file.read_text(encoding="utf-8"), str(source), beside.absolute(), functions)
 
     @classmethod
-    def from_toml(cls, text: str, folder: str | os.PathLike[str] = ".", file: str = "scene.toml") -> Scene:
+    def from_toml(
+        cls,
+        text: str,
+        folder: str | os.PathLike[str] = ".",
+        file: str = "scene.toml",
+        functions: Functions | None = None,
+    ) -> Scene:
         """The scene of a text; file is its name in complaints."""
-        scene = Scene.__new__(cls)
-        scene._take(text, file, Path(folder).absolute())
+        scene = Scene.__new__(Scene)
+        scene._take(text, file, Path(folder).absolute(), functions)
         return scene
 
-    def _take(self, text: str, file: str, folder: Path) -> None:
+    def _take(self, text: str, file: str, folder: Path, functions: Functions | None = None) -> None:
         self.kind, self.title = _native.check_scene(text, file, folder)
         self.toml, self.file, self.folder = text, file, folder
+        self.functions = dict(functions or {})
+        unused = sorted(set(self.functions) - set(_functions_named(self.tables)))
+        if unused:
+            problem = f"functions: the scene calls no {', '.join(unused)}; leave it out, or name it in the scene"
+            raise _native.InputError(problem)
+        # Nobody can compare functions: what was begun with those of one Scene goes on with the same ones only.
+        self._identity = uuid.uuid4().hex
 
     @property
     def tables(self) -> Tables:
@@ -53,11 +77,11 @@ class Scene:
 
         Raises KeyError for a path through no table, InputError for what the scene refuses.
         """
-        return Scene.from_toml(to_toml(with_keys(self.tables, dict(changes))), self.folder, self.file)
+        return Scene.from_toml(to_toml(with_keys(self.tables, dict(changes))), self.folder, self.file, self.functions)
 
     def plan(self) -> list[str]:
         """What the scene will compute, in lines for people. Raises InputError for what a run would refuse."""
-        return _native.plan(self.toml, self.file, self.folder)
+        return _native.plan(self.toml, self.file, self.folder, self.functions)
 
     def run(
         self, output: str | os.PathLike[str] | None = None, *, restart: bool = False, progress: Progress = None
@@ -75,9 +99,15 @@ class Scene:
         if path is None and self.kind == "system":
             folder = tempfile.TemporaryDirectory(prefix="gearmesh-")
             path = Path(folder.name) / "result.h5"
+        begun = time.perf_counter()
         with Bar(progress, self.title) as bar:
-            native, notes = _native.run(self.toml, self.file, self.folder, path, restart, bar.call)
-        return Result(native, path, notes, folder)
+            native, notes, cost = _native.run(
+                self.toml, self.file, self.folder, path, restart, bar.call, self.functions, self._identity
+            )
+        took_s = time.perf_counter() - begun
+        for name, (calls, seconds) in cost.items():
+            notes.append(f"Python function `{name}`: {calls} calls, {seconds:.3g} s of the run's {took_s:.3g} s")
+        return Result(native, path, notes, folder, calls={name: calls for name, (calls, _) in cost.items()})
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the scene file. Files that it names relative to folder must be found from there, too."""
@@ -85,6 +115,46 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {'gear pair at rest' if self.kind == 'pair' else 'multibody system'}>"
+
+
+def with_whole_paths(scene: Scene) -> str:
+    """The scene's text with the files that it names as absolute paths: it may lie anywhere."""
+    files = {name: str(path) for name, path in _native.files_of(scene.toml, scene.folder)}
+
+    def whole(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: whole(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [whole(item) for item in value]
+        return files.get(value, value) if isinstance(value, str) else value
+
+    return to_toml(whole(scene.tables))
+
+
+@contextlib.contextmanager
+def scene_file(scene: Scene | str | os.PathLike[str]) -> Iterator[Path]:
+    """The file of a scene, for the program; that of a Scene as long as the context lasts."""
+    if not isinstance(scene, Scene):
+        yield Path(scene)
+        return
+    with tempfile.TemporaryDirectory(prefix="gearmesh-") as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text(with_whole_paths(scene), encoding="utf-8")
+        yield path
+
+
+def _functions_named(value: Any) -> Iterator[str]:
+    """Names of Python functions in the tables of a scene."""
+    if isinstance(value, list):
+        for item in value:
+            yield from _functions_named(item)
+    elif isinstance(value, dict):
+        if isinstance(value.get("python"), str):
+            yield value["python"]
+        for element in value.get("python_element", ()):
+            yield element.get("function", "")
+        for item in value.values():
+            yield from _functions_named(item)
 
 
 class Pair(Scene):
@@ -147,9 +217,13 @@ def run(
     scene: Scene | str | os.PathLike[str] | Tables,
     output: str | os.PathLike[str] | None = None,
     *,
+    functions: Functions | None = None,
     restart: bool = False,
     progress: Progress = None,
 ) -> Result:
-    """Runs a scene, its file or its tables: see Scene.run."""
-    scene = scene if isinstance(scene, Scene) else Scene(scene)
+    """Runs a scene, its file or its tables, with the Python functions that it names: see Scene and Scene.run."""
+    if not isinstance(scene, Scene):
+        scene = Scene(scene, functions=functions)
+    elif functions is not None:
+        raise TypeError("functions: the Scene has those that it was made with; give them to Scene")
     return scene.run(output, restart=restart, progress=progress)

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any
 
-from .program import program
-from .scene import Scene
+from . import _native
+from .progress import Bar, Progress
+from .reduced import interpreter
+from .scene import Scene, with_whole_paths
 from .toml_text import Tables, from_toml, to_toml
 
 if TYPE_CHECKING:
     import pandas
+
+    from .cluster import Cluster
 
 
 class StudyResult:
@@ -52,23 +57,16 @@ class Study:
             self.path = Path(source)
         else:
             self._folder = tempfile.TemporaryDirectory(prefix="gearmesh-study-")
-            tables, self.path = dict(source), Path(self._folder.name) / "study.toml"
-            scene = tables["scene"]
-            if isinstance(scene, Scene):
-                tables["scene"] = Path(self._folder.name) / "scene.toml"
-                tables["scene"].write_text(_with_whole_paths(scene), encoding="utf-8")
-            else:
-                tables["scene"] = Path(scene).absolute()
-            self.path.write_text(to_toml(tables), encoding="utf-8")
+            self.path = written(source, Path(self._folder.name), "study.toml")
 
     @property
     def tables(self) -> Tables:
         """The file as nested dicts; a copy."""
         return from_toml(self.path.read_text(encoding="utf-8"), str(self.path))
 
-    def run(self, folder: str | os.PathLike[str]) -> StudyResult:
+    def run(self, folder: str | os.PathLike[str], **options: Any) -> StudyResult:
         """Runs all cases into a folder. See gearmesh.study."""
-        return study(self, folder)
+        return study(self, folder, **options)
 
     def __repr__(self) -> str:
         return f"<Study {self.tables.get('title')!r}: {self.path}>"
@@ -78,29 +76,43 @@ def study(
     source: Study | str | os.PathLike[str] | Tables,
     folder: str | os.PathLike[str],
     *,
-    options: Sequence[str] = (),
+    client: Cluster | None = None,
+    patience_s: float = 600.0,
+    progress: Progress = None,
 ) -> StudyResult:
-    """Runs a study into a folder, as many cases at a time as there are processors, and returns its figures.
+    """Runs a study into a folder and returns its figures.
 
-    Computed by the program: raises InputError before the first case where the study or one of its scenes is wrong,
-    WorkError where cases failed (study.csv says why). Stopped or killed, the same call goes on.
+    client: None for this process, as many cases at a time as there are processors; a dask.distributed.Client, the address
+    or file of a scheduler, or "local" for a cluster of this machine (docs/cluster.md), where a scheduler that is lost is
+    waited for patience_s. progress: see gearmesh.progress.Progress.
+
+    Raises InputError before the first case where the study or one of its scenes is wrong, WorkError where cases failed
+    (study.csv says why), KeyboardInterrupt on Ctrl-C. Stopped or killed, the same call goes on.
     """
     it = source if isinstance(source, Study) else Study(source)
-    found = program("study", it.path, "-o", folder, *options)
-    return StudyResult(found["title"], found["cases"], Path(folder))
+    if client is None:
+        with Bar(progress, "study") as bar:
+            found = json.loads(_native.study(it.path, Path(folder), interpreter(), bar.call))
+    else:
+        from .cluster import run_cases
+
+        failures = run_cases(it.path, folder, client, patience_s=patience_s, progress=progress)
+        found = json.loads(_native.gather_study(it.path, Path(folder), failures))
+    result = StudyResult(found["title"], found["cases"], Path(folder))
+    failed = sum(case["failure"] is not None for case in result.cases)
+    if failed:
+        raise _native.WorkError(f"{failed} of {len(result.cases)} cases failed; {Path(folder) / 'study.csv'} says why")
+    return result
 
 
-def _with_whole_paths(scene: Scene) -> str:
-    """The scene's text with the files that it names as absolute paths."""
-    from . import _native
-
-    files = {name: str(path) for name, path in _native.files_of(scene.toml, scene.folder)}
-
-    def whole(value: Any) -> Any:
-        if isinstance(value, dict):
-            return {key: whole(item) for key, item in value.items()}
-        if isinstance(value, list):
-            return [whole(item) for item in value]
-        return files.get(value, value) if isinstance(value, str) else value
-
-    return to_toml(whole(scene.tables))
+def written(source: Tables, folder: Path, name: str) -> Path:
+    """Writes the tables of a study or an optimisation with a Scene, or the path of one, under "scene"."""
+    tables, scene = dict(source), source["scene"]
+    if isinstance(scene, Scene):
+        tables["scene"] = folder / "scene.toml"
+        tables["scene"].write_text(with_whole_paths(scene), encoding="utf-8")
+    else:
+        tables["scene"] = Path(scene).absolute()
+    path = folder / name
+    path.write_text(to_toml(tables), encoding="utf-8")
+    return path

@@ -28,16 +28,17 @@ pub(crate) fn json_from_toml(text: &str, file: &str) -> PyResult<String> {
     serde_json::to_string(&table).map_err(|error| InputError::new_err(error.to_string()))
 }
 
-/// JSON Schema (draft 2020-12) of gear, scene or study files, as text.
+/// JSON Schema (draft 2020-12) of gear, scene, study or optimise files, as text.
 #[pyfunction]
 pub(crate) fn schema(kind: &str) -> PyResult<String> {
     let schema = match kind {
         "gear" => gearmesh_geometry::gear_file::schema(),
         "scene" => gearmesh_scene::schema::scene(),
         "study" => gearmesh_scene::schema::study(),
+        "optimise" => gearmesh_scene::schema::optimise(),
         other => {
             return Err(InputError::new_err(format!(
-                "kind: found {other:?}, allowed are \"gear\", \"scene\", \"study\""
+                "kind: found {other:?}, allowed are \"gear\", \"scene\", \"study\", \"optimise\""
             )));
         }
     };

@@ -8,6 +8,7 @@
 //! | check texts of files, make them from Python's dicts | `check_gear`, `check_scene`, `toml_from_json`, `schema` |
 //! | mesh and reduce a gear | `reduce` |
 //! | run a scene, look into its result | `run`, `plan`, `open_result` |
+//! | list the cases of a study, run one that was sent | `study_gears`, `study_cases`, `NativeCaseRunner` |
 //! | turn a mesh file into a format of other programs, and back | `export_mesh`, `import_mesh` |
 //! | read and write a mesh file with NumPy arrays | `read_mesh`, `write_mesh` |
 //! | look into a reduced gear with NumPy arrays | `read_reduced` |
@@ -20,6 +21,7 @@
 mod documents;
 mod errors;
 mod finite_elements;
+mod functions;
 mod mesh_arrays;
 mod meshio_exchange;
 mod meshio_format;
@@ -28,6 +30,7 @@ mod reducing;
 mod results;
 mod scenes;
 mod solver_decks;
+mod studies;
 mod watched;
 
 /// Gear mesh stiffness: what the package gearmesh calls.
@@ -53,6 +56,8 @@ mod native {
     use crate::results::{NativeResult, open_result};
     #[pymodule_export]
     use crate::scenes::{plan, run};
+    #[pymodule_export]
+    use crate::studies::{NativeCaseRunner, gather_study, study, study_cases, study_gears};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

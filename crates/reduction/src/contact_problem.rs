@@ -12,28 +12,64 @@ use std::f64::consts::FRAC_PI_2;
 /// Gauss's two-point rule on \[0, 1\].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
-/// The tooth above the cut under a Hertz pressure on its right flank, in plane strain.
-pub struct ContactProblem<'a> {
+/// What the problem asks of a tooth's profile; places are arc lengths along the loaded outline.
+pub trait LoadedProfile: Sync {
+    /// The tooth meshed for a load at a place.
+    fn section(&self, centre_arc_m: f64, grading: ContactGrading) -> ContactSection;
+
+    /// Unit normal of the loaded flank, into the material.
+    fn normal(&self, arc_m: f64) -> [f64; 2];
+
+    /// Where the flank begins and ends.
+    fn flank_ends_m(&self) -> [f64; 2];
+}
+
+/// The right flank of an involute tooth.
+pub struct InvoluteProfile<'a> {
     gear: &'a GearDefinition,
     cut: CutLine,
     curve: ProfileCurve,
+}
+
+impl LoadedProfile for InvoluteProfile<'_> {
+    fn section(&self, centre_arc_m: f64, grading: ContactGrading) -> ContactSection {
+        ContactSection::new(
+            &self.gear.profile,
+            &self.curve,
+            &self.cut,
+            centre_arc_m,
+            grading,
+        )
+    }
+
+    fn normal(&self, arc_m: f64) -> [f64; 2] {
+        let profile = &self.gear.profile;
+        let (xi, start) = (profile.form_roll_rad, self.curve.flank_start_m());
+        let roll = (xi * xi + 2.0 * (arc_m - start) / profile.base_radius_m)
+            .max(xi * xi)
+            .sqrt();
+        profile.flank_frame(Flank::Right, roll).0
+    }
+
+    fn flank_ends_m(&self) -> [f64; 2] {
+        [self.curve.flank_start_m(), self.curve.flank_end_m()]
+    }
+}
+
+/// The tooth above the cut under a Hertz pressure on its right flank, in plane strain.
+pub struct ContactProblem<P> {
+    profile: P,
     material: Material,
 }
 
-impl<'a> ContactProblem<'a> {
+impl<'a> ContactProblem<InvoluteProfile<'a>> {
     /// The problem of a gear's tooth above a cut.
     pub fn new(gear: &'a GearDefinition, cut: CutLine, material: Material) -> Self {
-        Self {
-            gear,
-            cut,
-            curve: ProfileCurve::new(&gear.profile),
-            material,
-        }
+        let curve = ProfileCurve::new(&gear.profile);
+        Self::of_profile(InvoluteProfile { gear, cut, curve }, material)
     }
 
-    /// c₀ \[m²/N\]: displacement of the contact centre along the inward normal per line load, under a Hertz pressure of
-    /// half width `half_width_m` centred at a roll angle. Where the flank ends within the half width, the pressure is
-    /// cut off there and its resultant kept.
+    /// As [`Self::deflection_at`], the pressure's centre given by its roll angle.
     ///
     /// # Errors
     /// [`ReductionError::Fe`] when the section is not held.
@@ -43,14 +79,30 @@ impl<'a> ContactProblem<'a> {
         half_width_m: f64,
         grading: ContactGrading,
     ) -> Result<f64, ReductionError> {
-        let profile = &self.gear.profile;
-        let section = ContactSection::new(
-            profile,
-            &self.curve,
-            &self.cut,
-            self.curve.arc_length_at_roll_m(roll_rad),
-            grading,
-        );
+        let arc_m = self.profile.curve.arc_length_at_roll_m(roll_rad);
+        self.deflection_at(arc_m, half_width_m, grading)
+    }
+}
+
+impl<P: LoadedProfile> ContactProblem<P> {
+    /// The problem of any profile.
+    pub fn of_profile(profile: P, material: Material) -> Self {
+        Self { profile, material }
+    }
+
+    /// c₀ \[m²/N\]: displacement of the contact centre along the inward normal per line load, under a Hertz pressure of
+    /// half width `half_width_m` centred at an arc length. Where the flank ends within the half width, the pressure is
+    /// cut off there and its resultant kept.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when the section is not held.
+    pub fn deflection_at(
+        &self,
+        arc_m: f64,
+        half_width_m: f64,
+        grading: ContactGrading,
+    ) -> Result<f64, ReductionError> {
+        let section = self.profile.section(arc_m, grading);
         let held = Held::new(section.nodes.len(), &section.held);
         let factor = Factor::new(
             &self.stiffness(&section, &held)?,
@@ -67,7 +119,7 @@ impl<'a> ContactProblem<'a> {
         }
         factor.solve_in_place(u.as_mut());
         let centre = section.outline[section.centre];
-        let (normal, _) = profile.flank_frame(Flank::Right, roll_rad);
+        let normal = self.profile.normal(arc_m);
         Ok((0..2)
             .filter_map(|axis| held.free_of[2 * centre + axis].map(|free| (axis, free)))
             .map(|(axis, free)| normal[axis] * u[(free, 0)])
@@ -120,15 +172,8 @@ impl<'a> ContactProblem<'a> {
     /// Consistent nodal forces per width of a Hertz pressure with unit resultant. With s = s_c + a sin θ the integrand
     /// p ds = (2/π) cos²θ dθ is smooth.
     fn pressure(&self, section: &ContactSection, half_width_m: f64) -> Vec<(usize, [f64; 2])> {
-        let profile = &self.gear.profile;
-        let (start, end) = (self.curve.flank_start_m(), self.curve.flank_end_m());
+        let end = self.profile.flank_ends_m()[1];
         let centre = section.outline_arc_m[section.centre];
-        let roll_at = |s: f64| {
-            let xi = profile.form_roll_rad;
-            (xi * xi + 2.0 * (s - start) / profile.base_radius_m)
-                .max(xi * xi)
-                .sqrt()
-        };
         let angle = |s: f64| {
             ((s - centre) / half_width_m)
                 .clamp(-1.0, 1.0)
@@ -153,7 +198,7 @@ impl<'a> ContactProblem<'a> {
                 let load = 0.5 * (to - from) * theta.cos().powi(2);
                 total += load;
                 let upper = ((s - arcs[0]) / (arcs[1] - arcs[0])).clamp(0.0, 1.0);
-                let (normal, _) = profile.flank_frame(Flank::Right, roll_at(s));
+                let normal = self.profile.normal(s);
                 for (force, shape) in ends.iter_mut().zip([1.0 - upper, upper]) {
                     for axis in 0..2 {
                         force[axis] += load * shape * normal[axis];

@@ -11,11 +11,11 @@
 
 use crate::Progress;
 use crate::flank_loads::SparseVector;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_substructure::SectorSubstructure;
 use crate::tooth_substructure::ToothSubstructure;
 use faer::Mat;
 use gearmesh_fe::{CondensedLoads, CyclicInterface, CylindricalFrames, FeError, FeModel};
-use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -47,7 +47,7 @@ impl CyclicBody {
     /// # Errors
     /// [`FeError`] when the body is not held or memory is short.
     pub fn new(
-        mesh: &GearMesh,
+        mesh: &impl RepeatedMesh,
         model: &FeModel,
         fixed: &[bool],
         progress: &dyn Progress,
@@ -73,7 +73,7 @@ impl CyclicBody {
             progress.advance(done, all);
         })?;
         lap("harmonics");
-        let mut places = vec![Place::Fixed; mesh.nodes.len()];
+        let mut places = vec![Place::Fixed; mesh.nodes().len()];
         for s in 0..sector.sectors {
             for (i, &node) in sector.nodes(s).iter().enumerate() {
                 places[node as usize] = Place::Sector(s as u32, i as u32);
@@ -85,7 +85,7 @@ impl CyclicBody {
             }
         }
         Ok(Self {
-            frames: CylindricalFrames::new(mesh.nodes.iter().copied()),
+            frames: CylindricalFrames::new(mesh.nodes().iter().copied()),
             tooth,
             sector,
             interface,

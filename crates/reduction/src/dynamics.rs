@@ -6,13 +6,24 @@
 use crate::flank_loads::{GridLoad, SparseVector, dot};
 use crate::gear_body::GearBody;
 use crate::gear_modes::GearModes;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::REFERENCE_M;
 use crate::tooth_vectors::on_all_teeth;
 use crate::{Progress, ReductionError};
 use faer::MatRef;
-use gearmesh_geometry::{GearDefinition, HubSupport};
+use gearmesh_geometry::{HubSupport, ModeRange};
 use gearmesh_model::{ModalBasis, ReferencePoint, RigidBody};
 use rayon::prelude::*;
+
+/// What is asked for.
+pub struct DynamicsRequest {
+    /// Density; where it is not known, nothing is computed.
+    pub density_kg_per_m3: Option<f64>,
+    /// How the bore is held.
+    pub hub: HubSupport,
+    /// Natural modes; none where not asked for.
+    pub modes: Option<ModeRange>,
+}
 
 /// Parts of the reduced gear for the dynamics.
 pub struct Dynamics {
@@ -34,8 +45,8 @@ pub struct Dynamics {
 /// # Errors
 /// [`ReductionError`] when there are no modes in the range or the search does not converge.
 pub fn dynamics(
-    gear: &GearDefinition,
-    body: &GearBody,
+    request: &DynamicsRequest,
+    body: &GearBody<impl RepeatedMesh>,
     loads: &[Vec<GridLoad>],
     gauges: &[SparseVector],
     progress: &dyn Progress,
@@ -47,11 +58,11 @@ pub fn dynamics(
         checks: Vec::new(),
         solves: None,
     };
-    let Some(density) = gear.material.density_kg_per_m3 else {
+    let Some(density) = request.density_kg_per_m3 else {
         return Ok(result);
     };
     progress.stage("mass");
-    if gear.hub == HubSupport::Fixed && gear.modes.is_none() {
+    if request.hub == HubSupport::Fixed && request.modes.is_none() {
         result.rigid_body = Some(body.rigid_body(density)?);
         return Ok(result);
     }
@@ -63,7 +74,7 @@ pub fn dynamics(
         .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
         .collect();
     let rows = on_all_teeth(&body.mesh, &directions);
-    if gear.hub == HubSupport::ReferencePoint {
+    if request.hub == HubSupport::ReferencePoint {
         let flank = rows
             .par_iter()
             .flat_map_iter(|row| (0..6).map(|q| product(row, rigid.motions.as_ref(), q)))
@@ -78,7 +89,7 @@ pub fn dynamics(
             result.checks.push((name, strain));
         }
     }
-    if let Some(range) = gear.modes {
+    if let Some(range) = request.modes {
         let (mut flank, mut readings, mut coupling) = (Vec::new(), Vec::new(), Vec::new());
         let GearModes {
             modes,

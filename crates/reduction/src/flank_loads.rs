@@ -50,7 +50,7 @@ pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
 }
 
 /// Numbers i of the intervals between stations i and i + 1 that overlap a range.
-fn overlapping(stations: &[f64], range: [f64; 2]) -> impl Iterator<Item = usize> {
+pub(crate) fn overlapping(stations: &[f64], range: [f64; 2]) -> impl Iterator<Item = usize> {
     (0..stations.len() - 1).filter(move |&i| stations[i] < range[1] && stations[i + 1] > range[0])
 }
 

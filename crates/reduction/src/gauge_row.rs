@@ -23,10 +23,10 @@ use std::collections::BTreeMap;
 const SAME_LAYER_M: f64 = 1e-9;
 
 /// A point of a face and its share of the gauge's area.
-struct Reading<'a> {
-    face: &'a OutlineFace,
-    natural: [f64; 2],
-    area_m2: f64,
+pub(crate) struct Reading<'a> {
+    pub face: &'a OutlineFace,
+    pub natural: [f64; 2],
+    pub area_m2: f64,
 }
 
 /// The row of a gauge, placed on `tooth` instead of its own tooth.
@@ -51,11 +51,7 @@ pub fn gauge_row(
         gauge.z_m + 0.5 * gauge.width_m,
     ];
     let faces = mesh.outline_faces(tooth, gauge.side, [0.0, curve.flank_end_m()]);
-    let readings = if faces.iter().any(|face| face.shape.is_quadratic()) {
-        everywhere(&faces, along, across)
-    } else {
-        between_centres(&faces, along, across)
-    };
+    let readings = readings(&faces, along, across);
     let area: f64 = readings.iter().map(|r| r.area_m2).sum();
     if area == 0.0 {
         return Err(empty());
@@ -67,6 +63,19 @@ pub fn gauge_row(
         }
     }
     Ok(row.into_iter().collect())
+}
+
+/// Points of faces under a gauge, with the area that each stands for.
+pub(crate) fn readings(
+    faces: &[OutlineFace],
+    along: [f64; 2],
+    across: [f64; 2],
+) -> Vec<Reading<'_>> {
+    if faces.iter().any(|face| face.shape.is_quadratic()) {
+        everywhere(faces, along, across)
+    } else {
+        between_centres(faces, along, across)
+    }
 }
 
 /// Integration points all over the gauge.
@@ -123,28 +132,47 @@ fn strain_row(
     face: &OutlineFace,
     natural: [f64; 2],
 ) -> Result<SparseVector, ReductionError> {
-    let element = model.element_nodes(face.element as usize);
-    let in_element = model.element_of(face.element as usize).natural_nodes();
-    let shapes = face.shape.shapes(natural);
     let [_, d_xi, d_eta] = face.place_m(natural);
     let det = d_xi[0] * d_eta[1] - d_xi[1] * d_eta[0];
-    // The point in the element's natural coordinates, and the profile's direction: ∂x/∂(arc length) at constant z.
-    let (mut inside, mut t) = ([0.0; 3], [0.0; 2]);
-    for (&node, [n, n_xi, n_eta]) in face.nodes.iter().zip(shapes) {
+    // The profile's direction: ∂x/∂(arc length) at constant z.
+    let mut t = [0.0; 2];
+    for (&node, [_, n_xi, n_eta]) in face.nodes.iter().zip(face.shape.shapes(natural)) {
         let along = (n_xi * d_eta[1] - n_eta * d_xi[1]) / det;
         for (axis, sum) in t.iter_mut().enumerate() {
             *sum += along * model.nodes()[node as usize][axis];
         }
+    }
+    let length = t[0].hypot(t[1]);
+    strain_weights(model, face, natural, [t[0] / length, t[1] / length, 0.0])
+}
+
+/// Normal strain along a unit vector t at a point of a face, as weights of the nodal displacements.
+pub(crate) fn strain_weights(
+    model: &FeModel,
+    face: &OutlineFace,
+    natural: [f64; 2],
+    t: [f64; 3],
+) -> Result<SparseVector, ReductionError> {
+    let element = model.element_nodes(face.element as usize);
+    let in_element = model.element_of(face.element as usize).natural_nodes();
+    // The point in the element's natural coordinates.
+    let mut inside = [0.0; 3];
+    for (&node, [n, _, _]) in face.nodes.iter().zip(face.shape.shapes(natural)) {
         if let Some(k) = element.iter().position(|&other| other == node) {
             for (sum, coordinate) in inside.iter_mut().zip(in_element[k]) {
                 *sum += n * coordinate;
             }
         }
     }
-    let length = t[0].hypot(t[1]);
-    let t = [t[0] / length, t[1] / length];
-    // Normal strain along t; order xx, yy, zz, xy, yz, xz with engineering shear.
-    let rotation = [t[0] * t[0], t[1] * t[1], 0.0, t[0] * t[1], 0.0, 0.0];
+    // Order xx, yy, zz, xy, yz, xz with engineering shear.
+    let rotation = [
+        t[0] * t[0],
+        t[1] * t[1],
+        t[2] * t[2],
+        t[0] * t[1],
+        t[1] * t[2],
+        t[0] * t[2],
+    ];
     let operator = model.strain_operator(face.element as usize, inside)?;
     let weight = |column: usize| (0..6).map(|i| rotation[i] * operator[i][column]).sum();
     Ok(element

@@ -2,6 +2,7 @@
 
 use crate::cyclic_body::CyclicBody;
 use crate::flank_loads::SparseVector;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
@@ -15,9 +16,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// A gear held at its bore, ready to be loaded. How it is solved shows in nothing but time and memory.
-pub struct GearBody {
+pub struct GearBody<M = GearMesh> {
     /// Mesh.
-    pub mesh: GearMesh,
+    pub mesh: M,
     /// Finite element model.
     pub model: FeModel,
     /// Free degrees of freedom.
@@ -60,24 +61,49 @@ impl GearBody {
         let clock = Instant::now();
         progress.stage("meshing");
         let mesh = GearMesh::new(gear, python)?;
-        let mut stage_seconds = vec![("mesh".to_string(), clock.elapsed().as_secs_f64())];
-        let clock = Instant::now();
+        let meshed_s = clock.elapsed().as_secs_f64();
         let model = model_of(gear, &mesh)?;
         let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
         let deformation = Deformation::of(gear);
-        let dofs = deformation.dofs(model.node_count(), &bore)?;
-        stage_seconds.push(("model".to_string(), clock.elapsed().as_secs_f64()));
         // A plane problem is small: its whole factor takes less than the ring's frames.
-        let solver = match (gear.reduction.symmetry, deformation) {
-            (Symmetry::Auto, Deformation::Spatial) => {
+        let symmetry = match deformation {
+            Deformation::Spatial => gear.reduction.symmetry,
+            Deformation::PlaneStrain => Symmetry::Off,
+        };
+        Self::held(
+            (mesh, model, &bore),
+            (symmetry, deformation),
+            meshed_s,
+            progress,
+        )
+    }
+}
+
+impl<M: RepeatedMesh> GearBody<M> {
+    /// Factorises a mesh and its model with some nodes held; making the mesh took `meshed_s` seconds.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when it is not held.
+    pub fn held(
+        (mesh, model, bore): (M, FeModel, &[usize]),
+        (symmetry, deformation): (Symmetry, Deformation),
+        meshed_s: f64,
+        progress: &dyn Progress,
+    ) -> Result<Self, ReductionError> {
+        let mut stage_seconds = vec![("mesh".to_string(), meshed_s)];
+        let clock = Instant::now();
+        let dofs = deformation.dofs(model.node_count(), bore)?;
+        stage_seconds.push(("model".to_string(), clock.elapsed().as_secs_f64()));
+        let solver = match symmetry {
+            Symmetry::Auto => {
                 let mut fixed = vec![false; model.node_count()];
-                for n in bore {
+                for &n in bore {
                     fixed[n] = true;
                 }
                 let body = CyclicBody::new(&mesh, &model, &fixed, progress, &mut stage_seconds)?;
                 Solver::Cyclic(Box::new(body))
             }
-            (Symmetry::Off, _) | (_, Deformation::PlaneStrain) => {
+            Symmetry::Off => {
                 let whole = WholeGear::new(&model, &dofs, progress, &mut stage_seconds)?;
                 Solver::Whole(Box::new(whole))
             }

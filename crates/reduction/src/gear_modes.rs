@@ -8,6 +8,7 @@ use crate::cyclic_body::CyclicBody;
 use crate::gear_body::{GearBody, Solver};
 use crate::harmonic_problem::{HarmonicProblem, SectorMass};
 use crate::mode_figures::{GearMode, ModeFigures};
+use crate::repeated_mesh::RepeatedMesh;
 use crate::rigid_mass::RigidMass;
 use crate::{Progress, ReductionError};
 use gearmesh_fe::{
@@ -74,7 +75,7 @@ fn wanted(mut all: Vec<Found>, range: ModeRange) -> Vec<Found> {
     all
 }
 
-impl GearBody {
+impl<M: RepeatedMesh> GearBody<M> {
     /// Finds the natural modes in a range and hands each with its full field (Cartesian
     /// displacements of all nodes, modal mass 1) to `each`.
     ///
@@ -222,11 +223,11 @@ fn by_harmonics(
 /// The field of a harmonic's shape in the whole gear.
 fn full_field(
     body: &CyclicBody,
-    gear: &GearBody,
+    gear: &GearBody<impl RepeatedMesh>,
     problem: &HarmonicProblem<'_>,
     shape: &[f64],
 ) -> Vec<f64> {
-    let mut field = vec![0.0; 3 * gear.mesh.nodes.len()];
+    let mut field = vec![0.0; 3 * gear.mesh.nodes().len()];
     let scale = problem.scale();
     let mut put = |nodes: &[u32], values: &[f64]| {
         for (&node, part) in nodes.iter().zip(values.chunks_exact(3)) {

@@ -19,9 +19,9 @@
 //! docs/theory/cyclic_symmetry.md.
 
 use crate::cyclic_body::CyclicBody;
+use crate::repeated_mesh::RepeatedMesh;
 use faer::{Mat, MatMut, MatRef, c64};
 use gearmesh_fe::{FeError, FeModel, ModeProblem, SymmetricRows, numbers_without_pattern};
-use gearmesh_mesh::GearMesh;
 
 /// Mass of the parts of a sector, and where the unknowns of a harmonic sit in them. The same for all harmonics.
 pub(crate) struct SectorMass<'a> {
@@ -45,7 +45,7 @@ impl<'a> SectorMass<'a> {
     /// [`FeError::DensityOutOfRange`].
     pub fn new(
         body: &'a CyclicBody,
-        mesh: &GearMesh,
+        mesh: &impl RepeatedMesh,
         model: &FeModel,
         fixed: &[bool],
         density_kg_per_m3: f64,

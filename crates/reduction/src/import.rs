@@ -7,15 +7,15 @@
 //! W of the near field is that of the tooth-only submodel of the imported mesh itself, all nodes held along the axis
 //! and the loads uniform over the width: plane strain, and in a mesh made of layers exactly what one layer gives.
 
+use crate::flank_compliance::{
+    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, asymmetry, by_blocks, checked, pattern_identity_of,
+};
 use crate::flank_loads::{GridLoad, SparseVector, dot, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::imported_error::{ImportedMeshError, PythonFailure};
 use crate::imported_mesh::ImportedMesh;
 use crate::near_field::{calibration, line_compliance};
-use crate::reduce::{
-    IDENTITY_ALLOWED, SYMMETRY_ALLOWED, assembled, asymmetry, by_blocks, checked, describe,
-    element_names,
-};
+use crate::reduce::{assembled, describe, element_names};
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::whole_gear::WholeGear;
 use crate::{Progress, ReductionError};
@@ -140,7 +140,7 @@ pub fn reduce_imported(
     let first = (0, flanks[0]);
     let deformation = Deformation::Spatial;
     let submodel = ToothSubmodel::of_tooth(&mesh.model, &mesh, first, &loads[0][0], deformation)?;
-    let identity = crate::reduce::pattern_identity_of(
+    let identity = pattern_identity_of(
         &submodel,
         &normals[..count],
         &c_rows,

@@ -13,7 +13,7 @@ use crate::imported_check::ImportCheck;
 use crate::imported_error::ImportedMeshError;
 use crate::imported_outline::outlines;
 use crate::tooth_frame::{in_tooth, nearest_tooth, side_index};
-use crate::toothed_mesh::ToothedMesh;
+use crate::toothed_mesh::{ToothParts, ToothedMesh};
 use gearmesh_fe::{Element, ElementBlock, FeModel, Material};
 use gearmesh_geometry::{Flank, GearDefinition, MeshedBody, ProfileCurve};
 use gearmesh_mesh::{CutLine, OutlineFace};
@@ -137,7 +137,9 @@ impl ToothedMesh for ImportedMesh {
     fn twist_rad_per_m(&self) -> f64 {
         0.0
     }
+}
 
+impl ToothParts for ImportedMesh {
     fn tooth_elements(&self, tooth: usize) -> Vec<u32> {
         self.tooth_elements[tooth].clone()
     }

@@ -12,11 +12,12 @@
 //! | calibration of the near field in plane strain | `near_field.rs` |
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
-//! | compliance, checks, gauges: the reduction | `reduce.rs` |
+//! | compliance, checks, gauges' rows | `flank_compliance.rs` |
+//! | the reduction | `reduce.rs`; of a bevel gear `bevel/` |
 //! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
 //! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
 //! | points in the frame of a tooth | `tooth_frame.rs` |
-//! | what all of them ask of a mesh | `toothed_mesh.rs` |
+//! | what all of them ask of a mesh | `toothed_mesh.rs`, `repeated_mesh.rs` |
 //! | mass, rigid motions, natural modes for the dynamics | `rigid_mass.rs`, `dynamics.rs` |
 //! | natural modes: the search, one harmonic of it, what a shape is like | `gear_modes.rs`, `harmonic_problem.rs`, `mode_figures.rs` |
 //! | discretisation error from a coarser mesh | `error_estimate.rs` |
@@ -28,6 +29,7 @@
 //! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
 //! it need not be is in docs/theory/reduction.md, and every reduction checks the identity on its own numbers.
 
+pub mod bevel;
 pub mod contact_problem;
 pub mod cyclic_body;
 mod cyclic_response;
@@ -35,6 +37,7 @@ pub mod dynamics;
 pub mod error_estimate;
 pub mod face_overlap;
 pub mod field;
+mod flank_compliance;
 pub mod flank_loads;
 pub mod gauge_row;
 pub mod gear_body;
@@ -51,6 +54,7 @@ pub mod mode_figures;
 pub mod near_field;
 mod part;
 pub mod reduce;
+pub mod repeated_mesh;
 pub mod rigid_mass;
 pub mod root_crack;
 pub mod sector_substructure;
@@ -87,6 +91,18 @@ pub enum ReductionError {
     EmptyGauge {
         /// Name of the gauge.
         name: String,
+    },
+    /// No place of a bevel tooth's fillet has the tangent of a gauge.
+    #[error(
+        "gauge {name}: no place of the fillet has that tangent; tangent_deg may be {from_deg:.1} to {to_deg:.1} there"
+    )]
+    NoGaugePlace {
+        /// Name of the gauge.
+        name: String,
+        /// Tangent where the flank begins.
+        from_deg: f64,
+        /// Tangent at the fillet's lower end.
+        to_deg: f64,
     },
     /// Something touches the doubled nodes of a crack.
     #[error(
@@ -142,12 +158,14 @@ impl ReductionError {
         use gearmesh_mesh::MeshError;
         match self {
             Self::EmptyGauge { .. }
+            | Self::NoGaugePlace { .. }
             | Self::NoDensity
             | Self::ModesInPlaneStrain
             | Self::NoModes { .. }
             | Self::Mesh(
                 MeshError::NoCut { .. }
                 | MeshError::Quality { .. }
+                | MeshError::Bevel(_)
                 | MeshError::MeshedElsewhere { .. },
             ) => true,
             Self::Imported(cause) => cause.is_input(),

@@ -1,8 +1,8 @@
 //! What a mode shape is like: nodal diameters, direction of its motion, and how rigid motions of the hub stir it.
 
+use crate::repeated_mesh::RepeatedMesh;
 use faer::Mat;
 use gearmesh_fe::{CylindricalFrames, FeError, FeModel};
-use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,11 @@ impl<'a> ModeFigures<'a> {
     ///
     /// # Errors
     /// [`FeError`]; not for a model that was accepted.
-    pub fn new(mesh: &GearMesh, model: &FeModel, momenta: &'a Mat<f64>) -> Result<Self, FeError> {
+    pub fn new(
+        mesh: &impl RepeatedMesh,
+        model: &FeModel,
+        momenta: &'a Mat<f64>,
+    ) -> Result<Self, FeError> {
         let mut nodal_volumes = vec![0.0; model.node_count()];
         for element in 0..model.element_count() {
             let nodes = model.element_nodes(element);
@@ -56,7 +60,7 @@ impl<'a> ModeFigures<'a> {
             }
         }
         Ok(Self {
-            frames: CylindricalFrames::new(mesh.nodes.iter().copied()),
+            frames: CylindricalFrames::new(mesh.nodes().iter().copied()),
             nodal_volumes,
             teeth: (0..mesh.teeth())
                 .map(|tooth| mesh.cell_nodes(tooth))

@@ -59,6 +59,20 @@ pub fn places(gear: &GearDefinition) -> Vec<f64> {
     let (low, high) = (profile.form_roll_rad, profile.flank_end_roll_rad);
     let r_b = profile.base_radius_m;
     let length = 0.5 * r_b * (high * high - low * low);
+    let distances = edge_distances_m(length, module);
+    let mut rolls: Vec<f64> = distances
+        .iter()
+        .rev()
+        .map(|d| (high * high - 2.0 * d / r_b).max(low * low).sqrt())
+        .collect();
+    // The flank's own ends are meant exactly, not to the rounding of the bisection.
+    let last = rolls.len() - 1;
+    (rolls[0], rolls[last]) = (low, high);
+    rolls
+}
+
+/// Distances of the places from the tip's edge on a flank of that length, from the edge on.
+pub(crate) fn edge_distances_m(length: f64, module: f64) -> Vec<f64> {
     let a0 = HALF_WIDTH_IN_MODULES * module;
     let mut distances: Vec<f64> = EDGE_PLACES.iter().map(|n| n * a0).collect();
     // Towards the edge like ln(1 + d/a₀), towards the cut, some half a module below the flank, like another logarithm.
@@ -81,15 +95,7 @@ pub fn places(gear: &GearDefinition) -> Vec<f64> {
     // One more above the lowest: the slope there is known from one side only.
     let n = distances.len();
     distances.insert(n - 1, 0.5 * (distances[n - 2] + distances[n - 1]));
-    let mut rolls: Vec<f64> = distances
-        .iter()
-        .rev()
-        .map(|d| (high * high - 2.0 * d / r_b).max(low * low).sqrt())
-        .collect();
-    // The flank's own ends are meant exactly, not to the rounding of the bisection.
-    let last = rolls.len() - 1;
-    (rolls[0], rolls[last]) = (low, high);
-    rolls
+    distances
 }
 
 /// Calibrates the tooth of a gear on its mesh.

@@ -1,29 +1,23 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
-use crate::dynamics::dynamics;
+use crate::dynamics::{DynamicsRequest, dynamics};
 use crate::error_estimate::{ErrorEstimate, estimate};
+use crate::flank_compliance::{
+    AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
+};
 use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
 use crate::near_field::calibrate;
 use crate::root_crack::{CRACK_SYMMETRY, root_crack};
-use crate::tooth_submodel::{Deformation, ToothSubmodel};
-use crate::{Progress, ReductionError, Silent};
-use faer::Mat;
+use crate::tooth_submodel::Deformation;
+use crate::{Progress, ReductionError};
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{
     FlankGrid, GaugeRows, NearField, Provenance, ReducedGear, ReductionChecks, StoredGear, utc_now,
 };
 use std::time::Instant;
-
-/// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
-pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
-pub(crate) const IDENTITY_ALLOWED: f64 = 1e-9;
-/// Patterns on which the identity is checked: K is applied to each, which costs as much as a solve.
-const IDENTITY_SAMPLES: usize = 8;
-
-const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
 
 /// What a reduction does besides its main job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,64 +53,53 @@ pub fn reduce(
         .iter()
         .map(|&side| flank_loads(gear, &body.mesh, &grid, 0, side))
         .collect();
-    let (teeth, count) = (gear.tooth.teeth, grid.len());
-    let own = teeth / gear.sectors();
     lap("loads");
-
-    let deformation = Deformation::of(gear);
-    progress.stage("tooth submodel");
-    let submodels: Vec<ToothSubmodel> = flanks
-        .iter()
-        .zip(&loads)
-        .map(|(&side, loads)| ToothSubmodel::new(&body.model, &body.mesh, side, loads, deformation))
-        .collect::<Result<_, _>>()?;
-    let mut c_tooth = Vec::with_capacity(flanks.len() * count * count);
-    for (submodel, loads) in submodels.iter().zip(&loads) {
-        let rows: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
-        let products = submodel.products(&rows);
-        // products is [response][load]; the file holds [load][response].
-        c_tooth.extend((0..count * count).map(|k| products[(k % count) * count + k / count]));
-    }
-    lap("tooth submodel");
-
+    let case = FlankCase {
+        flanks,
+        loads: &loads,
+        teeth: gear.tooth.teeth,
+        sectors: gear.sectors(),
+        deformation: Deformation::of(gear),
+    };
+    let FlankCompliance {
+        submodels,
+        c_hub,
+        c_tooth,
+        symmetry,
+        pattern_identity,
+        rows_by_fields,
+    } = flank_compliance(&body, &case, progress, &mut lap)?;
     progress.stage("calibrating the near field");
     let near_field = calibrate(gear, &body.mesh, &body.model, &grid)?;
     lap("near field");
-
-    progress.stage("solving flank loads");
-    let normals: Vec<&SparseVector> = loads.iter().flatten().map(|load| &load.normal).collect();
-    let c_rows = body.compliance(own, &normals, progress);
-    lap("solve");
-
-    progress.stage("checking");
-    let symmetry = asymmetry(&c_rows, own, flanks.len(), teeth, count);
-    let pattern_identity = pattern_identity(
-        &body,
-        &submodels[0],
-        &normals[..count],
-        &c_rows,
-        teeth * normals.len(),
-        &c_tooth,
-    );
-    let rows_by_fields = rows_by_fields(&body, &normals, &c_rows, teeth * normals.len());
-    let c_hub = by_blocks(&c_rows, own, flanks.len(), teeth, count);
-    for (check, found, allowed) in [
-        ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
-        ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
-        (ROWS_BY_FIELDS, rows_by_fields, IDENTITY_ALLOWED),
-    ] {
-        checked(check, found, allowed)?;
-    }
-    lap("checks");
 
     let gauge_rows: Vec<SparseVector> = gear
         .gauges
         .iter()
         .map(|g| gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
         .collect::<Result<_, _>>()?;
-    let mut gauges = gauges(gear, &body, &loads, &submodels, &gauge_rows, progress)?;
+    let asked = gear.gauges.iter().zip(&gauge_rows);
+    let asked: Vec<AskedGauge<'_>> = asked
+        .map(|(gauge, row)| {
+            Ok(AskedGauge {
+                name: &gauge.name,
+                tooth: gauge.tooth,
+                side: gauge.side,
+                description: describe(gauge),
+                row,
+                // W is known on tooth 0; the reading there is the same, because mesh and gauge turn together.
+                at_zero: gauge_row(gear, &body.mesh, &body.model, gauge, 0)?,
+            })
+        })
+        .collect::<Result<_, ReductionError>>()?;
+    let mut gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
     lap("gauges");
-    let dynamics = dynamics(gear, &body, &loads, &gauge_rows, progress)?;
+    let request = DynamicsRequest {
+        density_kg_per_m3: gear.material.density_kg_per_m3,
+        hub: gear.hub,
+        modes: gear.modes,
+    };
+    let dynamics = dynamics(&request, &body, &loads, &gauge_rows, progress)?;
     if dynamics.rigid_body.is_some() {
         lap("mass and modes");
     }
@@ -178,18 +161,6 @@ pub fn reduce(
     Ok((reduced, body))
 }
 
-/// Refuses a violation of an identity that round-off does not explain.
-pub(crate) fn checked(check: &'static str, found: f64, allowed: f64) -> Result<(), ReductionError> {
-    if found.is_nan() || found > allowed {
-        return Err(ReductionError::Check {
-            check,
-            found,
-            allowed,
-        });
-    }
-    Ok(())
-}
-
 /// The model of a gear from its computed parts; how they were computed and checked is still empty.
 pub(crate) fn assembled(
     gear: &GearDefinition,
@@ -227,6 +198,7 @@ pub(crate) fn assembled(
         reference_point: None,
         modes: None,
         crack: None,
+        bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -252,164 +224,6 @@ pub(crate) fn assembled(
 pub(crate) fn element_names(model: &gearmesh_fe::FeModel) -> String {
     let names: Vec<&str> = model.blocks().iter().map(|b| b.element.name()).collect();
     names.join(" + ")
-}
-
-/// From rows over all responses, `[s][f][l][t][f'][m]`, to blocks `[s][f][t][f'][l][m]`.
-pub(crate) fn by_blocks(
-    rows: &[f64],
-    own: usize,
-    flanks: usize,
-    teeth: usize,
-    count: usize,
-) -> Vec<f64> {
-    let mut blocks = Vec::with_capacity(rows.len());
-    for load_flank in 0..own * flanks {
-        for response_flank in 0..teeth * flanks {
-            for l in 0..count {
-                let start = ((load_flank * count + l) * teeth * flanks + response_flank) * count;
-                blocks.extend_from_slice(&rows[start..start + count]);
-            }
-        }
-    }
-    blocks
-}
-
-/// Largest |C_lm − C_ml| over the sector's own teeth, relative to the largest entry.
-pub(crate) fn asymmetry(
-    rows: &[f64],
-    own: usize,
-    flanks: usize,
-    teeth: usize,
-    count: usize,
-) -> f64 {
-    let size = own * flanks * count;
-    let row_length = teeth * flanks * count;
-    let mut worst: f64 = 0.0;
-    let mut largest: f64 = 0.0;
-    for i in 0..size {
-        for j in 0..=i {
-            let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
-            worst = worst.max((a - b).abs());
-            largest = largest.max(a.abs());
-        }
-    }
-    worst / largest
-}
-
-/// Largest difference, relative to the largest value, between rows of C_hub and what all teeth read of the solved
-/// fields of some loads. By repetition C_hub is made of products of half solves, symmetric by construction: this goes
-/// the other way, out to every tooth again.
-fn rows_by_fields(
-    body: &GearBody,
-    normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
-) -> f64 {
-    let sampled: Vec<usize> = (0..normals.len())
-        .step_by(normals.len().div_ceil(IDENTITY_SAMPLES))
-        .collect();
-    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
-    let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
-    for (&load, reading) in sampled.iter().zip(body.readings(&loads, normals, &Silent)) {
-        for (a, b) in c_rows[load * row_length..].iter().zip(&reading) {
-            worst = worst.max((a - b).abs());
-            largest = largest.max(a.abs());
-        }
-    }
-    worst / largest
-}
-
-/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over some patterns of tooth 0's first flank, with K applied to them.
-fn pattern_identity(
-    body: &GearBody,
-    submodel: &ToothSubmodel,
-    normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
-    c_tooth: &[f64],
-) -> f64 {
-    pattern_identity_of(
-        submodel,
-        normals,
-        c_rows,
-        row_length,
-        c_tooth,
-        |loads, each| body.solve_each(loads, &Silent, each),
-        |patterns| body.energy_products(patterns),
-    )
-}
-
-/// As [`pattern_identity`], for any way to solve for loads and to take XᵀKX of fields.
-pub(crate) fn pattern_identity_of(
-    submodel: &ToothSubmodel,
-    normals: &[&SparseVector],
-    c_rows: &[f64],
-    row_length: usize,
-    c_tooth: &[f64],
-    solve_each: impl FnOnce(&[&SparseVector], &mut dyn FnMut(usize, &[f64])),
-    energy_products: impl FnOnce(&[Vec<f64>]) -> Mat<f64>,
-) -> f64 {
-    let count = normals.len();
-    let sampled: Vec<usize> = (0..count)
-        .step_by(count.div_ceil(IDENTITY_SAMPLES))
-        .collect();
-    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
-    let mut patterns: Vec<Vec<f64>> = Vec::with_capacity(loads.len());
-    solve_each(&loads, &mut |k, u| {
-        let w = submodel.column(sampled[k], u.len());
-        patterns.push(u.iter().zip(&w).map(|(u, w)| u - w).collect());
-    });
-    let energy = energy_products(&patterns);
-    let (mut difference, mut norm) = (0.0, 0.0);
-    for (a, load_a) in sampled.iter().enumerate() {
-        for (b, load_b) in sampled.iter().enumerate() {
-            let c_g = c_rows[load_a * row_length + load_b] - c_tooth[load_a * count + load_b];
-            difference += (energy[(a, b)] - c_g).powi(2);
-            norm += c_g * c_g;
-        }
-    }
-    (difference / norm).sqrt()
-}
-
-/// One adjoint solution per gauge: y = K⁻¹g, read at all grid loads in three directions; and gᵀW on its own tooth.
-fn gauges(
-    gear: &GearDefinition,
-    body: &GearBody,
-    loads: &[Vec<GridLoad>],
-    submodels: &[ToothSubmodel],
-    rows: &[SparseVector],
-    progress: &dyn Progress,
-) -> Result<Vec<GaugeRows>, ReductionError> {
-    if gear.gauges.is_empty() {
-        return Ok(Vec::new());
-    }
-    progress.stage("solving gauges");
-    let directions: Vec<&SparseVector> = loads
-        .iter()
-        .flatten()
-        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
-        .collect();
-    let adjoints = body.readings(&rows.iter().collect::<Vec<_>>(), &directions, progress);
-    gear.gauges
-        .iter()
-        .zip(adjoints)
-        .map(|(gauge, adjoint)| {
-            // W is known on tooth 0; the reading there is the same, because mesh and gauge turn together.
-            let at_zero = gauge_row(gear, &body.mesh, &body.model, gauge, 0)?;
-            Ok(GaugeRows {
-                name: gauge.name.clone(),
-                tooth: gauge.tooth,
-                side: gauge.side,
-                description: describe(gauge),
-                error_estimate_relative: 0.0,
-                adjoint,
-                own_tooth: submodels
-                    .iter()
-                    .flat_map(|s| s.products(&[&at_zero]))
-                    .collect(),
-            })
-        })
-        .collect()
 }
 
 pub(crate) fn describe(gauge: &gearmesh_geometry::GaugeDefinition) -> String {

@@ -1,6 +1,7 @@
 //! Rigid motions of a gear and the mass they move.
 
 use crate::gear_body::GearBody;
+use crate::repeated_mesh::RepeatedMesh;
 use faer::Mat;
 use gearmesh_fe::{FeError, mass_moments, mass_product, rigid_motions};
 use gearmesh_model::RigidBody;
@@ -20,7 +21,7 @@ pub struct RigidMass {
     pub body: RigidBody,
 }
 
-impl GearBody {
+impl<M: RepeatedMesh> GearBody<M> {
     /// The gear as a rigid body, nothing else.
     ///
     /// # Errors
@@ -45,7 +46,7 @@ impl GearBody {
     /// # Errors
     /// [`FeError::DensityOutOfRange`].
     pub fn rigid_mass(&self, density_kg_per_m3: f64) -> Result<RigidMass, FeError> {
-        let motions = rigid_motions(&self.mesh.nodes, REFERENCE_M);
+        let motions = rigid_motions(self.mesh.nodes(), REFERENCE_M);
         let momenta = mass_product(&self.model, density_kg_per_m3, motions.as_ref())?;
         let mass = motions.transpose() * &momenta;
         let mass = std::array::from_fn(|i| std::array::from_fn(|j| mass[(i, j)]));

@@ -10,10 +10,10 @@
 //!
 //! V: the eigenvectors of RRᵀ over all normal loads with the largest eigenvalues. docs/theory/crack.md derives it.
 
+use crate::flank_compliance::{IDENTITY_ALLOWED, checked};
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
-use crate::reduce::{IDENTITY_ALLOWED, checked};
 use crate::tooth_vectors::on_tooth;
 use crate::{Progress, ReductionError};
 use faer::{Mat, Side};

@@ -2,6 +2,7 @@
 
 use crate::Progress;
 use crate::part::Part;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
 use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
@@ -9,7 +10,6 @@ use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
     assemble_mass, assemble_stiffness,
 };
-use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 
 /// A node of the sector, told so that its image in every sector can be found.
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 enum SectorNode {
     /// A node that a tooth shares with its surroundings: number of the tooth in the sector, number of the node.
     Tooth(usize, usize),
-    /// A node of hub, web or rim: number in [`GearMesh::body_nodes`].
+    /// A node of hub, web or rim: number in [`RepeatedMesh::body_nodes`].
     Body(usize),
 }
 
@@ -48,7 +48,7 @@ impl SectorSubstructure {
     /// # Errors
     /// [`FeError`] when the factorisation fails.
     pub fn new(
-        mesh: &GearMesh,
+        mesh: &impl RepeatedMesh,
         model: &FeModel,
         fixed: &[bool],
         tooth: &ToothSubstructure,
@@ -165,7 +165,7 @@ impl SectorSubstructure {
     /// [`FeError::DensityOutOfRange`].
     pub fn body_mass(
         &self,
-        mesh: &GearMesh,
+        mesh: &impl RepeatedMesh,
         model: &FeModel,
         fixed: &[bool],
         density_kg_per_m3: f64,
@@ -231,8 +231,8 @@ fn free_dofs(body: &Part, fixed: &[bool]) -> Result<DofMap, FeError> {
     DofMap::with_fixed_nodes(body.nodes.len(), &held)
 }
 
-fn frames(body: &Part, mesh: &GearMesh, fixed: &[bool]) -> CylindricalFrames {
-    CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes[n as usize]))
+fn frames(body: &Part, mesh: &impl RepeatedMesh, fixed: &[bool]) -> CylindricalFrames {
+    CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes()[n as usize]))
 }
 
 /// Lower triangle of the sector's stiffness: the body's own and one dense block per tooth.

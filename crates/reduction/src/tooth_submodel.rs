@@ -6,7 +6,7 @@
 use crate::ReductionError;
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::part::Part;
-use crate::toothed_mesh::ToothedMesh;
+use crate::toothed_mesh::ToothParts;
 use faer::Mat;
 use gearmesh_fe::{DofMap, Factor, FeModel, assemble_stiffness};
 use gearmesh_geometry::{Flank, GearDefinition};
@@ -61,7 +61,7 @@ impl ToothSubmodel {
     /// [`ReductionError::Fe`] when the submodel is not held.
     pub fn new(
         model: &FeModel,
-        mesh: &impl ToothedMesh,
+        mesh: &impl ToothParts,
         side: Flank,
         loads: &[GridLoad],
         deformation: Deformation,
@@ -75,7 +75,7 @@ impl ToothSubmodel {
     /// [`ReductionError::Fe`] when the submodel is not held.
     pub fn of_tooth(
         model: &FeModel,
-        mesh: &impl ToothedMesh,
+        mesh: &impl ToothParts,
         (tooth, side): (usize, Flank),
         loads: &[GridLoad],
         deformation: Deformation,

@@ -5,13 +5,13 @@
 
 use crate::flank_loads::SparseVector;
 use crate::part::Part;
+use crate::repeated_mesh::RepeatedMesh;
 use faer::Mat;
 use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
     CondensedLoads, CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation,
     StiffnessMatrix, assemble_mass, assemble_stiffness,
 };
-use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 
 /// The tooth cell and its condensation, in cylindrical components.
@@ -34,7 +34,7 @@ impl ToothSubstructure {
     ///
     /// # Errors
     /// [`FeError`] when the factorisation fails.
-    pub fn new(mesh: &GearMesh, model: &FeModel) -> Result<Self, FeError> {
+    pub fn new(mesh: &impl RepeatedMesh, model: &FeModel) -> Result<Self, FeError> {
         let elements = mesh.cell_elements(0);
         let part = Part::new(model, &elements)?;
         let own: Vec<Option<usize>> = mesh

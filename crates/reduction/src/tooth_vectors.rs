@@ -1,25 +1,25 @@
 //! Loads and rows of tooth 0, turned to another tooth: all teeth have the same mesh.
 
 use crate::flank_loads::SparseVector;
-use gearmesh_mesh::GearMesh;
+use crate::repeated_mesh::RepeatedMesh;
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// A vector given on the cell of tooth 0, on `tooth`. Entries outside the cell are left out.
-pub fn on_tooth(mesh: &GearMesh, vector: &SparseVector, tooth: usize) -> SparseVector {
+pub fn on_tooth(mesh: &impl RepeatedMesh, vector: &SparseVector, tooth: usize) -> SparseVector {
     turned(mesh, &[vector], tooth).remove(0)
 }
 
 /// Vectors given on the cell of tooth 0, on every tooth: `[tooth][vector]`.
-pub fn on_all_teeth(mesh: &GearMesh, vectors: &[&SparseVector]) -> Vec<SparseVector> {
+pub fn on_all_teeth(mesh: &impl RepeatedMesh, vectors: &[&SparseVector]) -> Vec<SparseVector> {
     (0..mesh.teeth())
         .into_par_iter()
         .flat_map_iter(|tooth| turned(mesh, vectors, tooth))
         .collect()
 }
 
-fn turned(mesh: &GearMesh, vectors: &[&SparseVector], tooth: usize) -> Vec<SparseVector> {
+fn turned(mesh: &impl RepeatedMesh, vectors: &[&SparseVector], tooth: usize) -> Vec<SparseVector> {
     if tooth == 0 {
         return vectors.iter().map(|&vector| vector.clone()).collect();
     }

@@ -2,13 +2,13 @@
 
 use crate::Progress;
 use crate::flank_loads::{SparseVector, dot};
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_vectors::on_all_teeth;
 use faer::Mat;
 use gearmesh_fe::{
     DofMap, DofOrdering, Factor, FeError, FeModel, ModeSettings, NaturalModes, NodeGraph,
     SparseMatrix, StiffnessMatrix, SymbolicFactor, assemble_stiffness_with_graph, natural_modes,
 };
-use gearmesh_mesh::GearMesh;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
@@ -80,7 +80,7 @@ impl WholeGear {
     /// aᵀ K⁻¹ g: `[row][tooth][vector]`, as [`crate::cyclic_body::CyclicBody::readings`].
     pub fn readings(
         &self,
-        mesh: &GearMesh,
+        mesh: &impl RepeatedMesh,
         dofs: &DofMap,
         rows: &[&SparseVector],
         vectors: &[&SparseVector],

@@ -1,6 +1,6 @@
 //! The page of `gearmesh accuracy`: error against time, what to take, every setting that was run.
 
-use gearmesh_scene::accuracy::{Accuracy, Goal, Tried, words};
+use gearmesh_scene::accuracy::{Accuracy, EffectFound, Goal, Tried, words};
 
 use crate::page::{Align, Axis, Page, PointSeries, ScatterChart, Section, Table, Text};
 use crate::short;
@@ -32,8 +32,11 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
         PointSeries::new(name, tried.iter().map(|one| point(one)).collect()).labels(labels(&tried))
     };
     let chart = ScatterChart::new(
-        "Largest error of the columns against wall time",
-        Axis::new("wall time", "s"),
+        format!(
+            "Largest error of the columns against {}",
+            found.time.words()
+        ),
+        Axis::new(found.time.words(), "s"),
         Axis::new("largest error", "%"),
     )
     .logarithmic(true, true)
@@ -42,11 +45,19 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     .series(series("not beaten", unbeaten(found)).joined());
     let reference = &found.tried[0];
     let told = format!(
-        "Errors are those against the reference, every knob at its top, which takes {} s. {} settings were run. What no knob changes, such as the meshes of the gears, is in none of the errors.",
+        "Errors are those against the reference, every knob at its top, which takes {} s of {}. {} settings were run. What no knob changes is in none of the errors.",
         short(reference.seconds),
+        found.time.words(),
         found.tried.len()
     );
     let mut section = Section::new("What accuracy costs").push(Text::paragraph(told));
+    if let Some((knob, error)) = found.unsettled() {
+        section = section.push(Text::paragraph(format!(
+            "The reference itself: the last step of {} still changes the columns by up to {} %.",
+            knob.name,
+            short(100.0 * error)
+        )));
+    }
     if found.tried.iter().any(is_drawn) {
         section = section.push(chart);
     }
@@ -64,6 +75,9 @@ pub fn accuracy_page(scene: &str, found: &Accuracy) -> Page {
     let mut page = Page::new(format!("What accuracy costs: {scene}"))
         .section(section)
         .section(Section::new("Every setting").push(table(found)));
+    if !found.effects.is_empty() {
+        page = page.section(Section::new("Effects").push(effects(found)));
+    }
     if !found.left_out.is_empty() || !found.failed.is_empty() {
         let mut section = Section::new("What was not varied");
         for line in found.left_out.iter().chain(&found.failed) {
@@ -95,18 +109,62 @@ fn unbeaten(found: &Accuracy) -> Vec<&Tried> {
 fn table(found: &Accuracy) -> Table {
     let mut table = Table::new("Settings, by what differs from the reference")
         .column("setting", Align::Left)
-        .column("wall time s", Align::Right)
-        .column("iterations", Align::Right);
+        .column(format!("{} s", found.time.words()), Align::Right)
+        .column("iterations", Align::Right)
+        .column("reduction s", Align::Right);
     for column in &found.columns {
         table = table.column(format!("error of {column} %"), Align::Right);
     }
     for one in &found.tried {
-        let numbers = [short(one.seconds), short(one.iterations)].into_iter();
+        let reduction = match one.reduction_s > 0.0 {
+            true => short(one.reduction_s),
+            false => String::new(),
+        };
+        let iterations = short(one.effort.iterations);
+        let numbers = [short(one.seconds), iterations, reduction].into_iter();
         let errors = one.errors.iter().map(|error| short(100.0 * error));
         let cells = std::iter::once(words(&found.knobs, &one.rungs))
             .chain(numbers)
             .chain(errors);
         table.push_row(cells);
+    }
+    table
+}
+
+/// What each effect changes, in the scene as it is, and takes.
+fn effects(found: &Accuracy) -> Table {
+    let mut table = Table::new("With each effect against without it, all else as the scene has it")
+        .column("effect", Align::Left)
+        .column("in the scene", Align::Left);
+    for head in ["states", "calls", "iterations"] {
+        table = table.column(format!("{head} with / without"), Align::Right);
+    }
+    table = table.column(
+        format!("{} with / without s", found.time.words()),
+        Align::Right,
+    );
+    for column in &found.columns {
+        table = table.column(format!("changes {column} by %"), Align::Right);
+    }
+    for EffectFound {
+        effect,
+        without,
+        with,
+        changes,
+    } in &found.effects
+    {
+        let both = |with: f64, without: f64| format!("{} / {}", short(with), short(without));
+        let present = if effect.present { "yes" } else { "no" };
+        let counts = [
+            effect.name.clone(),
+            present.to_owned(),
+            both(with.states, without.states),
+            both(with.calls, without.calls),
+            both(with.iterations, without.iterations),
+            both(found.time.of(with), found.time.of(without)),
+        ];
+        let changes = changes.iter().map(|change| short(100.0 * change));
+        table.push_row(counts.into_iter().chain(changes));
     }
     table
 }

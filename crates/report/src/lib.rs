@@ -33,6 +33,8 @@ pub mod result_series;
 pub mod scene_comparison;
 pub mod scene_page;
 mod short_number;
+mod study_figures;
+pub mod study_page;
 pub mod system_comparison;
 mod system_page;
 
@@ -44,3 +46,4 @@ pub use pair_orders::{PairOrders, Shaft};
 pub use quantity::{Quantity, Unit};
 pub use record::{RecordColumn, RecordError, RecordKind, RecordUncertainty, ReferenceRecord};
 pub use short_number::{short, usual_unit};
+pub use study_figures::study_figures;

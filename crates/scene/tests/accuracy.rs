@@ -6,7 +6,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::accuracy::{Accuracy, Bench, Goal, Wanted, accuracy, words};
+use gearmesh_scene::accuracy::{Accuracy, Bench, BenchOptions, Goal, JudgedTime, accuracy, words};
+use gearmesh_scene::study::Wanted;
 use gearmesh_scene::{Scene, load, run};
 
 mod made_up_gears;
@@ -29,9 +30,19 @@ points_per_pitch = 16
 "#;
 
 fn found_in(folder: &Path, columns: &[&str]) -> Result<Accuracy, String> {
-    let wanted = columns.iter().map(|text| Wanted::of(text)).collect();
     let stop = AtomicBool::new(false);
-    let bench = Bench::new(&folder.join("scene.toml"), wanted, (0.0, folder, &stop));
+    let options = BenchOptions {
+        wanted: columns.iter().map(|text| Wanted::of(text)).collect(),
+        from_s: 0.0,
+        time: JudgedTime::Processor,
+        repeated_for_s: 0.0,
+        elements: false,
+        scratch: folder,
+        models: folder,
+        stop: &stop,
+        reduce: &|_| Err("no gear is reduced here".to_owned()),
+    };
+    let bench = Bench::new(&folder.join("scene.toml"), options);
     accuracy(&bench.map_err(|e| e.to_string())?, &|_, _| ()).map_err(|e| e.to_string())
 }
 
@@ -65,7 +76,7 @@ fn errors_are_those_of_runs_and_advice_keeps_its_word() {
     assert_eq!(found.tried[0].error(), 0.0);
 
     // The scene with all knobs at their top, and with the local term alone left out.
-    let (most, points) = (&found.knobs[1].rungs.last().unwrap().label, 32);
+    let (most, points) = (&found.knobs[1].rungs.last().unwrap().label, 64);
     let top = SCENE
         .replace("slices = 3", &format!("slices = {most}"))
         .replace(
@@ -121,15 +132,17 @@ fn errors_are_those_of_runs_and_advice_keeps_its_word() {
     }
 }
 
-/// A body on a spring, ω₀ = 20 rad/s: the error falls with the step.
-#[test]
-fn a_run_in_time_is_worth_its_step() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = "title = \"oscillator\"\n[run]\nkind = \"transient\"\nend_s = 1.0\n[solver]\nstep_s = 5e-4\n[output]\ninterval_s = 1e-2\n\
+/// A body of 1 kg on a spring, ω₀ = 20 rad/s.
+const OSCILLATOR: &str = "title = \"oscillator\"\n[run]\nkind = \"transient\"\nend_s = 1.0\n[solver]\nstep_s = 5e-4\n[output]\ninterval_s = 1e-2\n\
         [[body]]\nname = \"block\"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\nposition_mm = [100.0, 0.0, 0.0]\nvelocity_mm_per_s = [500.0, 0.0, 0.0]\n\
         [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbody_2 = \"block\"\naxis = [1.0, 0.0, 0.0]\n\
         [[spring]]\nname = \"spring\"\nbody_2 = \"block\"\nat_1_mm = [0.0, 0.0, 0.0]\nat_2_mm = [100.0, 0.0, 0.0]\nstiffness_N_per_mm = 0.4\nfree_length_mm = 100.0\n";
-    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+
+/// The error falls with the step.
+#[test]
+fn a_run_in_time_is_worth_its_step() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), OSCILLATOR).unwrap();
     let column = "bodies/block/velocity_x_m_per_s:deviation";
     let found = found_in(folder.path(), &[column]).unwrap();
     let of = |setting: &str| {
@@ -154,4 +167,80 @@ fn columns_that_are_not_there_are_told() {
     std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
     let told = found_in(folder.path(), &["te_maen_um"]).unwrap_err();
     assert!(told.contains("did you mean `te_mean_um`?"), "{told}");
+}
+
+/// An effect that is off adds nothing: a scene that puts friction off takes what a scene takes that never named it.
+#[test]
+fn an_effect_that_is_off_adds_no_states_and_no_calls() {
+    let folder = tempfile::tempdir().unwrap();
+    made_up_gears::write_models(folder.path());
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, SCENE).unwrap();
+    let never = found_in(folder.path(), &["te_mean_um"]).unwrap();
+    let on = never.effects.iter().find(|e| !e.effect.present).unwrap();
+    assert!(on.effect.name.starts_with("friction of teeth"), "{on:?}");
+    assert!(on.changes[0] > 1e-4, "{on:?}");
+
+    let friction =
+        "friction = { model = \"coulomb\", dynamic_coefficient = 0.05 }\npath = \"line-of-action\"";
+    let with = SCENE.replace("path = \"line-of-action\"", friction);
+    std::fs::write(&path, &with).unwrap();
+    let found = found_in(folder.path(), &["te_mean_um"]).unwrap();
+    let off = found
+        .effects
+        .iter()
+        .find(|e| e.effect.name == "mesh.teeth.friction")
+        .unwrap();
+    assert!(off.effect.present);
+    let counts = |e: &gearmesh_scene::study::Effort| [e.states, e.calls, e.iterations];
+    assert_eq!(counts(&off.without), counts(&on.without));
+    assert_eq!(counts(&off.with), counts(&on.with));
+    assert_eq!(off.changes, on.changes);
+    // Slices that may touch, and both torques' positions.
+    assert_eq!(off.with.calls, 32.0);
+    assert_eq!(off.with.states % 3.0, 0.0);
+}
+
+/// Of a system, too: without its damper the oscillator has the same states, and its swing does not die out.
+#[test]
+fn effects_of_a_system_are_put_off_one_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = OSCILLATOR.replace(
+        "free_length_mm = 100.0",
+        "free_length_mm = 100.0\ndamping_N_s_per_mm = 2e-3",
+    );
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let column = "bodies/block/velocity_x_m_per_s:deviation";
+    let found = found_in(folder.path(), &[column]).unwrap();
+    let [damping] = &found.effects[..] else {
+        unreachable!("{:?}", found.effects)
+    };
+    assert_eq!(damping.effect.name, "spring.damping_N_s_per_mm");
+    assert_eq!(damping.with.states, damping.without.states);
+    // v = v0 e^(-t) cos(ωt) against v0 cos(ωt) over a second: ∫e^(-2t) dt = 0.432 of the square.
+    let expected = 1.0 - (0.5 * (1.0 - (-2.0_f64).exp())).sqrt();
+    assert!(
+        (damping.changes[0] - expected).abs() < 0.02,
+        "{} {expected}",
+        damping.changes[0]
+    );
+}
+
+/// The reference says how far it is from its own last step.
+#[test]
+fn the_last_step_of_the_reference_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), OSCILLATOR).unwrap();
+    let column = "bodies/block/velocity_x_m_per_s:deviation";
+    let found = found_in(folder.path(), &[column]).unwrap();
+    let (knob, change) = found.unsettled().unwrap();
+    assert_eq!(knob.name, "solver.step_s");
+    let below = &knob.rungs[knob.rungs.len() - 2].label;
+    let single = found
+        .tried
+        .iter()
+        .find(|one| words(&found.knobs, &one.rungs) == format!("solver.step_s = {below}"));
+    assert_eq!(single.unwrap().error(), change);
+    let told = found_in(folder.path(), &["bodies/block/velocity_x_m_per_s"]).unwrap_err();
+    assert!(told.contains("is a series; say what of it"), "{told}");
 }

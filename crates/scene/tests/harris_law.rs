@@ -115,7 +115,12 @@ fn problem(folder: &Path, more: &str) -> Result<Optimisation, String> {
 }
 
 fn optimised(folder: &Path, more: &str) -> Result<Optimum, String> {
-    let outcome = optimise(&problem(folder, more)?, &AtomicBool::new(false), &|_, _| ());
+    let outcome = optimise(
+        &problem(folder, more)?,
+        folder,
+        &AtomicBool::new(false),
+        &|_, _| (),
+    );
     outcome.map_err(|e| e.to_string())
 }
 

@@ -2,6 +2,7 @@
 //! once a value, what is refused before anything is computed.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -9,7 +10,8 @@ use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{ReducedGear, StoredGear, read_reduced_gear};
 use gearmesh_scene::study::{
-    PairCases, Selected, SelectedValue, Study, StudyError, StudyOptions, StudyOutcome, run_study,
+    CaseRunner, RestCases, Selected, SelectedValue, SentCase, Study, StudyCases, StudyError,
+    StudyOptions, StudyOutcome, Subject, gather_study, run_study,
 };
 use gearmesh_scene::{Scene, load, run};
 
@@ -202,13 +204,21 @@ impl Value for gearmesh_scene::study::CaseResult {
 #[test]
 fn models_are_read_once_and_a_body_is_reduced_once_a_value() {
     let desk = Desk::new();
-    let cases = PairCases::default();
+    let cases = RestCases::default();
     for relief in ["1.0", "2.0", "3.0"] {
         let text = SCENE.replace("tip_relief_um = 5.0", &format!("tip_relief_um = {relief}"));
         let scene = Scene::from_document(InputDocument::new("own", text), desk.folder.path());
-        cases.figures(&scene.unwrap()).unwrap();
+        let subject = Subject::Pair(Box::new(scene.unwrap()));
+        cases.figures(&subject).unwrap();
     }
-    assert_eq!(cases.models(), 2);
+    // The contact of both bodies is condensed once: reliefs are none of its business.
+    assert_eq!((cases.models(), cases.condensed()), (2, 1));
+    let finer = SCENE.replace("model.local", "model.slices = 3\nmodel.local");
+    let scene = Scene::from_document(InputDocument::new("own", finer), desk.folder.path());
+    cases
+        .figures(&Subject::Pair(Box::new(scene.unwrap())))
+        .unwrap();
+    assert_eq!((cases.models(), cases.condensed()), (2, 2));
 
     let body = "[[parameter]]\nname = \"bore\"\nkeys = [\"pair.gear_1:blank.bore_diameter_mm\"]\nvalues = [25.0, 28.0]\n";
     let both = format!("{body}{RELIEF}values = [0.0, 10.0, 20.0]\n");
@@ -284,4 +294,65 @@ fn what_is_wrong_is_told_before_anything_is_computed() {
         assert!(error.is_input() && error.to_string().contains(told), "{error}");
         assert!(!Path::new(&desk.path("out")).exists());
     }
+}
+
+/// A computer that has the models in another place runs what it is sent; the table is that of a study in one place.
+#[test]
+fn cases_that_run_elsewhere_come_to_the_same_table_and_none_runs_twice() {
+    let desk = Desk::new();
+    let parameters = format!("{RELIEF}values = [0.0, 17.5]\n");
+    let here = desk.study(HEAD, &parameters).unwrap();
+    let table = std::fs::read_to_string(desk.path("out/study.csv")).unwrap();
+
+    let far = tempfile::tempdir().unwrap();
+    let text = format!("title = \"s\"\nscene = \"scene.toml\"\n{HEAD}\n{parameters}");
+    let study =
+        Study::from_document(InputDocument::new("study.toml", text), desk.folder.path()).unwrap();
+    let out = desk.path("far");
+    let cases = StudyCases::new(&study, &out).unwrap();
+    assert!(cases.missing().is_empty());
+    let sent = cases.list().unwrap();
+    assert_eq!(sent.len(), 3);
+    let mut places = BTreeMap::new();
+    for (_, path) in &sent[0].named {
+        let place = far.path().join(path.file_name().unwrap());
+        std::fs::rename(path, &place).unwrap();
+        places.insert(path.clone(), place);
+    }
+    assert_eq!(places.len(), 2);
+    let runner = CaseRunner::default();
+    let stop = AtomicBool::new(false);
+    let run = |case: &SentCase| runner.run(case, &places, far.path(), &stop).unwrap();
+    assert!(!CaseRunner::is_there(&sent[0], far.path()));
+    let computed: Vec<Option<bool>> = sent.iter().map(run).collect();
+    assert_eq!(computed, [Some(true); 3]);
+    assert_eq!(run(&sent[1]), Some(false));
+    assert!(CaseRunner::is_there(&sent[0], far.path()));
+
+    // Back with them; one is lost on the way, and one has failed.
+    for (path, place) in &places {
+        std::fs::rename(place, path).unwrap();
+    }
+    std::fs::create_dir(&out).unwrap();
+    for case in &sent {
+        std::fs::copy(far.path().join(&case.file), out.join(&case.file)).unwrap();
+    }
+    let none = BTreeMap::new();
+    let gathered = gather_study(&study, &out, &none).unwrap();
+    for (a, b) in here.cases.iter().zip(&gathered.cases) {
+        assert_eq!(a.figures, b.figures);
+    }
+    let far_table = std::fs::read_to_string(out.join("study.csv")).unwrap();
+    assert_eq!(
+        far_table.replace(out.to_str().unwrap(), ""),
+        table.replace(desk.path("out").to_str().unwrap(), "")
+    );
+    std::fs::remove_file(out.join(&sent[0].file)).unwrap();
+    std::fs::remove_file(out.join(&sent[2].file)).unwrap();
+    let failures = BTreeMap::from([(sent[2].file.clone(), "no contact".to_owned())]);
+    let gathered = gather_study(&study, &out, &failures).unwrap();
+    let problem = |k: usize| gathered.cases[k].figures.as_ref().unwrap_err().clone();
+    assert!(problem(0).contains("broken off"), "{}", problem(0));
+    assert_eq!(problem(2), "no contact");
+    assert!(gathered.cases[1].figures.is_ok());
 }

@@ -6,9 +6,8 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::SceneFile;
 use gearmesh_scene::study::{
-    SelectedValue, Study, StudyOptions, StudyOutcome, StudyScenes, run_study,
+    SelectedValue, Study, StudyOptions, StudyOutcome, StudyScenes, Subject, run_study,
 };
 
 /// A wheel of 0.5 kg m² that a torque turns for a second: ω(1) = T/J.
@@ -148,7 +147,7 @@ fn microgeometry_of_a_body_is_varied() {
             Path::new(""),
         )
     };
-    let Some(SceneFile::System(relieved)) = scenes(&text).unwrap().scenes.pop() else {
+    let Some(Subject::System(relieved)) = scenes(&text).unwrap().scenes.pop() else {
         unreachable!("a multibody scene");
     };
     let built = relieved.load().unwrap().build().unwrap();

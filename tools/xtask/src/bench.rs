@@ -10,6 +10,8 @@ mod bearings;
 mod bearings_page;
 mod case;
 mod chain;
+mod elements;
+mod elements_page;
 mod host;
 mod page;
 
@@ -30,6 +32,7 @@ pub use bearing_models::bearing_models;
 pub use bearings::bearings;
 use case::{measure, stages};
 pub use chain::chain;
+pub use elements::elements;
 use host::Host;
 use page::{Figures, MeshSize, Row, STATED_LOADS};
 

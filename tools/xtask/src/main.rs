@@ -41,8 +41,11 @@ Usage: cargo xtask <COMMAND>
   bench chain     time of a step over the number of bodies beside Exudyn, into docs/benchmarks/chain.md
   bench bearings  time and error of bearings in equilibrium and of balls that move, beside Exudyn, into docs/benchmarks/bearings.md
   accuracy-cost [--quick] [--program PATH]
-                  error and cost of every element, mesh size and local term, into docs/accuracy-cost.md; options as above,
-                  the quick page into out/accuracy-cost-quick.md
+                  what accuracy costs in time: `gearmesh accuracy` on pairs at rest and through resonance, a gearbox, a
+                  bearing, a bevel pair, into docs/accuracy-cost.md (half an hour); options as above, --quick: the pairs at
+                  rest only, into out/accuracy-cost-quick.md
+  accuracy-cost elements [--quick] [--program PATH]
+                  error and cost of every element, mesh size and local term, into docs/benchmarks/elements.md
   accuracy-cost bearings
                   the models of a bearing beside each other, into docs/benchmarks/bearing-models.md
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
@@ -83,6 +86,7 @@ enum Command {
     BenchBearings(bench::Options),
     AccuracyCost(bench::Options),
     AccuracyCostBearings(bench::Options),
+    AccuracyCostElements(bench::Options),
     Wheel(wheel::Build),
     Release(wheel::Build),
     Prepare,
@@ -111,6 +115,9 @@ impl Command {
             ("bench", ["bearings"]) => Ok(Self::BenchBearings(bench::Options::default())),
             ("accuracy-cost", ["bearings", rest @ ..]) => {
                 bench_options("accuracy-cost bearings", rest).map(Self::AccuracyCostBearings)
+            }
+            ("accuracy-cost", ["elements", rest @ ..]) => {
+                bench_options("accuracy-cost elements", rest).map(Self::AccuracyCostElements)
             }
             ("accuracy-cost", rest) if !matches!(rest, ["--help" | "-h"]) => {
                 bench_options("accuracy-cost", rest).map(Self::AccuracyCost)
@@ -168,6 +175,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         Command::AccuracyCostBearings(options) => {
             return bench::bearing_models(&workspace, options);
         }
+        Command::AccuracyCostElements(options) => return bench::elements(&workspace, options),
         _ => {}
     }
     let venv = prepare::prepare(&workspace)?;
@@ -186,7 +194,8 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
         | Command::BenchChain(_)
         | Command::BenchBearings(_)
         | Command::AccuracyCost(_)
-        | Command::AccuracyCostBearings(_) => Ok(ExitCode::SUCCESS),
+        | Command::AccuracyCostBearings(_)
+        | Command::AccuracyCostElements(_) => Ok(ExitCode::SUCCESS),
     }
 }
 
@@ -262,6 +271,10 @@ mod tests {
         assert_eq!(
             parse("accuracy-cost"),
             Ok(Command::AccuracyCost(bench::Options::default()))
+        );
+        assert_eq!(
+            parse("accuracy-cost elements"),
+            Ok(Command::AccuracyCostElements(bench::Options::default()))
         );
         assert_eq!(parse("accuracy-cost --help"), Ok(Command::Help));
         assert_eq!(

@@ -1,7 +1,7 @@
 //! `cargo xtask wheel`: the Python package and the program in one wheel, packed by maturin.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use crate::console::say;
@@ -51,7 +51,9 @@ pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCod
     )?;
     let target = workspace.root().join("target");
     let out = target.join("wheel");
-    let program = target.join(build.folder()).join("gearmesh");
+    // Where cargo has put it.
+    let built = std::env::var_os("CARGO_TARGET_DIR").map_or(target, PathBuf::from);
+    let program = built.join(build.folder()).join("gearmesh");
     copy(&program, &out.join("gearmesh.data/scripts"))?;
 
     let mut maturin = Command::new(venv.bin_dir().join("maturin"));

@@ -1,5 +1,7 @@
 //! `[pinion]` and `[gear]`: how a member is cut.
 
+use std::path::{Path, PathBuf};
+
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
@@ -7,7 +9,9 @@ use serde::Deserialize;
 
 use super::settings_table::SettingsTable;
 use crate::basic_settings::Process;
-use crate::blank::{PairBlank, ToothForm};
+use crate::blank::{MemberBlank, PairBlank, ToothForm};
+use crate::grid_surface::GridSurface;
+use crate::hand::FlankSide;
 use crate::local_synthesis::Synthesis;
 use crate::pair_design::Cutting;
 use crate::settings_search::AskedEaseOff;
@@ -45,6 +49,13 @@ pub(super) struct MemberTable {
     profile_um: Option<[f64; 2]>,
     /// "ease-off": twist, at the tip of the heel; its negative at the tip of the toe. 0 where not given.
     bias_um: Option<[f64; 2]>,
+    /// "points": table of the concave flank's points, beside this file or with its folder: columns sector, height, x_mm, y_mm,
+    /// z_mm, nx, ny, nz; with deviation_um the points are nominal and the flank is off them by so much added material.
+    concave_points: Option<String>,
+    /// "points": table of the convex flank's points.
+    convex_points: Option<String>,
+    /// "points": place of the tables' origin on the member's axis, from the pitch apex towards the heel; 0 where not given.
+    points_origin_mm: Option<f64>,
     /// "given": settings of the concave flank.
     concave: Option<SettingsTable>,
     /// "given": settings of the convex flank.
@@ -67,6 +78,8 @@ enum SettingsWord {
     EaseOff,
     /// As stated in `concave` and `convex`.
     Given,
+    /// No settings: flanks through measured or published points.
+    Points,
 }
 
 impl SettingsWord {
@@ -78,6 +91,7 @@ impl SettingsWord {
             Self::LocalSynthesis => "local-synthesis",
             Self::EaseOff => "ease-off",
             Self::Given => "given",
+            Self::Points => "points",
         }
     }
 }
@@ -108,13 +122,18 @@ impl MemberTable {
         let pinion = name == "pinion";
         let straight = blank.data.form == ToothForm::Straight;
         if matches!(word, SettingsWord::LocalSynthesis | SettingsWord::EaseOff) && !pinion {
-            return Err(keys.error("settings", format!("found \"{}\", which is for the pinion; allowed is \"crown\", \"basic\", \"formate\" or \"given\"", word.word())));
+            return Err(keys.error("settings", format!("found \"{}\", which is for the pinion; allowed is \"crown\", \"basic\", \"formate\", \"given\" or \"points\"", word.word())));
         }
-        if straight && !matches!(word, SettingsWord::Crown | SettingsWord::Basic) {
+        let any_form = [
+            SettingsWord::Crown,
+            SettingsWord::Basic,
+            SettingsWord::Points,
+        ];
+        if straight && !any_form.contains(&word) {
             return Err(keys.error(
                 "settings",
                 format!(
-                    "found \"{}\", allowed for straight teeth is \"crown\" or \"basic\"",
+                    "found \"{}\", allowed for straight teeth is \"crown\", \"basic\" or \"points\"",
                     word.word()
                 ),
             ));
@@ -149,6 +168,15 @@ impl MemberTable {
         const SYNTHESIS: &[&str] = &["local-synthesis"];
         const EASE_OFF: &[&str] = &["ease-off"];
         const GIVEN: &[&str] = &["given"];
+        const POINTS: &[&str] = &["points"];
+        const CUT: &[&str] = &[
+            "crown",
+            "basic",
+            "formate",
+            "local-synthesis",
+            "ease-off",
+            "given",
+        ];
         const DERIVED: &[&str] = &["crown", "basic", "formate", "local-synthesis", "ease-off"];
         keys.refuse_unused(
             ("settings", self.settings.word()),
@@ -179,6 +207,10 @@ impl MemberTable {
                 ("lengthwise_um", self.lengthwise_um.is_some(), EASE_OFF),
                 ("profile_um", self.profile_um.is_some(), EASE_OFF),
                 ("bias_um", self.bias_um.is_some(), EASE_OFF),
+                ("point_width_mm", self.point_width_mm.is_some(), CUT),
+                ("concave_points", self.concave_points.is_some(), POINTS),
+                ("convex_points", self.convex_points.is_some(), POINTS),
+                ("points_origin_mm", self.points_origin_mm.is_some(), POINTS),
                 ("concave", self.concave.is_some(), GIVEN),
                 ("convex", self.convex.is_some(), GIVEN),
             ],
@@ -222,6 +254,10 @@ impl MemberTable {
                     bias_m: 1e-6 * bias[i],
                 }))
             }
+            SettingsWord::Points => {
+                let member = &blank.members[usize::from(name == "gear")];
+                Cutting::Points(Box::new(self.points(document, keys, member)?))
+            }
             SettingsWord::Given => {
                 let by = "settings = \"given\"";
                 let concave = keys.needed("concave", self.concave.as_ref(), by)?;
@@ -232,6 +268,30 @@ impl MemberTable {
                 ])
             }
         })
+    }
+
+    /// Flanks through points.
+    fn points(
+        &self,
+        document: &InputDocument,
+        keys: &TableKeys<'_>,
+        member: &MemberBlank,
+    ) -> Result<[GridSurface; 2], InputError> {
+        let by = "settings = \"points\"";
+        let origin = self.points_origin_mm.unwrap_or(0.0);
+        let most = 1e4;
+        let ok = origin.abs() <= most;
+        keys.require("points_origin_mm", origin, ok, "-10000 to 10000")?;
+        let folder = Path::new(&document.file).parent();
+        let read = |key: &str, name: &Option<String>, side: FlankSide| {
+            let name = keys.needed(key, name.as_ref(), by)?;
+            let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
+            GridSurface::read(&path, 1e-3 * origin, member, side)
+        };
+        Ok([
+            read("concave_points", &self.concave_points, FlankSide::Concave)?,
+            read("convex_points", &self.convex_points, FlankSide::Convex)?,
+        ])
     }
 
     fn synthesis(

@@ -81,7 +81,8 @@ fn the_envelope_meets_the_equation_of_meshing() {
             near(found[1], height, 1e-13);
             most = most.max(
                 flank
-                    .surface()
+                    .cut_surface()
+                    .unwrap()
                     .envelope_residual(at[0], at[1])
                     .unwrap()
                     .abs(),
@@ -182,7 +183,8 @@ fn basic_settings_give_the_angles_of_the_blank() {
             // A spread blade leaves its own point width at the bottom of every slot.
             let [outside, inside] = [0, 1].map(|i| {
                 tooth.flanks[i]
-                    .surface()
+                    .cut_surface()
+                    .unwrap()
                     .settings
                     .face_mill()
                     .unwrap()
@@ -194,7 +196,7 @@ fn basic_settings_give_the_angles_of_the_blank() {
                 member.outer_cone_m,
             ] {
                 near(
-                    tooth.slot_width_m(cone).unwrap() / (outside - inside),
+                    tooth.slot_width_m(cone).unwrap().unwrap() / (outside - inside),
                     1.0,
                     0.02,
                 );
@@ -331,8 +333,8 @@ fn printed_settings_of_a_gear_of_51_teeth() {
 fn the_fillet_joins_the_flank_smoothly() {
     let mut joined = 0;
     for flank in flanks() {
-        if flank.surface().settings.roll.is_none() || flank.surface().settings.face_mill().is_none()
-        {
+        let settings = flank.cut_surface().unwrap().settings;
+        if settings.roll.is_none() || settings.face_mill().is_none() {
             continue;
         }
         let at = flank.bottom(flank.blank.mean_cone_m).unwrap().at;
@@ -341,11 +343,7 @@ fn the_fillet_joins_the_flank_smoothly() {
         near((p.n - q.n).norm(), 0.0, 1e-9);
         // The fillet ends with its normal across the machine plane.
         let root = flank.root(flank.blank.mean_cone_m).unwrap().point;
-        near(
-            root.n.z,
-            flank.surface().settings.root_angle_rad.sin(),
-            1e-9,
-        );
+        near(root.n.z, settings.root_angle_rad.sin(), 1e-9);
         joined += 1;
     }
     assert!(joined >= 12, "{joined}");
@@ -382,7 +380,7 @@ fn bad_teeth_are_refused_with_their_place() {
     // A blade wider than the slot's bottom.
     let member = blank(&data).members[0].clone();
     let tooth = Tooth::cut(&member, &settings).unwrap();
-    let slot = tooth.check(0.0, 0.0).unwrap().least_slot_m;
+    let slot = tooth.check(0.0, 0.0).unwrap().least_slot_m.unwrap();
     tooth.check(0.0, 0.9 * slot).unwrap();
     let error = tooth.check(0.0, 1.1 * slot).unwrap_err();
     assert!(matches!(error, BevelError::BladeTooWide { .. }), "{error}");

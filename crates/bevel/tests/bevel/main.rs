@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)] // test code
 
 mod blanks;
+mod brute_force;
 mod common;
 mod contacts;
 mod flanks;
 mod patches;
+mod points;

@@ -4,7 +4,7 @@ use crate::arguments::BevelArguments;
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::pair_file::settings_toml;
-use gearmesh_bevel::{FlankSide, MemberBlank, PairDesign, PairFile, ToothCheck};
+use gearmesh_bevel::{FlankSide, GridFit, MemberBlank, PairDesign, PairFile, ToothCheck};
 use serde_json::{Value, json};
 
 /// Settings, flanks and checks of a pair file.
@@ -87,14 +87,15 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
     for (key, value) in [
         (
             "least_top_land_mm",
-            checks.each_ref().map(|c| 1e3 * c.least_top_m),
+            checks.each_ref().map(|c| Some(c.least_top_m)),
         ),
         (
             "least_slot_width_mm",
-            checks.each_ref().map(|c| 1e3 * c.least_slot_m),
+            checks.each_ref().map(|c| c.least_slot_m),
         ),
     ] {
-        console::data(format!("# {key:<26} {:>12.4} {:>12.4}", value[0], value[1]));
+        let [a, b] = value.map(|x| x.map_or_else(|| "-".to_owned(), |x| format!("{:.4}", 1e3 * x)));
+        console::data(format!("# {key:<26} {a:>12} {b:>12}"));
     }
     if let Some(rms) = design.fit_rms_m {
         console::data(format!(
@@ -103,7 +104,15 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
             1e6 * rms[1]
         ));
     }
-    for (name, settings) in ["pinion", "gear"].into_iter().zip(&design.settings) {
+    for (i, name) in ["pinion", "gear"].into_iter().enumerate() {
+        let Some(settings) = &design.settings[i] else {
+            for flank in &design.teeth[i].flanks {
+                if let Some(fit) = flank.grid_fit() {
+                    console::data(format!("# {}: {}", flank.name(), fit_words(fit)));
+                }
+            }
+            continue;
+        };
         let tables: Vec<String> = FlankSide::BOTH
             .into_iter()
             .zip(settings)
@@ -118,6 +127,24 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
     }
 }
 
+/// What a flank through points is worth.
+fn fit_words(fit: &GridFit) -> String {
+    let [toe, heel, tip] = fit.beyond_m.map(|x| 1e3 * x);
+    format!(
+        "{} x {} points, {} x {} polynomials; points off the surface by {:.3} um rms, {:.3} um at most; a point left out by {:.3} um rms, {:.3} um at most; normals by \
+         {:.4} degrees at most; the flank goes on beyond the points by {toe:.2} mm at the toe, {heel:.2} mm at the heel, {tip:.2} mm at the tip",
+        fit.size[0],
+        fit.size[1],
+        fit.polynomials[0],
+        fit.polynomials[1],
+        1e6 * fit.rms_m,
+        1e6 * fit.worst_m,
+        1e6 * fit.left_out_rms_m,
+        1e6 * fit.left_out_worst_m,
+        fit.worst_normal_rad.to_degrees()
+    )
+}
+
 fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Value {
     let object = |lines: &[(&str, f64)]| -> Value {
         lines
@@ -129,8 +156,26 @@ fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Va
     let member = |i: usize| {
         let mut value = object(&blank_lines(&file.blank.members[i]));
         value["least_top_land_mm"] = json!(1e3 * checks[i].least_top_m);
-        value["least_slot_width_mm"] = json!(1e3 * checks[i].least_slot_m);
-        for (side, s) in FlankSide::BOTH.into_iter().zip(&design.settings[i]) {
+        value["least_slot_width_mm"] = json!(checks[i].least_slot_m.map(|x| 1e3 * x));
+        for flank in &design.teeth[i].flanks {
+            let Some(fit) = flank.grid_fit() else {
+                continue;
+            };
+            value[flank.side.word()] = json!({
+                "points": fit.size,
+                "polynomials": fit.polynomials,
+                "rms_um": 1e6 * fit.rms_m,
+                "worst_um": 1e6 * fit.worst_m,
+                "left_out_rms_um": 1e6 * fit.left_out_rms_m,
+                "left_out_worst_um": 1e6 * fit.left_out_worst_m,
+                "worst_normal_deg": fit.worst_normal_rad.to_degrees(),
+                "beyond_mm": fit.beyond_m.map(|x| 1e3 * x),
+            });
+        }
+        for (side, s) in FlankSide::BOTH
+            .into_iter()
+            .zip(design.settings[i].iter().flatten())
+        {
             let Some(mill) = s.face_mill() else { continue };
             value[side.word()] = json!({
                 "point_radius_mm": 1e3 * mill.point_radius_m,

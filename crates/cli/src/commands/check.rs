@@ -6,18 +6,19 @@ use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
 use gearmesh_bearings::bearing_file::BearingFromFile;
-use gearmesh_bevel::PairFile;
+use gearmesh_bevel::{BevelGear, PairFile};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{REDUCED_GEAR_FORMAT, format_of, read_reduced_gear};
 use gearmesh_report::ReferenceRecord;
 use gearmesh_scene::optimise::{Evaluator, Optimisation};
 use gearmesh_scene::rating::sn_curve;
-use gearmesh_scene::study::{PairCases, Study, StudyScenes};
+use gearmesh_scene::study::{RestCases, Scratch, Study, StudyScenes};
 use gearmesh_scene::system_run::RunJob;
 use gearmesh_scene::{InputKind, ResultFile, SceneFile, load};
 use serde_json::{Map, Value, json};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 /// What a sound file is.
 struct Finding {
@@ -117,6 +118,7 @@ fn found(path: &Path) -> Result<Finding, Failure> {
         InputKind::SnTable => sn_table(&document),
         InputKind::Record => record(folder),
         InputKind::Gear if PairFile::recognises(&document)? => bevel_pair(&document),
+        InputKind::Gear if BevelGear::recognises(&document)? => bevel_gear(&document, folder),
         InputKind::Gear if BearingFromFile::recognises(&document)? => bearing(&document),
         InputKind::Gear => gear(&document),
     }
@@ -126,6 +128,12 @@ fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
     bevel::design(&file)?;
     Ok(Finding::new("bevel pair", Some(&file.title)))
+}
+
+fn bevel_gear(document: &InputDocument, folder: &Path) -> Result<Finding, Failure> {
+    let gear = BevelGear::from_document(document, folder)?;
+    console::unit_slips(document.unit_slips());
+    Ok(Finding::new("bevel gear", Some(&gear.name)))
 }
 
 fn bearing(document: &InputDocument) -> Result<Finding, Failure> {
@@ -198,7 +206,9 @@ fn scene(scene: SceneFile) -> Result<Finding, Failure> {
 
 /// The scene is loaded with the variables in the middle of their bounds.
 fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
-    Evaluator::new(problem)?;
+    // Nothing is run.
+    let stop = AtomicBool::new(false);
+    Evaluator::new(problem, Scratch::new(Path::new(""), &stop))?;
     let tables = &problem.tables;
     let (variables, objectives) = (tables.variable.len(), tables.objective.len());
     let of = &tables.scene;
@@ -214,7 +224,7 @@ fn optimisation(problem: &Optimisation) -> Result<Finding, Failure> {
 /// All scenes of a study are read; the scene as it is is built with its gears, whose columns are known then.
 fn study(study: &Study) -> Result<Finding, Failure> {
     let made = StudyScenes::new(study, Path::new(""))?;
-    made.check_columns(study, &PairCases::default())?;
+    made.check_columns(study, &RestCases::default())?;
     let (cases, columns) = (made.cases.len(), study.tables.columns.len());
     let of = &study.tables.scene;
     Ok(Finding::new("study", Some(&study.tables.title)).sized(

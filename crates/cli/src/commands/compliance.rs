@@ -11,6 +11,7 @@ use serde_json::json;
 /// Runs the command.
 pub fn run(a: &ComplianceArguments) -> Result<(), Failure> {
     let model = read_reduced_gear(&a.model).map_err(Failure::input)?;
+    model.demand_cylindrical().map_err(Failure::input)?;
     let at_tooth = a.at_tooth.unwrap_or(a.tooth);
     for (name, tooth) in [("--tooth", a.tooth), ("--at-tooth", at_tooth)] {
         if tooth >= model.teeth {

@@ -3,13 +3,17 @@
 use crate::arguments::MeshArguments;
 use crate::failure::Failure;
 use crate::{console, memory, offline, output_name};
-use gearmesh_mesh::GearMesh;
+use gearmesh_bevel::BevelGear;
+use gearmesh_mesh::{BevelMesh, GearMesh};
 use gearmesh_reduction::OfflineJob;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
     output_name::demand_mesh(&arguments.output)?;
+    if let Some(gear) = offline::bevel_gear(&arguments.gear)? {
+        return bevel(arguments, &gear);
+    }
     let gear = offline::gear(&arguments.gear)?;
     offline::note_element(&gear);
     offline::note_sound(&gear, "nodes and elements are");
@@ -51,6 +55,39 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
             mesh.elements.shape().plural(),
             mesh.dofs(),
             gear.sectors()
+        ));
+        console::data(format!(
+            "scaled Jacobian: smallest {:.3}, mean {:.3} (demanded {:.3})",
+            quality.smallest, quality.mean, gear.mesh.min_scaled_jacobian
+        ));
+    }
+    Ok(())
+}
+
+fn bevel(arguments: &MeshArguments, gear: &BevelGear) -> Result<(), Failure> {
+    let mesh = BevelMesh::new(gear).map_err(gearmesh_reduction::ReductionError::from)?;
+    gearmesh_reduction::bevel::bevel_model(gear, &mesh)?;
+    offline::export_bevel_mesh(gear, &mesh, arguments.length_unit, &arguments.output)?;
+    let quality = mesh.quality;
+    let bore = mesh.bore().len();
+    let dofs = 3 * (mesh.nodes.len() - bore);
+    if arguments.json {
+        console::json(&json!({
+            "nodes": mesh.nodes.len(),
+            "elements": mesh.elements.len(),
+            "dofs": dofs,
+            "sectors": mesh.teeth(),
+            "scaled_jacobian_smallest": quality.smallest,
+            "scaled_jacobian_mean": quality.mean,
+        }));
+    } else {
+        console::data(format!(
+            "{}: {} nodes, {} {}, {dofs} degrees of freedom, {} repeating sectors",
+            gear.name,
+            mesh.nodes.len(),
+            mesh.elements.len(),
+            mesh.elements.shape().plural(),
+            mesh.teeth()
         ));
         console::data(format!(
             "scaled Jacobian: smallest {:.3}, mean {:.3} (demanded {:.3})",

@@ -1,9 +1,9 @@
-//! `gearmesh optimise`: keys of a pair's scene that make its objectives least.
+//! `gearmesh optimise`: keys of a scene that make its objectives least.
 
 use crate::arguments::OptimiseArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
-use crate::interrupt;
+use crate::interrupt::{self, Scratch};
 use crate::page_file;
 use gearmesh_model::write_text;
 use gearmesh_report::optimise_page::optimise_page;
@@ -23,8 +23,9 @@ pub fn run(arguments: &OptimiseArguments) -> Result<(), Failure> {
         let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
         bar.advance(done as f64, count as f64);
     };
+    let scratch = Scratch::new(tempfile::tempdir().map_err(Failure::work)?.keep());
     let stop = interrupt::on_demand();
-    let found = optimise(&problem, &stop.asked, &progress);
+    let found = optimise(&problem, scratch.path(), &stop.asked, &progress);
     bar.lock().unwrap_or_else(PoisonError::into_inner).finish();
     let found = found?;
     let folder = &arguments.output;
@@ -47,6 +48,7 @@ pub fn run(arguments: &OptimiseArguments) -> Result<(), Failure> {
     }
     if found.stopped {
         console::error("interrupted; the files have what was tried until then");
+        drop(scratch);
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);

@@ -1,15 +1,21 @@
 //! `gearmesh reduce`: the offline stage.
 
 use crate::arguments::ReduceArguments;
+use crate::console::StageBar;
 use crate::failure::Failure;
 use crate::{console, memory, offline, output_name};
+use gearmesh_bevel::BevelGear;
 use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
 use gearmesh_reduction::OfflineJob;
+use gearmesh_reduction::bevel::reduce_bevel;
 use serde_json::json;
 
 /// Runs the command.
 pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
     output_name::demand_hdf5(&arguments.output)?;
+    if let Some(gear) = offline::bevel_gear(&arguments.gear)? {
+        return bevel(arguments, &gear);
+    }
     let gear = offline::gear(&arguments.gear)?;
     let model = match gear.blank.meshed() {
         Some(body) => {
@@ -25,11 +31,25 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
             offline::reduced(&gear, !arguments.no_error_estimate)?.0
         }
     };
-    write_reduced_gear(&arguments.output, &model).map_err(Failure::work)?;
+    write(arguments, &model)
+}
+
+fn bevel(arguments: &ReduceArguments, gear: &BevelGear) -> Result<(), Failure> {
+    if !arguments.no_error_estimate {
+        console::note("no error estimate: it is not offered for bevel gears");
+    }
+    let bar = StageBar::new(&gear.name);
+    let outcome = reduce_bevel(gear, &bar);
+    bar.finish();
+    write(arguments, &outcome?.0)
+}
+
+fn write(arguments: &ReduceArguments, model: &ReducedGear) -> Result<(), Failure> {
+    write_reduced_gear(&arguments.output, model).map_err(Failure::work)?;
     if arguments.json {
-        console::json(&figures(&model));
+        console::json(&figures(model));
     } else {
-        summary(&model).into_iter().for_each(console::data);
+        summary(model).into_iter().for_each(console::data);
     }
     Ok(())
 }

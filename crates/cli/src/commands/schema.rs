@@ -36,6 +36,10 @@ pub fn run(arguments: &SchemaArguments) -> Result<(), Failure> {
             Keys(gearmesh_bevel::pair_file::schema().to_value()),
             "bevel",
         ),
+        SchemaKind::BevelGear => (
+            Keys(gearmesh_bevel::gear_file::gear_schema().to_value()),
+            "bevel-gear",
+        ),
         SchemaKind::Gear => (
             Keys(gearmesh_geometry::gear_file::schema().to_value()),
             "gear",

@@ -1,22 +1,43 @@
 //! `gearmesh study`: a scene again and again with some of its keys changed.
 
+use super::study_elsewhere as elsewhere;
 use crate::arguments::StudyArguments;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::offline;
-use gearmesh_report::{short, usual_unit};
-use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study, StudyOptions, run_study};
+use crate::page_file;
+use gearmesh_report::study_page::study_page;
+use gearmesh_report::{short, study_figures, usual_unit};
+use gearmesh_scene::study::{
+    CaseResult, Selected, SelectedValue, Study, StudyOptions, StudyOutcome, gather_study, run_study,
+};
 use gearmesh_scene::system_run::{Figures, stem};
-use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
-/// Cases of a gear pair beyond which the table tells the extremes only.
+/// Cases beyond which the table tells the extremes only.
 const MOST_LINES: usize = 50;
 
 /// Runs the command.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     let study = Study::read(&arguments.study)?;
+    match (&arguments.scheduler, &arguments.gather) {
+        (None, None) => tell(&study, here(&study, arguments)?, arguments),
+        (None, Some(failures)) => {
+            let failures = elsewhere::failures(failures)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+        (Some(scheduler), _) => {
+            let failures = elsewhere::run(arguments, scheduler)?;
+            let outcome = gather_study(&study, &arguments.output, &failures)?;
+            tell(&study, outcome, arguments)
+        }
+    }
+}
+
+/// Runs the cases on this machine.
+fn here(study: &Study, arguments: &StudyArguments) -> Result<StudyOutcome, Failure> {
     let bar = Mutex::new(RunBar::new("study"));
     let progress = |done: usize, count: usize| {
         let bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
@@ -24,7 +45,7 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     };
     let stop = interrupt::on_demand();
     let outcome = run_study(
-        &study,
+        study,
         &StudyOptions {
             folder: &arguments.output,
             stop: &stop.asked,
@@ -39,18 +60,22 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
         std::process::exit(interrupt::EXIT_CODE);
     }
     drop(stop);
+    Ok(outcome)
+}
+
+/// Writes the page and prints the figures.
+fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Result<(), Failure> {
+    let page = study_page(study, &outcome.cases);
+    page_file::write(&page, &arguments.output.join("study.html"))?;
     let failed = outcome
         .cases
         .iter()
         .filter(|case| case.figures.is_err())
         .count();
     if arguments.json {
-        let cases: Vec<Value> = outcome.cases.iter().map(figures).collect();
-        console::json(
-            &json!({"title": study.tables.title, "from_s": study.tables.from_s, "cases": cases}),
-        );
+        console::json(&study_figures(study, &outcome.cases));
     } else {
-        table(&study, &outcome.cases)
+        table(study, &outcome.cases)
             .into_iter()
             .for_each(console::data);
     }
@@ -69,26 +94,41 @@ fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
     let widest = names.iter().map(|name| name.chars().count()).max();
     let width = widest.unwrap_or(0).max(4);
     let found = cases.iter().find_map(|case| case.figures.as_ref().ok());
-    let is_pair = found.is_some_and(|columns| columns.iter().any(|c| c.torque_nm.is_some()));
+    // Of runs in time it is told whether it is stated or not.
+    let has_series = found.is_some_and(|all| {
+        all.iter()
+            .any(|c| matches!(c.value, SelectedValue::Series(_)))
+    });
     let from = match study.tables.from_s {
-        _ if is_pair => String::new(),
-        from_s => format!(", from {from_s} s on"),
+        from_s if from_s > 0.0 || has_series => format!(", from {from_s} s on"),
+        _ => String::new(),
     };
     let mut lines = vec![format!("{}{from}", study.tables.title)];
+    if let (None, Some(first), true) = (found, cases.first(), cases.len() > MOST_LINES) {
+        let problem = first.figures.as_ref().err();
+        let problem = problem.map_or("", String::as_str);
+        lines.push(format!("{} failed: {problem}", first.case.name()));
+        lines.push("no other case has figures either; study.csv has them all".to_owned());
+        return lines;
+    }
     for (k, column) in study.tables.columns.iter().enumerate() {
-        if is_pair && cases.len() > MOST_LINES {
-            pair_extremes(study, cases, (column, k), &mut lines);
-        } else if is_pair {
-            pair_column(study, cases, (column, k), (&names, width), &mut lines);
-        } else {
+        let is_series = found.is_some_and(|columns| {
+            let one = columns.get(k);
+            one.is_some_and(|one| matches!(one.value, SelectedValue::Series(_)))
+        });
+        if is_series || found.is_none() {
             series_column(cases, (column, k), (&names, width), &mut lines);
+        } else if cases.len() > MOST_LINES {
+            extremes(study, cases, (column, k), &mut lines);
+        } else {
+            number_column(study, cases, (column, k), (&names, width), &mut lines);
         }
     }
     lines
 }
 
-/// The least and the largest value of a column of a gear pair at each torque, and where they were found.
-fn pair_extremes(
+/// The least and the largest number of a column, of gear pairs at each torque, and where they were found.
+fn extremes(
     study: &Study,
     cases: &[CaseResult],
     (column, place): (&str, usize),
@@ -111,24 +151,24 @@ fn pair_extremes(
             let SelectedValue::Single(value) = one.value else {
                 return None;
             };
-            Some((value, one.torque_nm.unwrap_or_default(), case.case.name()))
+            let torque = one
+                .torque_nm
+                .map_or_else(String::new, |t| format!("{t} N m"));
+            Some((value, torque, case.case.name()))
         });
         let mut values: Vec<_> = values.collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let (Some(least), Some(largest)) = (values.first(), values.last()) {
             for (word, (value, torque, name)) in [("least", least), ("largest", largest)] {
                 let value = short(*value);
-                lines.push(format!(
-                    "{:>11} {word:7} {value:>11}  {name}",
-                    format!("{torque} N m")
-                ));
+                lines.push(format!("{torque:>11} {word:7} {value:>11}  {name}"));
             }
         }
     }
 }
 
-/// A column of a gear pair: a line for each case, a number for each torque.
-fn pair_column(
+/// A column of single numbers: a line for each case, of gear pairs a number for each torque.
+fn number_column(
     study: &Study,
     cases: &[CaseResult],
     (column, place): (&str, usize),
@@ -209,35 +249,4 @@ fn series_column(
             Err(problem) => format!("{name:width$} failed: {problem}"),
         });
     }
-}
-
-/// The figures of a case for machines.
-fn figures(result: &CaseResult) -> Value {
-    let settings = result.case.settings.iter();
-    let settings = settings.map(|setting| (setting.parameter.clone(), json!(setting.value)));
-    let columns = |columns: &Vec<Selected>| {
-        let figures = columns.iter().map(|one| {
-            let mut cell = json!({"name": one.column, "unit": one.unit});
-            if let Some(torque) = one.torque_nm {
-                cell["torque_Nm"] = json!(torque);
-            }
-            match one.value {
-                SelectedValue::Single(value) => cell["value"] = json!(value),
-                SelectedValue::Series(figures) => {
-                    cell["mean"] = json!(figures.mean);
-                    cell["deviation"] = json!(figures.deviation);
-                    cell["least"] = json!(figures.least);
-                    cell["largest"] = json!(figures.largest);
-                }
-            }
-            cell
-        });
-        figures.collect::<Vec<_>>()
-    };
-    json!({
-        "parameters": settings.collect::<serde_json::Map<_, _>>(),
-        "file": result.file,
-        "columns": result.figures.as_ref().ok().map(columns),
-        "failure": result.figures.as_ref().err(),
-    })
 }

@@ -1,13 +1,11 @@
 //! `gearmesh tca`: tooth contact analysis of a bevel pair.
 
 use crate::arguments::TcaArguments;
-use crate::commands::{bevel, tca_page};
+use crate::commands::{bevel, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_bevel::{
-    ContactKind, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact,
-};
+use gearmesh_bevel::{PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact};
 use serde_json::{Value, json};
 
 /// Runs the command.
@@ -19,32 +17,41 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     let (design, _) = bevel::design(&file)?;
     let flanks = design.flanks(file.pinion_flank);
     let found = tooth_contact(flanks, &file.blank, &file.tca).map_err(Failure::work)?;
-    let moved = sensitivity(flanks, &file.blank, &file.tca.error).map_err(Failure::work)?;
+    // Where only edges touch, or along a line, no contact moves with the errors.
+    let moved = found
+        .mean
+        .and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
+    let loaded = match &file.load {
+        Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
+        None => None,
+    };
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
             flanks,
             contact: &found,
-            moved: &moved,
+            moved: moved.as_ref(),
+            loaded: loaded.as_ref(),
         };
         tca_page::write(&analysed, a, path)?;
     }
     if a.json {
-        console::json(&figures(&file, &found, &moved));
+        let mut all = figures(&file, &found, moved.as_ref());
+        if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
+            all.insert("load".to_owned(), loaded_tca::figures(loaded));
+        }
+        console::json(&all);
     } else {
-        table(&file, &found, &moved);
+        if let Some(loaded) = &loaded {
+            loaded_tca::table(&file, loaded);
+        }
+        table(&file, &found, moved.as_ref());
     }
     Ok(())
 }
 
-pub(super) fn kind(kind: ContactKind) -> String {
-    match kind {
-        ContactKind::Flanks => "flanks".to_owned(),
-        ContactKind::Edge { member, edge } => {
-            format!("{} {}", ["pinion", "gear"][member], edge.word())
-        }
-    }
-}
+/// Said instead of sensitivities.
+pub(super) const NO_MEAN: &str = "the flanks have no contact at constant ratio in this assembly: nothing is said of what further errors do";
 
 /// Names, and how the mean contact moves along the tooth and up the flank: mm per mm, mm per mrad.
 pub(super) fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
@@ -56,7 +63,7 @@ pub(super) fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
     ]
 }
 
-fn table(file: &PairFile, found: &ToothContact, moved: &Sensitivity) {
+fn table(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) {
     console::data(format!(
         "{}: pinion {} on gear {}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
         file.title,
@@ -84,25 +91,30 @@ fn table(file: &PairFile, found: &ToothContact, moved: &Sensitivity) {
             1e3 * p.places_m[1][0],
             1e3 * p.places_m[1][1],
             if p.leading { "yes" } else { "no" },
-            kind(p.kind)
+            p.kind.words()
         ));
     }
-    console::data("mean contact moves on the gear by     along the tooth   up the flank");
-    for (name, [along, up]) in moves(moved) {
-        console::data(format!("{name:<37} {along:>15.4} {up:>14.4}"));
+    match moved {
+        None => console::data(NO_MEAN),
+        Some(moved) => {
+            console::data("mean contact moves on the gear by     along the tooth   up the flank");
+            for (name, [along, up]) in moves(moved) {
+                console::data(format!("{name:<37} {along:>15.4} {up:>14.4}"));
+            }
+        }
     }
     console::data("ease-off of the pinion: L mm, h mm, um");
     for ([cone, height], e) in &found.ease_off {
+        let gap = e.map_or_else(|| "-".to_owned(), |e| format!("{:.3}", 1e6 * e.gap_m));
         console::data(format!(
-            "{:>12.4} {:>9.4} {:>9.3}",
+            "{:>12.4} {:>9.4} {gap:>9}",
             1e3 * cone,
-            1e3 * height,
-            1e6 * e.gap_m
+            1e3 * height
         ));
     }
 }
 
-fn figures(file: &PairFile, found: &ToothContact, moved: &Sensitivity) -> Value {
+fn figures(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) -> Value {
     let path: Vec<Value> = found
         .path
         .iter()
@@ -114,7 +126,7 @@ fn figures(file: &PairFile, found: &ToothContact, moved: &Sensitivity) -> Value 
             json!({
                 "pinion_deg": p.pinion_turn_rad.to_degrees(),
                 "error_urad": 1e6 * p.error_rad,
-                "touches": kind(p.kind),
+                "touches": p.kind.words(),
                 "first": p.leading,
                 "pinion_place_mm": p.places_m[0].map(|x| 1e3 * x),
                 "gear_place_mm": p.places_m[1].map(|x| 1e3 * x),
@@ -125,7 +137,7 @@ fn figures(file: &PairFile, found: &ToothContact, moved: &Sensitivity) -> Value 
     let map: Vec<Value> = found
         .ease_off
         .iter()
-        .map(|([l, h], e)| json!([1e3 * l, 1e3 * h, 1e6 * e.gap_m]))
+        .map(|([l, h], e)| json!([1e3 * l, 1e3 * h, e.map(|e| 1e6 * e.gap_m)]))
         .collect();
     json!({
         "title": file.title,
@@ -136,6 +148,6 @@ fn figures(file: &PairFile, found: &ToothContact, moved: &Sensitivity) -> Value 
         "error_urad": found.error_rad.iter().map(|x| 1e6 * x).collect::<Vec<_>>(),
         "path": path,
         "ease_off_mm_mm_um": map,
-        "sensitivity": moves(moved).into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>(),
+        "sensitivity": moved.map(|moved| moves(moved).into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>()),
     })
 }

@@ -1,13 +1,13 @@
 //! The page of `gearmesh tca --report`: contact pattern, transmission error, ease-off, and what assembly errors do.
 
-use super::tca::{kind, moves};
+use super::loaded_tca::{self, Loaded};
+use super::tca::{NO_MEAN, moves};
 use crate::arguments::TcaArguments;
 use crate::failure::Failure;
 use crate::page_file;
-use gearmesh_bevel::contact_path::first_touch;
-use gearmesh_bevel::tca::PathPoint;
+use gearmesh_bevel::tca::{PathPoint, ease_off_map};
 use gearmesh_bevel::{
-    Assembly, BevelError, ContactKind, Flank, Mesh, PairFile, Sensitivity, TcaRequest, ToothContact,
+    Assembly, BevelError, ContactKind, EaseOff, Flank, PairFile, Sensitivity, ToothContact,
 };
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, FlankChart, KeyFigures, LineChart, LineSeries, Page,
@@ -29,7 +29,9 @@ pub struct Analysed<'a> {
     /// Pinion and gear.
     pub flanks: [&'a Flank; 2],
     pub contact: &'a ToothContact,
-    pub moved: &'a Sensitivity,
+    pub moved: Option<&'a Sensitivity>,
+    /// Under load, where the file asks for it.
+    pub loaded: Option<&'a Loaded>,
 }
 
 /// Writes the page.
@@ -50,15 +52,22 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
         )))
         .push(pattern(of, 1)?)
         .push(pattern(of, 0)?);
-    Ok(Page::new(of.file.title.clone())
+    let load = of
+        .loaded
+        .map_or("without load", |_| "without and with load");
+    let mut page = Page::new(of.file.title.clone())
         .subtitle(format!(
-            "Tooth contact analysis: pinion {pinion} on gear {gear}, without load"
+            "Tooth contact analysis: pinion {pinion} on gear {gear}, {load}"
         ))
-        .section(at_a_glance(of))
+        .section(at_a_glance(of));
+    if let Some(loaded) = of.loaded {
+        page = page.section(loaded_tca::section(loaded));
+    }
+    Ok(page
         .section(pattern)
         .section(Section::new("Transmission error").push(error(of)))
         .section(Section::new("Ease-off").push(ease_off(of)?))
-        .section(Section::new("Assembly errors").push(sensitivity(of)))
+        .section(assembly_errors(of))
         .footer(format!(
             "{} by gearmesh {}",
             a.pair.display(),
@@ -141,7 +150,7 @@ fn pattern(of: &Analysed<'_>, member: usize) -> Result<FlankChart, BevelError> {
 fn edges(path: &[PathPoint]) -> Vec<(String, Vec<&PathPoint>)> {
     let mut found: Vec<(String, Vec<&PathPoint>)> = Vec::new();
     for point in path.iter().filter(|p| p.kind != ContactKind::Flanks) {
-        let name = kind(point.kind);
+        let name = point.kind.words();
         match found.iter_mut().find(|(known, _)| *known == name) {
             Some((_, points)) => points.push(point),
             None => found.push((name, vec![point])),
@@ -208,21 +217,17 @@ fn error(of: &Analysed<'_>) -> LineChart {
 }
 
 fn ease_off(of: &Analysed<'_>) -> Result<FieldPicture, BevelError> {
-    let request = TcaRequest {
-        map: MAP,
-        ..of.file.tca
-    };
-    let (assembly, _) = first_touch(of.flanks, &of.file.blank, &request.error)?;
-    let mesh = Mesh {
-        flanks: of.flanks,
-        assembly: &assembly,
-    };
-    let map = mesh.ease_off_map(MAP[0], MAP[1])?;
+    let map = ease_off_map(of.flanks, &of.file.blank, &of.file.tca.error, MAP)?;
     let nodes = map.iter().map(|(place, _)| place.map(|x| 1e3 * x));
-    let values = map.iter().map(|(_, e)| 1e6 * e.gap_m);
+    let gap = |e: &Option<EaseOff>| e.map_or(0.0, |e| 1e6 * e.gap_m);
+    let values = map.iter().map(|(_, e)| gap(e));
     let [along, up] = MAP.map(|n| n as u32);
     let quads = (0..along - 1).flat_map(|i| (0..up - 1).map(move |k| i * up + k));
-    let quads = quads.map(|n| [n, n + up, n + up + 1, n + 1]).collect();
+    // Where the pinion's flank is undercut nothing is drawn.
+    let quads = quads
+        .map(|n| [n, n + up, n + up + 1, n + 1])
+        .filter(|quad| quad.iter().all(|n| map[*n as usize].1.is_some()))
+        .collect();
     Ok(FieldPicture::new(
         "What the pinion's flank lacks of the gear's conjugate, toe left, tip up",
         "ease-off",
@@ -232,13 +237,17 @@ fn ease_off(of: &Analysed<'_>) -> Result<FieldPicture, BevelError> {
     .values(FieldValues::PerNode(values.collect())))
 }
 
-fn sensitivity(of: &Analysed<'_>) -> Table {
+fn assembly_errors(of: &Analysed<'_>) -> Section {
+    let section = Section::new("Assembly errors");
+    let Some(moved) = of.moved else {
+        return section.push(Text::paragraph(NO_MEAN));
+    };
     let mut table = Table::new("How the mean contact moves on the gear")
         .column("by", Align::Left)
         .column("along the tooth", Align::Right)
         .column("up the flank", Align::Right);
-    for (name, [along, up]) in moves(of.moved) {
+    for (name, [along, up]) in moves(moved) {
         table.push_row([name.to_owned(), short(along), short(up)]);
     }
-    table
+    section.push(table)
 }

@@ -10,7 +10,12 @@ fn shipped(name: &str) -> String {
 #[test]
 fn printed_settings_are_read_back() {
     let desk = Desk::new();
-    for name in ["bevel_20_20.toml", "bevel_13_35.toml", "bevel_31_36.toml"] {
+    for name in [
+        "bevel_20_20.toml",
+        "bevel_13_35.toml",
+        "bevel_31_36.toml",
+        "bevel_38_51.toml",
+    ] {
         let file = shipped(name);
         succeeds(&["check", &file]);
         let printed = succeeds(&["bevel", &file]).stdout;
@@ -47,6 +52,68 @@ fn blank_and_contact_of_seed_001() {
         "pinion axial, mm per mm",
     ] {
         assert!(text.contains(part), "`{part}` is not in {text}");
+    }
+}
+
+/// Under load the first screen has transmission error, sharing and pressure of every torque; the page draws them; wrong loads are refused.
+#[test]
+fn a_pair_file_with_loads_is_analysed_under_them() {
+    let desk = Desk::new();
+    let text = std::fs::read_to_string(shipped("bevel_20_20_loaded.toml")).unwrap();
+    let quick = text
+        .replace("slices = 31", "slices = 15")
+        .replace("positions_per_pitch = 16", "positions_per_pitch = 6");
+    assert!(quick != text);
+    let file = desk.file("pair.toml", &quick);
+    let page = desk.path("page.html");
+    let run = succeeds(&["tca", argument(&file), "--report", argument(&page)]).stdout;
+    let first: Vec<&str> = run.lines().take(5).collect();
+    assert!(
+        first[0].contains("rigid gears") && first[1].contains("TE pk-pk urad"),
+        "{first:?}"
+    );
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split_whitespace()
+            .filter_map(|cell| cell.parse().ok())
+            .collect()
+    };
+    let [light, _, heavy] = [2, 3, 4].map(|line: usize| numbers(first[line]));
+    assert_eq!((light[0], heavy[0]), (50.0, 200.0));
+    assert!(heavy[1] < light[1] && light[1] < -300.0, "{first:?}");
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("Under load") && html.contains("Largest pressure at 200 N m"));
+    let json = succeeds(&["tca", argument(&file), "--json"]).json();
+    let torques = json["load"]["torques"].as_array().unwrap();
+    assert_eq!(torques.len(), 3);
+    let position = &torques[2]["positions"][0];
+    let force: f64 = position["patches"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| p["force_N"].as_f64().unwrap())
+        .sum();
+    assert!((7000.0..10000.0).contains(&force), "{force}");
+    for (from, to, parts) in [
+        (
+            "torques_Nm = [50.0, 100.0, 200.0]",
+            "torques_Nm = []",
+            ["found 0 torques", "1 to 20"],
+        ),
+        (
+            "torques_Nm = [50.0, 100.0, 200.0]",
+            "torques_Nm = [-5.0]",
+            ["torques_Nm.0", "more than 0"],
+        ),
+        ("slices = 15", "slices = 2", ["slices", "3 to 100"]),
+        ("slices = 15", "models = [\"a.h5\", \"b.h5\"]", ["a.h5", ""]),
+        (
+            "slices = 15",
+            "models = [\"a.h5\", \"b.h5\"]\npoisson = 0.2",
+            ["poisson", "is not used with `models`"],
+        ),
+    ] {
+        let wrong = desk.file("wrong.toml", quick.replace(from, to));
+        refused(&gearmesh(&["tca", argument(&wrong)]), 2, &parts);
     }
 }
 

@@ -10,6 +10,7 @@ fn schemas_are_json() {
         ("gear", ["module_mm", "bore_diameter_mm"]),
         ("bearing", ["ball_diameter_mm", "roller_length_mm"]),
         ("bevel", ["outer_module_mm", "ratio_of_roll"]),
+        ("bevel-gear", ["member", "rim_mm"]),
     ] {
         let answer = succeeds(&["schema", kind]);
         assert!(
@@ -34,6 +35,7 @@ fn reference_pages_are_up_to_date() {
         "study",
         "bearing",
         "bevel",
+        "bevel-gear",
         "model",
         "pair-result",
         "system-result",

@@ -20,7 +20,26 @@ impl SliceContact {
         let Run { law, rates, .. } = &self.runs[self.run[patch]];
         let rate = rates[gear];
         let along = &self.rates[gear][patch * n..][..n];
-        law.complementary_energy_rate(own, rate.alpha, rate.cap) + own * dot(along, forces)
+        let mut sum =
+            law.complementary_energy_rate(own, rate.alpha, rate.cap) + own * dot(along, forces);
+        if rate.beta != 0.0 {
+            sum += rate.beta * law.complementary_energy_by_beta(own);
+        }
+        sum
+    }
+
+    /// ∂E*/∂v \[J per v\] at the forces of the last solve as a patch walks along the tooth of gear 0 or 1; zero on gears on which
+    /// slices do not walk that way. Prepare with rates.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    pub fn energy_by_v(&self, patch: usize, gear: usize) -> f64 {
+        let forces = self.work.forces();
+        let n = forces.len();
+        match self.along[gear].get(patch * n..(patch + 1) * n) {
+            Some(along) => forces[patch] * dot(along, forces),
+            None => 0.0,
+        }
     }
 
     /// ∂E*/∂s \[J\] at the forces of the last solve, s the share of its slice that touches. Prepare with rates.

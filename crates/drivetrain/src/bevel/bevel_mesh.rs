@@ -25,7 +25,7 @@ use crate::slice_plane::{Matrix6, on_turn};
 /// So do those that stand open by this share of a pitch more than the nearest ones.
 const NEAR: f64 = 0.03;
 /// Pairs of teeth that are looked at.
-const MOST_PAIRS: usize = 2 * REACH as usize + 1;
+pub(super) const MOST_PAIRS: usize = 2 * REACH as usize + 1;
 /// How far the shaft angle may be off \[rad\], and the apexes apart over the mean cone distance.
 const MOST_TILT_RAD: f64 = 0.05;
 const MOST_APART: f64 = 0.1;
@@ -35,28 +35,28 @@ const LINE_CONTACT: f64 = 1e-5;
 /// Flanks of a bevel pair, gear 1 the pinion.
 #[derive(Debug, Clone)]
 pub struct BevelMesh {
-    teeth: [usize; 2],
-    shaft_angle_rad: f64,
-    mean_cone_m: f64,
-    layout: SliceLayout,
+    pub(super) teeth: [usize; 2],
+    pub(super) shaft_angle_rad: f64,
+    pub(super) mean_cone_m: f64,
+    pub(super) layout: SliceLayout,
     /// Right and left.
-    sides: [Side; 2],
+    pub(super) sides: [Side; 2],
     at: Option<Pose>,
     found: [Vec<PoseDerivatives>; 2],
     /// Whether any flanks were near enough for their spheres to meet.
     is_apart: [bool; 2],
     /// Points of flanks that were computed.
-    points: Cell<u64>,
+    pub(super) points: Cell<u64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
 }
 
 /// A pair of teeth that may touch.
-struct Candidate {
-    teeth: [usize; 2],
-    turns_rad: [f64; 2],
+pub(super) struct Candidate {
+    pub teeth: [usize; 2],
+    pub turns_rad: [f64; 2],
     /// Of gear 1's mean point from the plane of the axes.
-    angle_1_rad: f64,
+    pub angle_1_rad: f64,
     /// Gap that the mean points would have \[m\].
     mean_gap_m: f64,
 }
@@ -139,6 +139,42 @@ impl BevelMesh {
         self.points.get()
     }
 
+    /// Cone distance and height above the pitch cone \[m\] of a place on a flank of gear 0 or 1, at shares along the face and up the flank.
+    ///
+    /// # Panics
+    /// If there is no such gear.
+    #[must_use]
+    pub fn flank_place_m(&self, side: Flank, gear: usize, at: [f64; 2]) -> [f64; 2] {
+        self.sides[side as usize].patches[gear].place_m(at)
+    }
+
+    /// Azimuths of the mean points of tooth 0 of both gears on a side \[rad\].
+    #[must_use]
+    pub fn azimuths_rad(&self, side: Flank) -> [f64; 2] {
+        self.sides[side as usize].azimuths_rad
+    }
+
+    /// Face widths along the pitch cones \[m\].
+    #[must_use]
+    pub fn face_widths_m(&self) -> [f64; 2] {
+        self.layout.face_widths_m
+    }
+
+    /// Numbers of teeth.
+    #[must_use]
+    pub fn teeth(&self) -> [usize; 2] {
+        self.teeth
+    }
+
+    /// Point \[m\] of a flank of tooth 0 of gear 0 or 1 in its frame, at shares along the face and up the flank.
+    ///
+    /// # Panics
+    /// If there is no such gear.
+    #[must_use]
+    pub fn flank_point_m(&self, side: Flank, gear: usize, at: [f64; 2]) -> Vector3<f64> {
+        self.sides[side as usize].patches[gear].point(at).r
+    }
+
     /// Levers of the normal at the mean points about the axes of gear 1 and gear 2 \[m\], those of right flanks.
     #[must_use]
     pub fn levers_m(&self) -> [f64; 2] {
@@ -146,7 +182,7 @@ impl BevelMesh {
     }
 
     /// Pairs of teeth whose flanks may face each other; the one nearest to the plane of the axes first.
-    fn candidates(&self, pose: &Pose, flank: Flank) -> impl Iterator<Item = Candidate> {
+    pub(super) fn candidates(&self, pose: &Pose, flank: Flank) -> impl Iterator<Item = Candidate> {
         let side = &self.sides[flank as usize];
         let (b, k) = (
             pose.axis_2(),
@@ -258,7 +294,7 @@ impl BevelMesh {
     }
 
     /// Flanks that no sphere brings together, by their mean points: for gears that are still to be turned until they touch.
-    fn push_apart(&self, pose: &Pose, flank: Flank, found: &mut FlankContacts) {
+    pub(super) fn push_apart(&self, pose: &Pose, flank: Flank, found: &mut FlankContacts) {
         let side = &self.sides[flank as usize];
         let Some(nearest) = self.candidates(pose, flank).next() else {
             return;
@@ -282,6 +318,8 @@ impl BevelMesh {
             length_m: self.layout.width_m(),
             radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (0, 1),
         });
         found.contacts.push(ToothContact {
@@ -322,6 +360,8 @@ impl BevelMesh {
             length_m: self.layout.width_m(),
             radius_m: 1.0 / curvature(point).principal_per_m[1],
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (number, 1),
         });
         found.contacts.push(ToothContact {
@@ -337,7 +377,7 @@ impl BevelMesh {
 }
 
 /// Angle of a gear's axis from gear 1's \[rad\].
-fn angle_of(axis: &Vector3<f64>) -> f64 {
+pub(super) fn angle_of(axis: &Vector3<f64>) -> f64 {
     axis[2].clamp(-1.0, 1.0).acos()
 }
 
@@ -424,7 +464,7 @@ impl FlankKinematics for BevelMesh {
 
 impl BevelMesh {
     /// Whether the axes stand as flanks can follow.
-    fn check_axes(&self, pose: &Pose) -> Result<(), DrivetrainError> {
+    pub(super) fn check_axes(&self, pose: &Pose) -> Result<(), DrivetrainError> {
         let tilt = angle_of(&pose.axis_2()) - self.shaft_angle_rad;
         let apart = pose.displacement_m.norm();
         if !(tilt.abs() <= MOST_TILT_RAD && apart <= MOST_APART * self.mean_cone_m) {

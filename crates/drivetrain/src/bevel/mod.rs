@@ -9,15 +9,28 @@
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
+//! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
+//! | what gives way in it | `bevel_teeth.rs` |
+//! | where a section across the tooth is nearest | `section_points.rs` |
+//! | the pair at rest under a torque | `loaded_contact.rs` |
+//! | length and radius of the line of contact | `line_geometry.rs` |
 //!
 //! The theory is in docs/theory/bevel_gears.md, "Contact in motion".
 
 mod bevel_mesh;
+mod bevel_teeth;
 mod bounding_spheres;
 mod hertz_stiffness;
+mod line_geometry;
+mod loaded_contact;
 mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;
+mod section_points;
+mod sliced_mesh;
+mod sliced_side;
 mod tooth_side;
 
 pub use bevel_mesh::BevelMesh;
+pub use loaded_contact::{LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
+pub use sliced_mesh::BevelSlices;

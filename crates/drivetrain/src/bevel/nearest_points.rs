@@ -111,7 +111,7 @@ impl Nearest {
     }
 
     /// How the gap changes with a coordinate \[m\].
-    fn slope(&self, member: usize, k: usize) -> f64 {
+    pub(super) fn slope(&self, member: usize, k: usize) -> f64 {
         let sign = [-1.0, 1.0][member];
         sign * self.points[member].dr[k].dot(&self.normal)
     }
@@ -195,7 +195,7 @@ fn shifted(p: &PatchPoint, by: [f64; 2]) -> PatchPoint {
 }
 
 /// Newton's method for one set of held coordinates.
-fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
+pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
     let domain = FlankPatch::domain();
     let mut at = start;
     for m in 0..2 {
@@ -307,6 +307,11 @@ impl Limits {
             tip: (0..2).find(|m| held[*m][1].is_some()),
             end: end.map(|end| usize::from(end > 0.5)),
         }
+    }
+
+    /// The tip that holds, if one does.
+    pub(super) fn tip(self) -> Option<usize> {
+        self.tip
     }
 
     fn holds(self, limit: Limit) -> bool {

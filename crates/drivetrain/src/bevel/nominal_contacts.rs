@@ -54,13 +54,11 @@ impl NominalContacts {
     pub(crate) fn new(
         pitch_rad: f64,
         reach: f64,
-        nearest: impl Fn(f64) -> (Matrix3<f64>, Option<Nearest>),
+        mut nearest: impl FnMut(f64) -> (Matrix3<f64>, Option<Nearest>),
     ) -> Self {
-        let step_rad = pitch_rad / PER_PITCH as f64;
-        let half = (reach * PER_PITCH as f64).ceil() as usize;
-        let first_rad = -(half as f64) * step_rad;
-        let entry = |number: usize| {
-            let (rotation, found) = nearest(first_rad + number as f64 * step_rad);
+        let angles = Self::angles(pitch_rad, reach);
+        let entry = |angle_rad: f64| {
+            let (rotation, found) = nearest(angle_rad);
             let found = found?;
             let here = Vector3::zeros();
             Some(Entry {
@@ -73,10 +71,18 @@ impl NominalContacts {
             })
         };
         Self {
-            first_rad,
-            step_rad,
-            entries: (0..=2 * half).map(entry).collect(),
+            first_rad: angles[0],
+            step_rad: pitch_rad / PER_PITCH as f64,
+            entries: angles.into_iter().map(entry).collect(),
         }
+    }
+
+    /// Angles of the entries over `reach` pitches to either side \[rad\].
+    pub(crate) fn angles(pitch_rad: f64, reach: f64) -> Vec<f64> {
+        let step_rad = pitch_rad / PER_PITCH as f64;
+        let half = (reach * PER_PITCH as f64).ceil() as usize;
+        let number = |number: usize| (number as f64 - half as f64) * step_rad;
+        (0..=2 * half).map(number).collect()
     }
 
     /// The guess for a tooth at an angle; gear 2 in the frame of gear 1's tooth. None where nothing is nearest nominally.
@@ -88,6 +94,35 @@ impl NominalContacts {
     ) -> Option<Guess> {
         let number = ((angle_rad - self.first_rad) / self.step_rad).round();
         let number = number.clamp(0.0, (self.entries.len() - 1) as f64) as usize;
+        self.guess_from(number, displacement_m, rotation)
+    }
+
+    /// The same from the entry nearby where there is none at the angle: sections reach the mate in a few pitches only, and a little earlier or
+    /// later where the gears stand off the design.
+    pub(crate) fn guess_nearby(
+        &self,
+        angle_rad: f64,
+        displacement_m: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+    ) -> Option<Guess> {
+        let number = ((angle_rad - self.first_rad) / self.step_rad).round();
+        let last = self.entries.len() - 1;
+        if !(-(PER_PITCH as f64)..=(last + PER_PITCH) as f64).contains(&number) {
+            return None;
+        }
+        let number = number.clamp(0.0, last as f64) as usize;
+        let exists = |at: &usize| self.entries.get(*at).is_some_and(Option::is_some);
+        let near = (0..=PER_PITCH / 4).flat_map(|off| [number.wrapping_sub(off), number + off]);
+        let number = near.into_iter().find(exists)?;
+        self.guess_from(number, displacement_m, rotation)
+    }
+
+    fn guess_from(
+        &self,
+        number: usize,
+        displacement_m: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+    ) -> Option<Guess> {
         let entry = self.entries[number].as_ref()?;
         let turn = rotation * entry.back;
         let theta = Vector3::new(

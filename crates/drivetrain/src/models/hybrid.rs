@@ -288,6 +288,10 @@ impl ReducedTeeth {
                         - self.modal_energy_by_roll(flanks, loads, (number, gear));
                 }
             }
+            for gear in 0..2 {
+                let along = rows.clone().map(|row| self.slices.energy_by_v(row, gear));
+                loads.energy_by_height[number][gear] = along.sum();
+            }
             if section.share_gradient != Vector6::zeros() {
                 let growing = rows.map(|row| self.slices.energy_by_share(row));
                 loads.energy_by_share[number] = growing.sum();

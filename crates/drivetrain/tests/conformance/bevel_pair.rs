@@ -16,13 +16,13 @@ use crate::mesh_common::*;
 use crate::two_bodies::{check_reaction, check_tangents, check_turned};
 use crate::{DAMPINGS, friction};
 
-struct Pair {
-    blank: PairBlank,
-    design: PairDesign,
-    mesh: BevelMesh,
+pub(crate) struct Pair {
+    pub blank: PairBlank,
+    pub design: PairDesign,
+    pub mesh: BevelMesh,
 }
 
-fn pair(name: &str) -> Pair {
+pub(crate) fn pair(name: &str) -> Pair {
     let file = format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"));
     let file = PairFile::read(file.as_ref()).unwrap();
     let design = file.design().unwrap();
@@ -35,7 +35,7 @@ fn pair(name: &str) -> Pair {
 
 impl Pair {
     /// Gear 2 in gear 1 of an assembly with errors, both turned about their axes.
-    fn pose(&self, error: &AssemblyError, turns_rad: [f64; 2]) -> Pose {
+    pub fn pose(&self, error: &AssemblyError, turns_rad: [f64; 2]) -> Pose {
         let assembly = Assembly::new(&self.blank, error);
         let axes = [0, 1].map(|m: usize| {
             let turn: Matrix3<f64> = about(Vector3::z(), turns_rad[m]);
@@ -46,14 +46,14 @@ impl Pair {
         Pose::at_rest(back * apart, back * axes[1])
     }
 
-    fn gap_m(&self, pose: &Pose, side: Flank) -> f64 {
+    pub fn gap_m(&self, pose: &Pose, side: Flank) -> f64 {
         let mut found = FlankContacts::default();
         self.mesh.contacts_at(pose, side, &mut found).unwrap();
         found.lines[0].ideal_gap_m
     }
 
     /// Turn of gear 2 at which the flanks of a side stand open by so much.
-    fn turn_2(&self, error: &AssemblyError, turn_1: f64, side: Flank, gap_m: f64) -> f64 {
+    pub fn turn_2(&self, error: &AssemblyError, turn_1: f64, side: Flank, gap_m: f64) -> f64 {
         let lever = self.mesh.levers_m()[1] * side.mirror();
         let mut turn_2 =
             -turn_1 * self.blank.data.teeth[0] as f64 / self.blank.data.teeth[1] as f64;
@@ -78,7 +78,7 @@ impl Pair {
 }
 
 /// Offset, axial places, shaft angle.
-fn assembly([v, p, g, a]: [f64; 4]) -> AssemblyError {
+pub(crate) fn assembly([v, p, g, a]: [f64; 4]) -> AssemblyError {
     AssemblyError {
         offset_m: v,
         pinion_axial_m: p,
@@ -89,9 +89,9 @@ fn assembly([v, p, g, a]: [f64; 4]) -> AssemblyError {
 
 /// Positions a pitch.
 const POSITIONS: usize = 12;
-const AS_DESIGNED: [f64; 4] = [0.0; 4];
+pub(crate) const AS_DESIGNED: [f64; 4] = [0.0; 4];
 /// Errors that bring the contact to toe, heel and tips.
-const MISALIGNED: [[f64; 4]; 4] = [
+pub(crate) const MISALIGNED: [[f64; 4]; 4] = [
     [0.15e-3, 0.0, 0.0, 0.0],
     [-0.15e-3, 0.0, 0.0, 1e-3],
     [0.0, 0.1e-3, -0.05e-3, -2e-3],
@@ -180,7 +180,7 @@ fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
 }
 
 /// Poses at which a side is pressed together or nearly so, misaligned ones too.
-fn poses(pair: &Pair, depth_m: f64) -> Vec<Pose> {
+pub(crate) fn poses(pair: &Pair, depth_m: f64) -> Vec<Pose> {
     let mut list = Vec::new();
     let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
     for (number, errors) in [&[AS_DESIGNED][..], &MISALIGNED[..]]
@@ -371,7 +371,7 @@ fn hertz_mesh(pair: &Pair) -> GearMesh {
     mesh.with_side(Flank::Left, law(Flank::Left)).unwrap()
 }
 
-fn steel_pa() -> f64 {
+pub(crate) fn steel_pa() -> f64 {
     contact_modulus_pa((206e9, 0.3), (206e9, 0.3))
 }
 

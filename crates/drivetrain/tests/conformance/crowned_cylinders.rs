@@ -167,6 +167,8 @@ impl FlankKinematics for CrownedCylinders {
             length_m: self.layout.width_m(),
             radius_m: 1.0 / self.curvatures[1],
             radius_growth: [0.0; 2],
+            length_growth: [0.0; 2],
+            along_gradient: [Vector6::zeros(); 2],
             contacts: (0, slices),
         });
         for slice in 0..slices {

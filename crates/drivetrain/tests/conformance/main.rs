@@ -3,6 +3,7 @@
 
 mod backlash;
 mod bevel_pair;
+mod bevel_slices;
 mod crossed_cylinders;
 mod crowned_cylinders;
 mod effects;

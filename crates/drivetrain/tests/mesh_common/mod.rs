@@ -5,6 +5,7 @@
 pub mod pair_common;
 
 pub mod cracked_gear;
+pub mod made_up_bevel;
 pub mod modal_gear;
 pub mod running_pair;
 

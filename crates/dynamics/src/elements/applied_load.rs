@@ -84,7 +84,11 @@ impl ForceElement for AppliedLoad {
 
     fn evaluate(&mut self, view: &View<'_>, loads: &mut Loads) -> Result<(), ElementFailure> {
         let motion = view.body(self.body[0]);
-        let load = view.load_factor * self.magnitude.at(view.time_s).value * self.direction;
+        let magnitude = self.magnitude.at(view.time_s).value;
+        if !magnitude.is_finite() {
+            return Err(format!("its function gave {magnitude}").into());
+        }
+        let load = view.load_factor * magnitude * self.direction;
         let (world, own) = match self.axes {
             Axes::World => (load, motion.rotation.transpose() * load),
             Axes::Body => (motion.rotation * load, load),

@@ -6,6 +6,7 @@ mod andrews;
 mod beads;
 mod five_bars;
 mod friction;
+mod host_elements;
 mod output_columns;
 mod own_coordinates;
 #[path = "../../../../tests/support/property_cases.rs"]

@@ -138,6 +138,25 @@ impl NumberTable {
         }
     }
 
+    /// A complaint about a value, by the numbers of its row and of its column.
+    ///
+    /// # Panics
+    /// If there is no such row or column.
+    #[must_use]
+    pub fn error_at(
+        &self,
+        row: usize,
+        number: usize,
+        problem: impl std::fmt::Display,
+    ) -> InputError {
+        InputError {
+            file: self.file.clone(),
+            line: Some(self.lines[row]),
+            key: self.heads[number].clone(),
+            problem: problem.to_string(),
+        }
+    }
+
     /// Complains unless a column increases from row to row.
     ///
     /// # Errors
@@ -147,15 +166,11 @@ impl NumberTable {
         let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
             return Ok(());
         };
-        Err(InputError {
-            file: self.file.clone(),
-            line: Some(self.lines[row + 1]),
-            key: self.heads[number].clone(),
-            problem: format!(
-                "found {} after {}; it must increase from row to row",
-                column[row + 1],
-                column[row]
-            ),
-        })
+        let problem = format!(
+            "found {} after {}; it must increase from row to row",
+            column[row + 1],
+            column[row]
+        );
+        Err(self.error_at(row + 1, number, problem))
     }
 }

@@ -3,7 +3,7 @@
 use crate::{GEARBOX, changed, demand_same, file, names, read};
 use gearmesh_rexs::container::unpack;
 use gearmesh_rexs::model::{Component, Model, Value};
-use gearmesh_rexs::{import, xml};
+use gearmesh_rexs::{Meshes, import, xml};
 use serde_json::json;
 use std::io::Write;
 

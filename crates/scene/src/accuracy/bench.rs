@@ -1,94 +1,98 @@
-//! What a setting of a scene gives, and how long it takes.
+//! What a setting of a scene gives, and what it takes.
 
-use std::path::Path;
-use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
-use gearmesh_geometry::InputError;
+use gearmesh_geometry::{GearDefinition, InputError};
+use gearmesh_model::{ReducedGear, write_text};
 
-use super::knobs::{Knob, case_of, of_pair, of_system};
-use crate::pair::{SceneResult, run as run_pair};
-use crate::scene_file::SceneFile;
+use super::effects::{Effect, of_scene};
+use super::element_knob;
+use super::knobs::{Knob, case_of, of_bevel, of_pair};
+use super::system_knobs::of_system;
+use crate::pair::ModelShelf;
 use crate::study::{
-    BaseScene, Case, MadeFiles, PairCases, StudyError, VaryError, column_names, column_place,
-    columns,
-};
-use crate::system::unknown;
-use crate::system_run::{
-    Figures, Outcome, RunJob, RunOptions, SystemResult, recorded_columns, run as run_system,
+    BaseScene, Case, Effort, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, StudyError,
+    StudyOptions, Subject, VaryError, Wanted, evaluate, known_columns, make_files, number,
 };
 
-/// Short runs are repeated until they have taken so long, at most this many times; the shortest counts.
-const REPEATED_FOR: Duration = Duration::from_millis(200);
+/// Runs of a setting at most.
 const MOST_REPEATS: usize = 5;
 
-/// Multibody runs write a checkpoint after this time.
-const CHECKPOINTS: Duration = Duration::from_secs(600);
-
-/// A figure that the user wants: a column, and of a multibody run what of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Wanted {
-    /// The column.
-    pub column: String,
-    /// `mean`, `deviation`, `peak-to-peak`, `largest`, `least`; empty for columns of a gear pair.
-    pub figure: String,
+/// Which time settings are judged by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum JudgedTime {
+    /// Wall time: what a user waits.
+    #[default]
+    Wall,
+    /// Processor time, which other work on the machine hardly changes.
+    Processor,
 }
 
-/// What may stand behind the column of a multibody run.
-const FIGURES: [&str; 5] = ["mean", "deviation", "peak-to-peak", "largest", "least"];
-
-impl Wanted {
-    /// `COLUMN` or `COLUMN:FIGURE`.
+impl JudgedTime {
+    /// The time of an effort \[s\].
     #[must_use]
-    pub fn of(text: &str) -> Self {
-        let (column, figure) = text.rsplit_once(':').unwrap_or((text, ""));
-        Self {
-            column: column.to_owned(),
-            figure: figure.to_owned(),
+    pub fn of(self, effort: &Effort) -> f64 {
+        match self {
+            Self::Wall => effort.wall_s,
+            Self::Processor => effort.cpu_s,
         }
     }
 
-    /// As it was written.
+    /// In words.
     #[must_use]
-    pub fn name(&self) -> String {
-        if self.figure.is_empty() {
-            return self.column.clone();
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Wall => "wall time",
+            Self::Processor => "processor time",
         }
-        format!("{}:{}", self.column, self.figure)
     }
+}
 
-    fn value(&self, figures: Figures) -> f64 {
-        match &self.figure[..] {
-            "mean" => figures.mean,
-            "deviation" => figures.deviation,
-            "largest" => figures.largest,
-            "least" => figures.least,
-            _ => figures.peak_to_peak(),
-        }
-    }
+/// Meshes and reduces a gear.
+pub type Reduce<'a> = &'a (dyn Fn(&GearDefinition) -> Result<ReducedGear, String> + Sync);
+
+/// How a scene is tried.
+pub struct BenchOptions<'a> {
+    /// What is to be exact.
+    pub wanted: Vec<Wanted>,
+    /// Runs in time: figures from this time on \[s\].
+    pub from_s: f64,
+    /// Which time counts.
+    pub time: JudgedTime,
+    /// Short runs are repeated until they have taken so long \[s\], up to five times; the shortest counts.
+    pub repeated_for_s: f64,
+    /// Vary the gears' meshes, too: each rung reduces every gear.
+    pub elements: bool,
+    /// For results, and for models that are not kept; the caller removes it.
+    pub scratch: &'a Path,
+    /// Where models of other meshes are kept, by digest.
+    pub models: &'a Path,
+    /// Set from outside.
+    pub stop: &'a AtomicBool,
+    /// Makes models: this side never does it itself.
+    pub reduce: Reduce<'a>,
 }
 
 /// What a setting gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Wall time of the computation; reading models and writing files is not in it \[s\].
-    pub seconds: f64,
-    /// Iterations: of the contact at all positions, or of the integrator's steps.
-    pub iterations: f64,
-    /// The figures; of a gear pair each torque's, column by column.
+    /// What it took.
+    pub effort: Effort,
+    /// The figures, column by column; of a gear pair each torque's.
     pub values: Vec<f64>,
+    /// Wall time of reducing the gears that it needs and the scene does not name \[s\], once, also where they were kept from before.
+    pub reduction_s: f64,
 }
 
 /// Runs a scene in other and other settings.
 pub struct Bench<'a> {
     base: BaseScene,
-    pairs: PairCases,
-    wanted: Vec<Wanted>,
-    /// Multibody runs: figures from this time on \[s\].
-    from_s: f64,
-    /// For results of multibody runs; the caller removes it.
-    scratch: &'a Path,
-    stop: &'a AtomicBool,
+    folder: PathBuf,
+    rest: RestCases,
+    scratch: Scratch<'a>,
+    options: BenchOptions<'a>,
 }
 
 impl<'a> Bench<'a> {
@@ -96,51 +100,41 @@ impl<'a> Bench<'a> {
     ///
     /// # Errors
     /// [`StudyError`] for a scene that cannot be loaded, and for columns that it does not have.
-    pub fn new(
-        scene: &Path,
-        wanted: Vec<Wanted>,
-        (from_s, scratch, stop): (f64, &'a Path, &'a AtomicBool),
-    ) -> Result<Self, StudyError> {
+    pub fn new(scene: &Path, options: BenchOptions<'a>) -> Result<Self, StudyError> {
         let this = Self {
-            base: BaseScene::read(scene, std::iter::empty())?,
-            pairs: PairCases::default(),
-            wanted,
-            from_s,
-            scratch,
-            stop,
+            base: BaseScene::read(scene, std::iter::empty(), None)?,
+            folder: scene.parent().unwrap_or(Path::new("")).to_owned(),
+            rest: RestCases::default(),
+            scratch: Scratch::new(options.scratch, options.stop),
+            options,
         };
-        let error = |problem: String| InputError {
-            file: "--columns".to_owned(),
-            line: None,
-            key: String::new(),
-            problem,
+        let error = |problem: String| {
+            StudyError::Input(InputError {
+                file: "--columns".to_owned(),
+                line: None,
+                key: String::new(),
+                problem,
+            })
         };
-        match this.scene(&Case::default())? {
-            SceneFile::Pair(scene) => {
-                let known = column_names(&this.pairs.load(&scene)?);
-                for one in &this.wanted {
-                    column_place(&one.name(), &known).map_err(error)?;
-                }
-                if from_s > 0.0 {
-                    return Err(error(
-                        "--from-s belongs to runs in time; a gear pair is looked at at rest"
-                            .to_owned(),
-                    )
-                    .into());
-                }
+        let subject = this.subject(&Case::default(), &mut MadeFiles::new())?;
+        if let Subject::Bearing(_) = subject {
+            let problem = "is a bearing file, which has no knobs; allowed is a scene, in which bearings have models to choose from, or a bevel pair";
+            return Err(this.refused(problem.to_owned()).into());
+        }
+        let (known, kinds) = known_columns(&subject, &this.rest)?;
+        for one in &this.options.wanted {
+            one.check(&known, kinds).map_err(error)?;
+            if kinds != FigureKinds::None && one.word.is_empty() {
+                let name = one.name();
+                let told = format!(
+                    "`{name}` is a series; say what of it, written COLUMN:FIGURE: `{name}:mean`, `:peak-to-peak`, `:largest` and so on"
+                );
+                return Err(error(told));
             }
-            SceneFile::System(scene) => {
-                let job = RunJob::from_scene(scene.load()?)?;
-                let known: Vec<String> =
-                    recorded_columns(&job).into_iter().map(|c| c.name).collect();
-                for one in &this.wanted {
-                    column_place(&one.column, &known).map_err(error)?;
-                    if !FIGURES.contains(&&one.figure[..]) {
-                        let what = format!("figure of {}, written COLUMN:FIGURE,", one.column);
-                        return Err(error(unknown(&what, &one.figure, &FIGURES)).into());
-                    }
-                }
-            }
+        }
+        if this.options.from_s > 0.0 && kinds != FigureKinds::InTime {
+            let told = "--from-s belongs to runs in time; this scene has none";
+            return Err(error(told.to_owned()));
         }
         Ok(this)
     }
@@ -150,9 +144,11 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// [`StudyError`] for a scene that cannot be loaded.
     pub fn knobs(&self) -> Result<(Vec<Knob>, Vec<String>), StudyError> {
-        let mut knobs = match self.scene(&Case::default())? {
-            SceneFile::Pair(scene) => of_pair(&self.pairs.load(&scene)?),
-            SceneFile::System(_) => of_system(&self.base),
+        let mut knobs = match self.subject(&Case::default(), &mut MadeFiles::new())? {
+            Subject::Pair(scene) => of_pair(&self.rest.load(&scene)?),
+            Subject::Bevel(pair) => of_bevel(pair.file.tca.per_pitch),
+            Subject::System(_) => of_system(&self.base),
+            Subject::Bearing(_) => Vec::new(),
         };
         let mut left_out = Vec::new();
         for knob in &mut knobs {
@@ -169,6 +165,16 @@ impl<'a> Bench<'a> {
                 loaded.is_ok()
             });
         }
+        if self.options.elements {
+            // What each rung needs is reduced when it is run.
+            match element_knob::of_gears(&self.base, &self.folder, &ModelShelf::default()) {
+                Some(knob) => knobs.push(knob),
+                None => left_out.push(
+                    "gears' meshes: the scene has no reduced gears, or some with meshes that are not of hexahedra made here"
+                        .to_owned(),
+                ),
+            }
+        }
         knobs.retain(|knob| {
             if knob.rungs.len() < 2 {
                 left_out.push(format!("{}: nothing to choose", knob.name));
@@ -178,14 +184,42 @@ impl<'a> Bench<'a> {
         Ok((knobs, left_out))
     }
 
+    /// The effects that the scene could do without, or have, and what was left out.
+    pub(super) fn effects(&self) -> (Vec<Effect>, Vec<String>) {
+        let mut left_out = Vec::new();
+        let mut effects = of_scene(&self.base);
+        effects.retain(|effect| {
+            let loaded = self.try_load(&effect.case);
+            if let Err(told) = &loaded {
+                left_out.push(format!("{}: {told}", effect.name));
+            }
+            loaded.is_ok()
+        });
+        (effects, left_out)
+    }
+
     /// Whether the user has asked to stop.
     pub(super) fn is_stopped(&self) -> bool {
-        self.stop.load(std::sync::atomic::Ordering::Relaxed)
+        self.options.stop.load(Ordering::Relaxed)
+    }
+
+    /// The time that settings are judged by.
+    #[must_use]
+    pub fn time(&self) -> JudgedTime {
+        self.options.time
     }
 
     /// Names of the figures, in the order of the values.
     pub(super) fn names(&self) -> Vec<String> {
-        self.wanted.iter().map(Wanted::name).collect()
+        self.options.wanted.iter().map(Wanted::name).collect()
+    }
+
+    /// The name of a table of a list, for people.
+    pub(super) fn name_of(&self, table: &str) -> String {
+        match self.base.value(&format!("{table}.name")) {
+            Some(toml::Value::String(name)) => format!(" \"{name}\""),
+            _ => String::new(),
+        }
     }
 
     /// Runs a case, short ones several times.
@@ -193,15 +227,16 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// [`StudyError`] for a case that cannot be run.
     pub fn measure(&self, case: &Case) -> Result<Measured, StudyError> {
+        let time = |one: &Measured| self.options.time.of(&one.effort);
         let mut best = self.measure_once(case)?;
-        let mut spent = best.seconds;
+        let mut spent = best.effort.wall_s;
         for _ in 1..MOST_REPEATS {
-            if spent > REPEATED_FOR.as_secs_f64() {
+            if spent >= self.options.repeated_for_s {
                 break;
             }
             let again = self.measure_once(case)?;
-            spent += again.seconds;
-            if again.seconds < best.seconds {
+            spent += again.effort.wall_s;
+            if time(&again) < time(&best) {
                 best = again;
             }
         }
@@ -209,65 +244,45 @@ impl<'a> Bench<'a> {
     }
 
     fn measure_once(&self, case: &Case) -> Result<Measured, StudyError> {
-        match self.scene(case)? {
-            SceneFile::Pair(scene) => {
-                let loaded = self.pairs.load(&scene)?;
-                let clock = Instant::now();
-                let result: SceneResult = run_pair(&loaded, &|_, _| ())?;
-                let seconds = clock.elapsed().as_secs_f64();
-                let all = columns(&loaded, &result);
-                let own = |one: &Wanted| all.iter().find(|column| column.name == one.name());
-                Ok(Measured {
-                    seconds,
-                    iterations: result.iterations.iter().map(|n| f64::from(*n)).sum(),
-                    values: self
-                        .wanted
-                        .iter()
-                        .filter_map(own)
-                        .flat_map(|c| c.values.clone())
-                        .collect(),
-                })
-            }
-            SceneFile::System(scene) => {
-                let job = RunJob::from_scene(scene.load()?)?;
-                let file = self.scratch.join("run.h5");
-                let options = RunOptions {
-                    output: &file,
-                    restart: true,
-                    checkpoint_interval: CHECKPOINTS,
-                    stop: self.stop,
-                    progress: &|_| (),
-                };
-                let clock = Instant::now();
-                let outcome = run_system(job, &options)?;
-                let seconds = clock.elapsed().as_secs_f64();
-                if outcome == Outcome::Stopped {
-                    return Err(StudyError::Stopped);
+        let mut files = MadeFiles::new();
+        let subject = self.subject(case, &mut files)?;
+        let reduction_s = self.make(files)?;
+        let wanted = (&self.options.wanted[..], self.options.from_s);
+        let (selected, effort) = evaluate(subject, wanted, &self.rest, &self.scratch)?;
+        let columns = self.options.wanted.len();
+        let of_column = |k: usize| selected.iter().skip(k).step_by(columns).map(number);
+        Ok(Measured {
+            effort,
+            values: (0..columns).flat_map(of_column).collect(),
+            reduction_s,
+        })
+    }
+
+    /// Makes the files of a case; how long the models among them took \[s\].
+    fn make(&self, files: MadeFiles) -> Result<f64, StudyError> {
+        let options = StudyOptions {
+            folder: self.options.models,
+            stop: self.options.stop,
+            progress: &|_, _| (),
+            reduce: self.options.reduce,
+        };
+        let mut seconds = 0.0;
+        for (path, file) in files {
+            let is_model = matches!(file, MadeFile::Model(_));
+            let there = path.exists();
+            let clock = Instant::now();
+            make_files(&MadeFiles::from([(path.clone(), file)]), &options)?;
+            if is_model {
+                // Beside the model, for the next time.
+                let kept = path.with_extension("seconds");
+                if !there {
+                    write_text(&kept, &clock.elapsed().as_secs_f64().to_string())?;
                 }
-                let result = SystemResult::open(&file)?;
-                let times = match self.from_s > 0.0 {
-                    true => result.rows.read("time_s")?,
-                    false => Vec::new(),
-                };
-                let first = times.partition_point(|time| *time < self.from_s * (1.0 - 1e-12));
-                let value = |one: &Wanted| {
-                    let values = result.rows.read(&one.column)?;
-                    Ok(one.value(Figures::of(&values[first.min(values.len())..])))
-                };
-                Ok(Measured {
-                    seconds,
-                    iterations: result
-                        .record
-                        .as_ref()
-                        .map_or(0.0, |record| record.iterations),
-                    values: self
-                        .wanted
-                        .iter()
-                        .map(value)
-                        .collect::<Result<_, StudyError>>()?,
-                })
+                let told = std::fs::read_to_string(&kept).ok();
+                seconds += told.and_then(|text| text.parse().ok()).unwrap_or(0.0);
             }
         }
+        Ok(seconds)
     }
 
     fn refused(&self, problem: String) -> InputError {
@@ -279,26 +294,29 @@ impl<'a> Bench<'a> {
         }
     }
 
-    fn scene(&self, case: &Case) -> Result<SceneFile, InputError> {
-        let scene = self.base.scene(case, &mut MadeFiles::new(), Path::new(""));
+    fn subject(&self, case: &Case, files: &mut MadeFiles) -> Result<Subject, InputError> {
+        let scene = self.base.scene(case, files, self.options.models);
         scene.map_err(|error| match error {
             VaryError::Scene(error) => error,
             VaryError::Key { problem, .. } => self.refused(problem),
         })
     }
 
+    /// Loads a case and looks for the columns in it.
     fn try_load(&self, case: &Case) -> Result<(), String> {
-        match self.scene(case).map_err(|e| e.problem)? {
-            SceneFile::Pair(scene) => {
-                let loaded = self.pairs.load(&scene).map_err(|e| e.to_string())?;
-                loaded.contact().map(|_| ()).map_err(|e| e.to_string())
-            }
-            SceneFile::System(scene) => {
-                let loaded = scene.load().map_err(|e| e.to_string())?;
-                RunJob::from_scene(loaded)
-                    .map(|_| ())
-                    .map_err(|e| e.to_string())
-            }
+        let subject = self
+            .subject(case, &mut MadeFiles::new())
+            .map_err(|e| e.problem)?;
+        if let Subject::Pair(scene) = &subject {
+            let loaded = self.rest.load(scene).map_err(|e| e.to_string())?;
+            loaded.contact().map_err(|e| e.to_string())?;
+        }
+        let known = known_columns(&subject, &self.rest).map_err(|e| e.to_string())?;
+        let wanted = self.options.wanted.iter();
+        let mut lost = wanted.filter(|one| one.check(&known.0, known.1).is_err());
+        match lost.next() {
+            Some(one) => Err(format!("has no column `{}`", one.column)),
+            None => Ok(()),
         }
     }
 }

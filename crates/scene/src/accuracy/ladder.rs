@@ -4,11 +4,11 @@
 //! add up and times that multiply then say which of all combinations may lie on the front; those are run, and what is told of
 //! them is measured, not foretold.
 
-use toml::Value;
-
-use super::bench::{Bench, Measured};
+use super::bench::{Bench, JudgedTime, Measured};
+use super::effects::Effect;
 use super::knobs::{Knob, case_of};
-use crate::study::StudyError;
+use super::paste::to_paste;
+use crate::study::{Case, Effort, StudyError};
 
 /// Combinations that are run after the knobs by themselves.
 const MOST_COMBINATIONS: usize = 16;
@@ -23,12 +23,27 @@ pub struct Tried {
     pub rungs: Vec<usize>,
     /// Knob that alone stands lower than in the reference; none of the reference and of combinations.
     pub alone: Option<usize>,
-    /// Wall time \[s\].
+    /// The time that settings are judged by \[s\].
     pub seconds: f64,
-    /// Iterations.
-    pub iterations: f64,
+    /// All that it took.
+    pub effort: Effort,
+    /// Reducing its gears \[s\]: once, and not in the time.
+    pub reduction_s: f64,
     /// Largest error of each column, relative to the reference.
     pub errors: Vec<f64>,
+}
+
+/// What an effect changes and takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectFound {
+    /// The effect.
+    pub effect: Effect,
+    /// What the scene took without it.
+    pub without: Effort,
+    /// What it took with it.
+    pub with: Effort,
+    /// Largest change of each column by the effect, relative to the scene without it.
+    pub changes: Vec<f64>,
 }
 
 impl Tried {
@@ -74,6 +89,10 @@ pub struct Accuracy {
     pub failed: Vec<String>,
     /// What to take.
     pub advice: Vec<Advice>,
+    /// What each effect changes and takes, in the scene as it is.
+    pub effects: Vec<EffectFound>,
+    /// The time that settings are judged by.
+    pub time: JudgedTime,
 }
 
 /// An answer that a user waits for without losing the thread \[s\].
@@ -93,11 +112,18 @@ pub fn accuracy(
     let columns = bench.names();
     let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
     let mut found = Accuracy {
-        tried: vec![tried(top.clone(), None, &reference, judge(&reference))],
+        tried: vec![tried(
+            bench,
+            top.clone(),
+            None,
+            (&reference, judge(&reference)),
+        )],
         columns: columns.clone(),
         left_out,
         failed: Vec::new(),
         advice: Vec::new(),
+        effects: Vec::new(),
+        time: bench.time(),
         knobs,
     };
     let mut singles = Vec::new();
@@ -114,7 +140,7 @@ pub fn accuracy(
         stopped(bench)?;
         match bench.measure(&case_of(&found.knobs, &rungs)) {
             Ok(measured) => {
-                let one = tried(rungs, alone, &measured, judge(&measured));
+                let one = tried(bench, rungs, alone, (&measured, judge(&measured)));
                 found.tried.push(one);
             }
             Err(error) => {
@@ -145,12 +171,57 @@ pub fn accuracy(
             let errors = judge(&measured);
             found.advice.push(Advice {
                 goal,
-                toml: to_paste(&found.knobs, &rungs),
-                tried: tried(rungs, None, &measured, errors),
+                toml: to_paste(&found.knobs, &rungs, &|table| bench.name_of(table)),
+                tried: tried(bench, rungs, None, (&measured, errors)),
             });
         }
     }
+    let (effects, left_out) = bench.effects();
+    found.left_out.extend(left_out);
+    if !effects.is_empty() {
+        let as_it_is = bench.measure(&Case::default())?;
+        for effect in effects {
+            stopped(bench)?;
+            match bench.measure(&effect.case) {
+                Ok(other) => {
+                    let (without, with) = match effect.present {
+                        true => (&other, &as_it_is),
+                        false => (&as_it_is, &other),
+                    };
+                    found.effects.push(EffectFound {
+                        changes: errors(&with.values, &without.values, columns.len()),
+                        without: without.effort,
+                        with: with.effort,
+                        effect,
+                    });
+                }
+                Err(error) => {
+                    stopped(bench)?;
+                    found.failed.push(format!("{}: {error}", effect.name));
+                }
+            }
+        }
+    }
     Ok(found)
+}
+
+impl Accuracy {
+    /// How far the reference itself may be off: of the knobs whose rungs are numbers (steps, slices, tolerances) the one whose last rung still
+    /// changes the columns most, and by how much. None where there is no such knob.
+    #[must_use]
+    pub fn unsettled(&self) -> Option<(&Knob, f64)> {
+        let is_number = |knob: &Knob| knob.rungs.iter().all(|r| r.label.parse::<f64>().is_ok());
+        let last_step = |(number, knob): (usize, &'_ Knob)| {
+            let below = knob.rungs.len().checked_sub(2)?;
+            let single = |one: &&Tried| one.alone == Some(number) && one.rungs[number] == below;
+            Some((number, self.tried.iter().find(single)?.error()))
+        };
+        let steps = self.knobs.iter().enumerate().filter(|(_, k)| is_number(k));
+        let most = steps
+            .filter_map(last_step)
+            .max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some((&self.knobs[most.0], most.1))
+    }
 }
 
 fn stopped(bench: &Bench<'_>) -> Result<(), StudyError> {
@@ -160,12 +231,18 @@ fn stopped(bench: &Bench<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-fn tried(rungs: Vec<usize>, alone: Option<usize>, measured: &Measured, errors: Vec<f64>) -> Tried {
+fn tried(
+    bench: &Bench<'_>,
+    rungs: Vec<usize>,
+    alone: Option<usize>,
+    (measured, errors): (&Measured, Vec<f64>),
+) -> Tried {
     Tried {
         rungs,
         alone,
-        seconds: measured.seconds,
-        iterations: measured.iterations,
+        seconds: bench.time().of(&measured.effort),
+        effort: measured.effort,
+        reduction_s: measured.reduction_s,
         errors,
     }
 }
@@ -278,16 +355,6 @@ fn choice(tried: &[Tried], goal: Goal) -> Option<Vec<usize>> {
     best.map(|one| one.rungs.clone())
 }
 
-/// Keys and values of a setting.
-fn to_paste(knobs: &[Knob], rungs: &[usize]) -> Vec<String> {
-    let settings = knobs
-        .iter()
-        .zip(rungs)
-        .flat_map(|(knob, rung)| &knob.rungs[*rung].settings);
-    let line = |(key, value): &(String, Value)| format!("{key} = {value}");
-    settings.map(line).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -298,7 +365,8 @@ mod tests {
             rungs: rungs.into(),
             alone,
             seconds,
-            iterations: 1.0,
+            effort: Effort::default(),
+            reduction_s: 0.0,
             errors: vec![error],
         }
     }
@@ -327,6 +395,8 @@ mod tests {
             ],
             failed: Vec::new(),
             advice: Vec::new(),
+            effects: Vec::new(),
+            time: JudgedTime::Wall,
         };
         assert_eq!(foretold_front(&found, &[1, 1]), [vec![0, 0]]);
         // What costs time and exactness is not worth a run.

@@ -3,17 +3,23 @@
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
-//! | which knobs a scene has, and their rungs | [`Knob`] | `knobs.rs` |
-//! | what a setting gives, and how long it takes | [`Bench`] | `bench.rs` |
+//! | which knobs a scene has, and their rungs | [`Knob`] | `knobs.rs`, `system_knobs.rs`, `element_knob.rs` |
+//! | which effects it has, or could have | [`Effect`] | `effects.rs` |
+//! | what a setting gives, and what it takes | [`Bench`] | `bench.rs` |
 //! | which settings are tried, and which one to take | [`accuracy`] | `ladder.rs` |
+//! | the lines to paste | | `paste.rs` |
 //!
-//! Errors are those against the reference of the same program: what no knob of the scene changes (its gears' meshes and models, its
-//! loads) is in none of them.
+//! Errors are those against the reference of the same program: what no knob of the scene changes (its shafts, its loads) is in none of them.
 
 mod bench;
+mod effects;
+mod element_knob;
 mod knobs;
 mod ladder;
+mod paste;
+mod system_knobs;
 
-pub use bench::{Bench, Wanted};
+pub use bench::{Bench, BenchOptions, JudgedTime, Measured, Reduce};
+pub use effects::Effect;
 pub use knobs::{Knob, Rung};
-pub use ladder::{Accuracy, Advice, Goal, Tried, accuracy, words};
+pub use ladder::{Accuracy, Advice, EffectFound, Goal, Tried, accuracy, words};

@@ -1,4 +1,4 @@
-//! What a choice of the variables is worth: the objectives of the pairs that scatter makes of it.
+//! What a choice of the variables is worth: the objectives of what scatter makes of it.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,11 +7,11 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::file::{Judged, Optimisation};
-use crate::scene_file::SceneFile;
 use crate::study::{
-    BaseScene, Case, Design, MadeFiles, PairCases, PairFigures, Setting, StudyError, VaryError,
-    column_names, column_place, probabilities, seeded,
+    BaseScene, Case, Design, FigureKinds, MadeFiles, RestCases, Scratch, Setting, StudyError,
+    Subject, VaryError, Wanted, evaluate, known_columns, number, probabilities, seeded,
 };
+use crate::system::Run;
 
 /// A choice of the variables that was tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,14 +22,19 @@ pub struct Trial {
     pub objectives: Vec<f64>,
 }
 
-/// A term, looked up: place of its column, place of its torque (all of them where none), weight.
+/// A term, looked up: place of its column among those that are wanted, place of its torque (all of them where none), weight.
 type Term = (usize, Option<usize>, f64);
 
 /// Tells what choices of the variables are worth. Threads may share it.
 #[derive(Debug)]
-pub struct Evaluator {
+pub struct Evaluator<'a> {
     base: BaseScene,
-    pairs: PairCases,
+    rest: RestCases,
+    scratch: Scratch<'a>,
+    /// Columns of all terms.
+    wanted: Vec<Wanted>,
+    /// Runs in time: figures from this time on \[s\].
+    from_s: f64,
     /// Keys that each variable sets.
     keys: Vec<Vec<String>>,
     /// What is added to which key, for each sample.
@@ -40,22 +45,25 @@ pub struct Evaluator {
     failed: Mutex<Option<String>>,
 }
 
-impl Evaluator {
-    /// Reads scene and models, and finds the columns.
+impl<'a> Evaluator<'a> {
+    /// Reads scene and models, and finds the columns. Runs of multibody scenes write in `scratch`.
     ///
     /// # Errors
     /// [`StudyError`] for keys, columns and torques that the scene does not have.
-    pub fn new(problem: &Optimisation) -> Result<Self, StudyError> {
+    pub fn new(problem: &Optimisation, scratch: Scratch<'a>) -> Result<Self, StudyError> {
         let tables = &problem.tables;
         let all_keys = (tables.variable.iter().map(|v| &v.keys))
             .chain(tables.scatter.iter().map(|s| &s.keys))
             .flatten();
         let path = problem.folder.join(&tables.scene);
-        let base = BaseScene::read(&path, all_keys.map(String::as_str))?;
-        let pairs = PairCases::default();
+        let operation = tables.operation.as_ref();
+        let base = BaseScene::read(&path, all_keys.map(String::as_str), operation)?;
         let mut this = Self {
             base,
-            pairs,
+            rest: RestCases::default(),
+            scratch,
+            wanted: Vec::new(),
+            from_s: tables.from_s,
             keys: tables.variable.iter().map(|v| v.keys.clone()).collect(),
             samples: samples(problem),
             judged: tables.judged_by.unwrap_or_default(),
@@ -87,27 +95,47 @@ impl Evaluator {
                 problem.document.error(&at, told)
             }
         })?;
-        let SceneFile::Pair(scene) = scene else {
-            let told = "is a multibody scene; allowed is one with [pair]. `gearmesh study` varies multibody scenes";
-            return Err(problem.document.error("scene", told).into());
+        let torques = match &scene {
+            Subject::Pair(scene) => scene.torques_nm.clone(),
+            _ => Vec::new(),
         };
-        let known = column_names(&this.pairs.load(&scene)?);
+        if tables.from_s > 0.0 && !is_in_time(&scene) {
+            let told = "belongs to a multibody scene whose run is \"transient\"; remove it";
+            return Err(problem.document.error("from_s", told).into());
+        }
+        let (known, kinds) = known_columns(&scene, &this.rest)?;
         for (i, objective) in tables.objective.iter().enumerate() {
             let mut terms = Vec::new();
             for (j, term) in objective.term.iter().enumerate() {
                 let at = |key: &str| format!("objective.{i}.term.{j}.{key}");
-                let column = column_place(&term.column, &known)
-                    .map_err(|told| problem.document.error(&at("column"), told))?;
+                let wanted = Wanted::of(&term.column);
+                let mut checked = wanted.check(&known, kinds);
+                if kinds != FigureKinds::None && wanted.word.is_empty() && checked.is_ok() {
+                    checked = Err(format!(
+                        "`{}` is a series; say which number of it is to be small: `{}:largest`, `:mean`, `:peak-to-peak` and so on",
+                        term.column, term.column
+                    ));
+                }
+                checked.map_err(|told| problem.document.error(&at("column"), told))?;
                 let torque = match term.torque_Nm {
                     None => None,
                     Some(torque) => {
-                        let found = scene.torques_nm.iter().position(|known| *known == torque);
+                        let found = torques.iter().position(|known| *known == torque);
                         if found.is_none() {
-                            let told =
-                                format!("found {torque}, the scene has {:?}", scene.torques_nm);
+                            let told = match torques.is_empty() {
+                                true => "belongs to scenes of a gear pair; remove it".to_owned(),
+                                false => format!("found {torque}, the scene has {torques:?}"),
+                            };
                             return Err(problem.document.error(&at("torque_Nm"), told).into());
                         }
                         found
+                    }
+                };
+                let column = match this.wanted.iter().position(|one| *one == wanted) {
+                    Some(place) => place,
+                    None => {
+                        this.wanted.push(wanted);
+                        this.wanted.len() - 1
                     }
                 };
                 terms.push((column, torque, term.weight));
@@ -154,7 +182,7 @@ impl Evaluator {
     fn judged_objectives(&self, values: &[f64]) -> Result<Vec<f64>, String> {
         let each: Vec<Vec<f64>> = (0..self.samples.len())
             .into_par_iter()
-            .map(|sample| Ok(self.added_up(&self.figures(values, sample)?)))
+            .map(|sample| Ok(self.added_up(&self.rows(values, sample)?)))
             .collect::<Result<_, String>>()?;
         let judged = |k: usize| {
             let own = each.iter().map(|sample| sample[k]);
@@ -194,12 +222,12 @@ impl Evaluator {
             .clone()
     }
 
-    fn added_up(&self, figures: &PairFigures) -> Vec<f64> {
+    /// The objectives of rows of columns, a row for each torque.
+    fn added_up(&self, rows: &[Vec<f64>]) -> Vec<f64> {
         let term = |&(column, torque, weight): &Term| {
-            let values = &figures.columns[column].values;
             let value = match torque {
-                Some(torque) => values[torque],
-                None => values.iter().sum::<f64>() / values.len() as f64,
+                Some(torque) => rows[torque][column],
+                None => rows.iter().map(|row| row[column]).sum::<f64>() / rows.len() as f64,
             };
             weight * value
         };
@@ -209,17 +237,21 @@ impl Evaluator {
             .collect()
     }
 
-    fn figures(&self, values: &[f64], sample: usize) -> Result<PairFigures, String> {
-        match self.scene(values, sample) {
-            Ok(SceneFile::Pair(scene)) => self.pairs.figures(&scene).map_err(|e| e.to_string()),
-            Ok(SceneFile::System(_)) => Err("a multibody scene".to_owned()),
-            Err(VaryError::Scene(error)) => Err(error.to_string()),
-            Err(VaryError::Key { problem, .. }) => Err(problem),
-        }
+    fn rows(&self, values: &[f64], sample: usize) -> Result<Vec<Vec<f64>>, String> {
+        let subject = match self.scene(values, sample) {
+            Ok(subject) => subject,
+            Err(VaryError::Scene(error)) => return Err(error.to_string()),
+            Err(VaryError::Key { problem, .. }) => return Err(problem),
+        };
+        let wanted = (&self.wanted[..], self.from_s);
+        let found = evaluate(subject, wanted, &self.rest, &self.scratch);
+        let (selected, _) = found.map_err(|error| error.to_string())?;
+        let rows = selected.chunks(self.wanted.len());
+        Ok(rows.map(|row| row.iter().map(number).collect()).collect())
     }
 
     /// The scene of a choice, as a sample of the workshop has it.
-    fn scene(&self, values: &[f64], sample: usize) -> Result<SceneFile, VaryError> {
+    fn scene(&self, values: &[f64], sample: usize) -> Result<Subject, VaryError> {
         let mut at: BTreeMap<&str, f64> = BTreeMap::new();
         for (keys, value) in self.keys.iter().zip(values) {
             at.extend(keys.iter().map(|key| (&key[..], *value)));
@@ -238,9 +270,16 @@ impl Evaluator {
             value: toml::Value::Float(value),
         };
         let settings = at.into_iter().map(setting).collect();
-        self.base
-            .scene(&Case { settings }, &mut MadeFiles::new(), Path::new(""))
+        let case = Case {
+            settings,
+            ..Case::default()
+        };
+        self.base.scene(&case, &mut MadeFiles::new(), Path::new(""))
     }
+}
+
+fn is_in_time(subject: &Subject) -> bool {
+    matches!(subject, Subject::System(scene) if matches!(scene.run, Run::Transient { .. }))
 }
 
 /// What the workshop adds, for each sample: a Latin hypercube; nothing where nothing scatters.

@@ -7,7 +7,7 @@ use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::study::{NormalTable, UniformTable};
+use crate::study::{NormalTable, OperationTable, UniformTable};
 
 /// The keys of the file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -15,8 +15,13 @@ use crate::study::{NormalTable, UniformTable};
 pub struct OptimiseTables {
     /// Title in prints.
     pub title: String,
-    /// The scene of a gear pair, relative to this file.
+    /// What is varied, relative to this file: a scene of a gear pair, a multibody scene, a bevel pair or a bearing.
     pub scene: PathBuf,
+    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    pub operation: Option<OperationTable>,
+    /// Run "transient": figures are those from this time on; 0 where not given.
+    #[serde(default)]
+    pub from_s: f64,
     /// About so many choices of the variables are tried by a search; 200 where not given.
     #[serde(default = "default_trials")]
     pub trials: usize,
@@ -96,9 +101,9 @@ pub struct ObjectiveTable {
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
 pub struct TermTable {
-    /// A column that a study of the pair has.
+    /// A column that a study of the scene has; of series COLUMN:FIGURE.
     pub column: String,
-    /// A torque of the scene; the mean over all of them where not given.
+    /// Gear pairs: a torque of the scene; the mean over all of them where not given.
     pub torque_Nm: Option<f64>,
     /// Weight; 1 where not given.
     #[serde(default = "default_weight")]
@@ -142,6 +147,10 @@ impl Optimisation {
     /// As [`Optimisation::read`].
     pub fn from_document(document: InputDocument, folder: &Path) -> Result<Self, InputError> {
         let tables: OptimiseTables = document.parse()?;
+        if !(tables.from_s.is_finite() && tables.from_s >= 0.0) {
+            let found = format!("found {}, allowed is 0 or more", tables.from_s);
+            return Err(document.error("from_s", found));
+        }
         for (key, is_empty) in [
             ("variable", tables.variable.is_empty()),
             ("objective", tables.objective.is_empty()),

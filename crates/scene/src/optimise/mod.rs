@@ -1,5 +1,5 @@
-//! Optimisation of a gear pair: keys of its scene that make its objectives least, under scatter of manufacture and
-//! mounting; of several objectives the Pareto front.
+//! Optimisation of a gear pair, or of what else a study computes: keys of its scene that make its objectives least, under scatter of
+//! manufacture and mounting; of several objectives the Pareto front.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |

@@ -10,12 +10,13 @@ use argmin::solver::particleswarm::ParticleSwarm;
 use gearmesh_geometry::InputError;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::evaluator::{Evaluator, Trial};
 use super::file::Optimisation;
 use super::pareto::front;
-use crate::study::StudyError;
+use crate::study::{Scratch, StudyError};
 
 /// What a choice costs that cannot be computed: more than any other, and a number that a simplex can average.
 const FAILED: f64 = 1e30;
@@ -42,7 +43,7 @@ pub struct Optimum {
 /// A search as argmin sees it: shares of the bounds in, a cost out.
 struct Search<'a> {
     problem: &'a Optimisation,
-    evaluator: &'a Evaluator,
+    evaluator: &'a Evaluator<'a>,
     weighing: &'a Weighing,
     stop: &'a AtomicBool,
 }
@@ -103,16 +104,18 @@ fn values_at(problem: &Optimisation, shares: &[f64]) -> Vec<f64> {
     variables.zip(shares).map(value).collect()
 }
 
-/// Searches for the least objectives. `progress` is told how many of how many searches are done.
+/// Searches for the least objectives. Runs of multibody scenes write in the folder `scratch`. `progress` is told how many of how many searches
+/// are done.
 ///
 /// # Errors
 /// [`StudyError`] for a file whose keys, columns or torques the scene does not have, and where no choice can be computed.
 pub fn optimise(
     problem: &Optimisation,
+    scratch: &Path,
     stop: &AtomicBool,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Optimum, StudyError> {
-    let evaluator = Evaluator::new(problem)?;
+    let evaluator = Evaluator::new(problem, Scratch::new(scratch, stop))?;
     let count = evaluator.objectives();
     let all = problem.searches();
     let before = evaluator.as_it_is();
@@ -152,7 +155,7 @@ pub fn optimise(
     })
 }
 
-fn nothing_sound(problem: &Optimisation, evaluator: &Evaluator) -> InputError {
+fn nothing_sound(problem: &Optimisation, evaluator: &Evaluator<'_>) -> InputError {
     let told = evaluator.failure().unwrap_or_default();
     problem.document.error(
         "variable",

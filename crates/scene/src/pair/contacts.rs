@@ -102,13 +102,22 @@ impl LoadedScene {
     /// # Errors
     /// [`ContactError`] when the models do not fit each other.
     pub fn contact(&self) -> Result<StaticContact, ContactError> {
-        let contact = StaticContact::on_slices(
-            self.lines.clone(),
-            [&self.models[0], &self.models[1]],
-            self.scene.contact,
+        let models = [&*self.models[0], &*self.models[1]];
+        let (lines, options) = (self.lines.clone(), self.scene.contact);
+        let key = format!(
+            "{:?} {:?} {:?} {:?} {} {:?}",
+            self.model_digests,
+            lines.pair.flank,
+            options.local,
             self.layout,
-        )?
-        .with_deviations(self.deviations.clone());
+            lines.most_pairs(),
+            lines.extension.is_some(),
+        );
+        let slices = self.condensed.of(key, || {
+            StaticContact::condensed(&lines, models, options.local, self.layout)
+        })?;
+        let contact = StaticContact::of_condensed(lines, slices, options.friction)?
+            .with_deviations(self.deviations.clone());
         Ok(match self.runout {
             None => contact,
             Some(runout) => contact.with_runout(runout),

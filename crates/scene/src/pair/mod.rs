@@ -19,7 +19,7 @@ pub mod taken_misalignment;
 pub mod warnings;
 
 pub use contact_places::ContactPlaces;
-pub use model_shelf::{ModelShelf, ShelvedModel};
+pub use model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 pub use plan::Plan;
 pub use result::{SceneResult, StrainSeries};
 pub use result_record::RESULT_FORMAT;

@@ -3,7 +3,7 @@
 use super::contact_places::ContactPlaces;
 use super::contacts;
 use super::flank_effects;
-use super::model_shelf::ModelShelf;
+use super::model_shelf::{CondensedPairs, ModelShelf, ShelvedModel};
 use super::plan::Plan;
 use super::rating::{PairRating, RatedPair, judged};
 use super::result::{SceneResult, StrainSeries};
@@ -74,6 +74,10 @@ pub struct LoadedScene {
     pub periods: PairPeriods,
     /// What is judged after the run.
     pub ratings: Vec<PairRating>,
+    /// Digests of both models' files.
+    pub model_digests: [String; 2],
+    /// What scenes of the same shelf have condensed.
+    pub condensed: CondensedPairs,
 }
 
 /// Reads the models of a scene and checks that everything it names exists.
@@ -89,7 +93,7 @@ pub fn load(scene: Scene) -> Result<LoadedScene, RunError> {
 /// # Errors
 /// As [`load`].
 pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, RunError> {
-    let read = |key: &str, path: &Path| -> Result<(Arc<ReducedGear>, GearDefinition), RunError> {
+    let read = |key: &str, path: &Path| -> Result<(ShelvedModel, GearDefinition), RunError> {
         if !path.exists() {
             let problem = format!(
                 "the model {} does not exist; make it with `gearmesh reduce GEAR.toml -o {}`",
@@ -98,8 +102,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
             );
             return Err(scene.document.error(key, problem).into());
         }
-        let model = shelf.model(path)?.model;
-        let gear = model.input.definition_in(path.display())?.clone();
+        let model = shelf.model(path)?;
+        let gear = model.model.input.definition_in(path.display())?.clone();
         Ok((model, gear))
     };
     let (model_1, mut gear_1) = read("pair.gear_1", &scene.gear_1)?;
@@ -133,7 +137,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
     let extension = scene
         .edge_radius_m
         .map(|radius| PathExtension::new(&pair, radius));
-    let models = [model_1, model_2];
+    let model_digests = [model_1.digest, model_2.digest];
+    let models = [model_1.model, model_2.model];
     for (key, model) in ["pair.gear_1", "pair.gear_2"].iter().zip(&models) {
         model
             .flank_index(scene.flank)
@@ -199,6 +204,8 @@ pub fn load_from(mut scene: Scene, shelf: &ModelShelf) -> Result<LoadedScene, Ru
         gauges,
         periods,
         ratings,
+        model_digests,
+        condensed: shelf.condensed(),
     })
 }
 

@@ -4,18 +4,21 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use gearmesh_bearings::BearingError;
+use gearmesh_bevel::BevelError;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{FileError, ReducedGear, write_reduced_gear, write_text};
 use rayon::prelude::*;
 
 use super::design::Case;
-use super::pair_cases::PairCases;
+use super::figure::FigureKinds;
+use super::rest_cases::RestCases;
 use super::study_file::Study;
+use super::subject::Subject;
+use super::system_cases;
 use super::table::table;
 use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
-use super::{pair_columns, system_cases};
 use crate::pair::RunError;
-use crate::scene_file::SceneFile;
 use crate::system::{Run, SystemScene};
 use crate::system_run::{Figures, SystemRunError};
 
@@ -31,6 +34,12 @@ pub enum StudyError {
     /// A case of a gear pair.
     #[error(transparent)]
     Pair(#[from] RunError),
+    /// A case of a bevel pair.
+    #[error(transparent)]
+    Bevel(#[from] BevelError),
+    /// A case of a bearing.
+    #[error(transparent)]
+    Bearing(#[from] BearingError),
     /// A file could not be written or read.
     #[error(transparent)]
     File(#[from] FileError),
@@ -44,6 +53,12 @@ pub enum StudyError {
         /// What went wrong.
         problem: String,
     },
+    /// A result does not give a column.
+    #[error("{0}")]
+    Column(String),
+    /// A case that was computed on another machine.
+    #[error("{0}")]
+    Elsewhere(String),
     /// The user has asked to stop.
     #[error("stopped on demand")]
     Stopped,
@@ -65,6 +80,7 @@ impl StudyError {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
             Self::Pair(error) => error.is_input(),
+            Self::Bevel(_) | Self::Bearing(_) | Self::Column(_) | Self::Elsewhere(_) => false,
             Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }
     }
@@ -131,13 +147,13 @@ pub struct StudyScenes {
     /// The cases.
     pub cases: Vec<Case>,
     /// The scene as it is.
-    pub base: SceneFile,
+    pub base: Subject,
     /// The scenes, each once.
-    pub scenes: Vec<SceneFile>,
+    pub scenes: Vec<Subject>,
     /// Files that they need and that the study makes.
     pub files: MadeFiles,
     /// Scene of each case.
-    scene_of: Vec<usize>,
+    pub(super) scene_of: Vec<usize>,
 }
 
 impl StudyScenes {
@@ -150,7 +166,8 @@ impl StudyScenes {
         let path = study.folder.join(&study.tables.scene);
         let parameters = study.tables.parameter.iter();
         let keys = parameters.flat_map(|p| p.keys.iter().map(String::as_str));
-        let base_scene = BaseScene::read(&path, keys)?;
+        let operation = study.tables.operation.as_ref();
+        let base_scene = BaseScene::read(&path, keys, operation)?;
         let mut files = MadeFiles::new();
         let cases = study.cases();
         let mut made = |case: &Case| {
@@ -160,13 +177,13 @@ impl StudyScenes {
             Ok::<_, InputError>(scene)
         };
         let base = made(&Case::default())?;
-        let mut scenes: Vec<SceneFile> = Vec::new();
+        let mut scenes: Vec<Subject> = Vec::new();
         let mut scene_of = Vec::with_capacity(cases.len());
         let mut places: BTreeMap<String, usize> = BTreeMap::new();
         for case in &cases {
             let scene = made(case)?;
             let place = *places
-                .entry(text_of(&scene).to_owned())
+                .entry(scene.document().text.clone())
                 .or_insert(scenes.len());
             if place == scenes.len() {
                 scenes.push(scene);
@@ -186,13 +203,10 @@ impl StudyScenes {
     ///
     /// # Errors
     /// [`StudyError`] for a column that is not there, with near names, and for a scene that cannot be loaded.
-    pub fn check_columns(&self, study: &Study, pairs: &PairCases) -> Result<(), StudyError> {
-        let known = match &self.base {
-            SceneFile::Pair(scene) => pair_columns::names(&pairs.load(scene)?),
-            SceneFile::System(scene) => system_cases::column_names(scene)?,
-        };
-        for (number, column) in study.tables.columns.iter().enumerate() {
-            if let Err(problem) = pair_columns::place(column, &known) {
+    pub fn check_columns(&self, study: &Study, rest: &RestCases) -> Result<(), StudyError> {
+        let (known, kinds) = known_columns(&self.base, rest)?;
+        for (number, one) in study.wanted().iter().enumerate() {
+            if let Err(problem) = one.check(&known, kinds) {
                 return Err(study
                     .document
                     .error(&format!("columns.{number}"), problem)
@@ -203,10 +217,18 @@ impl StudyScenes {
     }
 }
 
-fn text_of(scene: &SceneFile) -> &str {
-    match scene {
-        SceneFile::Pair(scene) => &scene.document.text,
-        SceneFile::System(scene) => &scene.document.text,
+/// The columns of a scene, and what may be asked of them.
+///
+/// # Errors
+/// [`StudyError`] for a scene that cannot be loaded.
+pub(crate) fn known_columns(
+    subject: &Subject,
+    rest: &RestCases,
+) -> Result<(Vec<String>, FigureKinds), StudyError> {
+    match (rest.names(subject)?, subject) {
+        (Some(names), _) => Ok((names, FigureKinds::None)),
+        (None, Subject::System(scene)) => system_cases::column_names(scene),
+        (None, _) => Ok((Vec::new(), FigureKinds::None)),
     }
 }
 
@@ -223,28 +245,29 @@ fn blamed(study: &Study, error: VaryError) -> InputError {
     }
 }
 
-fn demand_runnable(study: &Study, scene: &SceneFile) -> Result<(), InputError> {
-    let no_time = |what: &str| {
-        let problem = format!("belongs to runs in time; {what}");
-        Err(study.document.error("from_s", problem))
-    };
-    match scene {
-        SceneFile::System(scene) => match scene.run {
-            Run::Transient { .. } => Ok(()),
-            Run::Static { .. } if study.tables.from_s == 0.0 => Ok(()),
-            Run::Static { .. } => no_time(
-                "the scene's run is \"static\": its figures are those of all its equilibria",
-            ),
-            _ => {
-                let problem = "must be \"transient\" or \"static\" in the scene of a study";
-                Err(scene.document.error("run.kind", problem))
+/// `from_s` and `operation` stand where they mean something.
+fn demand_runnable(study: &Study, scene: &Subject) -> Result<(), InputError> {
+    let told = match scene {
+        Subject::System(scene) => match scene.run {
+            Run::Transient { .. } => "",
+            Run::Static { .. } => {
+                "the scene's run is \"static\": its figures are those of all its equilibria"
+            }
+            Run::Eigen { .. } => {
+                "the scene's run is \"eigen\": its figures are those of all its operating points"
+            }
+            Run::SpeedSweep(_) => {
+                "the scene's run is \"speed-sweep\": its figures are those of all its windows"
             }
         },
-        SceneFile::Pair(_) if study.tables.from_s > 0.0 => {
-            no_time("a gear pair is looked at at rest")
-        }
-        SceneFile::Pair(_) => Ok(()),
+        Subject::Pair(_) => "a gear pair is looked at at rest",
+        Subject::Bevel(_) | Subject::Bearing(_) => "this is looked at at rest",
+    };
+    if study.tables.from_s > 0.0 && !told.is_empty() {
+        let problem = format!("belongs to runs in time; {told}");
+        return Err(study.document.error("from_s", problem));
     }
+    Ok(())
 }
 
 /// Runs all cases, as many at a time as there are processors, and writes `study.csv` into the folder.
@@ -254,8 +277,8 @@ fn demand_runnable(study: &Study, scene: &SceneFile) -> Result<(), InputError> {
 pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutcome, StudyError> {
     let folder = options.folder;
     let scenes = StudyScenes::new(study, folder)?;
-    let pairs = PairCases::default();
-    scenes.check_columns(study, &pairs)?;
+    let rest = RestCases::default();
+    scenes.check_columns(study, &rest)?;
     make_folder(folder)?;
     let reduced = make_files(&scenes.files, options)?;
     let StudyScenes {
@@ -268,15 +291,26 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
     let outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>> = scenes
         .into_par_iter()
         .map(|scene| {
-            let outcome = run_case(study, scene, &pairs, options);
+            let outcome = run_case(study, scene, &rest, options);
             (options.progress)(done.fetch_add(1, Ordering::Relaxed) + 1, count);
             outcome
         })
         .collect();
+    finished(study, (cases, &scene_of), outcomes, (folder, reduced))
+}
+
+/// Puts the outcomes of the scenes beside the cases that led to them and writes the table; `reduced`: gears that were
+/// reduced on the way.
+pub(super) fn finished(
+    study: &Study,
+    (cases, scene_of): (Vec<Case>, &[usize]),
+    outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>>,
+    (folder, reduced): (&Path, usize),
+) -> Result<StudyOutcome, StudyError> {
     let stopped = outcomes.iter().any(|outcome| matches!(outcome, Ok(None)));
     let mut results = Vec::with_capacity(cases.len());
     for (case, place) in cases.into_iter().zip(scene_of) {
-        let (file, figures) = match &outcomes[place] {
+        let (file, figures) = match &outcomes[*place] {
             Ok(None) => continue,
             Ok(Some((file, found))) => (Some(file.clone()), found.clone()),
             Err(error) => (None, Err(error.to_string())),
@@ -298,35 +332,36 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
 }
 
 /// The study's columns, or why a result does not give them.
-type Found = Result<Vec<Selected>, String>;
+pub(super) type Found = Result<Vec<Selected>, String>;
 
 /// Runs a case unless it is there already; none if it was stopped.
 fn run_case(
     study: &Study,
-    scene: SceneFile,
-    pairs: &PairCases,
+    subject: Subject,
+    rest: &RestCases,
     options: &StudyOptions<'_>,
 ) -> Result<Option<(PathBuf, Found)>, StudyError> {
     if options.stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    match scene {
-        SceneFile::System(scene) => {
+    let wanted = study.wanted();
+    match subject {
+        Subject::System(scene) => {
             let scene: SystemScene = *scene;
             let file = system_cases::run_case(scene, options.folder, options.stop)?;
             Ok(file.map(|file| {
-                let found = system_cases::selected(study, &file);
+                let found = system_cases::selected(&wanted, study.tables.from_s, &file);
                 (file, found)
             }))
         }
-        SceneFile::Pair(scene) => {
-            let (file, figures) = pairs.figures_in(&scene, options.folder)?;
-            Ok(Some((file, figures.selected(&study.tables.columns))))
+        subject => {
+            let (file, figures) = rest.figures_in(&subject, options.folder)?;
+            Ok(Some((file, figures.selected(&wanted))))
         }
     }
 }
 
-fn make_folder(path: &Path) -> Result<(), StudyError> {
+pub(super) fn make_folder(path: &Path) -> Result<(), StudyError> {
     std::fs::create_dir_all(path).map_err(|source| StudyError::Folder {
         path: path.to_owned(),
         source,
@@ -334,7 +369,7 @@ fn make_folder(path: &Path) -> Result<(), StudyError> {
 }
 
 /// Makes what the cases need and what is not there yet; how many gears were reduced.
-pub(super) fn make_files(
+pub(crate) fn make_files(
     files: &MadeFiles,
     options: &StudyOptions<'_>,
 ) -> Result<usize, StudyError> {

@@ -54,17 +54,21 @@ pub struct Setting {
 pub struct Case {
     /// The settings.
     pub settings: Vec<Setting>,
+    /// Keys that are taken away after them.
+    pub removed: Vec<String>,
 }
 
 impl Case {
     /// `load = -900.0, speed = 250.0`, or `as it is`.
     #[must_use]
     pub fn name(&self) -> String {
-        if self.settings.is_empty() {
+        if self.settings.is_empty() && self.removed.is_empty() {
             return "as it is".to_owned();
         }
         let settings = self.settings.iter();
         let words = settings.map(|setting| format!("{} = {}", setting.parameter, setting.value));
+        let removed = self.removed.iter().map(|key| format!("without {key}"));
+        let words = words.chain(removed);
         words.collect::<Vec<_>>().join(", ")
     }
 }
@@ -90,6 +94,7 @@ pub(super) fn cases(
         Design::OneAtATime => {
             let single = |setting| Case {
                 settings: vec![setting],
+                ..Case::default()
             };
             let varied = listed.flatten().map(single);
             std::iter::once(Case::default()).chain(varied).collect()

@@ -1,37 +1,51 @@
-//! Parameter studies: one scene, computed again and again with some of its keys changed.
+//! Parameter studies: one scene, bevel pair or bearing, computed again and again with some of its keys changed.
 //!
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what the file says | [`Study`] | `study_file.rs` |
 //! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs` |
+//! | what is computed | [`Subject`] | `subject.rs`, `bearing_operation.rs` |
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs` |
-//! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `pair_cases.rs` |
-//! | which figures a gear pair has | [`PairColumn`] | `pair_columns.rs` |
+//! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
+//! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `figure.rs` |
+//! | cases for other machines, and the table of what they gave | [`StudyCases`], [`CaseRunner`], [`gather_study`] | `elsewhere.rs` |
 //! | what is written | `study.csv` | `table.rs` |
 //!
 //! The result of a case is named by a digest of all that it depends on: a study that is broken off goes on where it
 //! was, and one that gets a further value computes that value only. Models are read once, and a gear is reduced again
 //! only where a key of its body varies, once for each value.
 
+mod bearing_operation;
 mod cases;
 mod design;
-mod pair_cases;
+mod elsewhere;
+mod evaluate;
+mod figure;
 mod pair_columns;
+mod rest_cases;
+mod rest_columns;
 mod scatter;
 mod study_file;
+mod subject;
 mod system_cases;
 mod table;
 mod varied_scene;
 
+pub use bearing_operation::{BearingOperation, OperationTable};
 pub use cases::{
     CaseResult, Selected, SelectedValue, StudyError, StudyOptions, StudyOutcome, StudyScenes,
     run_study,
 };
+pub(crate) use cases::{known_columns, make_files};
 pub use design::{Case, Design, Setting};
 pub(crate) use design::{probabilities, seeded};
-pub use pair_cases::{PairCases, PairFigures};
-pub use pair_columns::PairColumn;
-pub(crate) use pair_columns::{columns, names as column_names, place as column_place};
+pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
+pub use evaluate::{Effort, Scratch};
+pub(crate) use evaluate::{evaluate, number};
+pub use figure::{Figure, FigureKinds, Wanted};
+pub use pair_columns::RestColumn;
+pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
+pub use subject::{BearingSubject, BevelSubject, Subject};
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

@@ -1,4 +1,4 @@
-//! The columns of a study of a gear pair: one number for each torque.
+//! The columns of a study of a gear pair: one number for each torque. Units of all columns at rest.
 
 use gearmesh_contact::mesh_stiffness::{fourier, mesh_harmonics};
 
@@ -10,7 +10,7 @@ const HARMONICS: usize = 10;
 
 /// A column: one number for each torque of the scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PairColumn {
+pub struct RestColumn {
     /// Name with unit.
     pub name: String,
     /// The number at each torque, in the unit of the name.
@@ -22,9 +22,18 @@ pub struct PairColumn {
 pub fn unit_of(name: &str) -> &'static str {
     let units = [
         ("_N_per_mm_um", "N/(mm µm)"),
+        ("_N_per_um", "N/µm"),
+        ("_mm_per_mm", "mm/mm"),
+        ("_mm_per_mrad", "mm/mrad"),
+        ("_Nm_per_rad", "N·m/rad"),
         ("_um", "µm"),
         ("_MPa", "MPa"),
         ("_ustrain", "µε"),
+        ("_urad", "µrad"),
+        ("_mrad", "mrad"),
+        ("_Mrev", "10⁶ revolutions"),
+        ("_mm", "mm"),
+        ("_Nm", "N·m"),
         ("_N", "N"),
     ];
     let found = units.into_iter().find(|(end, _)| name.ends_with(end));
@@ -79,7 +88,7 @@ pub fn place(name: &str, names: &[String]) -> Result<usize, String> {
 
 /// All columns of a result of the scene.
 #[must_use]
-pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<PairColumn> {
+pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<RestColumn> {
     let torques = 0..result.torque_nm.len();
     let width_mm = 1e3 * loaded.layout.reference.width_m;
     let per_width = 1e-6 / width_mm;
@@ -127,6 +136,6 @@ pub fn columns(loaded: &LoadedScene, result: &SceneResult) -> Vec<PairColumn> {
             values.push(of_each(&largest));
         }
     }
-    let column = |(name, values)| PairColumn { name, values };
+    let column = |(name, values)| RestColumn { name, values };
     names(loaded).into_iter().zip(values).map(column).collect()
 }

@@ -7,7 +7,9 @@ use gearmesh_geometry::input::InputDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::bearing_operation::OperationTable;
 use super::design::{self, Case, Design};
+use super::figure::Wanted;
 use super::scatter::{NormalTable, SpacedTable, UniformTable};
 
 /// The keys of the file.
@@ -16,9 +18,11 @@ use super::scatter::{NormalTable, SpacedTable, UniformTable};
 pub struct StudyTables {
     /// Title in prints.
     pub title: String,
-    /// The scene that is varied, relative to this file: a gear pair, or a multibody scene whose run is "transient" or
-    /// "static".
+    /// What is varied, relative to this file: a scene of a gear pair, a multibody scene of any run, a bevel pair (its tooth contact
+    /// analysis) or a bearing.
     pub scene: PathBuf,
+    /// With a bearing: what it bears. Its keys vary as "operation.load_N.2".
+    pub operation: Option<OperationTable>,
     /// How the parameters are combined; "one-at-a-time" where not given.
     #[serde(default)]
     pub design: Design,
@@ -26,9 +30,10 @@ pub struct StudyTables {
     pub samples: Option<usize>,
     /// With design = "latin-hypercube" or "random": other seeds give other samples; 0 where not given.
     pub seed: Option<u64>,
-    /// Columns whose figures are listed: of a gear pair those that docs/scene.md names, otherwise columns of the result.
+    /// Columns whose figures are listed: of gear pairs, bevel pairs, bearings and natural frequencies those that docs/scene.md names, otherwise
+    /// columns of the result, or COLUMN:FIGURE for one number of them.
     pub columns: Vec<String>,
-    /// Multibody scenes: the figures are those from this time on; 0 where not given.
+    /// Run "transient": the figures are those from this time on; 0 where not given.
     #[serde(default)]
     pub from_s: f64,
     /// What varies.
@@ -206,6 +211,13 @@ impl Study {
             return Err(study.document.error("parameter", problem));
         }
         Ok(study)
+    }
+
+    /// The columns that are looked at.
+    #[must_use]
+    pub fn wanted(&self) -> Vec<Wanted> {
+        let columns = self.tables.columns.iter();
+        columns.map(|text| Wanted::of(text)).collect()
     }
 
     fn case_count(&self) -> Option<usize> {

@@ -1,5 +1,6 @@
 //! The cases of a multibody study: a result file each, and its figures.
 
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -7,10 +8,13 @@ use std::time::Duration;
 use gearmesh_model::FileError;
 
 use super::cases::{Selected, SelectedValue, StudyError};
+use super::elsewhere::SentCase;
+use super::figure::{Figure, FigureKinds, Wanted, line_amplitude, resonance};
 use super::study_file::Study;
-use crate::system::SystemScene;
+use crate::system::{SystemScene, unknown};
 use crate::system_run::{
-    Figures, Outcome, RunJob, RunOptions, SystemResult, SystemRunError, recorded_columns, run,
+    Figures, Outcome, ResultKind, RunHead, RunJob, RunKind, RunOptions, SystemResult,
+    SystemRunError, Window, inputs, recorded_columns, run,
 };
 
 /// Wall time between checkpoints of a case.
@@ -22,14 +26,27 @@ const WAITING: Duration = Duration::from_millis(200);
 /// Digits of the digest in a file's name.
 const NAME_DIGITS: usize = 16;
 
-/// The columns that a run of the scene will have.
+/// What is told of a mode.
+const MODE_COLUMNS: [&str; 2] = ["frequency_Hz", "damping_ratio"];
+
+/// The columns that a run of the scene will have, and what may be asked of them.
 ///
 /// # Errors
 /// [`StudyError`] for a scene that cannot be built.
-pub(super) fn column_names(scene: &SystemScene) -> Result<Vec<String>, StudyError> {
+pub(super) fn column_names(scene: &SystemScene) -> Result<(Vec<String>, FigureKinds), StudyError> {
     let job = RunJob::from_scene(scene.clone().load()?)?;
+    let kinds = match &job.kind {
+        RunKind::Transient(_) => FigureKinds::InTime,
+        RunKind::SpeedSweep(_) => FigureKinds::OfSweep,
+        RunKind::Static(_) => FigureKinds::OfSeries,
+        RunKind::Eigen(_) => {
+            let modes = 1..=job.system.degrees_of_freedom();
+            let names = modes.flat_map(|k| MODE_COLUMNS.map(|what| mode_column(k, what)));
+            return Ok((names.collect(), FigureKinds::OfSeries));
+        }
+    };
     let columns = recorded_columns(&job).into_iter();
-    Ok(columns.map(|column| column.name).collect())
+    Ok((columns.map(|column| column.name).collect(), kinds))
 }
 
 /// Runs a case, or waits for the other study in the same folder that is at it; none if it was stopped.
@@ -59,61 +76,248 @@ fn run_unless_there(
     }
     let job = RunJob::from_scene(scene.load()?)?;
     let identity = job.head.identity();
-    let name: String = identity.chars().take(NAME_DIGITS).collect();
-    let file = folder.join(format!("{name}.h5"));
-    if SystemResult::open(&file).is_ok_and(|result| result.head.identity() == identity) {
+    let file = folder.join(file_name(&identity));
+    if is_there(&file, &identity) {
         return Ok(Some(file));
     }
+    Ok(run_into(job, &file, stop)?.then_some(file))
+}
+
+/// Name of a case's file.
+pub(super) fn file_name(identity: &str) -> String {
+    let digits: String = identity.chars().take(NAME_DIGITS).collect();
+    format!("{digits}.h5")
+}
+
+/// Whether a file is the whole result of a case.
+pub(super) fn is_there(file: &Path, identity: &str) -> bool {
+    SystemResult::open(file).is_ok_and(|result| result.head.identity() == identity)
+}
+
+/// The study's columns of a case; none where its file is not there.
+pub(super) fn stored(
+    study: &Study,
+    file: &Path,
+    identity: &str,
+) -> Option<Result<Vec<Selected>, String>> {
+    let result = SystemResult::open(file).ok()?;
+    let wanted = study.wanted();
+    (result.head.identity() == identity).then(|| selected_of(&wanted, study.tables.from_s, &result))
+}
+
+/// What tells the result of a scene from others.
+pub(super) fn head(scene: &SystemScene) -> RunHead {
+    RunHead {
+        scene_toml: scene.document.text.clone(),
+        inputs: inputs(scene),
+        ..RunHead::default()
+    }
+}
+
+/// Runs a case that was sent, unless it is there or another process is at it: whether it was computed, none if it was
+/// stopped. Its result says what it would have said where the case comes from.
+pub(super) fn run_sent(
+    scene: SystemScene,
+    case: &SentCase,
+    folder: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<bool>, StudyError> {
+    let file = folder.join(&case.file);
+    loop {
+        if is_there(&file, &case.identity) {
+            return Ok(Some(false));
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let mut job = RunJob::from_scene(scene.clone().load()?)?;
+        job.head.scene_toml.clone_from(&case.text);
+        job.head.inputs.clone_from(&case.inputs);
+        match run_into(job, &file, stop) {
+            Err(StudyError::Run(SystemRunError::File(FileError::InUse { .. }))) => {
+                std::thread::sleep(WAITING);
+            }
+            outcome => return Ok(outcome?.then_some(true)),
+        }
+    }
+}
+
+/// False where it was stopped.
+fn run_into(job: RunJob, file: &Path, stop: &AtomicBool) -> Result<bool, StudyError> {
     let options = RunOptions {
-        output: &file,
+        output: file,
         restart: false,
         checkpoint_interval: CHECKPOINTS,
         stop,
         progress: &|_| (),
     };
-    match run(job, &options)? {
-        Outcome::Finished => Ok(Some(file)),
-        Outcome::Stopped => Ok(None),
-    }
+    Ok(run(job, &options)? == Outcome::Finished)
 }
 
-/// Figures of the study's columns over its time, or what keeps them from being read.
-pub(super) fn selected(study: &Study, file: &Path) -> Result<Vec<Selected>, String> {
-    let say = |error: FileError| error.to_string();
-    let result = SystemResult::open(file).map_err(say)?;
+/// Figures of columns of a result, from a time on \[s\], or what keeps them from being read.
+pub(super) fn selected(
+    wanted: &[Wanted],
+    from_s: f64,
+    file: &Path,
+) -> Result<Vec<Selected>, String> {
+    selected_of(wanted, from_s, &SystemResult::open(file).map_err(say)?)
+}
+
+fn selected_of(
+    wanted: &[Wanted],
+    from_s: f64,
+    result: &SystemResult,
+) -> Result<Vec<Selected>, String> {
     if let Some(problem) = result.problem() {
         return Err(problem);
     }
+    let of = |one: &Wanted| match result.kind {
+        ResultKind::SpeedSweep => of_sweep(result, one),
+        ResultKind::Eigen => of_modes(result, one),
+        ResultKind::Transient | ResultKind::Static => of_rows(result, one, from_s),
+    };
+    wanted.iter().map(of).collect()
+}
+
+fn say(error: FileError) -> String {
+    error.to_string()
+}
+
+/// What is told of a series: all its figures, or the one that is asked for.
+fn told(one: &Wanted, unit: &str, figures: Figures) -> Selected {
+    let value = one.figure().and_then(|figure| figure.value(&figures));
+    Selected {
+        column: one.name(),
+        unit: unit.to_owned(),
+        torque_nm: None,
+        value: value.map_or(SelectedValue::Series(figures), SelectedValue::Single),
+    }
+}
+
+/// Of a run in time or of equilibria.
+fn of_rows(result: &SystemResult, one: &Wanted, from_s: f64) -> Result<Selected, String> {
+    let mut columns = result.rows.columns().iter();
+    let Some(column) = columns.find(|column| column.name == one.column) else {
+        let names = result.rows.columns().iter().map(|c| &c.name[..]);
+        return Err(unknown("column", &one.column, &names.collect::<Vec<_>>()));
+    };
     let mut first = 0;
     // Equilibria have no time.
-    if study.tables.from_s > 0.0 {
+    if from_s > 0.0 {
         let times = result.rows.read("time_s").map_err(say)?;
         // Half a step of the clock's rounding belongs to the first row.
-        first = times.partition_point(|time| *time < study.tables.from_s * (1.0 - 1e-12));
+        first = times.partition_point(|time| *time < from_s * (1.0 - 1e-12));
         if first == times.len() {
             return Err(format!(
-                "from_s = {} is after the end of the run at {} s",
-                study.tables.from_s,
+                "from_s = {from_s} is after the end of the run at {} s",
                 times.last().copied().unwrap_or_default()
             ));
         }
     }
-    let figures = |name: &String| {
-        let mut columns = result.rows.columns().iter();
-        let Some(column) = columns.find(|column| column.name == *name) else {
-            let known: Vec<&str> = result.rows.columns().iter().map(|c| &c.name[..]).collect();
+    let values = &result.rows.read(&one.column).map_err(say)?[first..];
+    if let Some(Figure::Line(hz)) = one.figure() {
+        let interval_s = result.interval_s().map_err(say)?;
+        if values.len() < 8 || 2.0 * hz * interval_s > 1.0 {
             return Err(format!(
-                "the result has no column `{name}`; it has {}",
-                known.join(", ")
+                "{}: the rows are {interval_s} s apart, {} of them; their spectrum ends at {} Hz",
+                one.name(),
+                values.len(),
+                0.5 / interval_s
             ));
-        };
-        let values = result.rows.read(name).map_err(say)?;
-        Ok(Selected {
-            column: name.clone(),
+        }
+        return Ok(Selected {
+            column: one.name(),
             unit: column.unit.clone(),
             torque_nm: None,
-            value: SelectedValue::Series(Figures::of(&values[first..])),
-        })
+            value: SelectedValue::Single(line_amplitude(values, interval_s, hz)),
+        });
+    }
+    Ok(told(one, &column.unit, Figures::of(values)))
+}
+
+/// Of all windows of a sweep together, each with the same weight.
+fn of_sweep(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
+    let Some(sweep) = &result.sweep else {
+        return Err("the result has no sweep".to_owned());
     };
-    study.tables.columns.iter().map(figures).collect()
+    let place = sweep.columns.iter().position(|c| c.name == one.column);
+    let Some(place) = place else {
+        let names: Vec<&str> = sweep.columns.iter().map(|c| &c.name[..]).collect();
+        return Err(unknown("column", &one.column, &names));
+    };
+    let windows = || sweep.figures.iter().map(move |window| window[place]);
+    let unit = &sweep.columns[place].unit;
+    match one.figure() {
+        Some(Figure::Resonance) => {
+            let rpm = |window: &Window| window.speed_rad_per_s.abs() * 30.0 / PI;
+            let all: Vec<(f64, f64)> = (sweep.windows.iter().zip(windows()))
+                .map(|(window, f)| (rpm(window), f.peak_to_peak()))
+                .collect();
+            let (speeds, swings): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
+            Ok(Selected {
+                column: one.name(),
+                unit: "1/min".to_owned(),
+                torque_nm: None,
+                value: SelectedValue::Single(resonance(&speeds, &swings)),
+            })
+        }
+        // The largest swing at one speed, not that over all speeds.
+        Some(Figure::PeakToPeak) => {
+            let most = windows().map(|f| f.peak_to_peak()).fold(0.0, f64::max);
+            Ok(Selected {
+                column: one.name(),
+                unit: unit.clone(),
+                torque_nm: None,
+                value: SelectedValue::Single(most),
+            })
+        }
+        _ => {
+            let count = sweep.figures.len() as f64;
+            let mean = windows().map(|f| f.mean).sum::<f64>() / count;
+            let squares = windows().map(|f| f.deviation.powi(2) + (f.mean - mean).powi(2));
+            let figures = Figures {
+                mean,
+                deviation: (squares.sum::<f64>() / count).sqrt(),
+                least: windows().map(|f| f.least).fold(f64::INFINITY, f64::min),
+                largest: windows()
+                    .map(|f| f.largest)
+                    .fold(f64::NEG_INFINITY, f64::max),
+            };
+            Ok(told(one, unit, figures))
+        }
+    }
+}
+
+/// Name of a column of the K-th mode that vibrates, from 1.
+fn mode_column(number: usize, what: &str) -> String {
+    format!("mode_{number}_{what}")
+}
+
+/// Frequency or damping of a mode over all operating points.
+fn of_modes(result: &SystemResult, one: &Wanted) -> Result<Selected, String> {
+    let mut values = Vec::with_capacity(result.eigen.len());
+    let mut unit = "Hz";
+    for point in &result.eigen {
+        let modes = point.modes.iter();
+        let mut modes = modes.filter(|mode| mode.angular_frequency_rad_per_s > 0.0);
+        let numbered = modes.by_ref().enumerate();
+        let mut count = 0;
+        let mut found = None;
+        for (k, mode) in numbered {
+            count = k + 1;
+            if one.column == mode_column(count, MODE_COLUMNS[0]) {
+                found = Some(mode.frequency_hz());
+            } else if one.column == mode_column(count, MODE_COLUMNS[1]) {
+                unit = "1";
+                let total = mode.growth_per_s.hypot(mode.angular_frequency_rad_per_s);
+                found = Some(-mode.growth_per_s / total);
+            }
+        }
+        values.push(
+            found.ok_or_else(|| {
+                format!("there is no `{}`: {count} modes vibrate here", one.column)
+            })?,
+        );
+    }
+    Ok(told(one, unit, Figures::of(&values)))
 }

@@ -5,15 +5,22 @@ use std::path::Path;
 use super::cases::{CaseResult, Selected, SelectedValue};
 use super::study_file::Study;
 
-/// A line for each case and column; of gear pairs for each case and torque, with the columns side by side.
+/// A line for each case, of gear pairs for each case and torque, with the columns side by side where each is a single number; otherwise a line for
+/// each case and column.
 pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
     let found = results
         .iter()
         .find_map(|result| result.figures.as_ref().ok());
-    let is_pair = found.is_some_and(|columns| columns.iter().any(|c| c.torque_nm.is_some()));
-    let columns: Vec<&str> = if is_pair {
+    let any = |is: &dyn Fn(&Selected) -> bool| found.is_some_and(|all| all.iter().any(is));
+    let is_pair = any(&|c| c.torque_nm.is_some());
+    let is_wide = !any(&|c| matches!(c.value, SelectedValue::Series(_)));
+    let columns: Vec<&str> = if is_wide && found.is_some() {
         let own = study.tables.columns.iter().map(String::as_str);
-        std::iter::once("torque_Nm").chain(own).collect()
+        is_pair
+            .then_some("torque_Nm")
+            .into_iter()
+            .chain(own)
+            .collect()
     } else {
         vec!["column", "mean", "deviation", "least", "largest"]
     };
@@ -27,17 +34,23 @@ pub(super) fn table(study: &Study, results: &[CaseResult]) -> String {
         let file = result.file.as_deref().and_then(Path::file_name);
         let file = file.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         match &result.figures {
-            Ok(selected) if is_pair => {
+            Ok(selected) if is_wide => {
                 for row in selected.chunks(study.tables.columns.len().max(1)) {
-                    let torque = row[0].torque_nm.unwrap_or_default();
+                    let torque = row[0].torque_nm.filter(|_| is_pair);
+                    let torque = torque.map_or_else(String::new, |t| format!("{t},"));
                     let values: String = row.iter().map(|c| number(c) + ",").collect();
-                    text += &format!("{settings}{torque},{values}{file},\n");
+                    text += &format!("{settings}{torque}{values}{file},\n");
                 }
             }
             Ok(selected) => {
                 for one in selected {
                     let column = quoted(&one.column);
-                    text += &format!("{settings}{column},{},{file},\n", number(one));
+                    // A number beside series stands in the place of the mean.
+                    let rest = match one.value {
+                        SelectedValue::Single(_) => ",,,",
+                        SelectedValue::Series(_) => "",
+                    };
+                    text += &format!("{settings}{column},{}{rest},{file},\n", number(one));
                 }
             }
             Err(problem) => {

@@ -13,10 +13,11 @@ use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{bytes_digest, read_reduced_gear};
 
+use super::bearing_operation::OperationTable;
 use super::design::Case;
+use super::subject::{OPERATION, Subject, is_bearing};
 use crate::former_forms::{PAIR, SYSTEM};
 use crate::named_files;
-use crate::scene_file::SceneFile;
 
 /// Digits of the digest in the name of a file that a study makes.
 const NAME_DIGITS: usize = 16;
@@ -52,24 +53,38 @@ pub enum VaryError {
 pub struct BaseScene {
     document: InputDocument,
     folder: PathBuf,
+    /// As the file has it.
     given: toml::Value,
     begun: toml::Value,
 }
 
 impl BaseScene {
-    /// Reads the scene and begins the microgeometry that `keys` vary and that the scene leaves to the gear files.
+    /// Reads the scene and begins the microgeometry that `keys` vary and that the scene leaves to the gear files. `operation` is what a
+    /// bearing bears, whose keys stand behind those of its file.
     ///
     /// # Errors
     /// [`InputError`] for a scene that is wrong as it is, and for a gear file that cannot be read.
-    pub fn read<'a>(path: &Path, keys: impl Iterator<Item = &'a str>) -> Result<Self, InputError> {
-        let document = InputDocument::read(path)?;
+    pub fn read<'a>(
+        path: &Path,
+        keys: impl Iterator<Item = &'a str>,
+        operation: Option<&OperationTable>,
+    ) -> Result<Self, InputError> {
+        let mut document = InputDocument::read(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let scene = SceneFile::from_document(document.clone(), &folder)?;
-        let former = match scene {
-            SceneFile::Pair(_) => PAIR,
-            SceneFile::System(_) => SYSTEM,
+        if let Some(operation) = operation {
+            if !is_bearing(&document)? {
+                let problem = "is no bearing file; `operation` belongs to bearings, remove it";
+                return Err(document.error("", problem));
+            }
+            let table = toml::to_string(operation).map_err(|e| document.error("", e))?;
+            let text = format!("{}\n[{OPERATION}]\n{table}", document.text);
+            document = InputDocument::new(document.file, text);
+        }
+        let document = match Subject::from_document(document.clone(), &folder)? {
+            Subject::Pair(_) => document.with_former(PAIR),
+            Subject::System(_) => document.with_former(SYSTEM),
+            Subject::Bevel(_) | Subject::Bearing(_) => document,
         };
-        let document = document.with_former(former);
         let given: toml::Value = document.glance()?;
         let mut begun = given.clone();
         for key in keys {
@@ -89,18 +104,22 @@ impl BaseScene {
         &self.document.file
     }
 
-    /// The value that stands at a key of the scene; none where the scene does not state it.
+    /// The value that stands at a key of the scene; none where the scene does not state it. A key that was a word in a former form and is a
+    /// table now is the table.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<toml::Value> {
-        let mut place = &self.begun;
-        for part in self.document.present_path(key).split('.') {
-            place = match place {
-                toml::Value::Table(table) => table.get(part)?,
-                toml::Value::Array(items) => items.get(part.parse::<usize>().ok()?)?,
-                _ => return None,
-            };
+        match found_at(&self.begun, key) {
+            Some(table @ toml::Value::Table(_)) => Some(table.clone()),
+            _ => found_at(&self.begun, &self.document.present_path(key)).cloned(),
         }
-        Some(place.clone())
+    }
+
+    /// Where a value of this kind goes.
+    fn path_for(&self, key: &str, value: &toml::Value) -> String {
+        match value {
+            toml::Value::Table(_) => key.to_owned(),
+            _ => self.document.present_path(key),
+        }
     }
 
     /// The scene of a case. `files` takes what has to be made for it before it is loaded, below the folder `out`.
@@ -112,10 +131,13 @@ impl BaseScene {
         case: &Case,
         files: &mut MadeFiles,
         out: &Path,
-    ) -> Result<SceneFile, VaryError> {
-        if case.settings.is_empty() {
+    ) -> Result<Subject, VaryError> {
+        let as_it_is = || {
             let document = self.document.clone();
-            return SceneFile::from_document(document, &self.folder).map_err(VaryError::Scene);
+            Subject::from_document(document, &self.folder).map_err(VaryError::Scene)
+        };
+        if case.settings.is_empty() && case.removed.is_empty() {
+            return as_it_is();
         }
         let mut root = self.begun.clone();
         // Keys of files, by the key that names the file.
@@ -128,7 +150,8 @@ impl BaseScene {
                     of_files.entry(file).or_default().push(entry);
                     continue;
                 }
-                let outcome = set(&mut root, &self.document.present_path(key), &setting.value);
+                let path = self.path_for(key, &setting.value);
+                let outcome = set(&mut root, &path, &setting.value);
                 let is_new =
                     outcome.map_err(|problem| of_key(&setting.parameter, key, &problem))?;
                 if is_new {
@@ -139,14 +162,16 @@ impl BaseScene {
         for (file, keys) in of_files {
             self.vary_file(&mut root, (file, &keys), files, out)?;
         }
+        for key in &case.removed {
+            remove(&mut root, &self.document.present_path(key));
+        }
         if root == self.given {
-            let document = self.document.clone();
-            return SceneFile::from_document(document, &self.folder).map_err(VaryError::Scene);
+            return as_it_is();
         }
         let text =
             toml::to_string(&root).map_err(|e| VaryError::Scene(self.document.error("", e)))?;
         let name = format!("{} with {}", self.document.file, case.name());
-        SceneFile::from_document(InputDocument::new(name, text), &self.folder).map_err(|error| {
+        Subject::from_document(InputDocument::new(name, text), &self.folder).map_err(|error| {
             match added {
                 // The key is what the scene did not have: the fault lies with it.
                 Some((parameter, key)) => {
@@ -285,7 +310,7 @@ fn begin_microgeometry(root: &mut toml::Value, key: &str, folder: &Path) -> Resu
     };
     let stated = format!("{owner}.microgeometry");
     let path = folder.join(file);
-    if has(root, &stated) || !path.exists() {
+    if found_at(root, &stated).is_some() || !path.exists() {
         return Ok(());
     }
     let document = InputDocument::new(path.display().to_string(), file_text(&path)?);
@@ -297,15 +322,33 @@ fn begin_microgeometry(root: &mut toml::Value, key: &str, folder: &Path) -> Resu
     Ok(())
 }
 
-fn has(root: &toml::Value, key: &str) -> bool {
-    let mut place = Some(root);
+/// What stands at a dotted path.
+fn found_at<'a>(root: &'a toml::Value, key: &str) -> Option<&'a toml::Value> {
+    let mut place = root;
     for part in key.split('.') {
-        place = place.and_then(|place| match part.parse::<usize>() {
-            Ok(number) => place.get(number),
-            Err(_) => place.get(part),
+        place = match place {
+            toml::Value::Table(table) => table.get(part)?,
+            toml::Value::Array(items) => items.get(part.parse::<usize>().ok()?)?,
+            _ => return None,
+        };
+    }
+    Some(place)
+}
+
+/// Takes away what stands at a dotted path, if anything does.
+fn remove(root: &mut toml::Value, key: &str) {
+    let (parents, last) = key.rsplit_once('.').unwrap_or(("", key));
+    let mut place = Some(root);
+    for part in parents.split('.').filter(|part| !part.is_empty()) {
+        place = place.and_then(|place| match place {
+            toml::Value::Table(table) => table.get_mut(part),
+            toml::Value::Array(items) => part.parse().ok().and_then(|i: usize| items.get_mut(i)),
+            _ => None,
         });
     }
-    place.is_some()
+    if let Some(toml::Value::Table(table)) = place {
+        table.remove(last);
+    }
 }
 
 /// Puts a value at a dotted path; true where there was none before. A value that was there keeps its kind.

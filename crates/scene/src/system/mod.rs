@@ -10,6 +10,7 @@
 pub mod assembly;
 pub mod built;
 mod complaint;
+pub mod host_functions;
 pub(crate) mod names;
 pub mod plan;
 pub mod scene;
@@ -20,6 +21,7 @@ pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,
 };
+pub use host_functions::HostFunctions;
 pub(crate) use names::unknown;
 pub use plan::SystemPlan;
 pub(crate) use plan::step_in_words;

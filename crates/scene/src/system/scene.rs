@@ -7,6 +7,7 @@ use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::host_functions::HostFunctions;
 use super::tables::bearing::BearingTable;
 use super::tables::body::BodyTable;
 use super::tables::connection::{BushingTable, SpringTable, TorsionSpringTable};
@@ -14,6 +15,7 @@ use super::tables::gear_mesh::GearMeshTable;
 use super::tables::joint::{JointTable, MotionTable};
 use super::tables::load::LoadTable;
 use super::tables::output::{Output, OutputTable};
+use super::tables::python_element::PythonElementTable;
 use super::tables::run::{Run, RunTable};
 use super::tables::shaft::ShaftTable;
 use super::tables::solver::{Solver, SolverTable};
@@ -63,6 +65,9 @@ pub struct SystemTables {
     /// Shafts.
     #[serde(default)]
     pub shaft: Vec<ShaftTable>,
+    /// Force elements that a Python function computes.
+    #[serde(default)]
+    pub python_element: Vec<PythonElementTable>,
     /// Gear meshes.
     #[serde(default)]
     pub gear_mesh: Vec<GearMeshTable>,
@@ -99,6 +104,8 @@ pub struct SystemScene {
     pub tables: SystemTables,
     /// What to tell about the file beside its sense: tables in a former form.
     pub notes: Vec<String>,
+    /// Functions of the calling program that it may name; none of a scene that was read.
+    pub host: HostFunctions,
     /// The file, for later complaints and provenance.
     pub document: InputDocument,
     /// The file's folder.
@@ -151,6 +158,7 @@ impl SystemScene {
             solver,
             output,
             tables,
+            host: HostFunctions::default(),
             document,
             folder: folder.to_path_buf(),
         })

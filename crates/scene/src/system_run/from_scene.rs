@@ -18,7 +18,7 @@ use crate::named_files::named_files;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
-use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, Variation};
+use crate::system::{BuiltSystem, LoadedSystem, MotionValues, Run, Start, SystemScene, Variation};
 
 impl RunJob {
     /// The job of a scene.
@@ -239,10 +239,19 @@ fn head(loaded: &LoadedSystem, built: &BuiltSystem) -> RunHead {
     RunHead {
         title: scene.title.clone(),
         scene_toml: scene.document.text.clone(),
-        inputs: digests_of_named_files(&scene.document.text, &scene.folder),
+        inputs: inputs(scene),
         notes: built.notes.clone(),
         meshes: meshes.collect(),
     }
+}
+
+/// Names and digests of all files that a scene names, and what tells the functions of the calling program apart.
+pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
+    let mut inputs = digests_of_named_files(&scene.document.text, &scene.folder);
+    if !scene.host.is_empty() {
+        inputs.push(format!("functions {}", scene.host.identity));
+    }
+    inputs
 }
 
 /// Names and digests of all files that a scene names, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.

@@ -44,6 +44,7 @@ pub use cost::RunCost;
 pub use eigen_run::participation;
 pub use error::SystemRunError;
 pub use from_scene::digests_of_named_files;
+pub(crate) use from_scene::inputs;
 pub use job::{
     Advance, EigenJob, EigenPoint, InTime, MeshRecord, Outcome, RunHead, RunJob, RunKind,
     RunOptions, Settling, StaticJob, StaticPoint, SystemAt,

@@ -1,8 +1,8 @@
 //! Scenes in the forms of earlier versions: read as what they are now, with a note that says how they are written now.
 
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::study::{Study, StudyScenes};
-use gearmesh_scene::{Scene, SceneFile};
+use gearmesh_scene::Scene;
+use gearmesh_scene::study::{Study, StudyScenes, Subject};
 
 use crate::common::*;
 
@@ -236,7 +236,7 @@ fn keys_of_studies_are_read() {
         std::fs::write(folder.path().join("s.toml"), scene).unwrap();
         let study = Study::from_document(InputDocument::new("study.toml", study), folder.path());
         let made = StudyScenes::new(&study.unwrap(), folder.path()).map_err(|e| e.to_string())?;
-        let Some(SceneFile::System(made)) = made.scenes.last() else {
+        let Some(Subject::System(made)) = made.scenes.last() else {
             unreachable!("a multibody scene");
         };
         Ok::<_, String>(format!("{:?}", made.tables.gear_mesh[0].model))

@@ -93,6 +93,51 @@ fn seed_001_has_its_forces_ratio_and_mesh_lines() {
     }
 }
 
+/// The shipped scene in slices: the forces of statics, the load over the slices, the transmission error of the pair at rest.
+#[test]
+fn slices_of_seed_001_carry_its_load() {
+    let scene = changed(
+        &text("dynamics_bevel_20_20_slices.toml"),
+        "end_s = 0.06",
+        "end_s = 0.03",
+    );
+    let result = run(&scene);
+    let read = |name: &str| result.rows.read(name).unwrap();
+    let times = read("time_s");
+    let first = times.iter().position(|t| *t > 0.02 - 1e-9).unwrap();
+    let last = times.len() - 1;
+    let mean = |name: &str| {
+        let values = &read(&format!("elements/mesh/{name}"))[first..last];
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    // On the pinion where the contact is in the mean, which lies a little off the mean point: 3367, −609, 2725 N there.
+    let forces = [
+        "tangential_force_1_N",
+        "radial_force_1_N",
+        "axial_force_1_N",
+    ]
+    .map(mean);
+    for (found, expected) in [
+        (forces[0].abs(), 3367.0),
+        (forces[1], -609.0),
+        (forces[2], 2725.0),
+    ] {
+        assert!((found - expected).abs() < 0.06 * 3367.0, "{forces:?}");
+    }
+    let slices: Vec<f64> = (0..15)
+        .map(|k| mean(&format!("line_load_slice_{k}_N_per_m")))
+        .collect();
+    let most = (0..15)
+        .max_by(|a, b| slices[*a].total_cmp(&slices[*b]))
+        .unwrap();
+    assert!((6..10).contains(&most), "{slices:?}");
+    assert!(slices[0] == 0.0 && slices[14] < 0.01 * slices[most]);
+    assert_eq!(mean("apart"), 0.0);
+    // At rest 604 µrad over a lever of 23 mm.
+    let te = 1e6 * mean("transmission_error_m");
+    assert!((-15.0..-11.0).contains(&te), "{te}");
+}
+
 #[test]
 fn a_pair_of_another_shaft_angle_turns_at_its_ratio() {
     let folder = tempfile::tempdir().unwrap();
@@ -133,7 +178,7 @@ fn what_bevel_pairs_do_not_know_is_refused() {
             "kind = \"iso6336\"",
             &[
                 "found \"iso6336\"",
-                "allowed for a bevel pair is \"impact\"",
+                "allowed for a bevel pair are \"impact\" and \"hybrid\"",
             ][..],
         ),
         (
@@ -159,6 +204,48 @@ fn what_bevel_pairs_do_not_know_is_refused() {
             "hertz = { poisson = 0.5 }",
             "poisson = 0.5",
             &["0 up to, not including, 0.5"],
+        ),
+        (
+            stiff,
+            "model = { kind = \"hybrid\" }",
+            "[[gear_mesh]]",
+            &["bevel_models", "missing", "half_space = {}"],
+        ),
+        (
+            stiff,
+            "model = { kind = \"hybrid\", half_space = {}, local = \"none\" }",
+            "local = ",
+            &["is not used with `half_space`"],
+        ),
+        (
+            stiff,
+            "model = { kind = \"hybrid\", half_space = { poisson = 0.5 } }",
+            "poisson = 0.5",
+            &["half_space.poisson", "0 up to, not including, 0.5"],
+        ),
+        (
+            stiff,
+            "model = { kind = \"hybrid\", half_space = {}, slices = 2 }",
+            "slices = 2",
+            &["found 2", "3 to 100"],
+        ),
+        (
+            stiff,
+            "bevel_models = [\"a.h5\", \"b.h5\"]\nmodel = { kind = \"hybrid\", half_space = {} }",
+            "half_space = {}",
+            &["is not used with `bevel_models`"],
+        ),
+        (
+            stiff,
+            "bevel_models = [\"a.h5\", \"b.h5\"]\nmodel = { kind = \"hybrid\" }",
+            "bevel_models",
+            &["a.h5"],
+        ),
+        (
+            "bevel_pair = \"bevel_20_20.toml\"",
+            "bevel_pair = \"bevel_20_20.toml\"\nbevel_models = [\"a.h5\", \"b.h5\"]",
+            "bevel_models",
+            &["is not used by kind = \"impact\""],
         ),
         (
             "bevel_pair = \"bevel_20_20.toml\"",

@@ -113,6 +113,7 @@ fn shipped_scenes_are_built() {
             "dynamics_25_30.toml",
             "dynamics_bevel_13_35.toml",
             "dynamics_bevel_20_20.toml",
+            "dynamics_bevel_20_20_slices.toml",
             "dynamics_bevel_31_36.toml",
             "dynamics_helical.toml",
             "dynamics_two_stage.toml"

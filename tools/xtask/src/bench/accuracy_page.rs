@@ -1,289 +1,244 @@
-//! The page of `cargo xtask accuracy-cost`: cases in, Markdown out.
+//! The page of `cargo xtask accuracy-cost`: what `gearmesh accuracy` says of each scene in, Markdown out.
 
 use std::fmt::Write;
 
+use serde_json::Value;
+
+use super::accuracy::Subject;
 use super::host::Host;
-use super::page::{cell, thousands};
-
-/// What is modelled of the gear.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Space {
-    /// The cross-section.
-    PlaneStrain,
-    /// The gear with free ends.
-    Whole,
-}
-
-impl Space {
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PlaneStrain => "plane strain",
-            Self::Whole => "three dimensions",
-        }
-    }
-}
-
-/// Time and size of a reduction.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Cost {
-    /// Wall time of the process \[s\].
-    pub wall_s: f64,
-    /// Peak memory \[byte\].
-    pub peak_bytes: f64,
-    /// Free degrees of freedom.
-    pub dofs: u64,
-}
-
-/// What a local term makes of a model.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LocalTerm {
-    /// Its name.
-    pub name: &'static str,
-    /// Relative errors of the deflection, all radii and half widths.
-    pub errors: Vec<f64>,
-    /// Wall time of a contact position \[s\].
-    pub position_s: f64,
-}
-
-impl LocalTerm {
-    /// Largest |error|.
-    pub fn worst(&self) -> f64 {
-        self.errors.iter().fold(0.0, |worst, e| e.abs().max(worst))
-    }
-
-    /// Root of the mean square.
-    pub fn rms(&self) -> f64 {
-        let sum: f64 = self.errors.iter().map(|e| e * e).sum();
-        (sum / self.errors.len() as f64).sqrt()
-    }
-}
-
-/// A case that ended well.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Of the reduction.
-    pub cost: Cost,
-    /// By local term.
-    pub locals: Vec<LocalTerm>,
-}
-
-/// One element and mesh size.
-#[derive(Debug, Clone)]
-pub struct Case {
-    /// What is modelled.
-    pub space: Space,
-    /// Element.
-    pub element: &'static str,
-    /// Element length on the flank \[mm\].
-    pub flank_mm: f64,
-    /// Figures, or why there are none.
-    pub outcome: Result<Outcome, String>,
-}
-
-/// Deflections that the cases are compared with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
-    /// Radii \[mm\].
-    pub radii_mm: Vec<f64>,
-    /// What the third dimension changes, of the deflection in three dimensions, by radius.
-    pub change: Vec<f64>,
-    /// How far of that was extrapolated.
-    pub step: Vec<f64>,
-    /// \[µm\], `[half width][radius]`.
-    pub plane_um: Vec<Vec<f64>>,
-    /// The same in three dimensions.
-    pub whole_um: Vec<Vec<f64>>,
-}
-
-impl Reference {
-    /// Deflections \[µm\], `[half width][radius]`.
-    pub fn of(&self, space: Space) -> &[Vec<f64>] {
-        match space {
-            Space::PlaneStrain => &self.plane_um,
-            Space::Whole => &self.whole_um,
-        }
-    }
-}
-
-/// Radius \[mm\] and deflections \[µm\], one a half width.
-pub type PlaneGearRow = (f64, Vec<f64>);
-
-/// Half widths \[mm\] from the heads of the columns of `reference/plane_gear/data.csv`; radius \[mm\] and deflections
-/// \[µm\] of each row.
-pub fn read_plane_gear(text: &str) -> Option<(Vec<f64>, Vec<PlaneGearRow>)> {
-    let mut lines = text.lines();
-    let half_widths = lines
-        .next()?
-        .split(',')
-        .skip(1)
-        .map(|head| {
-            let number = head.strip_prefix("deflection_um_at_half_width_")?;
-            number.strip_suffix("_mm")?.parse().ok()
-        })
-        .collect::<Option<Vec<f64>>>()?;
-    let rows = lines
-        .map(|line| {
-            let values = line.split(',').map(|v| v.parse().ok());
-            let values = values.collect::<Option<Vec<f64>>>()?;
-            let (radius, deflections) = values.split_first()?;
-            (deflections.len() == half_widths.len()).then(|| (*radius, deflections.to_vec()))
-        })
-        .collect::<Option<Vec<_>>>()?;
-    Some((half_widths, rows))
-}
 
 /// The whole page.
 pub fn page(
     host: &Host,
     program: &str,
-    reference: &Reference,
-    cases: &[Case],
+    found: &[(&Subject, Result<Value, String>)],
     picture: &str,
 ) -> String {
-    let per_cent = |values: &[f64]| {
-        let values: Vec<String> = values.iter().map(|v| format!("{:.2}", 100.0 * v)).collect();
-        values.join(", ")
-    };
-    let radii: Vec<String> = reference
-        .radii_mm
-        .iter()
-        .map(|r| format!("{r:.2}"))
-        .collect();
     let mut page = format!(
-        "# Accuracy and cost of elements, mesh sizes and local terms\n\n\
-        Written by `cargo xtask accuracy-cost`; do not edit.\n\n\
-        | | |\n| --- | --- |\n\
-        | processor | {}, {} cores |\n| memory | {} |\n| system | {} |\n| date | {} |\n| commit | {} |\n\
-        | program | {program} |\n\n\
-        ![largest error over the time of a reduction]({picture})\n\n\
-        Solid gear, z 50, m 3 mm, bore radius 30 mm fixed, E 206 GPa, 20 mm wide; 100 N/mm over the whole width on one right flank; \
-        deflection of the contact's centre along the normal, mean over the width, at seven radii under Hertz half widths of 0.06 and 0.12 mm. \
-        Fillet, body and axial element lengths are in the default's proportion to that on the flank (default 0.9 mm).\n\n\
-        - **Error in plane strain**: against `reference/plane_gear`, computed by other software, good to 0.05 %.\n\
-        - **Error in three dimensions**: against the same plus what free ends change, computed by this program as the difference of \
-        its deflections in three dimensions and in plane strain on two finer meshes, extrapolated. At radii {} mm that is {} % of the \
-        deflection, of which {} % were extrapolated.\n\
-        - **Cost**: `gearmesh reduce --no-error-estimate`, one process on all cores; *position* is a contact position of the gear with \
-        itself, five slices, as `gearmesh run` tells it.\n",
-        host.cpu,
-        host.cores,
-        host.memory,
-        host.system,
-        host.date,
-        host.commit,
-        radii.join(", "),
-        per_cent(&reference.change),
-        per_cent(&reference.step),
+        "# What accuracy costs\n\nWritten by `cargo xtask accuracy-cost`; do not edit.\n\n\
+         | | |\n| --- | --- |\n| processor | {}, {} cores |\n| memory | {} |\n| system | {} |\n| date | {} |\n| commit | {} |\n| program | {program} |\n\n\
+         ![largest error over processor time of every setting]({picture})\n\n\
+         Each section is `gearmesh accuracy` on a shipped scene ([scene.md](scene.md#what-accuracy-costs) says how it works). *Reference*: every knob at its top. *Error*: of \
+         each column, relative to the reference, at the worst of the scene's torques; what no knob changes is in none of them. *Time*: processor time of all cores, which other work on the machine hardly changes; \
+         reading models and writing results are not in it, nor is the reduction of gears, which is done once. Settings that are recommended were run once more after all others; \
+         their errors are those of that run. Elements and element lengths against an independent reference: [benchmarks/elements.md](benchmarks/elements.md); models of a bearing beside each other: \
+         [benchmarks/bearing-models.md](benchmarks/bearing-models.md).\n",
+        host.cpu, host.cores, host.memory, host.system, host.date, host.commit
     );
-    for space in [Space::PlaneStrain, Space::Whole] {
+    page += &summary(found);
+    for (subject, outcome) in found {
         let _ = write!(
             page,
-            "\n## {}\n\n{}",
-            capital(space.name()),
-            table(space, cases)
+            "\n## {}\n\n`fe_models/{}`",
+            subject.title, subject.scene
         );
+        for (k, (old, new)) in subject.changed.iter().enumerate() {
+            let word = if k == 0 { ", with" } else { "," };
+            let _ = write!(page, "{word} `{}` for `{old}`", new.replace('\n', ", "));
+        }
+        page += ".\n\n";
+        match outcome {
+            Err(reason) => {
+                let _ = writeln!(page, "Failed: {}", reason.trim());
+            }
+            Ok(told) => page += &section(subject, told),
+        }
     }
     page
 }
 
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
 }
 
-fn table(space: Space, cases: &[Case]) -> String {
-    let mut table = String::from(
-        "| element | flank mm | DOF | reduce s | peak GB | local term | max error % | rms error % | position µs |\n\
-         | --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: |\n",
-    );
-    for case in cases.iter().filter(|case| case.space == space) {
-        match &case.outcome {
-            Ok(Outcome { cost, locals }) => {
-                for local in locals {
-                    let _ = writeln!(
-                        table,
-                        "| {} | {} | {} | {:.1} | {:.2} | {} | {:.2} | {:.2} | {:.1} |",
-                        case.element,
-                        case.flank_mm,
-                        thousands(cost.dofs),
-                        cost.wall_s,
-                        cost.peak_bytes / 1e9,
-                        local.name,
-                        100.0 * local.worst(),
-                        100.0 * local.rms(),
-                        1e6 * local.position_s
-                    );
-                }
-            }
-            Err(reason) => {
-                let _ = writeln!(
-                    table,
-                    "| {} | {} | {}{}",
-                    case.element,
-                    case.flank_mm,
-                    cell(reason),
-                    " |".repeat(7)
-                );
-            }
-        }
+/// Four digits.
+fn short(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-4..1e6).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
+    let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 7);
+    format!("{value:.*}", digits as usize)
+}
+
+fn largest_error(setting: &Value) -> f64 {
+    let errors = setting["errors"].as_object().into_iter().flatten();
+    errors.map(|(_, e)| number(e)).fold(0.0, f64::max)
+}
+
+/// One line for each scene and goal: the setting that is recommended, its error when it was run again, and how much faster it is.
+fn summary(found: &[(&Subject, Result<Value, String>)]) -> String {
+    let mut table = "\n## Recommended settings, tried\n\n\
+        | scene | reference s | for 1 %: error % | s | times faster | for 0.1 %: error % | s | times faster | last step of the reference % |\n\
+        | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
+        .to_owned();
+    for (subject, outcome) in found {
+        let Ok(told) = outcome else {
+            let _ = writeln!(table, "| {} | failed{}", subject.title, " |".repeat(8));
+            continue;
+        };
+        let reference = number(&told["tried"][0]["cpu_s"]);
+        let of_goal = |goal: &str| {
+            let advice = told["advice"].as_array().into_iter().flatten();
+            let mut own = advice.filter(|one| one["goal"].as_str() == Some(goal));
+            own.next().map_or(" | | ".to_owned(), |one| {
+                let again = &one["run_again"];
+                let seconds = number(&again["cpu_s"]);
+                format!(
+                    "{} | {} | {}",
+                    short(100.0 * largest_error(again)),
+                    short(seconds),
+                    short(reference / seconds)
+                )
+            })
+        };
+        let step = match &told["last_step_of_reference"] {
+            Value::Null => String::new(),
+            step => format!(
+                "{} ({})",
+                short(100.0 * number(&step["change"])),
+                step["knob"].as_str().unwrap_or_default()
+            ),
+        };
+        let (one, tenth) = (of_goal("1.000 %"), of_goal("0.1000 %"));
+        let _ = writeln!(
+            table,
+            "| {} | {} | {one} | {tenth} | {step} |",
+            subject.title,
+            short(reference)
+        );
     }
     table
+        + "\nA factor near 1: no cheaper setting is that exact. *Last step of the reference*: how much the last rung of the knob that is worst in this still changes the columns, which is what the reference itself may be off by.\n"
+}
+
+fn section(subject: &Subject, told: &Value) -> String {
+    let mut text = String::new();
+    for advice in told["advice"].as_array().into_iter().flatten() {
+        let again = &advice["run_again"];
+        let lines = advice["toml"].as_array().into_iter().flatten();
+        let lines: Vec<&str> = lines.filter_map(Value::as_str).collect();
+        let _ = write!(
+            text,
+            "```toml\n# {}: error {} %, {} s\n{}\n```\n\n",
+            advice["goal"].as_str().unwrap_or_default(),
+            short(100.0 * largest_error(again)),
+            short(number(&again["cpu_s"])),
+            lines.join("\n")
+        );
+    }
+    let heads = |text: &mut String, first: &str| {
+        let columns = subject.columns.iter().map(|c| format!(" {c} % |"));
+        let _ = writeln!(text, "{first}{}", columns.collect::<String>());
+        let count = first.matches('|').count() - 1 + subject.columns.len();
+        let _ = writeln!(text, "| --- |{}", " ---: |".repeat(count - 1));
+    };
+    let cells = |errors: &Value| {
+        let cells = subject.columns.iter();
+        cells
+            .map(|column| format!(" {} |", short(100.0 * number(&errors[column]))))
+            .collect::<String>()
+    };
+    heads(
+        &mut text,
+        "| setting: what differs from the reference | s | iterations | reduction s |",
+    );
+    for one in told["tried"].as_array().into_iter().flatten() {
+        let reduction = number(&one["reduction_s"]);
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} |{}",
+            one["setting"]
+                .as_str()
+                .unwrap_or_default()
+                .replace('|', "/"),
+            short(number(&one["cpu_s"])),
+            number(&one["iterations"]),
+            if reduction > 0.0 {
+                short(reduction)
+            } else {
+                String::new()
+            },
+            cells(&one["errors"])
+        );
+    }
+    let effects: Vec<&Value> = told["effects"].as_array().into_iter().flatten().collect();
+    if !effects.is_empty() {
+        text += "\nWhat each effect changes and takes, with / without it, all else as the scene has it:\n\n";
+        heads(&mut text, "| effect | in the scene | states | calls | s |");
+        for one in effects {
+            let both = |key: &str, of: &dyn Fn(f64) -> String| {
+                let ends = ["with", "without"].map(|side| of(number(&one[side][key])));
+                ends.join(" / ")
+            };
+            let whole = |value: f64| match value == 0.0 {
+                true => "-".to_owned(),
+                false => value.to_string(),
+            };
+            let present = if one["in_scene"] == true { "yes" } else { "no" };
+            let _ = writeln!(
+                text,
+                "| {} | {present} | {} | {} | {} |{}",
+                one["effect"].as_str().unwrap_or_default(),
+                both("states", &whole),
+                both("calls", &whole),
+                both("cpu_s", &short),
+                cells(&one["changes"])
+            );
+        }
+    }
+    for (word, key) in [("Not varied", "not_varied"), ("Failed", "failed")] {
+        for line in told[key].as_array().into_iter().flatten() {
+            let line = line.as_str().unwrap_or_default().replace('\n', " ");
+            let line: String = line.chars().take(300).collect();
+            let _ = write!(text, "\n- {word}: {line}");
+        }
+    }
+    text + "\n"
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-
-    fn case(outcome: Result<Outcome, String>) -> Case {
-        Case {
-            space: Space::Whole,
-            element: "hex20",
-            flank_mm: 0.8,
-            outcome,
-        }
-    }
+    use crate::bench::accuracy::SUBJECTS;
+    use serde_json::json;
 
     #[test]
-    fn every_line_has_all_columns() {
-        let good = Outcome {
-            cost: Cost {
-                wall_s: 2.0,
-                peak_bytes: 5e8,
-                dofs: 123_456,
-            },
-            locals: vec![LocalTerm {
-                name: "none",
-                errors: vec![0.03, -0.04],
-                position_s: 3.24e-6,
-            }],
-        };
-        let cases = [
-            case(Ok(good)),
-            case(Err("exit code 2: no | such\nelement".into())),
-        ];
-        let table = table(Space::Whole, &cases);
-        for line in table.lines() {
-            assert_eq!(line.replace("\\|", "").matches('|').count(), 10, "{line}");
+    fn a_section_has_advice_settings_and_effects() {
+        let subject = &SUBJECTS[0];
+        let errors: serde_json::Map<String, Value> = subject
+            .columns
+            .iter()
+            .map(|c| ((*c).to_owned(), json!(0.005)))
+            .collect();
+        let setting = json!({"setting": "a = 1", "cpu_s": 0.5, "iterations": 12.0, "reduction_s": 0.0, "errors": errors});
+        let effort = json!({"states": 10.0, "calls": 100.0, "cpu_s": 1.0});
+        let told = json!({
+            "tried": [setting], "advice": [{"goal": "1.000 %", "toml": ["a = 1"], "run_again": setting}],
+            "effects": [{"effect": "friction", "in_scene": true, "with": effort, "without": effort, "changes": errors}],
+            "not_varied": ["b: no"], "failed": [], "last_step_of_reference": null,
+        });
+        let text = section(subject, &told);
+        for part in [
+            "# 1.000 %: error 0.5000 %, 0.5000 s\na = 1\n",
+            "| a = 1 | 0.5000 | 12 |",
+            "| friction | yes | 10 / 10 | 100 / 100 | 1.000 / 1.000 |",
+            "- Not varied: b: no",
+        ] {
+            assert!(text.contains(part), "{part} is not in\n{text}");
         }
-        assert!(
-            table.contains("| hex20 | 0.8 | 123 456 | 2.0 | 0.50 | none | 4.00 | 3.54 | 3.2 |"),
-            "{table}"
-        );
-        assert_eq!(super::table(Space::PlaneStrain, &cases).lines().count(), 2);
-    }
-
-    #[test]
-    fn the_reference_is_read_with_its_half_widths() {
-        let text = "radius_mm,deflection_um_at_half_width_0.06_mm,deflection_um_at_half_width_0.12_mm\n72.6,3.0,2.8\n";
-        assert_eq!(
-            read_plane_gear(text),
-            Some((vec![0.06, 0.12], vec![(72.6, vec![3.0, 2.8])]))
-        );
-        assert_eq!(read_plane_gear("radius_mm,other\n1,2\n"), None);
-        assert_eq!(read_plane_gear(&text.replace(",2.8", "")), None);
+        // Tables have as many cells in each line.
+        for block in text.split("\n\n").filter(|block| block.starts_with('|')) {
+            let counts: Vec<usize> = block
+                .lines()
+                .filter(|line| line.starts_with('|'))
+                .map(|line| line.matches('|').count())
+                .collect();
+            assert!(counts.windows(2).all(|w| w[0] == w[1]), "{block}");
+        }
+        let table = summary(&[(subject, Ok(told))]);
+        assert!(table.contains("| Pair A at rest | 0.5000 | 0.5000 | 0.5000 | 1.000 |"));
     }
 }

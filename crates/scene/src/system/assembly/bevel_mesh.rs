@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use gearmesh_bevel::{BevelError, PairFile};
-use gearmesh_drivetrain::{BevelMesh, FlankKinematics, GearMesh, PowerStiffness};
+use gearmesh_drivetrain::{
+    BevelMesh, BevelSlices, DrivetrainError, FlankKinematics, GearMesh, PowerStiffness,
+};
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, InputError};
@@ -24,6 +26,7 @@ pub(super) struct SceneBevel<'a> {
     pub model_keys: TableKeys<'a>,
     pub teeth_keys: TableKeys<'a>,
     pub file: &'a Path,
+    pub folder: &'a Path,
 }
 
 impl SceneBevel<'_> {
@@ -34,7 +37,7 @@ impl SceneBevel<'_> {
         bodies: &Bodies,
         parts: &mut Parts,
     ) -> Result<PreparedMesh, InputError> {
-        let model = self.refuse_unused(bodies, numbers)?;
+        self.refuse_unused(bodies, numbers)?;
         let file = PairFile::read(self.file)?;
         let fault = |error: BevelError| {
             let problem = format!("{}: {error}", self.file.display());
@@ -45,8 +48,6 @@ impl SceneBevel<'_> {
             let checked = tooth.check(member.least_top_land_m, member.point_width_m);
             checked.map_err(fault)?;
         }
-        let mut kinematics =
-            BevelMesh::new(&file.blank, &design).map_err(|e| self.keys.error("bevel_pair", e))?;
         let seats = [
             seat(
                 &self.teeth.eccentricity_1,
@@ -60,12 +61,32 @@ impl SceneBevel<'_> {
             )?,
         ];
         let at_start = pose(bodies, numbers, &seats);
-        let located = kinematics.locate(&at_start);
-        located.map_err(|e| self.keys.error("gear_2", e))?;
-        let base_radii_m = kinematics.levers_m();
         let sides = self.teeth.flanks.flanks().to_vec();
-        let slice_width_m = kinematics.layout().width_m();
-        let mesh = self.mesh(kinematics, model, &sides)?;
+        let models = self.models()?;
+        let fault = |e| self.keys.error("bevel_pair", e);
+        let (base_radii_m, slice_width_m, mesh) = match &self.table.model {
+            MeshModel::Hybrid(model) => {
+                let slices = self.slices(model, models.as_ref())?;
+                let mut flanks =
+                    BevelSlices::new(&file.blank, &design, slices).map_err(|e| match e {
+                        DrivetrainError::Value { .. } => self.model_keys.error("slices", e),
+                        _ => fault(e),
+                    })?;
+                let located = flanks.locate(&at_start);
+                located.map_err(|e| self.keys.error("gear_2", e))?;
+                let sizes = (flanks.pair().levers_m(), flanks.layout().width_m());
+                let mesh = self.hybrid(flanks, (model, models.as_ref()), &sides)?;
+                (sizes.0, sizes.1, mesh)
+            }
+            MeshModel::Impact(model) => {
+                let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
+                let located = flanks.locate(&at_start);
+                located.map_err(|e| self.keys.error("gear_2", e))?;
+                let sizes = (flanks.levers_m(), flanks.layout().width_m());
+                (sizes.0, sizes.1, self.mesh(flanks, model, &sides)?)
+            }
+            _ => return Err(self.other_model()),
+        };
         self.effects(&file, parts);
         Ok(PreparedMesh {
             name: self.table.name.clone(),
@@ -78,30 +99,39 @@ impl SceneBevel<'_> {
             mesh: Some(mesh),
             sides,
             slice_width_m,
+            models,
         })
     }
 
-    /// The law of the teeth, and what of the table bevel flanks do not use.
-    fn refuse_unused(
-        &self,
-        bodies: &Bodies,
-        numbers: [usize; 2],
-    ) -> Result<&ImpactTable, InputError> {
-        let MeshModel::Impact(model) = &self.table.model else {
-            let problem = format!(
-                "found \"{}\", allowed for a bevel pair is \"impact\"; the other kinds are for cylindrical gears",
-                self.table.model.kind().name()
-            );
-            return Err(self.model_keys.error("kind", problem));
-        };
+    /// A model that knows no bevel flanks.
+    fn other_model(&self) -> InputError {
+        let problem = format!(
+            "found \"{}\", allowed for a bevel pair are \"impact\" and \"hybrid\"; the other kinds are for cylindrical gears",
+            self.table.model.kind().name()
+        );
+        self.model_keys.error("kind", problem)
+    }
+
+    /// What of the table bevel flanks do not use.
+    fn refuse_unused(&self, bodies: &Bodies, numbers: [usize; 2]) -> Result<(), InputError> {
         let unused = |keys: &TableKeys<'_>, key: &str| {
             Err(keys.error(key, "is not used by a bevel pair; remove it"))
         };
-        if model.stiffness.is_some() {
-            return unused(&self.model_keys, "stiffness");
-        }
-        if model.slices.is_some() {
-            return unused(&self.model_keys, "slices");
+        match &self.table.model {
+            MeshModel::Impact(model) => {
+                if model.stiffness.is_some() {
+                    return unused(&self.model_keys, "stiffness");
+                }
+                if model.slices.is_some() {
+                    return unused(&self.model_keys, "slices");
+                }
+                if self.table.bevel_models.is_some() {
+                    let problem = "is not used by kind = \"impact\"; remove it, or take \"hybrid\"";
+                    return Err(self.keys.error("bevel_models", problem));
+                }
+            }
+            MeshModel::Hybrid(model) => self.check_hybrid(model)?,
+            _ => return Err(self.other_model()),
         }
         if self.table.microgeometry.is_some() {
             return unused(&self.keys, "microgeometry");
@@ -128,7 +158,7 @@ impl SceneBevel<'_> {
                 return Err(self.keys.error(key, problem));
             }
         }
-        Ok(model)
+        Ok(())
     }
 
     fn mesh(
@@ -168,6 +198,11 @@ impl SceneBevel<'_> {
         for side in others {
             mesh = mesh.with_side(*side, law(*side)).map_err(fault)?;
         }
+        self.with_friction(mesh)
+    }
+
+    /// Adds what the teeth say of friction.
+    pub(super) fn with_friction(&self, mesh: GearMesh) -> Result<GearMesh, InputError> {
         let friction = self.teeth.friction.as_ref();
         let friction = friction
             .map(|table| table.check(&self.teeth_keys))
@@ -193,14 +228,8 @@ impl SceneBevel<'_> {
                 return Err(keys.error(key, problem));
             }
         }
-        let young = table.young_GPa.unwrap_or(206.0);
-        let poisson = table.poisson.unwrap_or(0.3);
-        let positive = young > 0.0 && young.is_finite();
-        keys.require("hertz.young_GPa", young, positive, "more than 0")?;
-        let ok = (0.0..0.5).contains(&poisson);
-        keys.require("hertz.poisson", poisson, ok, "0 up to, not including, 0.5")?;
-        let steel = (young * 1e9, poisson);
-        Ok(Some(contact_modulus_pa(steel, steel)))
+        let material = self.material(Some(table))?;
+        Ok(Some(contact_modulus_pa(material, material)))
     }
 
     /// What is computed, in words for the plan.
@@ -212,18 +241,25 @@ impl SceneBevel<'_> {
             file.blank.data.backlash_m / UM
         );
         parts.effect(name("backlash"), both.then_some(backlash));
-        let MeshModel::Impact(model) = &self.table.model else {
-            return;
+        let damping = match &self.table.model {
+            MeshModel::Impact(model) => {
+                if model.hertz.is_some() {
+                    let law = "F = K d^1.5, K from the curvatures at each contact";
+                    parts.effect(name("hertz"), Some(law.to_string()));
+                }
+                let damping = model.damping_N_s_per_mm;
+                damping.map(|_| "STEP of the depth".to_string())
+            }
+            model => {
+                let what = match self.table.bevel_models {
+                    Some(_) => "reduced gears in slices along the teeth",
+                    None => "rigid gears, surfaces in slices along the teeth",
+                };
+                parts.effect(name("teeth"), Some(what.to_string()));
+                model.damping().map(|damping| damping.words().to_string())
+            }
         };
-        if model.hertz.is_some() {
-            let law = "F = K d^1.5, K from the curvatures at each contact";
-            parts.effect(name("hertz"), Some(law.to_string()));
-        }
-        let damping = model.damping_N_s_per_mm;
-        parts.effect(
-            name("damping"),
-            damping.map(|_| "STEP of the depth".to_string()),
-        );
+        parts.effect(name("damping"), damping);
         let friction = self.teeth.friction.as_ref();
         let rubs = "`coulomb`, regularised, along the sliding in the tangent plane";
         parts.effect(name("friction"), friction.map(|_| rubs.to_string()));

@@ -1,9 +1,9 @@
-//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]` and `[[bushing]]` to force elements; `bearings/` has those of `[[bearing]]`.
+//! `[[load]]`, `[[spring]]`, `[[torsion_spring]]`, `[[bushing]]` and `[[python_element]]` to force elements; `bearings/` has those of `[[bearing]]`.
 
 use std::path::Path;
 
 use gearmesh_dynamics::elements::{
-    AppliedLoad, Axes, Bushing, ForceElement, LoadKind, SpringDamper, TorsionSpring,
+    AppliedLoad, Axes, Bushing, ForceElement, HostElement, LoadKind, SpringDamper, TorsionSpring,
 };
 use gearmesh_dynamics::{DynamicsError, MarkerPair, SystemBuilder, TimeFunction};
 use gearmesh_geometry::InputError;
@@ -18,6 +18,7 @@ use super::stiffness::refuse_rigid;
 use crate::system::scene::SystemTables;
 use crate::system::tables::MM;
 use crate::system::tables::connection::{BushingTable, SpringTable};
+use crate::system::tables::function::Sources;
 use crate::system::tables::load::{AxesWord, LoadTable};
 
 /// N/mm in N/m, N·s/mm in N·s/m.
@@ -39,7 +40,7 @@ pub(super) struct Manner<'a> {
 /// Adds all of them.
 pub(super) fn add(
     tables: &SystemTables,
-    (document, folder): (&InputDocument, &Path),
+    (document, sources): (&InputDocument, Sources<'_>),
     manner: Manner<'_>,
     bodies: &Bodies,
     builder: &mut SystemBuilder,
@@ -52,7 +53,7 @@ pub(super) fn add(
         builder.element(load(
             table,
             &keys,
-            folder,
+            sources,
             manner.load_factor,
             bodies,
             body,
@@ -61,7 +62,7 @@ pub(super) fn add(
     }
     let mut connections = Connections {
         document,
-        folder,
+        folder: sources.folder,
         bodies,
         manner,
         gravity_m_per_s2: tables.gravity_m_per_s2,
@@ -103,6 +104,17 @@ pub(super) fn add(
         connections.add(("bushing", i), "bushing", named, |keys, ends| {
             let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
             Ok(bushing(table, keys)?.between(&table.name, pair(bodies, ends, &frame)))
+        })?;
+    }
+    for (i, table) in tables.python_element.iter().enumerate() {
+        let named = (&*table.name, table.body_1.as_deref(), &*table.body_2);
+        let at = ("python_element", i);
+        connections.add(at, "Python element", named, |keys, ends| {
+            let frame = bodies.stated_frame(keys, ends[1], table.at_mm, table.axis)?;
+            let law = sources.host.law(&table.function);
+            let law = law.map_err(|problem| keys.error("function", problem))?;
+            let between = pair(bodies, ends, &frame);
+            Ok(Ok(HostElement::new(&table.name, between, law)))
         })?;
     }
     bearings::add(&tables.bearing, &mut connections)
@@ -152,7 +164,7 @@ pub(super) fn pair(bodies: &Bodies, ends: [Option<usize>; 2], frame: &Frame) -> 
 fn load(
     table: &LoadTable,
     keys: &TableKeys<'_>,
-    folder: &Path,
+    sources: Sources<'_>,
     factor: f64,
     bodies: &Bodies,
     body: usize,
@@ -178,7 +190,7 @@ fn load(
             return Err(keys.error("torque_Nm", "missing; a load needs torque_Nm or force_N"));
         }
     };
-    let magnitude = function.function(keys, key, 1.0, folder)?;
+    let magnitude = function.function(keys, key, 1.0, sources)?;
     let magnitude = if factor == 1.0 {
         magnitude
     } else {

@@ -8,7 +8,9 @@ use gearmesh_drivetrain::{GearMesh, MeshElement, ModalPart, Pose, kinematic_mesh
 use gearmesh_dynamics::{GROUND, Marker, MarkerPair, SystemBuilder};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::{Flank, GearPair, InputError, Misalignment};
+use gearmesh_model::ReducedGear;
 
+use super::bevel_hybrid::BevelModels;
 use super::bevel_mesh::SceneBevel;
 use super::bodies::Bodies;
 use super::gears::Gear;
@@ -36,6 +38,8 @@ pub(super) struct PreparedMesh {
     pub sides: Vec<Flank>,
     /// Width of a slice \[m\]; zero for `kinematic`.
     pub slice_width_m: f64,
+    /// Reduced bevel gears, which the mesh names itself.
+    pub models: Option<BevelModels>,
 }
 
 impl PreparedMesh {
@@ -74,6 +78,7 @@ impl PreparedMesh {
                 model_keys,
                 teeth_keys,
                 file: &folder.join(file),
+                folder,
             };
             return scene.prepare((&key, numbers), bodies, parts);
         }
@@ -107,6 +112,7 @@ impl PreparedMesh {
             mesh: None,
             sides: teeth.flanks.flanks().to_vec(),
             slice_width_m: 0.0,
+            models: None,
             key: key.clone(),
         };
         let mut scene = SceneMesh {
@@ -136,6 +142,12 @@ impl PreparedMesh {
         parts.notes.extend(scene.stiffness_note()?);
         parts.notes.extend(scene.microgeometry_note());
         Ok(prepared)
+    }
+
+    /// The reduced bevel gear of a body, where this mesh names one.
+    pub(super) fn bevel_model(&self, body: usize) -> Option<&Arc<ReducedGear>> {
+        let gear = self.bodies.iter().position(|own| *own == body)?;
+        self.models.as_ref().map(|models| &models[gear])
     }
 
     /// Gear 2 as seen in gear 1 at the start.

@@ -1,7 +1,6 @@
 //! `[[joint]]` and `[[motion]]` to joints.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use gearmesh_dynamics::{Joint, JointKind, Motion, SystemBuilder, TimeFunction};
 use gearmesh_geometry::InputError;
@@ -11,6 +10,7 @@ use super::bodies::{Bodies, Frame};
 use super::parts::Parts;
 use crate::system::names;
 use crate::system::tables::MM;
+use crate::system::tables::function::Sources;
 use crate::system::tables::joint::{JointTable, JointWord, MotionTable};
 use crate::system::tables::run::Run;
 
@@ -141,7 +141,7 @@ impl PlacedMotion {
 /// Reads all motions; `varied` replaces the functions of those it names.
 pub(super) fn motions(
     tables: &[MotionTable],
-    (document, folder): (&InputDocument, &Path),
+    (document, sources): (&InputDocument, Sources<'_>),
     joints: &[PlacedJoint<'_>],
     varied: &[(String, Motion)],
 ) -> Result<Vec<PlacedMotion>, InputError> {
@@ -159,7 +159,7 @@ pub(super) fn motions(
                 .collect();
             keys.error("joint", names::unknown("joint", &table.joint, &known))
         })?;
-        let (driven, motion) = function(table, &keys, folder)?;
+        let (driven, motion) = function(table, &keys, sources)?;
         let word = joints[joint].table.kind;
         let fits = match driven {
             Driven::Angle => matches!(
@@ -214,7 +214,7 @@ pub(super) fn motions(
 fn function(
     table: &MotionTable,
     keys: &TableKeys<'_>,
-    folder: &Path,
+    sources: Sources<'_>,
 ) -> Result<(Driven, Motion), InputError> {
     type Wrap = fn(TimeFunction) -> Motion;
     let stated: Vec<_> = [
@@ -254,12 +254,35 @@ fn function(
     .collect();
     match stated[..] {
         [(key, function, driven, unit, wrap)] => {
-            Ok((driven, wrap(function.function(keys, key, unit, folder)?)))
+            let motion = wrap(function.function(keys, key, unit, sources)?);
+            demand_motion(&motion).map_err(|problem| keys.error(key, problem))?;
+            Ok((driven, motion))
         }
         _ => Err(keys.error(
             stated.get(1).map_or("", |second| second.0),
             "a motion states exactly one of angle_deg, speed_rpm, position_mm, speed_mm_per_s",
         )),
+    }
+}
+
+/// What only functions of the calling program can lack.
+fn demand_motion(motion: &Motion) -> Result<(), String> {
+    match motion {
+        Motion::Speed(speed) if speed.integral(0.0).is_none() => Err(
+            "is a product of functions or a Python function, whose integral is not known; state angle_deg or position_mm"
+                .to_owned(),
+        ),
+        Motion::Speed(_) => Ok(()),
+        Motion::Position(place) => {
+            let start = place.at(0.0);
+            let parts = [start.value, start.rate, start.acceleration];
+            if parts.iter().all(|part| part.is_finite()) {
+                return Ok(());
+            }
+            Err(format!(
+                "is {parts:?} with its rate and acceleration at t = 0, which must be finite: the Python function of a motion returns (value, rate, acceleration)"
+            ))
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::mesh_model::SceneMesh;
 use super::parts::Parts;
 use crate::system::tables::UM;
 use crate::system::tables::gear_mesh::TouchingFlanks;
-use crate::system::tables::mesh_model::{DampingTable, MeshKind, MeshModel};
+use crate::system::tables::mesh_model::{MeshKind, MeshModel};
 
 impl SceneMesh<'_> {
     /// Lists the effects of this mesh.
@@ -24,10 +24,7 @@ impl SceneMesh<'_> {
         };
         parts.effect(name("backlash"), flanks);
         let damping = match (&table.model, table.model.damping()) {
-            (_, Some(DampingTable::StiffnessProportional { .. })) => {
-                Some("proportional to stiffness".to_string())
-            }
-            (_, Some(DampingTable::Viscous { .. })) => Some("viscous".to_string()),
+            (_, Some(damping)) => Some(damping.words().to_string()),
             (MeshModel::Impact(impact), None) if impact.damping_N_s_per_mm.is_some() => {
                 Some("STEP of the depth".to_string())
             }

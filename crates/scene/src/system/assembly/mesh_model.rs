@@ -272,7 +272,7 @@ impl SceneMesh<'_> {
         let nominal = model.nominal_force_N.unwrap_or(reference);
         self.model_keys
             .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
-        let contact = (model.local, layout);
+        let contact = (model.local.unwrap_or_default(), layout);
         ReducedTeeth::on_slices(self.pair, side, models, contact, nominal).map_err(|error| {
             let hint = match self.teeth.flanks {
                 TouchingFlanks::Both => "; both sides of the teeth can touch unless the mesh's teeth say flanks = \"right\" or \"left\"",

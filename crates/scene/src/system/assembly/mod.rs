@@ -17,6 +17,7 @@
 //! | what is judged after the run | `ratings.rs` |
 
 mod bearings;
+mod bevel_hybrid;
 mod bevel_mesh;
 mod bodies;
 mod carriers;
@@ -67,6 +68,7 @@ use self::start_speeds::Holds;
 use super::built::{BuiltBody, BuiltGauge, BuiltMesh, BuiltSystem};
 use super::names;
 use super::scene::SystemScene;
+use super::tables::function::Sources;
 use super::tables::mesh_model::MeshKind;
 use super::tables::run::Run;
 use super::tables::solver::Start;
@@ -171,6 +173,10 @@ impl LoadedSystem {
     ) -> Result<BuiltSystem, InputError> {
         let (tables, document) = (&self.scene.tables, &self.scene.document);
         let files = (document, self.scene.folder.as_path());
+        let sources = Sources {
+            folder: &self.scene.folder,
+            host: &self.scene.host,
+        };
         let mut parts = Parts::default();
         let mut bodies = self.bodies()?;
         let mut shafts = Vec::new();
@@ -201,7 +207,12 @@ impl LoadedSystem {
         }
         self.check_flexibility(&bodies, &meshes)?;
         let joints = joints::place(&tables.joint, document, &bodies)?;
-        let motions = joints::motions(&tables.motion, files, &joints, &variation.motions)?;
+        let motions = joints::motions(
+            &tables.motion,
+            (document, sources),
+            &joints,
+            &variation.motions,
+        )?;
         let holds = Holds {
             joints: &joints,
             bearings: &tables.bearing,
@@ -255,7 +266,7 @@ impl LoadedSystem {
         )?;
         elements::add(
             tables,
-            files,
+            (document, sources),
             Manner {
                 load_factor: variation.load_factor,
                 at_rest,
@@ -335,7 +346,8 @@ impl LoadedSystem {
                 .gear
                 .as_ref()
                 .and_then(|gear| gear.model.as_ref());
-            let model = model.ok_or_else(|| {
+            let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
+            let model = model.or_else(of_bevel).ok_or_else(|| {
                 keys.error(
                     "body",
                     format!(

@@ -1,4 +1,4 @@
-//! A function of time: a number, or a table with one of `linear`, `step`, `sine`, `table`, `sum`, `product`.
+//! A function of time: a number, or a table with one of `linear`, `step`, `sine`, `table`, `sum`, `product`, `python`.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
+
+use crate::system::host_functions::HostFunctions;
 
 /// A function of time; its unit is that of its key.
 #[derive(Debug, Clone, JsonSchema)]
@@ -74,6 +76,18 @@ pub enum FunctionForm {
     Sum(Vec<FunctionTable>),
     /// Product of two functions; the second has no unit.
     Product([FunctionTable; 2]),
+    /// Name of a Python function, for runs from Python only (docs/python.md). A load's returns the value, a motion's the
+    /// value, its rate and its acceleration.
+    Python(String),
+}
+
+/// Where functions come from that the table only names.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sources<'a> {
+    /// Files are relative to it.
+    pub folder: &'a Path,
+    /// Functions of the calling program.
+    pub host: &'a HostFunctions,
 }
 
 /// Between the rows of a table.
@@ -99,8 +113,9 @@ impl<'de> Visitor<'de> for NumberOrForm {
     type Value = FunctionTable;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .write_str("a number, or a table with one of linear, step, sine, table, sum, product")
+        formatter.write_str(
+            "a number, or a table with one of linear, step, sine, table, sum, product, python",
+        )
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<FunctionTable, E> {
@@ -122,7 +137,7 @@ impl<'de> Visitor<'de> for NumberOrForm {
 }
 
 impl FunctionTable {
-    /// The function in SI units: values times `unit`; files relative to `folder`.
+    /// The function in SI units: values times `unit`.
     ///
     /// # Errors
     /// [`InputError`] at `key`, or in the file of a table.
@@ -131,7 +146,7 @@ impl FunctionTable {
         keys: &TableKeys<'_>,
         key: &str,
         unit: f64,
-        folder: &Path,
+        sources: Sources<'_>,
     ) -> Result<TimeFunction, InputError> {
         let finite = |name: &str, value: f64| {
             keys.require(&format!("{key}{name}"), value, true, "a finite number")
@@ -190,7 +205,7 @@ impl FunctionTable {
                 interpolation,
             } => {
                 let time_head = time_column.as_deref().unwrap_or("time_s");
-                let numbers = NumberTable::read(&folder.join(file), &[time_head, column])?;
+                let numbers = NumberTable::read(&sources.folder.join(file), &[time_head, column])?;
                 numbers.require_increasing(0)?;
                 let values = numbers.column(1).iter().map(|value| unit * value).collect();
                 let interpolation = match interpolation {
@@ -214,13 +229,21 @@ impl FunctionTable {
                 }
                 let terms = terms.iter().enumerate();
                 let terms = terms
-                    .map(|(i, term)| term.function(keys, &format!("{key}.sum.{i}"), unit, folder));
+                    .map(|(i, term)| term.function(keys, &format!("{key}.sum.{i}"), unit, sources));
                 TimeFunction::Sum(terms.collect::<Result<_, _>>()?)
             }
             FunctionForm::Product([first, second]) => TimeFunction::Product(
-                Box::new(first.function(keys, &format!("{key}.product.0"), unit, folder)?),
-                Box::new(second.function(keys, &format!("{key}.product.1"), 1.0, folder)?),
+                Box::new(first.function(keys, &format!("{key}.product.0"), unit, sources)?),
+                Box::new(second.function(keys, &format!("{key}.product.1"), 1.0, sources)?),
             ),
+            FunctionForm::Python(name) => {
+                let function = sources.host.of_time(name);
+                let function = function.map_err(|e| keys.error(&format!("{key}.python"), e))?;
+                TimeFunction::Product(
+                    Box::new(TimeFunction::Constant(unit)),
+                    Box::new(TimeFunction::Host(function)),
+                )
+            }
         })
     }
 }

@@ -22,8 +22,10 @@ pub struct GearMeshTable {
     pub gear_2: String,
     /// A bevel pair file, relative to the scene: gear 1 is its pinion, gear 2 its gear. Bodies of a bevel mesh are no
     /// `gear`s of their own: their origin is the pitch apex, z points from the apex to the heel, the middle of tooth 0
-    /// stands on +x. Model `impact` only.
+    /// stands on +x. Models `impact` and `hybrid`.
     pub bevel_pair: Option<PathBuf>,
+    /// With `bevel_pair` and kind `hybrid`: reduced models (.h5) of the pinion and the gear, relative to the scene.
+    pub bevel_models: Option<[PathBuf; 2]>,
     /// Model of the teeth.
     pub model: MeshModel,
     /// What touches and how. Not with kind `kinematic`.

@@ -129,7 +129,7 @@ pub struct ImpactTable {
     pub slices: Option<usize>,
 }
 
-/// `gear_mesh.model.hertz`: material of both gears.
+/// `gear_mesh.model.hertz` and `half_space`: material of both gears.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[allow(non_snake_case)]
@@ -179,8 +179,10 @@ pub struct AnalyticTable {
 #[allow(non_snake_case)]
 pub struct HybridTable {
     /// Local contact; "calibrated" where not given.
-    pub local: LocalContact,
-    /// Slices over the overlap of the faces; those of the models where not given.
+    pub local: Option<LocalContact>,
+    /// Bevel pairs, instead of `bevel_models`: rigid gears whose surfaces give way as half spaces do; their material.
+    pub half_space: Option<HertzTable>,
+    /// Slices over the overlap of the faces; those of the models where not given. Bevel pairs: along the face, 15 without models.
     pub slices: Option<usize>,
     /// Normal force to which the floor of the local law's logarithm belongs (a millionth of its mean slice force); 100
     /// N/mm times the face width where not given.
@@ -231,6 +233,14 @@ pub enum DampingTable {
 kinds!(DampingTable, "kind");
 
 impl DampingTable {
+    /// In words for the plan.
+    pub(crate) fn words(&self) -> &'static str {
+        match self {
+            Self::StiffnessProportional { .. } => "proportional to stiffness",
+            Self::Viscous { .. } => "viscous",
+        }
+    }
+
     /// The damping in SI units; `keys` are those of the model.
     ///
     /// # Errors

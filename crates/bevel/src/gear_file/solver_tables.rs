@@ -1,0 +1,169 @@
+//! `[material]`, `[mesh]`, `[reduction]` and `[hub]` of a bevel gear file.
+
+use gearmesh_geometry::input::{InputDocument, TableKeys};
+use gearmesh_geometry::{
+    Element, Flank, HubSupport, InputError, Material, MeshSettings, ReductionSettings, Symmetry,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::MM;
+use crate::tooth::Tooth;
+
+/// The keys of `[material]`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub(super) struct MaterialTable {
+    /// Young's modulus.
+    young_GPa: f64,
+    /// Poisson's ratio.
+    poisson: f64,
+    /// Density; needed by a body that moves.
+    density_kg_per_m3: Option<f64>,
+}
+
+impl MaterialTable {
+    pub(super) fn check(self, document: &InputDocument) -> Result<Material, InputError> {
+        let keys = TableKeys::new(document, "material");
+        let young = self.young_GPa;
+        keys.require("young_GPa", young, young > 0.0, "more than 0")?;
+        let allowed = "0 up to, not including, 0.5";
+        let poisson = self.poisson;
+        keys.require("poisson", poisson, (0.0..0.5).contains(&poisson), allowed)?;
+        if let Some(density) = self.density_kg_per_m3 {
+            keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
+        }
+        Ok(Material {
+            young_pa: young * 1e9,
+            poisson,
+            density_kg_per_m3: self.density_kg_per_m3,
+        })
+    }
+}
+
+/// The keys of `[mesh]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MeshTable {
+    /// Element; "hex8-incompatible" where not given. Tetrahedra are not offered.
+    element: Option<Element>,
+    /// Element length along the flank; 0.3 mean modules where not given.
+    flank_mm: Option<f64>,
+    /// Largest element length along the root fillet; 0.08 mean modules where not given.
+    fillet_mm: Option<f64>,
+    /// Largest element length in the body; 1.2 mean modules where not given.
+    body_mm: Option<f64>,
+    /// Element length along the pitch cone; a twelfth of the face where not given.
+    along_mm: Option<f64>,
+    /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
+    min_scaled_jacobian: Option<f64>,
+}
+
+impl MeshTable {
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        tooth: &Tooth,
+    ) -> Result<MeshSettings, InputError> {
+        let keys = TableKeys::new(document, "mesh");
+        let blank = &tooth.blank;
+        let module_mm =
+            2.0 * blank.mean_cone_m * blank.pitch_angle_rad.sin() / blank.teeth as f64 / MM;
+        let width_mm = blank.face_width_m / MM;
+        let element = self.element.unwrap_or(Element::Hex8Incompatible);
+        if element == Element::Tet10 {
+            let problem = "bevel gears are meshed in hexahedra along the tooth; allowed is \"hex8-incompatible\", \"hex8\" or \"hex20\"";
+            return Err(keys.error("element", problem));
+        }
+        let least_mm = 0.01 * module_mm;
+        let size_m = |key: &str, value: Option<f64>, default_mm: f64, largest_mm: f64| {
+            let size_mm = value.unwrap_or(default_mm);
+            let allowed = format!("{least_mm:.4} to {largest_mm:.4}");
+            let fits = size_mm >= least_mm && size_mm <= largest_mm;
+            keys.require(key, size_mm, fits, &allowed)?;
+            Ok::<f64, InputError>(size_mm * MM)
+        };
+        let quality = self.min_scaled_jacobian.unwrap_or(0.2);
+        let fits = quality > 0.0 && quality <= 0.9;
+        let allowed = "more than 0, at most 0.9";
+        keys.require("min_scaled_jacobian", quality, fits, allowed)?;
+        Ok(MeshSettings {
+            element,
+            chosen_because: None,
+            flank_m: size_m("flank_mm", self.flank_mm, 0.3 * module_mm, module_mm)?,
+            fillet_m: size_m(
+                "fillet_mm",
+                self.fillet_mm,
+                0.08 * module_mm,
+                0.5 * module_mm,
+            )?,
+            body_m: size_m("body_mm", self.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
+            axial_m: size_m("along_mm", self.along_mm, width_mm / 12.0, width_mm)?,
+            min_scaled_jacobian: quality,
+            plane_strain: false,
+        })
+    }
+}
+
+/// The keys of `[reduction]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ReductionTable {
+    /// Stations of the flank grid up the profile; 9 where not given.
+    profile_stations: Option<usize>,
+    /// Slices along the face; 7 where not given.
+    slices: Option<usize>,
+    /// Flanks that carry loads; both where not given.
+    flanks: Option<Vec<Flank>>,
+    /// "auto" uses that the gear repeats, "off" factorises all of it for comparison; "auto" where not given.
+    #[serde(default)]
+    symmetry: Symmetry,
+}
+
+impl ReductionTable {
+    pub(super) fn check(self, document: &InputDocument) -> Result<ReductionSettings, InputError> {
+        let keys = TableKeys::new(document, "reduction");
+        let stations = self.profile_stations.unwrap_or(9);
+        let fits = (3..=65).contains(&stations);
+        keys.require("profile_stations", stations as f64, fits, "3 to 65")?;
+        let slices = self.slices.unwrap_or(7);
+        let fits = (1..=100).contains(&slices);
+        keys.require("slices", slices as f64, fits, "1 to 100")?;
+        let flanks = self.flanks.unwrap_or(vec![Flank::Right, Flank::Left]);
+        if flanks.is_empty() || flanks.len() > 2 || (flanks.len() == 2 && flanks[0] == flanks[1]) {
+            let problem =
+                "name each loaded flank once: [\"right\"], [\"left\"] or [\"right\", \"left\"]";
+            return Err(keys.error("flanks", problem));
+        }
+        Ok(ReductionSettings {
+            symmetry: self.symmetry,
+            roll_stations: stations,
+            slices,
+            flanks,
+        })
+    }
+}
+
+/// The keys of `[hub]`.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HubTable {
+    /// "fixed", or "reference-point": rigid, with six degrees of freedom, at the pitch apex; "fixed" where not given.
+    #[serde(default)]
+    support: HubSupport,
+}
+
+impl HubTable {
+    pub(super) fn check(
+        self,
+        document: &InputDocument,
+        material: &Material,
+    ) -> Result<HubSupport, InputError> {
+        if self.support == HubSupport::ReferencePoint && material.density_kg_per_m3.is_none() {
+            let problem = "bodies on a reference point need a density; add material.density_kg_per_m3, 7850 for steel";
+            return Err(document.error("hub.support", problem));
+        }
+        Ok(self.support)
+    }
+}

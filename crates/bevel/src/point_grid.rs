@@ -1,0 +1,139 @@
+//! Points of a flank as measuring machines and publications list them: sectors along the face × heights up the flank, each
+//! with coordinates and normal.
+
+use std::path::Path;
+
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::NumberTable;
+use nalgebra::Vector3;
+
+/// Heads of the columns, in this order below.
+const HEADS: [&str; 8] = ["sector", "height", "x_mm", "y_mm", "z_mm", "nx", "ny", "nz"];
+const DEVIATION: &str = "deviation_um";
+/// Sectors and heights at least.
+const LEAST: [usize; 2] = [4, 3];
+/// Points at most: a fit takes a second.
+const MOST_POINTS: usize = 1000;
+/// Normals are rounded in print.
+const UNIT_SLACK: f64 = 2e-3;
+
+/// A point of the list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct GridPoint {
+    /// Place in the member's frame \[m\].
+    pub r: Vector3<f64>,
+    /// Unit normal as given.
+    pub normal: Vector3<f64>,
+    /// Material added, normal to the flank \[m\].
+    pub deviation_m: f64,
+    /// Row of the file.
+    row: usize,
+}
+
+/// A grid of points.
+#[derive(Debug, Clone)]
+pub(crate) struct PointGrid {
+    /// Sectors and heights.
+    pub size: [usize; 2],
+    /// By sector, heights within.
+    pub points: Vec<GridPoint>,
+    /// Whether the file has deviations: its points and normals are then nominal.
+    pub is_measured: bool,
+    table: NumberTable,
+}
+
+impl PointGrid {
+    /// Reads a file whose origin lies `apex_m` from the pitch apex along the member's axis, towards the heel.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and reason.
+    pub(crate) fn read(path: &Path, apex_m: f64) -> Result<Self, InputError> {
+        let is_measured = NumberTable::head_among(path, [DEVIATION, HEADS[0]])? == DEVIATION;
+        let mut heads = HEADS.to_vec();
+        if is_measured {
+            heads.push(DEVIATION);
+        }
+        let table = NumberTable::read(path, &heads)?;
+        let rows = table.column(0).len();
+        if rows > MOST_POINTS {
+            let problem = format!("{rows} points, allowed are {MOST_POINTS}; leave rows out");
+            return Err(table.error(problem));
+        }
+        let mut size = [0; 2];
+        for k in 0..2 {
+            for (row, &value) in table.column(k).iter().enumerate() {
+                if value.fract() != 0.0 || !(1.0..=MOST_POINTS as f64).contains(&value) {
+                    let problem = format!("found {value}, allowed is a whole number from 1");
+                    return Err(table.error_at(row, k, problem));
+                }
+                size[k] = size[k].max(value as usize);
+            }
+            if size[k] < LEAST[k] {
+                let what = ["sectors", "heights"][k];
+                let problem = format!("{} {what}, at least {} are needed", size[k], LEAST[k]);
+                return Err(table.error(problem));
+            }
+        }
+        let mut places: Vec<Option<GridPoint>> = vec![None; size[0] * size[1]];
+        for row in 0..rows {
+            let at = |column: usize| table.column(column)[row];
+            let vector = |first: usize| Vector3::new(at(first), at(first + 1), at(first + 2));
+            let normal = vector(5);
+            if (normal.norm() - 1.0).abs() > UNIT_SLACK {
+                let problem = format!(
+                    "the normal ({}, {}, {}) is {:.4} long, allowed is 1",
+                    normal.x,
+                    normal.y,
+                    normal.z,
+                    normal.norm()
+                );
+                return Err(table.error_at(row, 5, problem));
+            }
+            let [sector, height] = [at(0), at(1)].map(|x| x as usize - 1);
+            let place = &mut places[sector * size[1] + height];
+            if let Some(first) = place {
+                let problem = format!(
+                    "sector {} with height {} stands here and in row {} of the numbers; each once",
+                    sector + 1,
+                    height + 1,
+                    first.row + 1
+                );
+                return Err(table.error_at(row, 0, problem));
+            }
+            *place = Some(GridPoint {
+                r: vector(2) * 1e-3 + Vector3::z() * apex_m,
+                normal: normal.normalize(),
+                deviation_m: if is_measured { 1e-6 * at(8) } else { 0.0 },
+                row,
+            });
+        }
+        let missing = places.iter().position(Option::is_none);
+        if let Some(place) = missing {
+            let (sector, height) = (place / size[1] + 1, place % size[1] + 1);
+            let problem = format!(
+                "sector {sector} has no height {height}; a grid of {} sectors and {} heights needs {} rows",
+                size[0],
+                size[1],
+                size[0] * size[1]
+            );
+            return Err(table.error(problem));
+        }
+        Ok(Self {
+            size,
+            points: places.into_iter().flatten().collect(),
+            is_measured,
+            table,
+        })
+    }
+
+    /// A complaint about a point.
+    pub(crate) fn error_at(&self, point: usize, column: &str, problem: String) -> InputError {
+        let number = HEADS.iter().position(|head| *head == column).unwrap_or(2);
+        self.table.error_at(self.points[point].row, number, problem)
+    }
+
+    /// A complaint about the whole grid.
+    pub(crate) fn error(&self, problem: String) -> InputError {
+        self.table.error(problem)
+    }
+}

@@ -1,0 +1,265 @@
+//! The loaded part of `gearmesh tca`: transmission error, load sharing and pressure of a bevel pair under torques.
+
+use std::path::Path;
+
+use crate::console;
+use crate::failure::Failure;
+use gearmesh_bevel::pair_file::LoadRequest;
+use gearmesh_bevel::{PairDesign, PairFile};
+use gearmesh_contact::LocalContact;
+use gearmesh_drivetrain::{BevelSlices, LoadedContact, LoadedPair};
+use gearmesh_geometry::Flank;
+use gearmesh_model::{ReducedGear, read_reduced_gear};
+use gearmesh_report::page::{
+    Align, Axis, FieldPicture, FieldValues, LineChart, LineSeries, Section, Table, Text,
+};
+use gearmesh_report::short;
+use serde_json::{Value, json};
+
+/// Rows of the pressure's picture up the flank.
+const ROWS: usize = 16;
+
+/// What was found under load.
+pub struct Loaded {
+    flanks: BevelSlices,
+    side: Flank,
+    slices: usize,
+    /// What gives way, in words.
+    body: &'static str,
+    /// One for each torque.
+    found: Vec<LoadedContact>,
+}
+
+/// Loads a pair.
+///
+/// # Errors
+/// [`Failure`] where a model cannot be read or is not that of the pair, or no contact is found.
+pub fn analyse(
+    (file, design): (&PairFile, &PairDesign),
+    load: &LoadRequest,
+    path: &Path,
+) -> Result<Loaded, Failure> {
+    let flanks = BevelSlices::new(&file.blank, design, load.slices).map_err(Failure::work)?;
+    let pair = LoadedPair {
+        blank: &file.blank,
+        flanks: &flanks,
+        pinion_flank: file.pinion_flank,
+        error: file.tca.error,
+        positions: load.positions,
+    };
+    let side = pair.side();
+    let (contact, body) = match &load.models {
+        Some(files) => {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let read = |i: usize| -> Result<ReducedGear, Failure> {
+                Ok(read_reduced_gear(&folder.join(&files[i]))?)
+            };
+            let models = [read(0)?, read(1)?];
+            let local = LocalContact::Calibrated;
+            let contact = flanks.reduced_contact(side, [&models[0], &models[1]], local);
+            (contact.map_err(Failure::work)?, "reduced gears")
+        }
+        None => {
+            let contact = flanks.surface_contact([load.material; 2]);
+            (contact, "rigid gears, their surfaces give way")
+        }
+    };
+    let found = pair
+        .loaded(&contact, &load.torques_nm)
+        .map_err(Failure::work)?;
+    Ok(Loaded {
+        side,
+        slices: load.slices,
+        body,
+        found,
+        flanks,
+    })
+}
+
+/// Figures of one torque, by name.
+fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 10] {
+    let [largest, inside] = of.pressures_pa();
+    let [least, most] = of.load_shares();
+    let [along, up] = of.pattern(loaded.slices);
+    let range = |[low, high]: [f64; 2]| format!("{:.0} to {:.0}", 100.0 * low, 100.0 * high);
+    [
+        format!("{}", of.torque_nm),
+        format!("{:.3}", 1e6 * of.mean_rad()),
+        format!("{:.3}", 1e6 * of.peak_to_peak_rad()),
+        range([least, most]),
+        format!("{:.2}", of.mean_pairs()),
+        format!("{:.0}", 1e-6 * largest),
+        format!("{:.0}", 1e-6 * inside),
+        format!("{:.1}", 100.0 * of.tip_share()),
+        range(along),
+        range(up),
+    ]
+}
+
+const NAMES: [&str; 10] = [
+    "torque N m",
+    "TE mean urad",
+    "TE pk-pk urad",
+    "best pair %",
+    "pairs",
+    "p max MPa",
+    "off tips MPa",
+    "on tips %",
+    "toe-heel %",
+    "root-tip %",
+];
+
+/// Prints the first screen.
+pub fn table(file: &PairFile, loaded: &Loaded) {
+    console::data(format!(
+        "{} under torques on the gear, {} slices, {}: without load TE pk-pk {:.3} urad",
+        file.title,
+        loaded.slices,
+        loaded.body,
+        1e6 * loaded.found[0].unloaded_peak_to_peak_rad()
+    ));
+    let line = |cells: &[String; 10]| {
+        let cells = cells
+            .iter()
+            .zip(NAMES)
+            .map(|(cell, name)| format!("{cell:>0$}", name.len().max(9)));
+        cells.collect::<Vec<_>>().join("  ")
+    };
+    console::data(line(&NAMES.map(str::to_owned)));
+    for of in &loaded.found {
+        console::data(line(&row(loaded, of)));
+    }
+}
+
+/// All of it for other programs.
+pub fn figures(loaded: &Loaded) -> Value {
+    let each = loaded.found.iter().map(|of| {
+        let [largest, inside] = of.pressures_pa();
+        let positions: Vec<Value> = (of.positions.iter())
+            .map(|p| {
+                let patches: Vec<Value> = (p.patches.iter())
+                    .map(|patch| {
+                        json!({
+                            "teeth": patch.teeth,
+                            "pinion_place": patch.places[0],
+                            "gear_place": patch.places[1],
+                            "force_N": patch.force_n,
+                            "length_mm": 1e3 * patch.length_m,
+                            "half_width_mm": 1e3 * patch.half_width_m,
+                            "pressure_MPa": 1e-6 * patch.pressure_pa,
+                            "on_tip": patch.on_tip,
+                        })
+                    })
+                    .collect();
+                json!({
+                    "pinion_deg": p.pinion_turn_rad.to_degrees(),
+                    "error_urad": 1e6 * p.error_rad,
+                    "unloaded_urad": 1e6 * p.unloaded_rad,
+                    "pair_forces_N": p.pair_forces_n(),
+                    "patches": patches,
+                })
+            })
+            .collect();
+        json!({
+            "torque_Nm": of.torque_nm,
+            "mean_urad": 1e6 * of.mean_rad(),
+            "peak_to_peak_urad": 1e6 * of.peak_to_peak_rad(),
+            "best_pair_share": of.load_shares(),
+            "pairs": of.mean_pairs(),
+            "pressure_MPa": 1e-6 * largest,
+            "pressure_off_tips_MPa": 1e-6 * inside,
+            "tip_share": of.tip_share(),
+            "pattern_along_and_up": of.pattern(loaded.slices),
+            "positions": positions,
+        })
+    });
+    json!({
+        "slices": loaded.slices,
+        "gears": loaded.body,
+        "unloaded_peak_to_peak_urad": 1e6 * loaded.found[0].unloaded_peak_to_peak_rad(),
+        "torques": each.collect::<Vec<_>>(),
+    })
+}
+
+/// The page's section.
+pub fn section(loaded: &Loaded) -> Section {
+    let mut table = NAMES
+        .iter()
+        .fold(Table::new("Under torques on the gear"), |table, name| {
+            table.column(*name, Align::Right)
+        });
+    for of in &loaded.found {
+        table.push_row(row(loaded, of));
+    }
+    let mut section = Section::new("Under load").push(Text::paragraph(format!(
+        "{}, {} slices along the face. Best pair: share of the load that the most loaded pair of teeth carries. Toe to heel, root to tip: where the \
+         pattern lies on the gear.",
+        loaded.body, loaded.slices
+    )));
+    section = section.push(table).push(error(loaded));
+    for of in &loaded.found {
+        section = section.push(pressure(loaded, of));
+    }
+    section
+}
+
+fn error(loaded: &Loaded) -> LineChart {
+    let degrees = |of: &LoadedContact| -> Vec<f64> {
+        of.positions
+            .iter()
+            .map(|p| p.pinion_turn_rad.to_degrees())
+            .collect()
+    };
+    let first = &loaded.found[0];
+    let unloaded = first
+        .positions
+        .iter()
+        .map(|p| 1e6 * p.unloaded_rad)
+        .collect();
+    let chart = LineChart::new(
+        "Transmission error over a pitch",
+        Axis::new("turn of the pinion", "deg"),
+        Axis::new("gear ahead of constant ratio", "µrad"),
+    )
+    .x_values(degrees(first))
+    .series(LineSeries::new("without load", unloaded));
+    loaded.found.iter().fold(chart, |chart, of| {
+        let values = of.positions.iter().map(|p| 1e6 * p.error_rad).collect();
+        chart.series(LineSeries::new(
+            format!("{} N m", short(of.torque_nm)),
+            values,
+        ))
+    })
+}
+
+/// Largest pressure of all positions over the gear's flank.
+fn pressure(loaded: &Loaded, of: &LoadedContact) -> FieldPicture {
+    let columns = loaded.slices;
+    let mut cells = vec![0.0f64; columns * ROWS];
+    let number = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+    for patch in of.patches() {
+        let [s, v] = patch.places[1];
+        let cell = number(s.max(0.0), columns) * ROWS + number(v.max(0.0), ROWS);
+        cells[cell] = cells[cell].max(1e-6 * patch.pressure_pa);
+    }
+    let place = |i: usize, k: usize| {
+        let at = [i as f64 / columns as f64, k as f64 / ROWS as f64];
+        let place = loaded.flanks.pair().flank_place_m(loaded.side, 1, at);
+        place.map(|x| 1e3 * x)
+    };
+    let nodes = (0..=columns).flat_map(|i| (0..=ROWS).map(move |k| (i, k)));
+    let nodes = nodes.map(|(i, k)| place(i, k)).collect();
+    let up = ROWS as u32 + 1;
+    let quads = (0..columns as u32).flat_map(|i| (0..ROWS as u32).map(move |k| i * up + k));
+    let quads = quads.map(|n| [n, n + up, n + up + 1, n + 1]).collect();
+    FieldPicture::new(
+        format!(
+            "Largest pressure at {} N m over a pitch, flank of the gear, toe left, tip up",
+            short(of.torque_nm)
+        ),
+        "pressure",
+        "MPa",
+    )
+    .mesh(nodes, quads)
+    .values(FieldValues::PerElement(cells))
+}

@@ -1,0 +1,62 @@
+//! Where a section of gear 1's flank across the tooth, at one place along the face, is nearest to gear 2's flank.
+//!
+//! The section is a curve on the flank, s held. As in nearest_points.rs,
+//!
+//! ```text
+//! inside both        d·t₂ = 0 (2),  ∂r₁/∂v·n₂ = 0
+//! gear 1's tip       d·t₂ = 0 (2),  v of gear 1 at its end: the section's end on the face
+//! gear 2's tip       d·∂r₁/∂v = 0,  d·∂r₂/∂s = 0,  v of gear 2 at its end: the section across the tip's edge
+//! ```
+//!
+//! The row of sections follows the line on which the flanks nearly touch; where the tips touch it follows their edges.
+
+use nalgebra::{Vector3, Vector4};
+
+use super::nearest_points::{Held, Nearest, Placed, equations, solve};
+
+/// Slack of the ends: rounding.
+const SLACK: f64 = 1e-9;
+
+/// Which tip holds a section's contact: of gear 1, of gear 2, or none.
+pub(crate) type TipHeld = Option<usize>;
+
+/// Coordinates of a section that stand still.
+fn held(s: f64, tip: TipHeld) -> Held {
+    let mut held = [[Some(s), None], [None; 2]];
+    if let Some(member) = tip {
+        held[member][1] = Some(1.0);
+    }
+    held
+}
+
+/// The tip that holds a contact.
+pub(crate) fn tip_of(found: &Nearest) -> TipHeld {
+    (0..2).find(|m| found.held[*m][1].is_some())
+}
+
+/// The nearest points of a section under the first of these tips that holds it, from a guess nearby.
+pub(crate) fn nearest_on_section(
+    bodies: &[Placed<'_>; 2],
+    s: f64,
+    tips: impl IntoIterator<Item = TipHeld>,
+    start: [[f64; 2]; 2],
+) -> Option<Nearest> {
+    tips.into_iter().find_map(|tip| {
+        let found = solve(bodies, held(s, tip), start)?;
+        let holds = (0..2).all(|m| match tip == Some(m) {
+            // Beyond the tip the gap would shrink further.
+            true => found.slope(m, 1) <= 1e-12,
+            false => found.at[m][1] <= 1.0 + SLACK,
+        });
+        holds.then_some(found)
+    })
+}
+
+/// Tangent of the line of nearest points on gear 1 per unit of s \[m\], where no tip holds it.
+pub(crate) fn line_tangent(found: &Nearest) -> Option<Vector3<f64>> {
+    let (_, slopes) = equations(&found.held, &found.at, &found.points);
+    // The equation that holds s is the third; it moves by as much as s.
+    let along = slopes.lu().solve(&Vector4::new(0.0, 0.0, 1.0, 0.0))?;
+    let [by_s, by_v] = found.points[0].dr;
+    Some(by_s * along[0] + by_v * along[1])
+}

@@ -1,0 +1,373 @@
+//! Kinematics of a bevel pair in slices: every pair of teeth touches in a row of sections across gear 1's tooth, even along its face.
+//!
+//! A slice stands for a stretch of gear 1's face; its patch is where its middle section is nearest to gear 2
+//! (`section_points.rs`), and the row of patches is the line on which the flanks nearly touch, whatever its slant. Where gear
+//! 2's face ends within a slice, the slice touches over a share of its length. Only sections near enough to touch are
+//! computed: a guess from the pair as designed tells them.
+
+use gearmesh_bevel::{PairBlank, PairDesign};
+use gearmesh_contact::SliceLayout;
+use gearmesh_geometry::Flank;
+use nalgebra::Vector3;
+
+use super::bevel_mesh::{BevelMesh, Candidate, MOST_PAIRS, angle_of};
+use super::nearest_points::Nearest;
+use super::nominal_contacts::Guess;
+use super::pose_derivatives::{PoseDerivatives, gradient};
+use super::section_points::nearest_on_section;
+use super::sliced_side::{SlicedSide, TIPS, middle};
+use super::tooth_side::{about_z, placed};
+use crate::error::DrivetrainError;
+use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
+use crate::flank_kinematics::FlankKinematics;
+use crate::pose::{Pose, Vector6};
+use crate::slice_plane::Matrix6;
+
+/// What a guess of a gap may miss \[m\] at the pair as designed: half a step of the table of nominal contacts.
+const MARGIN_M: f64 = 3e-6;
+/// Sections that stand open by more than this many times the deepest overlap do not touch, see `OUT_OF_REACH` of the hybrid model.
+const REACH: f64 = 3.0;
+/// Shares below this do not count: the slice stands beside gear 2.
+const LEAST_SHARE: f64 = 1e-4;
+/// Part of a slice over which the end of gear 2's face is rounded.
+const ROUNDING: f64 = 0.1;
+/// Largest misfit of the polynomials of the line.
+const MISFIT: f64 = 0.05;
+/// Slices along the teeth.
+const SLICES: std::ops::RangeInclusive<usize> = 3..=100;
+
+/// Flanks of a bevel pair in slices, gear 1 the pinion.
+#[derive(Debug, Clone)]
+pub struct BevelSlices {
+    pair: BevelMesh,
+    layout: SliceLayout,
+    sides: [SlicedSide; 2],
+    found: [Vec<PoseDerivatives>; 2],
+    guesses: Vec<Option<Guess>>,
+    is_apart: [bool; 2],
+    /// Sections that stand open by less are looked at in any case \[m\].
+    reach_m: f64,
+}
+
+impl BevelSlices {
+    /// The flanks of a pair that has been designed, in so many slices along the face.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] for a number of slices out of range, [`DrivetrainError::BevelLine`] where the line of contact is not
+    /// smooth over the flank, else as [`BevelMesh::new`].
+    pub fn new(
+        blank: &PairBlank,
+        design: &PairDesign,
+        slices: usize,
+    ) -> Result<Self, DrivetrainError> {
+        if !SLICES.contains(&slices) {
+            return Err(DrivetrainError::Value {
+                owner: "bevel mesh",
+                what: "the number of slices",
+                found: slices as f64,
+                allowed: "3 to 100",
+            });
+        }
+        let pair = BevelMesh::new(blank, design)?;
+        let side = |flank: Flank| {
+            let of_pair = &pair.sides[flank as usize];
+            let side = SlicedSide::new(of_pair, pair.teeth, pair.shaft_angle_rad, slices);
+            side.filter(|side| side.line.misfit < MISFIT)
+                .ok_or(DrivetrainError::BevelLine { flank })
+        };
+        let capacity = MOST_PAIRS * slices;
+        Ok(Self {
+            sides: [side(Flank::Right)?, side(Flank::Left)?],
+            layout: SliceLayout::new([pair.layout.face_widths_m[0]; 2], 0.0, slices),
+            found: [0, 1].map(|_| Vec::with_capacity(capacity)),
+            guesses: Vec::with_capacity(capacity),
+            is_apart: [false; 2],
+            reach_m: 0.0,
+            pair,
+        })
+    }
+
+    /// Finds all patches that stand open by less than this \[m\]: for pairs at rest, whose approach is not known at the pose.
+    #[must_use]
+    pub fn reaching(mut self, reach_m: f64) -> Self {
+        self.reach_m = reach_m;
+        self
+    }
+
+    /// The same flanks, each pair of teeth one contact.
+    #[must_use]
+    pub fn pair(&self) -> &BevelMesh {
+        &self.pair
+    }
+
+    /// Largest relative misfit of radius and length of the line of contact on a side, against the samples that they were fitted to.
+    #[must_use]
+    pub fn line_misfit(&self, side: Flank) -> f64 {
+        self.sides[side as usize].line.misfit
+    }
+
+    /// Goes over all sections of a side that may touch; returns whether there is none.
+    fn find(
+        &self,
+        pose: &Pose,
+        flank: Flank,
+        (list, guesses): (&mut Vec<PoseDerivatives>, &mut Vec<Option<Guess>>),
+        found: &mut FlankContacts,
+    ) -> bool {
+        found.clear();
+        list.clear();
+        guesses.clear();
+        found.action_m_per_u = [0.0; 2];
+        let sliced = &self.sides[flank as usize];
+        let margin_m = self.margin_m(pose, flank);
+        let reach_m = |least_m: f64| {
+            let overlap_m = (margin_m - least_m).max(0.0);
+            least_m.max(self.reach_m) + margin_m + REACH * overlap_m
+        };
+        // Pairs of teeth first, by the one contact that each of them would have.
+        let seen = |candidate: &Candidate| {
+            let back = about_z(-candidate.turns_rad[0]);
+            let rotation = back * pose.rotation * about_z(candidate.turns_rad[1]);
+            (back * pose.displacement_m, rotation)
+        };
+        let of_pairs = &self.pair.sides[flank as usize].nominal;
+        let mut pairs = [None; MOST_PAIRS];
+        for (pair, candidate) in pairs.iter_mut().zip(self.pair.candidates(pose, flank)) {
+            let (moved, rotation) = seen(&candidate);
+            *pair = of_pairs.guess(candidate.angle_1_rad, &moved, &rotation);
+        }
+        let gaps = pairs.iter().flatten().map(|guess| guess.gap_m);
+        let far_m = reach_m(gaps.fold(f64::INFINITY, f64::min) - margin_m) + margin_m;
+        for (pair, candidate) in pairs.iter().zip(self.pair.candidates(pose, flank)) {
+            let far = pair.is_some_and(|guess| guess.gap_m > far_m);
+            let (moved, rotation) = seen(&candidate);
+            guesses.extend(sliced.nominal.iter().map(|slice| {
+                let near = !far;
+                let guess = || slice.guess_nearby(candidate.angle_1_rad, &moved, &rotation);
+                near.then(guess).flatten()
+            }));
+        }
+        let gaps = guesses.iter().flatten().map(|guess| guess.gap_m);
+        let reach_m = reach_m(gaps.fold(f64::INFINITY, f64::min));
+        let slices = self.layout.slices;
+        for (number, candidate) in self.pair.candidates(pose, flank).enumerate() {
+            let own = &guesses[number * slices..][..slices];
+            if own.iter().flatten().any(|guess| guess.gap_m <= reach_m) {
+                self.find_line(pose, flank, &candidate, (own, reach_m), list, found);
+            }
+        }
+        // The nearest pair first: the transmission error is its gap.
+        let gap_m = |line: usize| found.lines[line].ideal_gap_m;
+        let nearest = (0..found.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
+        if let Some(first) = nearest {
+            found.lines.swap(0, first);
+            for number in [0, first] {
+                let (begin, count) = found.lines[number].contacts;
+                for contact in &mut found.contacts[begin..begin + count] {
+                    contact.line = number;
+                }
+            }
+        } else {
+            self.pair.push_apart(pose, flank, found);
+        }
+        list.is_empty()
+    }
+
+    /// What guesses of gaps may miss \[m\]: the square of how far gear 2 stands off the design counts against the radius across the line.
+    fn margin_m(&self, pose: &Pose, flank: Flank) -> f64 {
+        let tilt = angle_of(&pose.axis_2()) - self.pair.shaft_angle_rad;
+        let moved_m = pose.displacement_m.norm() + self.pair.mean_cone_m * tilt.abs();
+        let [radius, _] = self.sides[flank as usize].line.at([0.5; 2]);
+        MARGIN_M + moved_m * moved_m / radius.value
+    }
+
+    /// The sections of a pair of teeth.
+    fn find_line(
+        &self,
+        pose: &Pose,
+        flank: Flank,
+        candidate: &Candidate,
+        (guesses, reach_m): (&[Option<Guess>], f64),
+        list: &mut Vec<PoseDerivatives>,
+        found: &mut FlankContacts,
+    ) {
+        let side = &self.pair.sides[flank as usize];
+        let sliced = &self.sides[flank as usize];
+        let rotations = [
+            about_z(candidate.turns_rad[0]),
+            pose.rotation * about_z(candidate.turns_rad[1]),
+        ];
+        let bodies = placed(
+            &side.patches,
+            rotations,
+            pose.displacement_m,
+            &self.pair.points,
+        );
+        let (line, first) = (found.lines.len(), found.contacts.len());
+        let mut least_m = f64::INFINITY;
+        for (slice, guess) in guesses.iter().enumerate() {
+            let Some(guess) = guess.filter(|guess| guess.gap_m <= reach_m) else {
+                continue;
+            };
+            let s = middle(slice, self.layout.slices);
+            let likely = sliced.nominal[slice]
+                .limits(&guess)
+                .map(|limits| limits.tip());
+            let tips = likely.chain(TIPS);
+            let Some(point) = nearest_on_section(&bodies, s, tips, guess.at) else {
+                continue;
+            };
+            let motion = PoseDerivatives::new(&point, &pose.displacement_m);
+            let placed = (line, slice);
+            if self.push(pose, (placed, &sliced.line), (&point, &motion), found) {
+                least_m = least_m.min(point.gap_m);
+                list.push(motion);
+            }
+        }
+        let count = found.contacts.len() - first;
+        if count > 0 {
+            found.lines.push(TeethLine {
+                teeth: candidate.teeth,
+                section: first,
+                ideal_gap_m: least_m,
+                contacts: (first, count),
+            });
+        }
+    }
+
+    /// Adds a patch if any of it stands on gear 2.
+    fn push(
+        &self,
+        pose: &Pose,
+        ((line, slice), geometry): ((usize, usize), &super::line_geometry::LineGeometry),
+        (point, motion): (&Nearest, &PoseDerivatives),
+        found: &mut FlankContacts,
+    ) -> bool {
+        let row = |i: usize| motion.places.row(i).transpose();
+        let widths_m = self.pair.layout.face_widths_m;
+        // Of gear 2's face that a slice covers.
+        let covered = widths_m[0] / widths_m[1] / self.layout.slices as f64;
+        let (share, share_by_s) = share_on_face(point.at[1][0], covered);
+        if share < LEAST_SHARE {
+            return false;
+        }
+        let number = found.contacts.len();
+        let gradient = gradient(point, &pose.displacement_m);
+        let up = point.at.map(|at| at[1]);
+        let [radius, length] = geometry.at(point.at[0]);
+        found.sections.push(Section {
+            roll_rad: up,
+            touching_roll_rad: up,
+            roll_gradient: [row(1), row(3)],
+            share,
+            share_gradient: share_by_s * row(2),
+            stiffness: 1.0,
+            length_m: share * length.value / self.layout.slices as f64,
+            radius_m: radius.value,
+            radius_growth: [radius.growth, 0.0],
+            length_growth: [length.growth, 0.0],
+            along_gradient: [Vector6::zeros(), widths_m[1] * row(2)],
+            contacts: (number, 1),
+        });
+        found.contacts.push(ToothContact {
+            line,
+            slice,
+            section: number,
+            heights_m: [0, 1].map(|m: usize| (point.at[m][0] - 0.5) * widths_m[m]),
+            gap_m: point.gap_m,
+            gap_rate_m_per_s: gradient.dot(&pose.rates()),
+            gradient,
+        });
+        true
+    }
+
+    fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
+        self.found[side as usize].get(contact)
+    }
+}
+
+/// Share of a slice that stands on gear 2's face, its middle at s there and `covered` of the face long, and its derivative by s.
+fn share_on_face(s: f64, covered: f64) -> (f64, f64) {
+    let over = |beyond: f64| match beyond {
+        x if x <= 0.0 => (0.0, 0.0),
+        x if x < ROUNDING => (0.5 * x * x / ROUNDING, x / ROUNDING),
+        x => (x - 0.5 * ROUNDING, 1.0),
+    };
+    let (toe, toe_slope) = over(0.5 - s / covered);
+    let (heel, heel_slope) = over(0.5 + (s - 1.0) / covered);
+    (1.0 - toe - heel, (toe_slope - heel_slope) / covered)
+}
+
+impl FlankKinematics for BevelSlices {
+    fn layout(&self) -> &SliceLayout {
+        &self.layout
+    }
+
+    fn capacity(&self) -> usize {
+        MOST_PAIRS * self.layout.slices
+    }
+
+    fn pitch_m(&self) -> f64 {
+        self.pair.pitch_m()
+    }
+
+    fn locate(&mut self, pose: &Pose) -> Result<(), DrivetrainError> {
+        self.pair.locate(pose)
+    }
+
+    fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
+        let mut list = std::mem::take(&mut self.found[side as usize]);
+        let mut guesses = std::mem::take(&mut self.guesses);
+        self.is_apart[side as usize] = self.find(pose, side, (&mut list, &mut guesses), found);
+        self.found[side as usize] = list;
+        self.guesses = guesses;
+    }
+
+    fn contacts_at(
+        &self,
+        pose: &Pose,
+        side: Flank,
+        found: &mut FlankContacts,
+    ) -> Result<(), DrivetrainError> {
+        self.pair.check_axes(pose)?;
+        self.find(pose, side, (&mut Vec::new(), &mut Vec::new()), found);
+        Ok(())
+    }
+
+    fn gap_curvature(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
+        let motion = self.derivatives(contact, side);
+        motion.map_or_else(Matrix6::zeros, |motion| motion.gap_curvature())
+    }
+
+    fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
+        let motion = self.derivatives(contact, side);
+        motion.map_or_else(Vector6::zeros, |motion| motion.sliding()[0].0)
+    }
+
+    fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
+        let motion = self.derivatives(contact, side);
+        motion.map_or_else(Matrix6::zeros, |motion| motion.sliding()[0].1)
+    }
+
+    fn second_sliding(
+        &self,
+        _: &FlankContacts,
+        contact: usize,
+        side: Flank,
+    ) -> Option<(Vector6, Matrix6)> {
+        self.derivatives(contact, side)
+            .map(|motion| motion.sliding()[1])
+    }
+
+    fn nearest_gap_m(&self, side: Flank) -> Option<f64> {
+        self.pair.nearest_gap_m(side)
+    }
+
+    fn is_apart(&self) -> bool {
+        self.is_apart.iter().all(|apart| *apart)
+    }
+
+    fn towards_gear_2(&self, pose: &Pose) -> Vector3<f64> {
+        self.pair.towards_gear_2(pose)
+    }
+}

@@ -1,0 +1,316 @@
+//! Bevel gears in slices: the same checks as every mesh, whatever the contact is made of.
+
+use gearmesh_bevel::{FlankSide, TcaRequest, tooth_contact};
+use gearmesh_contact::slice_contact::SliceContact;
+use gearmesh_contact::{HalfSpaces, LocalContact};
+use gearmesh_drivetrain::flank_contacts::FlankContacts;
+use gearmesh_drivetrain::pose::Vector6;
+use gearmesh_drivetrain::*;
+use gearmesh_geometry::Flank;
+use gearmesh_model::ReducedGear;
+
+use crate::bevel_pair::{AS_DESIGNED, Pair, assembly, pair, poses};
+use crate::energy::{check_energy, check_power};
+use crate::mesh_common::made_up_bevel::made_up_bevel;
+use crate::mesh_common::*;
+use crate::two_bodies::{check_reaction, check_tangents, check_turned};
+use crate::{DAMPINGS, friction};
+
+/// Slices along the teeth.
+const ALONG: usize = 12;
+const STEEL: (f64, f64) = (206e9, 0.3);
+
+fn slices(pair: &Pair, count: usize) -> BevelSlices {
+    BevelSlices::new(&pair.blank, &pair.design, count).unwrap()
+}
+
+/// Rigid gears whose surfaces give way.
+fn half_spaces(flanks: &BevelSlices) -> ReducedTeeth {
+    let bodies = HalfSpaces::new([STEEL; 2]);
+    let layout = *flanks.layout();
+    let lines = flanks.capacity() / layout.slices;
+    let contact = SliceContact::of_half_spaces(layout, bodies, lines);
+    ReducedTeeth::of_flanks(contact, 2000.0).unwrap()
+}
+
+fn mesh_of(flanks: &BevelSlices, teeth: impl Fn() -> Box<dyn TeethModel>) -> GearMesh {
+    let mesh = GearMesh::of_flanks(Box::new(flanks.clone()), Flank::Right, teeth()).unwrap();
+    mesh.with_side(Flank::Left, teeth()).unwrap()
+}
+
+#[test]
+fn bevel_slices_conform() {
+    let pair = pair("bevel_20_20.toml");
+    let flanks = slices(&pair, ALONG);
+    let poses = poses(&pair, 12e-6);
+    let mut undamped = mesh_of(&flanks, || Box::new(half_spaces(&flanks)));
+    check_energy("bevel slices", &mut undamped, &poses);
+    for damping in DAMPINGS {
+        for (rubs, tolerance) in [(false, 2e-3), (true, 5e-3)] {
+            let teeth = || -> Box<dyn TeethModel> {
+                Box::new(Damped::new(half_spaces(&flanks), damping, ALONG).unwrap())
+            };
+            let mut mesh = mesh_of(&flanks, teeth);
+            if rubs {
+                mesh = mesh.with_friction(friction());
+            }
+            let what = format!("bevel slices, {damping:?} friction {rubs}");
+            check_power(("hybrid", damping), &mut mesh, &poses);
+            check_reaction(&what, &mut mesh, &poses);
+            check_tangents((&what, tolerance), &mut mesh, &poses);
+            check_turned(&what, &mut mesh, &poses);
+        }
+    }
+}
+
+/// Gaps, shares and places of slices have their gradients.
+#[test]
+fn derivatives_of_bevel_slices_agree_with_differences() {
+    let pair = pair("bevel_20_20.toml");
+    let mut flanks = slices(&pair, ALONG);
+    for (number, pose) in poses(&pair, 5e-6).iter().enumerate() {
+        for side in Flank::ALL {
+            flanks.locate(pose).unwrap();
+            let mut here = FlankContacts::default();
+            flanks.contacts(pose, side, &mut here);
+            let (h, mut there) = (1e-7, [FlankContacts::default(), FlankContacts::default()]);
+            for direction in 0..6 {
+                let mut step = Vector6::zeros();
+                step[direction] = h;
+                for (sign, found) in [1.0, -1.0].into_iter().zip(&mut there) {
+                    let moved = moved(pose, &(sign * step));
+                    flanks.contacts_at(&moved, side, found).unwrap();
+                }
+                for (i, contact) in here.contacts.iter().enumerate() {
+                    let teeth = here.lines[contact.line].teeth;
+                    let of = |found: &FlankContacts| {
+                        let line = found.lines.iter().find(|line| line.teeth == teeth)?;
+                        let (first, count) = line.contacts;
+                        let own = &found.contacts[first..first + count];
+                        let contact = own.iter().find(|other| other.slice == contact.slice)?;
+                        Some((*contact, *found.section(contact)))
+                    };
+                    let [Some((a, at_a)), Some((b, at_b))] = [0, 1].map(|k: usize| of(&there[k]))
+                    else {
+                        continue;
+                    };
+                    let off = (a.gap_m - b.gap_m) / (2.0 * h) - contact.gradient[direction];
+                    assert!(
+                        off.abs() < 2e-7,
+                        "{number} {side:?} {i} by {direction}: {off:e}"
+                    );
+                    let change = (a.gradient - b.gradient) / (2.0 * h);
+                    let curvature = flanks.gap_curvature(&here, i, side);
+                    let off = (change - curvature.column(direction)).norm() / curvature.norm();
+                    assert!(off < 1e-4, "{number} {side:?} {i} by {direction}: {off:e}");
+                    let section = here.section(contact);
+                    let check = |what: &str, [a, b]: [f64; 2], gradient: &Vector6, scale: f64| {
+                        let off = (a - b) / (2.0 * h) - gradient[direction];
+                        assert!(
+                            off.abs() < 1e-5 * gradient.norm().max(scale),
+                            "{number} {side:?} {i} {what} by {direction}: {off:e}"
+                        );
+                    };
+                    check(
+                        "share",
+                        [at_a.share, at_b.share],
+                        &section.share_gradient,
+                        1.0,
+                    );
+                    for gear in 0..2 {
+                        let up = [at_a.roll_rad[gear], at_b.roll_rad[gear]];
+                        check("u", up, &section.roll_gradient[gear], 1.0);
+                        let along = [a.heights_m[gear], b.heights_m[gear]];
+                        check("v", along, &section.along_gradient[gear], 1.0);
+                    }
+                    let by_u = &section.roll_gradient[0];
+                    let radius = [at_a.radius_m.ln(), at_b.radius_m.ln()];
+                    check("radius", radius, &(section.radius_growth[0] * by_u), 1.0);
+                    let length = [at_a, at_b].map(|s| (s.length_m / s.share).ln());
+                    check("length", length, &(section.length_growth[0] * by_u), 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// Two bodies on the flanks of the pair.
+fn bodies(flanks: &BevelSlices) -> [ReducedGear; 2] {
+    [0, 1].map(|member| made_up_bevel(flanks, member))
+}
+
+/// Reduced gears feel where slices stand up the flank and along the teeth.
+#[test]
+fn reduced_bevel_slices_conform() {
+    let pair = pair("bevel_20_20.toml");
+    let flanks = slices(&pair, ALONG);
+    let bodies = bodies(&flanks);
+    let poses = poses(&pair, 12e-6);
+    for local in LocalContact::ALL {
+        let teeth = |side: Flank| {
+            let models = [&bodies[0], &bodies[1]];
+            flanks.reduced_teeth(side, models, (local, 2000.0)).unwrap()
+        };
+        let mesh = |damping: Option<Damping>| {
+            let model = |side: Flank| -> Box<dyn TeethModel> {
+                match damping {
+                    Some(damping) => Box::new(Damped::new(teeth(side), damping, ALONG).unwrap()),
+                    None => Box::new(teeth(side)),
+                }
+            };
+            let right = Flank::Right;
+            let mesh = GearMesh::of_flanks(Box::new(flanks.clone()), right, model(right)).unwrap();
+            mesh.with_side(Flank::Left, model(Flank::Left)).unwrap()
+        };
+        let what = format!("reduced bevel, {local:?}");
+        check_energy(&what, &mut mesh(None), &poses);
+        let damping = DAMPINGS[0];
+        let mut mesh = mesh(Some(damping)).with_friction(friction());
+        check_power(("hybrid", damping), &mut mesh, &poses);
+        check_reaction(&what, &mut mesh, &poses);
+        // What the tangent leaves out, the change of the compliance, is 0.6 % of it on this soft body.
+        check_tangents((&what, 1e-2), &mut mesh, &poses);
+        check_turned(&what, &mut mesh, &poses);
+    }
+}
+
+/// Models of other gears are refused in words.
+#[test]
+fn models_of_other_bevel_gears_are_refused() {
+    let pair = pair("bevel_20_20.toml");
+    let flanks = slices(&pair, ALONG);
+    let [pinion, gear] = bodies(&flanks);
+    let refused = |models: [&ReducedGear; 2]| {
+        let local = LocalContact::Calibrated;
+        let made = flanks.reduced_contact(Flank::Right, models, local);
+        made.map(|_| ()).unwrap_err().to_string()
+    };
+    assert!(refused([&gear, &pinion]).contains("it is the pair's gear"));
+    let mut moved = pinion.clone();
+    for number in &mut moved.bevel.as_mut().unwrap().points_m {
+        *number *= 1.001;
+    }
+    let message = refused([&moved, &gear]);
+    assert!(message.contains("right flanks lie up to 0.0"), "{message}");
+    let mut plain = pinion.clone();
+    plain.bevel = None;
+    assert!(refused([&plain, &gear]).contains("it is a cylindrical gear"));
+}
+
+/// Points of flanks that are computed at a pose under load, both sides of the teeth together.
+#[test]
+fn a_pose_of_bevel_slices_takes_few_points() {
+    let pair = pair("bevel_20_20.toml");
+    let flanks = slices(&pair, 15);
+    let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
+    let error = assembly([10e-6, -20e-6, 30e-6, 1e-4]);
+    let back = pair.turn_2(&error, 0.0, Flank::Left, -15e-6);
+    let (poses, before) = (100, flanks.pair().computed_points());
+    let mut patches = 0;
+    for i in 0..poses {
+        let turn = pitch * f64::from(i) / f64::from(poses);
+        let pose = pair.pose(&error, [turn, back - turn]);
+        for side in Flank::ALL {
+            let mut found = FlankContacts::default();
+            flanks.contacts_at(&pose, side, &mut found).unwrap();
+            patches += found.contacts.len();
+        }
+    }
+    let points = (flanks.pair().computed_points() - before) as f64 / f64::from(poses);
+    let patches = patches as f64 / f64::from(poses);
+    assert!(
+        points < 5.0 * patches && points < 130.0,
+        "{points} {patches}"
+    );
+}
+
+const TORQUES: [f64; 4] = [0.1, 50.0, 100.0, 200.0];
+
+/// What is found under torques, rigid gears.
+fn loaded(pair: &Pair, count: usize, torques_nm: &[f64]) -> Vec<LoadedContact> {
+    let flanks = slices(pair, count);
+    let loaded_pair = LoadedPair {
+        blank: &pair.blank,
+        flanks: &flanks,
+        pinion_flank: FlankSide::Concave,
+        error: assembly(AS_DESIGNED),
+        positions: 12,
+    };
+    let contact = flanks.surface_contact([STEEL; 2]);
+    loaded_pair.loaded(&contact, torques_nm).unwrap()
+}
+
+/// Without load the pair stands where the tooth contact analysis says; the pattern grows with the torque and stays off toe and heel.
+#[test]
+fn bevel_slices_under_load() {
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {
+        let pair = pair(name);
+        let count = 41;
+        let found = loaded(&pair, count, &TORQUES);
+        let request = TcaRequest {
+            per_pitch: 48,
+            ..TcaRequest::default()
+        };
+        let flanks = pair.design.flanks(FlankSide::Concave);
+        let expected = tooth_contact(flanks, &pair.blank, &request).unwrap();
+        let lead: Vec<f64> = expected.error_rad.iter().copied().step_by(4).collect();
+        let most = lead.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // A slice's middle stands beside the contact by up to half its length, which can only open the gap, along the more curved contact of an
+        // edge by some tenths of a micrometre: a quarter of it with half the length.
+        let farthest = |found: &LoadedContact| {
+            let pairs = found.positions.iter().zip(&lead);
+            let off = pairs.map(|(at, lead)| (at.unloaded_rad - (lead - most)).abs());
+            off.fold(0.0, f64::max)
+        };
+        let finer = loaded(&pair, 2 * count, &TORQUES[..1]);
+        let [off, less] = [farthest(&found[0]), farthest(&finer[0])];
+        assert!(off < 7e-6 && less < 2.5e-6, "{name}: {off:e} {less:e}");
+        let [light, design, heavy] = [0, 2, 3].map(|k: usize| &found[k]);
+        assert!((light.peak_to_peak_rad() / light.unloaded_peak_to_peak_rad() - 1.0).abs() < 0.03);
+        let size = |of: &LoadedContact| {
+            let [along, up] = of.pattern(count);
+            (along[1] - along[0]) * (up[1] - up[0])
+        };
+        assert!(
+            found.windows(2).all(|w| size(&w[0]) < size(&w[1])),
+            "{name}"
+        );
+        assert!(found.windows(2).all(|w| w[1].mean_rad() < w[0].mean_rad()));
+        let [along, _] = design.pattern(count);
+        assert!(along[0] > 0.05 && along[1] < 0.95, "{along:?}");
+        assert!(heavy.mean_pairs() > light.mean_pairs());
+        // Torques balance: the gear's is stated, forces have the lever of their place.
+        let lever = pair.mesh.levers_m()[1];
+        for position in &design.positions {
+            let force: f64 = position.patches.iter().map(|patch| patch.force_n).sum();
+            assert!((force * lever / 100.0 - 1.0).abs() < 0.12, "{force}");
+        }
+    }
+}
+
+/// Slices have converged: from 41 to 82 the mean transmission error changes by less than 0.5 %, its change over the pitch by
+/// less than 1 % of the mean, the mean pressure by less than 2 %.
+#[test]
+fn bevel_slices_converge() {
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {
+        let pair = pair(name);
+        let [coarse, fine] = [41, 82].map(|count| loaded(&pair, count, &TORQUES[1..]));
+        for (a, b) in coarse.iter().zip(&fine) {
+            let change = |a: f64, b: f64| (a / b - 1.0).abs();
+            let mean = change(a.mean_rad(), b.mean_rad());
+            let spread = (a.peak_to_peak_rad() - b.peak_to_peak_rad()).abs() / b.mean_rad().abs();
+            // Weighted by the force: the largest one, beside a tip, rises within a slice.
+            let mean_pa = |of: &LoadedContact| {
+                let sums = of.patches().fold([0.0; 2], |[p, f], patch| {
+                    [p + patch.force_n * patch.pressure_pa, f + patch.force_n]
+                });
+                sums[0] / sums[1]
+            };
+            let pressure = change(mean_pa(a), mean_pa(b));
+            assert!(mean < 0.005 && spread < 0.01, "{name} {}", a.torque_nm);
+            assert!(pressure < 0.02, "{name} {}: {pressure}", a.torque_nm);
+            let largest = [a, b].map(|of| of.pressures_pa()[1]);
+            assert!(change(largest[0], largest[1]) < 0.08, "{name} {largest:?}");
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! From a bevel gear's definition to its reduced model.
+
+use gearmesh_bevel::{BevelError, BevelGear, FlankPatch, Hand};
+use gearmesh_fe::{FeModel, Material};
+use gearmesh_mesh::{BevelMesh, MeshError};
+use gearmesh_model::{
+    BevelBody, BevelMember, FlankGrid, Provenance, ReducedGear, ReductionChecks, SpiralHand,
+    StoredGear, utc_now,
+};
+use std::time::Instant;
+
+use super::gauge::{bevel_gauge_row, describe_bevel_gauge};
+use super::loads::{area_m2, bevel_grid, bevel_loads};
+use super::near_field::{opposite_distances_m, section_fields};
+use crate::dynamics::{DynamicsRequest, dynamics};
+use crate::flank_compliance::{
+    AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
+};
+use crate::flank_loads::{GridLoad, SparseVector};
+use crate::reduce::element_names;
+use crate::tooth_submodel::Deformation;
+use crate::{GearBody, Progress, ReductionError};
+
+fn cut(error: BevelError) -> ReductionError {
+    ReductionError::Mesh(MeshError::Bevel(error))
+}
+
+/// The finite element model of a bevel gear, held at its bore.
+///
+/// # Errors
+/// [`ReductionError`] when it cannot be meshed or is not held.
+pub fn bevel_body(
+    gear: &BevelGear,
+    progress: &dyn Progress,
+) -> Result<GearBody<BevelMesh>, ReductionError> {
+    let clock = Instant::now();
+    progress.stage("meshing");
+    let mesh = BevelMesh::new(gear)?;
+    let meshed_s = clock.elapsed().as_secs_f64();
+    let model = bevel_model(gear, &mesh)?;
+    let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
+    let way = (gear.reduction.symmetry, Deformation::Spatial);
+    GearBody::held((mesh, model, &bore), way, meshed_s, progress)
+}
+
+/// The finite element model of a bevel gear's mesh.
+///
+/// # Errors
+/// [`ReductionError::Fe`] when an element is too distorted to be used.
+pub fn bevel_model(gear: &BevelGear, mesh: &BevelMesh) -> Result<FeModel, ReductionError> {
+    Ok(FeModel::from_connectivity(
+        mesh.nodes.clone(),
+        mesh.elements.connectivity().to_vec(),
+        Material::new(gear.material.young_pa, gear.material.poisson)?,
+        gear.mesh.element,
+    )?)
+}
+
+/// Reduces a bevel gear to its compliance at the flanks. The finite element model is handed back for pictures.
+///
+/// # Errors
+/// [`ReductionError`] when the gear cannot be meshed or held, a gauge covers nothing, or an identity is violated by more
+/// than round-off explains.
+pub fn reduce_bevel(
+    gear: &BevelGear,
+    progress: &dyn Progress,
+) -> Result<(ReducedGear, GearBody<BevelMesh>), ReductionError> {
+    let body = bevel_body(gear, progress)?;
+    let mut stage_seconds = body.stage_seconds.clone();
+    let mut clock = Instant::now();
+    let mut lap = |name: &str| {
+        stage_seconds.push((name.to_string(), clock.elapsed().as_secs_f64()));
+        clock = Instant::now();
+    };
+    let grid = bevel_grid(gear);
+    let flanks = &gear.reduction.flanks;
+    let patches: Vec<FlankPatch> = flanks
+        .iter()
+        .map(|&side| gear.patch(side))
+        .collect::<Result<_, _>>()
+        .map_err(cut)?;
+    let loads: Vec<Vec<GridLoad>> = flanks
+        .iter()
+        .zip(&patches)
+        .map(|(&side, patch)| bevel_loads(&body.mesh, patch, side, &grid))
+        .collect();
+    lap("loads");
+    let teeth = gear.blank().teeth;
+    let case = FlankCase {
+        flanks,
+        loads: &loads,
+        teeth,
+        sectors: teeth,
+        deformation: Deformation::Spatial,
+    };
+    let FlankCompliance {
+        submodels,
+        c_hub,
+        c_tooth,
+        symmetry,
+        pattern_identity,
+        rows_by_fields,
+    } = flank_compliance(&body, &case, progress, &mut lap)?;
+    progress.stage("calibrating the near field");
+    let near_field = section_fields(gear, &patches, &grid)?;
+    lap("near field");
+
+    let rows: Vec<SparseVector> = gear
+        .gauges
+        .iter()
+        .map(|g| bevel_gauge_row(gear, &body.mesh, &body.model, g, g.tooth))
+        .collect::<Result<_, _>>()?;
+    let asked: Vec<AskedGauge<'_>> = gear
+        .gauges
+        .iter()
+        .zip(&rows)
+        .map(|(gauge, row)| {
+            Ok(AskedGauge {
+                name: &gauge.name,
+                tooth: gauge.tooth,
+                side: gauge.side,
+                description: describe_bevel_gauge(gauge),
+                row,
+                at_zero: bevel_gauge_row(gear, &body.mesh, &body.model, gauge, 0)?,
+            })
+        })
+        .collect::<Result<_, ReductionError>>()?;
+    let gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
+    lap("gauges");
+    let request = DynamicsRequest {
+        density_kg_per_m3: gear.material.density_kg_per_m3,
+        hub: gear.hub,
+        modes: None,
+    };
+    let dynamics = dynamics(&request, &body, &loads, &rows, progress)?;
+    if dynamics.rigid_body.is_some() {
+        lap("mass");
+    }
+    let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
+    further.extend(dynamics.checks);
+    let opposite = opposite_distances_m(gear, &patches, &grid.roll_angles_rad, 0.5)?;
+    let model = ReducedGear {
+        name: gear.name.clone(),
+        input: StoredGear::without_definition(gear.source.clone()),
+        teeth,
+        sectors: teeth,
+        base_radius_m: patches[0].lever_m(),
+        face_width_m: gear.blank().face_width_m,
+        young_pa: gear.material.young_pa,
+        poisson: gear.material.poisson,
+        flanks: flanks.clone(),
+        c_hub,
+        c_tooth,
+        opposite_distance_m: opposite.concat(),
+        near_field: None,
+        gauges,
+        rigid_body: dynamics.rigid_body,
+        reference_point: dynamics.reference_point,
+        modes: None,
+        crack: None,
+        bevel: Some(BevelBody {
+            near_field: Some(near_field),
+            ..surface(gear, &patches, &grid)
+        }),
+        provenance: Provenance {
+            program: "gearmesh".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            created_utc: utc_now(),
+            threads: rayon::current_num_threads(),
+            element: element_names(&body.model),
+            nodes: body.mesh.nodes.len(),
+            elements: body.mesh.elements.len(),
+            dofs: body.dofs.free_count(),
+            stage_seconds,
+            effort: body.effort(),
+        },
+        checks: ReductionChecks {
+            symmetry,
+            pattern_identity,
+            further,
+        },
+        grid,
+    };
+    Ok((model, body))
+}
+
+/// What the model says of its flanks, without the near field.
+fn surface(gear: &BevelGear, patches: &[FlankPatch], grid: &FlankGrid) -> BevelBody {
+    let blank = gear.blank();
+    let (mut points_m, mut normals, mut areas_m2) = (Vec::new(), Vec::new(), Vec::new());
+    for patch in patches {
+        for u in &grid.roll_angles_rad {
+            for z in &grid.z_m {
+                let at = [z / blank.face_width_m + 0.5, *u];
+                let point = patch.point(at);
+                points_m.extend(point.r.iter());
+                normals.extend(point.n.iter());
+                areas_m2.push(area_m2(patch, at));
+            }
+        }
+    }
+    BevelBody {
+        pair_text: gear.pair_text.clone(),
+        member: match gear.member {
+            0 => BevelMember::Pinion,
+            _ => BevelMember::Gear,
+        },
+        hand: match blank.hand {
+            Hand::Right => SpiralHand::Right,
+            Hand::Left => SpiralHand::Left,
+        },
+        pitch_angle_rad: blank.pitch_angle_rad,
+        cones_m: [blank.inner_cone_m(), blank.outer_cone_m],
+        points_m,
+        normals,
+        areas_m2,
+        near_field: None,
+    }
+}

@@ -1,0 +1,284 @@
+//! C_hub and C_tooth of a body by unit loads on its flanks, the identities that they must fulfil, and the gauges' rows.
+
+use crate::flank_loads::{GridLoad, SparseVector};
+use crate::gear_body::GearBody;
+use crate::repeated_mesh::RepeatedMesh;
+use crate::tooth_submodel::{Deformation, ToothSubmodel};
+use crate::toothed_mesh::ToothParts;
+use crate::{Progress, ReductionError, Silent};
+use faer::Mat;
+use gearmesh_geometry::Flank;
+use gearmesh_model::GaugeRows;
+
+/// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
+pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
+pub(crate) const IDENTITY_ALLOWED: f64 = 1e-9;
+/// Patterns on which the identity is checked: K is applied to each, which costs as much as a solve.
+const IDENTITY_SAMPLES: usize = 8;
+
+pub(crate) const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
+
+/// What is loaded.
+pub(crate) struct FlankCase<'a> {
+    /// Flanks that carry loads.
+    pub flanks: &'a [Flank],
+    /// Their loads on tooth 0.
+    pub loads: &'a [Vec<GridLoad>],
+    pub teeth: usize,
+    pub sectors: usize,
+    pub deformation: Deformation,
+}
+
+/// What comes of it, as the reduced gear holds it.
+pub(crate) struct FlankCompliance {
+    pub submodels: Vec<ToothSubmodel>,
+    pub c_hub: Vec<f64>,
+    pub c_tooth: Vec<f64>,
+    pub symmetry: f64,
+    pub pattern_identity: f64,
+    pub rows_by_fields: f64,
+}
+
+/// Solves the loads of one sector's teeth against all teeth, and those of one tooth on its submodel. `lap` is told each stage's end.
+///
+/// # Errors
+/// [`ReductionError`] when a submodel is not held or an identity is violated by more than round-off explains.
+pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
+    body: &GearBody<M>,
+    case: &FlankCase<'_>,
+    progress: &dyn Progress,
+    lap: &mut dyn FnMut(&str),
+) -> Result<FlankCompliance, ReductionError> {
+    let (flanks, loads, teeth) = (case.flanks, case.loads, case.teeth);
+    let count = loads[0].len();
+    let own = teeth / case.sectors;
+    progress.stage("tooth submodel");
+    let submodels: Vec<ToothSubmodel> = flanks
+        .iter()
+        .zip(loads)
+        .map(|(&side, loads)| {
+            ToothSubmodel::new(&body.model, &body.mesh, side, loads, case.deformation)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut c_tooth = Vec::with_capacity(flanks.len() * count * count);
+    for (submodel, loads) in submodels.iter().zip(loads) {
+        let rows: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
+        let products = submodel.products(&rows);
+        // products is [response][load]; the file holds [load][response].
+        c_tooth.extend((0..count * count).map(|k| products[(k % count) * count + k / count]));
+    }
+    lap("tooth submodel");
+
+    progress.stage("solving flank loads");
+    let normals: Vec<&SparseVector> = loads.iter().flatten().map(|load| &load.normal).collect();
+    let c_rows = body.compliance(own, &normals, progress);
+    lap("solve");
+
+    progress.stage("checking");
+    let symmetry = asymmetry(&c_rows, own, flanks.len(), teeth, count);
+    let row_length = teeth * normals.len();
+    let pattern_identity = pattern_identity(
+        body,
+        &submodels[0],
+        &normals[..count],
+        &c_rows,
+        row_length,
+        &c_tooth,
+    );
+    let rows_by_fields = rows_by_fields(body, &normals, &c_rows, row_length);
+    let c_hub = by_blocks(&c_rows, own, flanks.len(), teeth, count);
+    for (check, found, allowed) in [
+        ("symmetry of C_hub", symmetry, SYMMETRY_ALLOWED),
+        ("the pattern identity", pattern_identity, IDENTITY_ALLOWED),
+        (ROWS_BY_FIELDS, rows_by_fields, IDENTITY_ALLOWED),
+    ] {
+        checked(check, found, allowed)?;
+    }
+    lap("checks");
+    Ok(FlankCompliance {
+        submodels,
+        c_hub,
+        c_tooth,
+        symmetry,
+        pattern_identity,
+        rows_by_fields,
+    })
+}
+
+/// Refuses a violation of an identity that round-off does not explain.
+pub(crate) fn checked(check: &'static str, found: f64, allowed: f64) -> Result<(), ReductionError> {
+    if found.is_nan() || found > allowed {
+        return Err(ReductionError::Check {
+            check,
+            found,
+            allowed,
+        });
+    }
+    Ok(())
+}
+
+/// From rows over all responses, `[s][f][l][t][f'][m]`, to blocks `[s][f][t][f'][l][m]`.
+pub(crate) fn by_blocks(
+    rows: &[f64],
+    own: usize,
+    flanks: usize,
+    teeth: usize,
+    count: usize,
+) -> Vec<f64> {
+    let mut blocks = Vec::with_capacity(rows.len());
+    for load_flank in 0..own * flanks {
+        for response_flank in 0..teeth * flanks {
+            for l in 0..count {
+                let start = ((load_flank * count + l) * teeth * flanks + response_flank) * count;
+                blocks.extend_from_slice(&rows[start..start + count]);
+            }
+        }
+    }
+    blocks
+}
+
+/// Largest |C_lm − C_ml| over the sector's own teeth, relative to the largest entry.
+pub(crate) fn asymmetry(
+    rows: &[f64],
+    own: usize,
+    flanks: usize,
+    teeth: usize,
+    count: usize,
+) -> f64 {
+    let size = own * flanks * count;
+    let row_length = teeth * flanks * count;
+    let mut worst: f64 = 0.0;
+    let mut largest: f64 = 0.0;
+    for i in 0..size {
+        for j in 0..=i {
+            let (a, b) = (rows[i * row_length + j], rows[j * row_length + i]);
+            worst = worst.max((a - b).abs());
+            largest = largest.max(a.abs());
+        }
+    }
+    worst / largest
+}
+
+/// Largest difference, relative to the largest value, between rows of C_hub and what all teeth read of the solved
+/// fields of some loads. By repetition C_hub is made of products of half solves, symmetric by construction: this goes
+/// the other way, out to every tooth again.
+pub(crate) fn rows_by_fields(
+    body: &GearBody<impl RepeatedMesh>,
+    normals: &[&SparseVector],
+    c_rows: &[f64],
+    row_length: usize,
+) -> f64 {
+    let sampled: Vec<usize> = (0..normals.len())
+        .step_by(normals.len().div_ceil(IDENTITY_SAMPLES))
+        .collect();
+    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
+    let (mut worst, mut largest): (f64, f64) = (0.0, 0.0);
+    for (&load, reading) in sampled.iter().zip(body.readings(&loads, normals, &Silent)) {
+        for (a, b) in c_rows[load * row_length..].iter().zip(&reading) {
+            worst = worst.max((a - b).abs());
+            largest = largest.max(a.abs());
+        }
+    }
+    worst / largest
+}
+
+/// ‖ΨᵀKΨ − C_g‖ / ‖C_g‖ over some patterns of tooth 0's first flank, with K applied to them.
+pub(crate) fn pattern_identity(
+    body: &GearBody<impl RepeatedMesh>,
+    submodel: &ToothSubmodel,
+    normals: &[&SparseVector],
+    c_rows: &[f64],
+    row_length: usize,
+    c_tooth: &[f64],
+) -> f64 {
+    pattern_identity_of(
+        submodel,
+        normals,
+        c_rows,
+        row_length,
+        c_tooth,
+        |loads, each| body.solve_each(loads, &Silent, each),
+        |patterns| body.energy_products(patterns),
+    )
+}
+
+/// As [`pattern_identity`], for any way to solve for loads and to take XᵀKX of fields.
+pub(crate) fn pattern_identity_of(
+    submodel: &ToothSubmodel,
+    normals: &[&SparseVector],
+    c_rows: &[f64],
+    row_length: usize,
+    c_tooth: &[f64],
+    solve_each: impl FnOnce(&[&SparseVector], &mut dyn FnMut(usize, &[f64])),
+    energy_products: impl FnOnce(&[Vec<f64>]) -> Mat<f64>,
+) -> f64 {
+    let count = normals.len();
+    let sampled: Vec<usize> = (0..count)
+        .step_by(count.div_ceil(IDENTITY_SAMPLES))
+        .collect();
+    let loads: Vec<&SparseVector> = sampled.iter().map(|&load| normals[load]).collect();
+    let mut patterns: Vec<Vec<f64>> = Vec::with_capacity(loads.len());
+    solve_each(&loads, &mut |k, u| {
+        let w = submodel.column(sampled[k], u.len());
+        patterns.push(u.iter().zip(&w).map(|(u, w)| u - w).collect());
+    });
+    let energy = energy_products(&patterns);
+    let (mut difference, mut norm) = (0.0, 0.0);
+    for (a, load_a) in sampled.iter().enumerate() {
+        for (b, load_b) in sampled.iter().enumerate() {
+            let c_g = c_rows[load_a * row_length + load_b] - c_tooth[load_a * count + load_b];
+            difference += (energy[(a, b)] - c_g).powi(2);
+            norm += c_g * c_g;
+        }
+    }
+    (difference / norm).sqrt()
+}
+
+/// A gauge as rows of nodal weights.
+pub(crate) struct AskedGauge<'a> {
+    pub name: &'a str,
+    pub tooth: usize,
+    pub side: Flank,
+    pub description: String,
+    /// On its own tooth.
+    pub row: &'a SparseVector,
+    /// Placed on tooth 0.
+    pub at_zero: SparseVector,
+}
+
+/// One adjoint solution per gauge: y = K⁻¹g, read at all grid loads in three directions; and gᵀW on its own tooth.
+pub(crate) fn gauge_readings<M: RepeatedMesh>(
+    body: &GearBody<M>,
+    loads: &[Vec<GridLoad>],
+    submodels: &[ToothSubmodel],
+    gauges: &[AskedGauge<'_>],
+    progress: &dyn Progress,
+) -> Vec<GaugeRows> {
+    if gauges.is_empty() {
+        return Vec::new();
+    }
+    progress.stage("solving gauges");
+    let directions: Vec<&SparseVector> = loads
+        .iter()
+        .flatten()
+        .flat_map(|load| [&load.normal, &load.tangential, &load.axial])
+        .collect();
+    let rows: Vec<&SparseVector> = gauges.iter().map(|gauge| gauge.row).collect();
+    let adjoints = body.readings(&rows, &directions, progress);
+    gauges
+        .iter()
+        .zip(adjoints)
+        .map(|(gauge, adjoint)| GaugeRows {
+            name: gauge.name.to_owned(),
+            tooth: gauge.tooth,
+            side: gauge.side,
+            description: gauge.description.clone(),
+            error_estimate_relative: 0.0,
+            adjoint,
+            own_tooth: submodels
+                .iter()
+                .flat_map(|s| s.products(&[&gauge.at_zero]))
+                .collect(),
+        })
+        .collect()
+}

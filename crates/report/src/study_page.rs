@@ -1,0 +1,409 @@
+//! The page of a study: what each parameter does to each column, columns against each other, all cases.
+
+use gearmesh_scene::optimise::{Trial, front};
+use gearmesh_scene::study::{CaseResult, Selected, SelectedValue, Study};
+
+use crate::page::{Align, Axis, KeyFigures, Page, PointSeries, ScatterChart, Section, Table, Text};
+use crate::short;
+
+/// Pictures of one kind beyond which a page would be long without saying more.
+const MOST_PICTURES: usize = 24;
+
+/// Columns whose pairs are drawn against each other.
+const MOST_AGAINST: usize = 4;
+
+/// Torques that are drawn in one picture.
+const MOST_TORQUES: usize = 6;
+
+/// Rows of the table of cases; study.csv has all.
+const MOST_ROWS: usize = 500;
+
+/// Groups of as many cases each, by the values of a parameter that is drawn.
+const GROUPS: usize = 8;
+
+/// The page of an outcome.
+#[must_use]
+pub fn study_page(study: &Study, cases: &[CaseResult]) -> Page {
+    let columns: Vec<Column> = (0..study.tables.columns.len())
+        .filter_map(|place| Column::of(study, cases, place))
+        .collect();
+    let failed = cases.iter().filter(|case| case.figures.is_err()).count();
+    let mut figures = KeyFigures::new();
+    for column in columns.iter().take(8) {
+        let [least, largest] = column.ends();
+        let range = format!("{} … {}", short(least), short(largest));
+        figures = figures.figure(column.name.clone(), range, String::new());
+    }
+    let failures = match failed {
+        0 => String::new(),
+        _ => format!(" {failed} of them failed."),
+    };
+    let told = format!(
+        "{} cases of {} parameters.{failures} The numbers are in study.csv.",
+        cases.len(),
+        study.tables.parameter.len()
+    );
+    let mut first = Section::new("What was found");
+    if !figures.is_empty() {
+        first = first.push(figures);
+    }
+    first = first.push(Text::paragraph(told));
+    let mut page = Page::new(study.tables.title.clone())
+        .subtitle("Parameter study")
+        .section(first);
+    if let Some(section) = main_effects(study, cases, &columns) {
+        page = page.section(section);
+    }
+    if let Some(section) = against_each_other(cases, &columns) {
+        page = page.section(section);
+    }
+    page.section(Section::new("Cases").push(table(study, cases)))
+        .footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
+}
+
+/// A column of a study: its numbers at each torque.
+struct Column {
+    name: String,
+    /// Name of a curve (a torque, or a figure of a series) and its number for each case.
+    curves: Vec<(String, Vec<Option<f64>>)>,
+}
+
+impl Column {
+    /// None where no case has a number.
+    fn of(study: &Study, cases: &[CaseResult], place: usize) -> Option<Self> {
+        let count = study.tables.columns.len();
+        let own = |case: &CaseResult| -> Vec<Selected> {
+            let all = case.figures.as_ref().map_or(&[][..], Vec::as_slice);
+            all.iter().skip(place).step_by(count).cloned().collect()
+        };
+        let of_cases: Vec<Vec<Selected>> = cases.iter().map(own).collect();
+        let sample = of_cases.iter().find(|own| !own.is_empty())?;
+        let number = |row: usize, of: &dyn Fn(&SelectedValue) -> f64| -> Vec<Option<f64>> {
+            let value = |own: &Vec<Selected>| Some(of(&own.get(row)?.value));
+            let finite = |own: &Vec<Selected>| value(own).filter(|x: &f64| x.is_finite());
+            of_cases.iter().map(finite).collect()
+        };
+        let single = |value: &SelectedValue| match value {
+            SelectedValue::Single(value) => *value,
+            SelectedValue::Series(figures) => figures.mean,
+        };
+        let curves = match sample[0].value {
+            SelectedValue::Series(_) => {
+                let largest = |value: &SelectedValue| match value {
+                    SelectedValue::Single(value) => *value,
+                    SelectedValue::Series(figures) => figures.largest,
+                };
+                let peak_to_peak = |value: &SelectedValue| match value {
+                    SelectedValue::Single(value) => *value,
+                    SelectedValue::Series(figures) => figures.peak_to_peak(),
+                };
+                vec![
+                    ("mean".to_owned(), number(0, &single)),
+                    ("largest".to_owned(), number(0, &largest)),
+                    ("peak to peak".to_owned(), number(0, &peak_to_peak)),
+                ]
+            }
+            SelectedValue::Single(_) => sample
+                .iter()
+                .enumerate()
+                .map(|(row, one)| {
+                    let torque = one.torque_nm;
+                    let name = torque.map_or_else(|| "cases".to_owned(), |t| format!("{t} N m"));
+                    (name, number(row, &single))
+                })
+                .collect(),
+        };
+        let name = study.tables.columns[place].clone();
+        let any = curves
+            .iter()
+            .any(|(_, values)| values.iter().any(Option::is_some));
+        any.then_some(Self { name, curves })
+    }
+
+    fn ends(&self) -> [f64; 2] {
+        let all = || {
+            self.curves
+                .iter()
+                .flat_map(|(_, v)| v.iter().flatten().copied())
+        };
+        [
+            all().fold(f64::INFINITY, f64::min),
+            all().fold(f64::NEG_INFINITY, f64::max),
+        ]
+    }
+
+    /// Mean over the torques, of a series its mean; none where one is missing.
+    fn number(&self, case: usize) -> Option<f64> {
+        if self.curves.first()?.0 == "mean" {
+            return self.curves[0].1[case];
+        }
+        let values: Option<Vec<f64>> = self.curves.iter().map(|(_, v)| v[case]).collect();
+        let values = values?;
+        Some(values.iter().sum::<f64>() / values.len() as f64)
+    }
+}
+
+/// The number that a case gives a parameter; none of texts and of cases that leave it as it is.
+fn value_of(case: &CaseResult, parameter: &str) -> Option<f64> {
+    let setting = case
+        .case
+        .settings
+        .iter()
+        .find(|s| s.parameter == parameter)?;
+    match &setting.value {
+        toml::Value::Float(value) => Some(*value),
+        toml::Value::Integer(value) => Some(*value as f64),
+        _ => None,
+    }
+}
+
+/// Cases that give a parameter any value, in groups: those of the same value, or of drawn values as many each.
+fn groups(cases: &[CaseResult], parameter: &str) -> Vec<(String, Option<f64>, Vec<usize>)> {
+    let mut by_value: Vec<(String, Option<f64>, Vec<usize>)> = Vec::new();
+    for (k, case) in cases.iter().enumerate() {
+        let mut settings = case.case.settings.iter();
+        let Some(setting) = settings.find(|s| s.parameter == parameter) else {
+            continue;
+        };
+        let word = setting.value.to_string();
+        match by_value.iter_mut().find(|(known, ..)| *known == word) {
+            Some((.., members)) => members.push(k),
+            None => by_value.push((word, value_of(case, parameter), vec![k])),
+        }
+    }
+    let numbers = by_value.iter().all(|(_, value, _)| value.is_some());
+    if numbers {
+        by_value.sort_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(std::cmp::Ordering::Equal));
+    }
+    // Few values, or several cases each: the values themselves.
+    if !numbers || by_value.len() <= 2 * GROUPS {
+        return by_value;
+    }
+    let share = by_value.len().div_ceil(GROUPS);
+    by_value
+        .chunks(share)
+        .map(|chunk| {
+            let members: Vec<usize> = chunk.iter().flat_map(|one| one.2.iter().copied()).collect();
+            let values = chunk.iter().filter_map(|one| one.1);
+            let middle = values.sum::<f64>() / chunk.len() as f64;
+            (short(middle), Some(middle), members)
+        })
+        .collect()
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for value in values {
+        sum += value;
+        count += 1.0;
+    }
+    (count > 0.0).then(|| sum / count)
+}
+
+/// Pictures of each column over each parameter, and a table of what the means of groups differ by.
+fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Option<Section> {
+    let mut table =
+        Table::new("Largest less least mean of groups of cases, by the parameter's values")
+            .column("parameter", Align::Left)
+            .column("column", Align::Left)
+            .column("curve", Align::Left)
+            .column("difference", Align::Right)
+            .column("rank correlation", Align::Right);
+    let mut pictures = Vec::new();
+    for parameter in &study.tables.parameter {
+        let groups = groups(cases, &parameter.name);
+        for column in columns {
+            let mut chart = ScatterChart::new(
+                format!("{} over {}", column.name, parameter.name),
+                Axis::new(parameter.name.clone(), ""),
+                Axis::new(column.name.clone(), ""),
+            );
+            let mut drawn = false;
+            for (name, values) in column.curves.iter().take(MOST_TORQUES) {
+                let means: Vec<(Option<f64>, f64)> = groups
+                    .iter()
+                    .filter_map(|(_, at, members)| {
+                        Some((*at, mean(members.iter().filter_map(|k| values[*k]))?))
+                    })
+                    .collect();
+                let largest = means.iter().map(|m| m.1).fold(f64::NEG_INFINITY, f64::max);
+                let least = means.iter().map(|m| m.1).fold(f64::INFINITY, f64::min);
+                let points: Vec<[f64; 2]> = cases
+                    .iter()
+                    .zip(values)
+                    .filter_map(|(case, y)| Some([value_of(case, &parameter.name)?, (*y)?]))
+                    .collect();
+                if means.len() > 1 {
+                    let ranks = rank_correlation(&points);
+                    table.push_row([
+                        parameter.name.clone(),
+                        column.name.clone(),
+                        name.clone(),
+                        short(largest - least),
+                        ranks.map_or_else(String::new, |r| format!("{r:.2}")),
+                    ]);
+                }
+                let line: Vec<[f64; 2]> = (means.iter())
+                    .filter_map(|(at, value)| Some([(*at)?, *value]))
+                    .collect();
+                if line.len() > 1 {
+                    drawn = true;
+                    if points.len() > line.len() {
+                        chart = chart.series(PointSeries::new(name.clone(), points));
+                        let of_means = format!("{name}, means");
+                        chart = chart.series(PointSeries::new(of_means, line).joined());
+                    } else {
+                        chart = chart.series(PointSeries::new(name.clone(), line).joined());
+                    }
+                }
+            }
+            if drawn && pictures.len() < MOST_PICTURES {
+                pictures.push(chart);
+            }
+        }
+    }
+    if table.is_empty() {
+        return None;
+    }
+    let told = "Other parameters vary among the cases of a group, where the design varies them together. Rank correlation (Spearman): 1 rises throughout, -1 falls throughout.";
+    let section = Section::new("What each parameter does").push(Text::paragraph(told));
+    let section = pictures.into_iter().fold(section, Section::push);
+    Some(section.push(table))
+}
+
+/// Spearman's rank correlation; none where nothing varies.
+fn rank_correlation(points: &[[f64; 2]]) -> Option<f64> {
+    let ranks = |axis: usize| {
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
+        let mut ranks = vec![0.0; points.len()];
+        let mut first = 0;
+        while first < order.len() {
+            let value = points[order[first]][axis];
+            let alike = order[first..].iter();
+            let count = alike.take_while(|k| points[**k][axis] == value).count();
+            // Equal values share their ranks' mean.
+            let rank = first as f64 + 0.5 * (count as f64 - 1.0);
+            for k in &order[first..first + count] {
+                ranks[*k] = rank;
+            }
+            first += count;
+        }
+        ranks
+    };
+    let (a, b) = (ranks(0), ranks(1));
+    let middle = 0.5 * (points.len() as f64 - 1.0);
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(x, y)| (x - middle) * (y - middle)).sum()
+    };
+    let scale = (product(&a, &a) * product(&b, &b)).sqrt();
+    (scale > 0.0).then(|| product(&a, &b) / scale)
+}
+
+/// Columns against each other, with the cases that no other one beats where smaller amounts are better.
+fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Section> {
+    let columns = &columns[..columns.len().min(MOST_AGAINST)];
+    let mut section = Section::new("Columns against each other").push(Text::paragraph(
+        "A point for each case: means over the torques, or over the series. The front is that of the smallest amounts: no case has less of both.",
+    ));
+    let mut drawn = false;
+    for (a, first) in columns.iter().enumerate() {
+        for second in &columns[a + 1..] {
+            let trials: Vec<(usize, Trial)> = (0..cases.len())
+                .filter_map(|k| {
+                    let (x, y) = (first.number(k)?, second.number(k)?);
+                    let trial = Trial {
+                        values: vec![k as f64, x, y],
+                        objectives: vec![x.abs(), y.abs()],
+                    };
+                    Some((k, trial))
+                })
+                .collect();
+            if trials.len() < 2 {
+                continue;
+            }
+            drawn = true;
+            let point = |trial: &Trial| [trial.values[1], trial.values[2]];
+            let all: Vec<Trial> = trials.iter().map(|(_, trial)| trial.clone()).collect();
+            let best = front(&all);
+            let name = |trial: &Trial| cases[trial.values[0] as usize].case.name();
+            let chart = ScatterChart::new(
+                format!("{} against {}", second.name, first.name),
+                Axis::new(first.name.clone(), ""),
+                Axis::new(second.name.clone(), ""),
+            )
+            .series(PointSeries::new("cases", all.iter().map(point).collect()))
+            .series(
+                PointSeries::new("front", best.iter().map(point).collect())
+                    .joined()
+                    .labels(best.iter().map(name).collect()),
+            );
+            section = section.push(chart);
+        }
+    }
+    drawn.then_some(section)
+}
+
+fn table(study: &Study, cases: &[CaseResult]) -> Table {
+    let count = cases.len();
+    let caption = match count > MOST_ROWS {
+        true => format!("The first {MOST_ROWS} of {count} cases"),
+        false => "All cases".to_owned(),
+    };
+    let mut table = Table::new(caption).column("case", Align::Left);
+    for column in &study.tables.columns {
+        table = table.column(column.clone(), Align::Right);
+    }
+    let columns = study.tables.columns.len();
+    for case in cases.iter().take(MOST_ROWS) {
+        let cells: Vec<String> = match &case.figures {
+            Err(problem) => {
+                let rest = std::iter::repeat_n(String::new(), columns.saturating_sub(1));
+                std::iter::once(format!("failed: {problem}"))
+                    .chain(rest)
+                    .collect()
+            }
+            Ok(all) => (0..columns)
+                .map(|place| {
+                    let own = all.iter().skip(place).step_by(columns);
+                    own.map(|one| cell(&one.value))
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                })
+                .collect(),
+        };
+        table.push_row(std::iter::once(case.case.name()).chain(cells));
+    }
+    if count > 30 { table.folded() } else { table }
+}
+
+fn cell(value: &SelectedValue) -> String {
+    match value {
+        SelectedValue::Single(value) => short(*value),
+        SelectedValue::Series(f) => format!(
+            "{} ({} … {})",
+            short(f.mean),
+            short(f.least),
+            short(f.largest)
+        ),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_tell_rise_and_fall_and_share_ties() {
+        let points: Vec<[f64; 2]> = (0..9).map(|k| [f64::from(k), f64::from(k * k)]).collect();
+        assert!((rank_correlation(&points).unwrap() - 1.0).abs() < 1e-12);
+        let falling: Vec<[f64; 2]> = points.iter().map(|p| [p[0], -p[1]]).collect();
+        assert!((rank_correlation(&falling).unwrap() + 1.0).abs() < 1e-12);
+        // Ranks of x 0, 1, 2, 3 and of y 0.5, 0.5, 2.5, 2.5: by hand 4/√(5·4).
+        let ties = [[0.0, 1.0], [1.0, 1.0], [2.0, 5.0], [3.0, 5.0]];
+        assert!((rank_correlation(&ties).unwrap() - 4.0 / 20.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(rank_correlation(&[[0.0, 1.0], [1.0, 1.0]]), None);
+    }
+}

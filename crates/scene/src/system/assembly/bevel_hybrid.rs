@@ -1,0 +1,146 @@
+//! `kind = "hybrid"` of a bevel mesh: flanks in slices, reduced gears or rigid ones whose surfaces give way.
+
+use std::sync::Arc;
+
+use gearmesh_drivetrain::{BevelSlices, Damped, GearMesh, ReducedTeeth, TeethModel};
+use gearmesh_geometry::{Flank, InputError};
+use gearmesh_model::{ReducedGear, read_reduced_gear};
+
+use super::bevel_mesh::SceneBevel;
+use super::mesh_model::REFERENCE_LINE_LOAD_N_PER_M;
+use crate::system::tables::mesh_model::{HertzTable, HybridTable};
+
+/// Slices where neither the scene nor models say how many.
+const SLICES: usize = 15;
+
+/// The models that a mesh names.
+pub(super) type BevelModels = [Arc<ReducedGear>; 2];
+
+impl SceneBevel<'_> {
+    /// Reads the models of both members, where the mesh names any.
+    pub(super) fn models(&self) -> Result<Option<BevelModels>, InputError> {
+        let Some(files) = &self.table.bevel_models else {
+            return Ok(None);
+        };
+        let read = |i: usize| {
+            let key = format!("bevel_models.{i}");
+            let model = read_reduced_gear(&self.folder.join(&files[i]));
+            model.map(Arc::new).map_err(|e| self.keys.error(&key, e))
+        };
+        Ok(Some([read(0)?, read(1)?]))
+    }
+
+    /// Slices along the teeth.
+    pub(super) fn slices(
+        &self,
+        model: &HybridTable,
+        models: Option<&BevelModels>,
+    ) -> Result<usize, InputError> {
+        let own = models.map(|models| models.iter().map(|m| m.grid.slices).max().unwrap_or(SLICES));
+        let count = model.slices.unwrap_or(own.unwrap_or(SLICES).max(3));
+        // Stations along the tooth, two to each of a model's own slices, must tell slices apart.
+        let most = models.map_or(100, |models| {
+            2 * models.iter().map(|m| m.grid.slices).min().unwrap_or(SLICES)
+        });
+        let allowed = format!("3 to {most}");
+        let ok = (3..=most.max(3)).contains(&count);
+        self.model_keys
+            .require("slices", count as f64, ok, &allowed)?;
+        Ok(count)
+    }
+
+    /// The mesh of both sides' teeth.
+    pub(super) fn hybrid(
+        &self,
+        kinematics: BevelSlices,
+        (model, models): (&HybridTable, Option<&BevelModels>),
+        sides: &[Flank],
+    ) -> Result<GearMesh, InputError> {
+        let face_width_m =
+            gearmesh_drivetrain::FlankKinematics::layout(&kinematics).face_widths_m[0];
+        let nominal = (model.nominal_force_N).unwrap_or(REFERENCE_LINE_LOAD_N_PER_M * face_width_m);
+        self.model_keys
+            .require("nominal_force_N", nominal, nominal > 0.0, "more than 0")?;
+        let fault = |error| self.keys.error("", error);
+        let teeth = |side: Flank| -> Result<Box<dyn TeethModel>, InputError> {
+            let teeth = match (models, &model.half_space) {
+                (Some(models), None) => {
+                    let models = [&*models[0], &*models[1]];
+                    let local = (model.local.unwrap_or_default(), nominal);
+                    let made = kinematics.reduced_teeth(side, models, local);
+                    made.map_err(|e| self.keys.error("bevel_models", e))?
+                }
+                (_, stated) => {
+                    let material = self.material(stated.as_ref())?;
+                    let contact = kinematics.surface_contact([material; 2]);
+                    ReducedTeeth::of_flanks(contact, nominal).map_err(fault)?
+                }
+            };
+            let Some(damping) = &model.damping else {
+                return Ok(Box::new(teeth));
+            };
+            let damping = damping.check(&self.model_keys)?;
+            let slices = gearmesh_drivetrain::FlankKinematics::layout(&kinematics).slices;
+            let damped = Damped::new(teeth, damping, slices);
+            Ok(Box::new(
+                damped.map_err(|e| self.model_keys.error("damping", e))?,
+            ))
+        };
+        let [first, others @ ..] = sides else {
+            return Err(self.teeth_keys.error("flanks", "names no flanks"));
+        };
+        let flanks = Box::new(kinematics.clone());
+        let mut mesh = GearMesh::of_flanks(flanks, *first, teeth(*first)?).map_err(fault)?;
+        for side in others {
+            mesh = mesh.with_side(*side, teeth(*side)?).map_err(fault)?;
+        }
+        self.with_friction(mesh)
+    }
+
+    /// What the model needs and what it does not use.
+    pub(super) fn check_hybrid(&self, model: &HybridTable) -> Result<(), InputError> {
+        let keys = &self.model_keys;
+        match (&self.table.bevel_models, &model.half_space) {
+            (Some(_), Some(_)) => {
+                let problem =
+                    "is not used with `bevel_models`, whose materials count; remove one of the two";
+                Err(keys.error("half_space", problem))
+            }
+            (None, None) => {
+                let problem = "missing: kind = \"hybrid\" needs the reduced gears of both members, `bevel_models = [\"pinion.h5\", \"gear.h5\"]`, \
+                               or `half_space = {}` in its model for rigid gears whose surfaces give way";
+                Err(self.keys.error("bevel_models", problem))
+            }
+            (None, Some(_)) if model.local.is_some() => {
+                let problem =
+                    "is not used with `half_space`, which has no model to complete; remove it";
+                Err(keys.error("local", problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Young's modulus \[Pa\] and Poisson's ratio of a table, steel where it says nothing.
+    pub(super) fn material(&self, table: Option<&HertzTable>) -> Result<(f64, f64), InputError> {
+        let keys = &self.model_keys;
+        let name = match table {
+            Some(_)
+                if matches!(
+                    self.table.model,
+                    crate::system::tables::mesh_model::MeshModel::Hybrid(_)
+                ) =>
+            {
+                "half_space"
+            }
+            _ => "hertz",
+        };
+        let young = table.and_then(|table| table.young_GPa).unwrap_or(206.0);
+        let poisson = table.and_then(|table| table.poisson).unwrap_or(0.3);
+        let positive = young > 0.0 && young.is_finite();
+        keys.require(&format!("{name}.young_GPa"), young, positive, "more than 0")?;
+        let ok = (0.0..0.5).contains(&poisson);
+        let allowed = "0 up to, not including, 0.5";
+        keys.require(&format!("{name}.poisson"), poisson, ok, allowed)?;
+        Ok((young * 1e9, poisson))
+    }
+}

@@ -1,0 +1,232 @@
+//! Studies and optimisations of what is neither a gear pair nor a run in time: bevel pairs, bearings, natural frequencies, sweeps; figures against
+//! the models themselves.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use gearmesh_bearings::bearing_file::BearingFromFile;
+use gearmesh_bearings::{
+    AppliedBearingLoad, Control, Operation, QuasiStaticBearing, TiltCondition,
+};
+use gearmesh_bevel::{PairFile, tooth_contact};
+use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::optimise::{Optimisation, optimise};
+use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
+
+fn fe_models() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models")
+}
+
+/// A study of a scene in `from`, with results in a folder of its own.
+fn studied(from: &Path, text: &str) -> Result<(StudyOutcome, String), String> {
+    let out = tempfile::tempdir().unwrap();
+    let document = InputDocument::new("study.toml", format!("title = \"s\"\n{text}"));
+    let study = Study::from_document(document, from).map_err(|e| e.to_string())?;
+    let options = StudyOptions {
+        folder: out.path(),
+        stop: &AtomicBool::new(false),
+        progress: &|_, _| (),
+        reduce: &|_| Err("no gear varies".to_owned()),
+    };
+    let outcome = run_study(&study, &options).map_err(|e| e.to_string())?;
+    let table = std::fs::read_to_string(out.path().join("study.csv")).unwrap();
+    Ok((outcome, table))
+}
+
+/// Numbers of a case, column by column.
+fn numbers(outcome: &StudyOutcome, case: usize) -> Vec<f64> {
+    let figures = outcome.cases[case].figures.as_ref().unwrap();
+    let number = |value: SelectedValue| match value {
+        SelectedValue::Single(value) => value,
+        SelectedValue::Series(figures) => figures.mean,
+    };
+    figures.iter().map(|one| number(one.value)).collect()
+}
+
+#[test]
+fn a_bevel_pair_is_analysed_in_each_assembly() {
+    let columns = "columns = [\"te_peak_to_peak_urad\", \"contact_ratio\"]\n";
+    let offset =
+        "[[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [-20.0, -10.0]\n";
+    let text = format!("scene = \"bevel_20_20.toml\"\n{columns}{offset}");
+    let (outcome, table) = studied(&fe_models(), &text).unwrap();
+    assert_eq!(outcome.cases.len(), 3);
+    for (case, offset_m) in [(0, 0.0), (1, -20e-6), (2, -10e-6)] {
+        let mut file = PairFile::read(&fe_models().join("bevel_20_20.toml")).unwrap();
+        file.tca.error.offset_m = offset_m;
+        let design = file.design().unwrap();
+        let found = tooth_contact(design.flanks(file.pinion_flank), &file.blank, &file.tca);
+        let found = found.unwrap();
+        let expected = [1e6 * found.peak_to_peak_rad, found.contact_ratio];
+        for (one, expected) in numbers(&outcome, case).iter().zip(expected) {
+            assert!((one / expected - 1.0).abs() < 1e-9, "{one} {expected}");
+        }
+    }
+    assert!(table.starts_with("offset,te_peak_to_peak_urad,contact_ratio,file,failure\n"));
+    let slip = text.replace("contact_ratio", "contact_ratoi");
+    let told = studied(&fe_models(), &slip).unwrap_err();
+    assert!(told.contains("did you mean `contact_ratio`?"), "{told}");
+    let slip = text.replace("offset_um", "ofset_um");
+    let told = studied(&fe_models(), &slip).unwrap_err();
+    assert!(told.contains("offset_um"), "{told}");
+}
+
+const BEARING: &str = "scene = \"bearing_pair_500_N.toml\"\noperation = { load_N = [0.0, -1000.0, 300.0], speed_rpm = 6000.0 }\n";
+
+#[test]
+fn a_bearing_is_loaded_as_the_study_says() {
+    let text = format!(
+        "{BEARING}design = \"grid\"\ncolumns = [\"displacement_y_um\", \"stiffness_y_N_per_um\"]\n\
+         [[parameter]]\nname = \"preload\"\nkeys = [\"preload_N\"]\nvalues = [300.0]\n\
+         [[parameter]]\nname = \"speed\"\nkeys = [\"operation.speed_rpm\"]\nvalues = [0.0, 6000.0]\n"
+    );
+    let (outcome, _) = studied(&fe_models(), &text).unwrap();
+    let source = std::fs::read_to_string(fe_models().join("bearing_pair_500_N.toml")).unwrap();
+    let source = source.replace("preload_N = 500.0", "preload_N = 300.0");
+    let found = BearingFromFile::from_document(&InputDocument::new("b", source)).unwrap();
+    let bearing = QuasiStaticBearing::new(&found.definition).unwrap();
+    for (case, inner_rad_per_s) in [(0, 0.0), (1, 100.0 * TAU)] {
+        let load = AppliedBearingLoad {
+            force_n: [0.0, -1000.0, 300.0],
+            tilt: TiltCondition::Moments([0.0; 2]),
+        };
+        let operation = Operation {
+            inner_rad_per_s,
+            outer_rad_per_s: 0.0,
+            cage_angle_rad: 0.0,
+            inner_angle_rad: 0.0,
+            control: Control::OuterRace,
+        };
+        let pose = bearing.equilibrium(&load, &operation).unwrap();
+        let (ring, _) = bearing.loads(&pose, &operation).unwrap();
+        let expected = [1e6 * pose.to_five()[1], -1e-6 * ring.tangent[(1, 1)]];
+        for (one, expected) in numbers(&outcome, case).iter().zip(expected) {
+            assert!((one / expected - 1.0).abs() < 1e-9, "{one} {expected}");
+        }
+    }
+    let wrong = text.replace("load_N =", "laod_N =");
+    let told = studied(&fe_models(), &wrong).unwrap_err();
+    assert!(told.contains("laod_N"), "{told}");
+    let wrong = text.replace("[\"operation.speed_rpm\"]", "[\"operation.sped_rpm\"]");
+    let told = studied(&fe_models(), &wrong).unwrap_err();
+    assert!(told.contains("sped_rpm"), "{told}");
+    let pair = text.replace("bearing_pair_500_N.toml", "bevel_20_20.toml");
+    let told = studied(&fe_models(), &pair).unwrap_err();
+    assert!(told.contains("`operation` belongs to bearings"), "{told}");
+}
+
+/// A body of 1 kg on a spring of 400 N/m and its damper: ω = 20 rad/s, ζ = c/(2 m ω).
+fn oscillator(run: &str) -> String {
+    format!(
+        "title = \"oscillator\"\n[run]\n{run}\n\
+         [[body]]\nname = \"block\"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\nposition_mm = [100.0, 0.0, 0.0]\nvelocity_mm_per_s = [500.0, 0.0, 0.0]\n\
+         [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbody_2 = \"block\"\naxis = [1.0, 0.0, 0.0]\n\
+         [[spring]]\nname = \"spring\"\nbody_2 = \"block\"\nat_1_mm = [0.0, 0.0, 0.0]\nat_2_mm = [100.0, 0.0, 0.0]\nstiffness_N_per_mm = 0.4\nfree_length_mm = 100.0\ndamping_N_s_per_mm = 0.004\n"
+    )
+}
+
+#[test]
+fn natural_frequencies_follow_the_stiffness() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("scene.toml"),
+        oscillator("kind = \"eigen\""),
+    )
+    .unwrap();
+    let text = "scene = \"scene.toml\"\ncolumns = [\"mode_1_frequency_Hz:mean\", \"mode_1_damping_ratio:mean\"]\n\
+        [[parameter]]\nname = \"stiffness\"\nkeys = [\"spring.0.stiffness_N_per_mm\"]\nvalues = [1.6]\n";
+    let (outcome, _) = studied(folder.path(), text).unwrap();
+    for (case, omega) in [(0, 20.0_f64), (1, 40.0)] {
+        let ratio = 4.0 / (2.0 * omega);
+        let damped = omega * (1.0 - ratio * ratio).sqrt() / TAU;
+        let found = numbers(&outcome, case);
+        assert!((found[0] / damped - 1.0).abs() < 1e-6, "{found:?} {damped}");
+        assert!((found[1] / ratio - 1.0).abs() < 1e-6, "{found:?} {ratio}");
+    }
+    let slip = text.replace("mode_1_damping", "mode_1_dampnig");
+    let told = studied(folder.path(), &slip).unwrap_err();
+    assert!(
+        told.contains("did you mean `mode_1_damping_ratio`?"),
+        "{told}"
+    );
+}
+
+/// The line of a run in time: v = v₀ e^(−δt) cos ωt, near its frequency and far from it.
+#[test]
+fn a_line_of_the_spectrum_is_a_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = "kind = \"transient\"\nend_s = 6.2831853\n[solver]\nstep_s = 2e-3\n[output]\ninterval_s = 1e-2";
+    let text = oscillator(run).replace("damping_N_s_per_mm = 0.004\n", "");
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let text = "scene = \"scene.toml\"\ncolumns = [\"bodies/block/velocity_x_m_per_s:line-3.1831Hz\", \"bodies/block/velocity_x_m_per_s:line-10Hz\", \"bodies/block/velocity_x_m_per_s\"]\n\
+        [[parameter]]\nname = \"mass\"\nkeys = [\"body.0.mass_kg\"]\nvalues = [1.0]\n";
+    let (outcome, table) = studied(folder.path(), text).unwrap();
+    let found = numbers(&outcome, 0);
+    assert!((found[0] - 0.5).abs() < 2e-3, "{found:?}");
+    assert!(found[1] < 1e-3, "{found:?}");
+    // A number beside a series stands in the place of its mean.
+    assert!(table.starts_with("mass,column,mean,deviation,least,largest,file,failure\n"));
+    let commas: Vec<usize> = table
+        .lines()
+        .map(|line| line.matches(',').count())
+        .collect();
+    assert!(commas.windows(2).all(|w| w[0] == w[1]), "{table}");
+    let wrong = text.replace("line-10Hz", "line-10");
+    let told = studied(folder.path(), &wrong).unwrap_err();
+    assert!(told.contains("line-10"), "{told}");
+}
+
+/// More preload deflects less and presses more: the front of both goes from one bound to the other.
+#[test]
+fn a_bearing_has_a_front_of_deflection_against_pressure() {
+    let text = format!(
+        "title = \"preload\"\n{BEARING}trials = 20\nsearches = 2\n\
+         [[variable]]\nname = \"preload\"\nkeys = [\"preload_N\"]\nfrom = 100.0\nto = 1000.0\n\
+         [[objective]]\nname = \"deflection\"\nterm = [{{ column = \"displacement_y_um\", weight = -1.0 }}]\n\
+         [[objective]]\nname = \"pressure\"\nterm = [{{ column = \"pressure_outer_largest_MPa\" }}]\n"
+    );
+    let problem = |text: &str| {
+        Optimisation::from_document(InputDocument::new("o.toml", text), &fe_models()).unwrap()
+    };
+    let scratch = tempfile::tempdir().unwrap();
+    let stop = AtomicBool::new(false);
+    let found = optimise(&problem(&text), scratch.path(), &stop, &|_, _| ()).unwrap();
+    let ends = [found.front.first(), found.front.last()].map(|end| end.unwrap().values[0]);
+    assert!((ends[0] - 1000.0).abs() < 1.0, "{ends:?}");
+    assert!((ends[1] - 100.0).abs() < 20.0, "{ends:?}");
+    assert!(found.front.len() > 5);
+    let wrong = text.replace("displacement_y_um", "displacment_y_um");
+    let told = optimise(&problem(&wrong), scratch.path(), &stop, &|_, _| ());
+    let told = told.unwrap_err().to_string();
+    assert!(told.contains("did you mean `displacement_y_um`?"), "{told}");
+}
+
+/// The damper that lets a block swing least over a second is the strongest one that is allowed.
+#[test]
+fn a_run_in_time_is_optimised() {
+    let folder = tempfile::tempdir().unwrap();
+    let run =
+        "kind = \"transient\"\nend_s = 1.0\n[solver]\nstep_s = 5e-3\n[output]\ninterval_s = 1e-2";
+    std::fs::write(folder.path().join("scene.toml"), oscillator(run)).unwrap();
+    let text = "title = \"damper\"\nscene = \"scene.toml\"\ntrials = 20\n\
+        [[variable]]\nname = \"damping\"\nkeys = [\"spring.0.damping_N_s_per_mm\"]\nfrom = 0.001\nto = 0.01\n\
+        [[objective]]\nname = \"swing\"\nterm = [{ column = \"bodies/block/velocity_x_m_per_s:deviation\" }]\n";
+    let stop = AtomicBool::new(false);
+    let problem = |text: &str| {
+        Optimisation::from_document(InputDocument::new("o.toml", text), folder.path()).unwrap()
+    };
+    let found = optimise(&problem(text), folder.path(), &stop, &|_, _| ()).unwrap();
+    assert!((found.front[0].values[0] - 0.01).abs() < 1e-5, "{found:?}");
+    // Runs leave nothing behind.
+    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 1);
+    let series = text.replace(":deviation", "");
+    let told = optimise(&problem(&series), folder.path(), &stop, &|_, _| ());
+    let told = told.unwrap_err().to_string();
+    assert!(
+        told.contains("is a series; say which number of it"),
+        "{told}"
+    );
+}
