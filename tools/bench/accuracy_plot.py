@@ -41,6 +41,8 @@ def main() -> None:
             axis.axhline(level, color="tab:green", linewidth=0.6)
         axis.set_xscale("log")
         axis.set_yscale("log")
+        # Rounding is not worth a decade.
+        axis.set_ylim(bottom=max(axis.get_ylim()[0], 1e-3))
         axis.set_title(panel["title"], fontsize=8)
         axis.set_xlabel("processor time s", fontsize=8)
         axis.set_ylabel("largest error %", fontsize=8)

@@ -132,6 +132,18 @@ impl Column {
         ]
     }
 
+    /// What is to be small: the amount, or of what is better large its negative.
+    fn badness(&self, value: f64) -> f64 {
+        let better_large = ["stiffness_", "life_", "rating_", "contact_ratio"];
+        match better_large
+            .iter()
+            .any(|start| self.name.starts_with(start))
+        {
+            true => -value,
+            false => value.abs(),
+        }
+    }
+
     /// Mean over the torques, of a series its mean; none where one is missing.
     fn number(&self, case: usize) -> Option<f64> {
         if self.curves.first()?.0 == "mean" {
@@ -301,11 +313,11 @@ fn rank_correlation(points: &[[f64; 2]]) -> Option<f64> {
     (scale > 0.0).then(|| product(&a, &b) / scale)
 }
 
-/// Columns against each other, with the cases that no other one beats where smaller amounts are better.
+/// Columns against each other, with the cases that no other one beats.
 fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Section> {
     let columns = &columns[..columns.len().min(MOST_AGAINST)];
     let mut section = Section::new("Columns against each other").push(Text::paragraph(
-        "A point for each case: means over the torques, or over the series. The front is that of the smallest amounts: no case has less of both.",
+        "A point for each case: means over the torques, or over the series. The front is that of the smallest amounts, of stiffness, life, rating and contact ratio that of the largest: no case is better in both.",
     ));
     let mut drawn = false;
     for (a, first) in columns.iter().enumerate() {
@@ -315,7 +327,7 @@ fn against_each_other(cases: &[CaseResult], columns: &[Column]) -> Option<Sectio
                     let (x, y) = (first.number(k)?, second.number(k)?);
                     let trial = Trial {
                         values: vec![k as f64, x, y],
-                        objectives: vec![x.abs(), y.abs()],
+                        objectives: vec![first.badness(x), second.badness(y)],
                     };
                     Some((k, trial))
                 })

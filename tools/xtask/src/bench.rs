@@ -128,6 +128,16 @@ impl Bench {
             })
     }
 
+    /// Size and time of the program: what another build changes.
+    fn stamp(&self) -> Result<String, String> {
+        let of = || {
+            let data = fs::metadata(&self.program)?;
+            Ok::<_, std::io::Error>((data.len(), data.modified()?))
+        };
+        let (size, time) = of().map_err(|error| error.to_string())?;
+        Ok(format!("{size} {time:?}"))
+    }
+
     fn prepare(workspace: &Workspace, options: &Options) -> Result<Self, XtaskError> {
         let built = std::env::current_exe()
             .map_err(XtaskError::io(|| "finding xtask's own place".into()))?;

@@ -7,11 +7,14 @@ use serde_json::Value;
 use super::accuracy::Subject;
 use super::host::Host;
 
-/// The whole page.
+/// A scene and what `gearmesh accuracy` says of it, or why it does not.
+pub type Tried<'a> = (&'a Subject, Result<Value, String>);
+
+/// The whole page: what was found, and titles of what was not run yet.
 pub fn page(
     host: &Host,
     program: &str,
-    found: &[(&Subject, Result<Value, String>)],
+    (found, left): (&[Tried<'_>], &[&str]),
     picture: &str,
 ) -> String {
     let mut page = format!(
@@ -26,6 +29,13 @@ pub fn page(
         host.cpu, host.cores, host.memory, host.system, host.date, host.commit
     );
     page += &summary(found);
+    if !left.is_empty() {
+        let _ = writeln!(
+            page,
+            "\nNot run yet when this page was written: {}.",
+            left.join("; ")
+        );
+    }
     for (subject, outcome) in found {
         let _ = write!(
             page,
@@ -69,7 +79,7 @@ fn largest_error(setting: &Value) -> f64 {
 }
 
 /// One line for each scene and goal: the setting that is recommended, its error when it was run again, and how much faster it is.
-fn summary(found: &[(&Subject, Result<Value, String>)]) -> String {
+fn summary(found: &[Tried<'_>]) -> String {
     let mut table = "\n## Recommended settings, tried\n\n\
         | scene | reference s | for 1 %: error % | s | times faster | for 0.1 %: error % | s | times faster | last step of the reference % |\n\
         | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n"
