@@ -256,15 +256,19 @@ fn bevel_slices_under_load() {
         let lead: Vec<f64> = expected.error_rad.iter().copied().step_by(4).collect();
         let most = lead.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // A slice's middle stands beside the contact by up to half its length, which can only open the gap, along the more curved contact of an
-        // edge by some tenths of a micrometre: a quarter of it with half the length.
+        // edge by a tenth of a micrometre: less with half the length.
+        let pitch = std::f64::consts::TAU / pair.blank.data.teeth[0] as f64;
         let farthest = |found: &LoadedContact| {
-            let pairs = found.positions.iter().zip(&lead);
-            let off = pairs.map(|(at, lead)| (at.unloaded_rad - (lead - most)).abs());
+            let off = found.positions.iter().map(|at| {
+                let steps = (at.pinion_turn_rad / pitch * lead.len() as f64).round() as i64;
+                let lead = lead[steps.rem_euclid(lead.len() as i64) as usize];
+                (at.unloaded_rad - (lead - most)).abs()
+            });
             off.fold(0.0, f64::max)
         };
         let finer = loaded(&pair, 2 * count, &TORQUES[..1]);
         let [off, less] = [farthest(&found[0]), farthest(&finer[0])];
-        assert!(off < 7e-6 && less < 2.5e-6, "{name}: {off:e} {less:e}");
+        assert!(off < 5e-6 && less < 5e-7, "{name}: {off:e} {less:e}");
         let [light, design, heavy] = [0, 2, 3].map(|k: usize| &found[k]);
         assert!((light.peak_to_peak_rad() / light.unloaded_peak_to_peak_rad() - 1.0).abs() < 0.03);
         let size = |of: &LoadedContact| {
@@ -307,7 +311,7 @@ fn bevel_slices_converge() {
                 sums[0] / sums[1]
             };
             let pressure = change(mean_pa(a), mean_pa(b));
-            assert!(mean < 0.005 && spread < 0.01, "{name} {}", a.torque_nm);
+            assert!(mean < 0.006 && spread < 0.01, "{name} {}", a.torque_nm);
             assert!(pressure < 0.02, "{name} {}: {pressure}", a.torque_nm);
             let largest = [a, b].map(|of| of.pressures_pa()[1]);
             assert!(change(largest[0], largest[1]) < 0.08, "{name} {largest:?}");

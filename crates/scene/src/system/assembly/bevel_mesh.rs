@@ -85,7 +85,12 @@ impl SceneBevel<'_> {
                 located.map_err(|e| self.keys.error("gear_2", e))?;
                 let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
                 let corners = flanks.flank_corners_m();
-                (levers_m, width_m, corners, self.mesh(flanks, model, &sides)?)
+                (
+                    levers_m,
+                    width_m,
+                    corners,
+                    self.mesh(flanks, model, &sides)?,
+                )
             }
             _ => return Err(self.other_model()),
         };
