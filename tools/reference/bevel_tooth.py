@@ -1,14 +1,19 @@
 """Deflection of a spiral bevel tooth under patch loads: `reference/bevel_tooth/compliance.csv`.
 
-The gear of fe_models/bevel_20_20.toml, bore 34 mm, held there. Of it the points of the tooth's surface are taken (`surface.csv`, written by the
-ignored test of crates/mesh/tests/bevel_gears.rs) and the drawing of the blank; all else is done anew: gmsh's triangles in one section, moved from section to section by
-Laplace's equation, split into ten-node tetrahedra with straight edges, scikit-fem's stiffness, conjugate gradients. Three teeth and the body below them stand
-for the ring; the outer two are there for what the middle one leans on.
+The gear of fe_models/bevel_20_20.toml with a bore of 34 mm, held there. Of it the points of the tooth's surface are taken (`surface.csv`, written by the ignored test of
+crates/mesh/tests/bevel_gears.rs) and the drawing of the blank; all else is done anew: gmsh's triangles in one section, moved from section to section by Laplace's equation,
+split into ten-node tetrahedra with straight edges, scikit-fem's stiffness, conjugate gradients.
 
-    python bevel_tooth.py SURFACE.csv -o compliance.csv [--every 2] [--size 1.0] [--sectors 3]
+The whole ring is solved with coarse tetrahedra. What finer ones change is found on the loaded tooth and one on either side, where body and neighbours are cut off, and added:
+deflection = ring, coarse + (three teeth, fine - three teeth, coarse).
 
-Loads are those of the flank grid with five stations up the flank and five along it: density h_i(u) h_j(s)/g(s) per area, g the flank's area per unit of s,
-along the normal, 1 N in all. A row is the deflection, weighted as the second load, under the first. With `--size 0.7` and `--sectors 5` the head says what changes.
+    python bevel_tooth.py solve SURFACE.csv --every 6 --thin 6 --size 2.4 --sectors 20 -o ring.csv
+    python bevel_tooth.py solve SURFACE.csv --every 6 --thin 6 --size 2.4 --sectors 3 -o coarse.csv
+    python bevel_tooth.py solve SURFACE.csv --every 2 --thin 3 --size 1.0 --sectors 3 -o fine.csv
+    python bevel_tooth.py combine ring.csv coarse.csv fine.csv -o ../../reference/bevel_tooth/compliance.csv
+
+Loads are those of the flank grid with five stations up the flank and five along it: density h_i(u) h_j(s)/g(s) per area, g the flank's area per unit of s, along the normal, 1 N in
+all. A row is the deflection, weighted as the second load, under the first.
 """
 
 import argparse
@@ -30,7 +35,7 @@ INNER_CONE = OUTER_CONE - FACE_M
 DEDENDUM = (1.888 - 0.85) * MODULE_M
 RIM_M = 1.888 * MODULE_M
 STATIONS = np.linspace(0.0, 1.0, 5)
-PAIRS = [((2, 2), (2, 2)), ((2, 2), (3, 1)), ((3, 1), (3, 1)), ((3, 3), (3, 3)), ((2, 2), (1, 3)), ((1, 2), (1, 2))]
+PAIRS = [((2, 2), (2, 2)), ((2, 2), (3, 1)), ((2, 2), (1, 3)), ((3, 1), (3, 1)), ((3, 1), (3, 3)), ((3, 1), (1, 2))]
 
 
 def cone(s):
@@ -145,15 +150,53 @@ def moved(xy, cells, loops):
     return places
 
 
+def table(path):
+    with open(path) as file:
+        lines = [line for line in file if line[0] in "01"]
+    return {tuple(int(v) for v in line.split(",")[:5]): float(line.split(",")[5]) for line in lines}
+
+
+def write(path, notes, rows):
+    with open(path, "w") as out:
+        for note in notes:
+            out.write(f"# {note}\n")
+        out.write("# flank 0 right, 1 left; stations up the flank and along it of load and response\n")
+        out.write("flank,load_u,load_v,response_u,response_v,deflection_m_per_N\n")
+        for row in rows:
+            out.write(",".join(str(v) for v in row[:5]) + f",{row[5]:.6e}\n")
+
+
+def combine(options):
+    """Rows that all three tables have: the ring, and what finer elements change on three teeth."""
+    ring, coarse, fine = (table(path) for path in options.tables)
+    heads = []
+    for path in options.tables:
+        with open(path) as file:
+            heads.append(file.readline()[2:].strip())
+    rows = [(*key, ring[key] + fine[key] - coarse[key]) for key in ring if key in coarse and key in fine]
+    write(options.output, [f"ring + (three teeth, fine - coarse): {'; '.join(heads)}"], rows)
+
+
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("surface")
-    parser.add_argument("-o", "--output")
-    parser.add_argument("--every", type=int, default=2)
-    parser.add_argument("--thin", type=int, default=3)
-    parser.add_argument("--size", type=float, default=1.0)
-    parser.add_argument("--sectors", type=int, default=3)
-    options = parser.parse_args()
+    whole = argparse.ArgumentParser()
+    commands = whole.add_subparsers(required=True)
+    combining = commands.add_parser("combine")
+    combining.add_argument("tables", nargs=3)
+    combining.add_argument("-o", "--output", required=True)
+    combining.set_defaults(run=combine)
+    solving = commands.add_parser("solve")
+    solving.set_defaults(run=solve_gear)
+    solving.add_argument("surface")
+    solving.add_argument("-o", "--output", required=True)
+    solving.add_argument("--every", type=int, default=6)
+    solving.add_argument("--thin", type=int, default=6)
+    solving.add_argument("--size", type=float, default=2.4)
+    solving.add_argument("--sectors", type=int, default=TEETH)
+    options = whole.parse_args()
+    options.run(options)
+
+
+def solve_gear(options):
     sections, lines = read(options.surface, options.every, options.thin)
     loops, frames = [], []
     for section in sections:
@@ -182,6 +225,8 @@ def main():
     for sector in range(k):
         if sector:
             number[sector, right_side] = number[sector - 1, left_side]
+        if sector == TEETH - 1:
+            number[sector, left_side] = number[0, right_side]
         free = number[sector] < 0
         number[sector, free] = count + np.arange(free.sum())
         count += free.sum()
@@ -248,13 +293,8 @@ def main():
             value = loads[side, response] @ fields[side, load]
             results.append((side, *load, *response, value))
             print(results[-1], flush=True)
-    if options.output:
-        with open(options.output, "w") as out:
-            out.write(f"# computed by tools/reference/bevel_tooth.py: {mesh.nelements} ten-node tetrahedra, {len(free)} degrees of freedom, {k} sectors, scikit-fem {skfem.__version__}\n")
-            out.write("# flank 0 right, 1 left; stations up the flank and along it of load and response\n")
-            out.write("flank,load_u,load_v,response_u,response_v,deflection_m_per_N\n")
-            for row in results:
-                out.write(",".join(str(v) for v in row[:5]) + f",{row[5]:.6e}\n")
+    note = f"tools/reference/bevel_tooth.py: {mesh.nelements} ten-node tetrahedra, {len(free)} degrees of freedom, {k} sectors, scikit-fem {skfem.__version__}"
+    write(options.output, [note], results)
 
 
 def hat(x, k):
@@ -329,7 +369,7 @@ def preconditioned(mesh, basis, k, free, corner):
 
     def solve(f):
         steps = [0]
-        found, info = sla.cg(k, f, rtol=1e-8, maxiter=3000, M=apply, callback=lambda _: steps.__setitem__(0, steps[0] + 1))
+        found, info = sla.cg(k, f, rtol=1e-6, maxiter=3000, M=apply, callback=lambda _: steps.__setitem__(0, steps[0] + 1))
         assert info == 0
         print(f"{steps[0]} steps", flush=True)
         return found
