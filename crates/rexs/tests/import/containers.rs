@@ -99,7 +99,7 @@ fn zip_files_of_either_give_the_same_files() {
     let text = as_json(&xml::read(GEARBOX).unwrap());
     for (name, text) in [("deep/model.rexs", GEARBOX), ("model.rexsj", &text)] {
         let bytes = zipped(&[(name, text.as_bytes()), ("picture.png", b"not read")]);
-        let made = import(bytes, "box", gearmesh_rexs::Meshes::Iso6336).unwrap();
+        let made = import(bytes, "box", Meshes::Iso6336).unwrap();
         demand_same(&from_xml, &made);
         let further = made
             .ledger
@@ -135,7 +135,7 @@ fn byte_order_marks_utf_16_and_latin_1_are_read() {
         .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
         .collect();
     for bytes in [marked, utf16(true), utf16(false), latin] {
-        let made = import(bytes, "box", gearmesh_rexs::Meshes::Iso6336).unwrap();
+        let made = import(bytes, "box", Meshes::Iso6336).unwrap();
         assert!(
             file(&made, "box.toml").contains("\"Welle f\u{fc}r Antrieb\""),
             "{:?}",
