@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use gearmesh_geometry::InputError as InputComplaint;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_scene::pair::Scene;
-use gearmesh_scene::study::PairCases;
+use gearmesh_scene::study::RestCases;
 use gearmesh_scene::system::{HostFunctions, SystemPlan, SystemScene};
 use gearmesh_scene::system_run::{
     Outcome, RunCost, RunJob, RunOptions, SystemResult, run as run_job,
@@ -142,7 +142,7 @@ fn run_pair(
 /// models would take a tenth of a second.
 struct Shelf {
     stamps: BTreeMap<PathBuf, Option<(SystemTime, u64)>>,
-    pairs: Arc<PairCases>,
+    pairs: Arc<RestCases>,
 }
 
 static SHELF: Mutex<Option<Shelf>> = Mutex::new(None);
@@ -151,7 +151,7 @@ static SHELF: Mutex<Option<Shelf>> = Mutex::new(None);
 const MOST_MODELS: usize = 16;
 
 /// The shelf with the models of a scene, unless their files have changed.
-fn shelved_models(scene: &Scene) -> Arc<PairCases> {
+fn shelved_models(scene: &Scene) -> Arc<RestCases> {
     let stamp = |path: &PathBuf| {
         let found = path.metadata().ok()?;
         Some((found.modified().ok()?, found.len()))

@@ -29,9 +29,11 @@ fn study_error(error: StudyError) -> PyErr {
         StudyError::File(error) => file_error(error),
         StudyError::Folder { .. } => PyOSError::new_err(error.to_string()),
         StudyError::Stopped => PyKeyboardInterrupt::new_err(""),
-        StudyError::Reduction { .. } | StudyError::Elsewhere(_) => {
-            WorkError::new_err(error.to_string())
-        }
+        StudyError::Bevel(_)
+        | StudyError::Bearing(_)
+        | StudyError::Column(_)
+        | StudyError::Reduction { .. }
+        | StudyError::Elsewhere(_) => WorkError::new_err(error.to_string()),
     }
 }
 

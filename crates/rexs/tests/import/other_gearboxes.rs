@@ -18,9 +18,12 @@ fn component(id: usize, kind: &str, name: &str, attributes: &[(&str, &str, &str)
     text + "</component>\n"
 }
 
+/// Type and references by id and role.
+type Relation<'a> = (&'a str, &'a [(usize, &'a str)]);
+
 /// A file of components, relations (type, references by id and role) and what follows them.
-fn model(parts: &str, relations: &[(&str, &[(usize, &str)])], after: &str) -> String {
-    let relation = |(i, (kind, references)): (usize, &(&str, &[(usize, &str)]))| {
+fn model(parts: &str, relations: &[Relation<'_>], after: &str) -> String {
+    let relation = |(i, (kind, references)): (usize, &Relation<'_>)| {
         let references: String = (references.iter())
             .map(|(id, role)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
             .collect();

@@ -8,7 +8,7 @@ use gearmesh_model::{ReducedGear, read_reduced_gear};
 
 use super::bevel_mesh::{SceneBevel, material};
 use super::mesh_model::REFERENCE_LINE_LOAD_N_PER_M;
-use crate::system::tables::mesh_model::{HertzTable, HybridTable};
+use crate::system::tables::mesh_model::HybridTable;
 
 /// Slices where neither the scene nor models say how many.
 const SLICES: usize = 15;
