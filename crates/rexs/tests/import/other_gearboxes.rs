@@ -273,12 +273,7 @@ fn nothing_is_dropped_in_silence() {
     demand_all_listed(&text, &made);
     assert_eq!(made.scenes.len(), 2, "{:?}", names(&made));
     let scene = file(&made, "box.toml");
-    for words in [
-        "name = \"coupling\"",
-        "[[bushing]]",
-        "kind = \"iso6336\"",
-        "mass_kg = 1.5",
-    ] {
+    for words in ["name = \"coupling\"", "[[bushing]]", "kind = \"iso6336\""] {
         assert!(scene.contains(words), "{words} is not in {scene}");
     }
     assert!(file(&made, "box_case_2.toml").contains("30.0000 % of the time"));
