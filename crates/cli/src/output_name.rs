@@ -40,6 +40,14 @@ pub fn demand_page(path: &Path) -> Result<(), Failure> {
     demand(path, &PAGE, "an HTML page", "").map(|_| ())
 }
 
+/// Demands the ending of a page of what stands behind `--report`.
+///
+/// # Errors
+/// As [`demand_page`], with the option.
+pub fn demand_report(path: &Path) -> Result<(), Failure> {
+    demand_page(path).map_err(|problem| Failure::input(format!("--report: {}", problem.message)))
+}
+
 /// Demands the ending of a mesh format that is written.
 ///
 /// # Errors

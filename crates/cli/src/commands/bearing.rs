@@ -38,7 +38,7 @@ pub(super) struct Answer<'a> {
 /// Runs the command.
 pub fn run(a: &BearingArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
-        output_name::demand_page(path)?;
+        output_name::demand_report(path)?;
     }
     let found = read(&a.bearing)?;
     let load = applied(a)?;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// Runs the command.
 pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
-        output_name::demand_page(path)?;
+        output_name::demand_report(path)?;
     }
     let file = PairFile::read(&a.pair)?;
     let (design, _) = bevel::design(&file)?;

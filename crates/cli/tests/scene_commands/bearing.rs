@@ -168,7 +168,11 @@ fn a_page_shows_the_loads() {
     assert_eq!(text.matches("stroke=\"var(--c").count(), 32);
     let other = desk.path("218.pdf");
     let asked = [&load[..], &["--report", argument(&other)]].concat();
-    refused(&gearmesh(&asked), 2, &["--report", "`pdf`", "html"]);
+    refused(
+        &gearmesh(&asked),
+        2,
+        &["--report", ".pdf: this writes", ".html"],
+    );
     let same = [&load[..], &["--report", argument(&file)]].concat();
     refused(&gearmesh(&same), 2, &["is read by this command"]);
 }

@@ -155,7 +155,11 @@ fn the_page_of_a_contact_analysis_has_its_pattern() {
     assert!(drawn > 20, "{drawn}");
     let other = desk.file("page.pdf", "");
     let wrong = ["tca", argument(&file), "--report", argument(&other)];
-    refused(&gearmesh(&wrong), 2, &["--report", "`pdf`", "html"]);
+    refused(
+        &gearmesh(&wrong),
+        2,
+        &["--report", ".pdf: this writes", ".html"],
+    );
     let same = ["tca", argument(&file), "--report", argument(&file)];
     refused(&gearmesh(&same), 2, &[]);
 }
