@@ -84,7 +84,6 @@ const ALLOWED: [(&str, &[&str]); 20] = [
             "model",
             "contact",
             "drivetrain",
-            "drivetrain",
             "recovery",
             "signal",
             "scene",

@@ -109,10 +109,12 @@ impl Ball<'_> {
         let before = found.take().map(|place| Vector2::new(place[0], place[1]));
         // A ball that hardly bears any more may not be found from where it stood before.
         let near = before.and_then(|place| self.balanced(place).ok());
-        let (place, state) = match (near, self.start()) {
-            (Some(near), _) => near,
-            (None, Some(start)) => self.balanced(start)?,
-            (None, None) => return Ok(self.unloaded()),
+        let (place, state) = if let Some(near) = near {
+            near
+        } else if let Some(start) = self.start() {
+            self.balanced(start)?
+        } else {
+            return Ok(self.unloaded());
         };
         self.refuse_far_side(&state)?;
         if state.scale() > NO_FORCE_N {

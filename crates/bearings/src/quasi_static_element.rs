@@ -276,7 +276,7 @@ impl ForceElement for QuasiStaticElement {
     fn sample(&mut self, view: &View<'_>, out: &mut [f64]) {
         let motion = self.motion(view);
         let operation = self.operation(view.time_s);
-        self.places.forget();
+        self.places.take_from(&self.kept_places);
         let (elements, mut number) = (self.element_loads, 0);
         let found =
             self.bearing

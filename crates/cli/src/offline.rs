@@ -27,6 +27,12 @@ pub fn python() -> Result<PythonEnvironment, Failure> {
 /// Reads a gear file for the offline stage.
 pub fn gear(path: &Path) -> Result<GearDefinition, Failure> {
     let document = InputDocument::read(path)?;
+    if BevelGear::recognises(&document)? {
+        return Err(Failure::input(format!(
+            "{}: this is a bevel gear; `mesh`, `reduce` and `check` take bevel gears, this command cylindrical ones only",
+            path.display()
+        )));
+    }
     let gear = GearDefinition::from_document(&document)?;
     judge_gear(&gear, &document)?;
     Ok(gear)

@@ -84,7 +84,12 @@ fn files(command: &Command) -> (Vec<PathBuf>, Vec<PathBuf>) {
                 names.map(|name| a.output.join(name)).into(),
             )
         }
-        Command::Study(a) => (vec![a.study.clone()], vec![a.output.join("study.csv")]),
+        Command::Study(a) => (
+            vec![a.study.clone()],
+            ["study.csv", "study.html"]
+                .map(|name| a.output.join(name))
+                .into(),
+        ),
         Command::Tca(a) => (vec![a.pair.clone()], some(&a.report)),
         Command::Bearing(a) => (vec![a.bearing.clone()], some(&a.report)),
         Command::BearingFrequencies(_)

@@ -8,6 +8,33 @@ use crate::local_contact::LocalContact;
 use crate::profile_shares::ProfileHats;
 use crate::slice_compliance::{FlankGeometry, SliceCompliance};
 
+/// Where slices sit on a gear that were laid evenly on gear 1's face, `face_1_m` wide: both faces end together at the heel.
+#[must_use]
+pub fn spread_from_heel(gear: &ReducedGear, face_1_m: f64, slices: usize) -> AxialSpread {
+    let width_m = face_1_m / slices as f64;
+    let middle_m = |k: usize| 0.5 * gear.face_width_m - ((slices - k) as f64 - 0.5) * width_m;
+    AxialSpread::new(gear, (0..slices).map(middle_m), width_m)
+}
+
+/// Hats up a flank of a reduced gear: over the area of a bevel flank, over the length of an involute.
+///
+/// # Errors
+/// [`ReducedGearError::FlankNotReduced`] if that flank carries no loads.
+pub fn profile_hats(gear: &ReducedGear, flank: Flank) -> Result<ProfileHats, ReducedGearError> {
+    let flank_index = gear.flank_index(flank)?;
+    Ok(match &gear.bevel {
+        Some(bevel) => {
+            let surface = Surface {
+                gear,
+                bevel,
+                flank_index,
+            };
+            surface.hats()
+        }
+        None => ProfileHats::of_involute(&gear.grid.roll_angles_rad),
+    })
+}
+
 /// Middles of even slices along a face \[m\] from its own middle.
 fn middles_m(face_width_m: f64, slices: usize) -> impl Iterator<Item = f64> {
     (0..slices).map(move |k| ((k as f64 + 0.5) / slices as f64 - 0.5) * face_width_m)

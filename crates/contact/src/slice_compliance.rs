@@ -38,7 +38,7 @@ pub struct SliceCompliance {
     poisson: f64,
     slice_width_m: f64,
     /// Width of the face \[m\] of gears on which slices walk along the teeth.
-    walks_on_m: Option<f64>,
+    walks_on_m: Option<[f64; 2]>,
 }
 
 /// What a family of flanks says of one, besides its compliance.
@@ -209,9 +209,9 @@ impl SliceCompliance {
     /// Lets slices stand where the places of their patches are along the tooth, v from the middle of the face, not where they
     /// were laid. Of own slices over the whole face, at least three.
     #[must_use]
-    pub fn walking_along(mut self) -> Self {
+    pub fn walking_along(mut self, face_1_m: f64) -> Self {
         let enough = self.slices >= crate::walked_slice::SLICES;
-        self.walks_on_m = enough.then_some(self.slices as f64 * self.slice_width_m);
+        self.walks_on_m = enough.then_some([self.slices as f64 * self.slice_width_m, face_1_m]);
         self
     }
 
@@ -222,9 +222,14 @@ impl SliceCompliance {
 
     /// A place of a slice with where it stands along the tooth \[m\].
     pub(crate) fn walked(&self, place: ToothPlace, slice: usize, v: f64) -> ToothPlace {
-        let walked = self.walks_on_m.map(|face_m| {
-            let laid = (slice as f64 + 0.5) * self.slice_width_m - 0.5 * face_m;
-            WalkedSlice::new(slice, self.slices, v - laid, self.slice_width_m)
+        let walked = self.walks_on_m.map(|[face_m, face_1_m]| {
+            // Slices are even on gear 1's face, which ends with this one at the heel: the slice here that is nearest to where it lies.
+            let count = self.slices as f64;
+            let lies_m = 0.5 * face_m - face_1_m * (1.0 - (slice as f64 + 0.5) / count);
+            let nearest = (lies_m / self.slice_width_m + 0.5 * count).max(0.0) as usize;
+            let nearest = nearest.min(self.slices - 1);
+            let laid = (nearest as f64 + 0.5) * self.slice_width_m - 0.5 * face_m;
+            WalkedSlice::new(nearest, self.slices, v - laid, self.slice_width_m)
         });
         ToothPlace { walked, ..place }
     }

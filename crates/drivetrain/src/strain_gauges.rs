@@ -85,7 +85,15 @@ impl StrainGauges {
                 modal.extend((0..modes).map(|mode| basis.gauges[mode * gauges + number]));
             }
         }
-        let spread = mesh.kinematics().layout().spread(gear, model);
+        let layout = mesh.kinematics().layout();
+        let spread = match &model.bevel {
+            Some(_) => gearmesh_contact::bevel_slices::spread_from_heel(
+                model,
+                layout.face_widths_m[0],
+                layout.slices,
+            ),
+            None => layout.spread(gear, model),
+        };
         let mut sides = Vec::new();
         for side in mesh.flanks() {
             let array = GaugeArray::new(model, &rows, side, &spread)?;

@@ -165,6 +165,9 @@ fn check_near_field(
     let (item, allowed) = ("bevel.near_field.residual", "finite and not negative");
     in_range(item, field.residual, not_negative, allowed)?;
     check_stations("bevel.near_field.profile", &field.profile)?;
+    let last = field.profile[field.profile.len() - 1];
+    let item = "the last of bevel.near_field.profile";
+    in_range(item, last, |u| u <= 1.0, "at most 1")?;
     let sections = field.sections_m.len();
     match sections {
         0 => {

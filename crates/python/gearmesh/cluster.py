@@ -226,7 +226,14 @@ class _Connection:
         if client.scheduler_info(n_workers=-1)["workers"]:
             return
         print("note: the scheduler has no worker yet; waiting for one", file=sys.stderr)
-        client.wait_for_workers(1, timeout=self._patience_s)
+        from distributed import TimeoutError as NoWorker
+
+        try:
+            client.wait_for_workers(1, timeout=self._patience_s)
+        except NoWorker as cause:
+            raise _native.WorkError(
+                f"the scheduler had no worker for {self._patience_s:g} s; start workers, then the same call goes on from here"
+            ) from cause
 
     def _recover(self, cause: BaseException) -> None:
         if self._address is None:

@@ -16,23 +16,26 @@ from .scene import Scene, scene_file
 from .toml_text import Tables, from_toml
 
 
-
 def accuracy(
     scene: Scene | str | os.PathLike[str],
     columns: Sequence[str],
     *,
     from_s: float = 0.0,
     page: str | os.PathLike[str] | None = None,
+    elements: str | os.PathLike[str] | None = None,
+    time: Literal["wall", "processor"] = "wall",
 ) -> dict[str, Any]:
     """What accuracy costs in time, for columns of a scene: every knob of it against a reference (docs/accuracy-cost.md).
 
-    columns: of a pair those of a study, of a multibody scene COLUMN:FIGURE. from_s: figures from this time on, of
-    multibody runs. page: also write the page with the picture. Returns what `gearmesh accuracy --json` prints: the errors
+    columns: those of a study; of series COLUMN:FIGURE. from_s: figures from this time on, of multibody runs. page: also
+    write the page with the picture. elements: folder for models, where the gears' elements and element lengths are varied,
+    too. time: what stands for cost. Returns what `gearmesh accuracy --json` prints: the errors
     and seconds of each setting and what is advised for 1 %, 0.1 % and interactive work. Takes minutes.
     """
     further = [] if page is None else ["-o", page]
     if from_s:
         further.append(f"--from-s={from_s!r}")
+    further += options({"elements": elements, "time": time})
     with scene_file(scene) as path:
         return program("accuracy", path, "--columns", ",".join(columns), *further)
 
@@ -57,12 +60,14 @@ def demo(folder: str | os.PathLike[str]) -> str:
     return str(program("demo", "-o", folder))
 
 
-def import_rexs(model: str | os.PathLike[str], folder: str | os.PathLike[str]) -> dict[str, Any]:
+def import_rexs(
+    model: str | os.PathLike[str], folder: str | os.PathLike[str], *, reduced: bool = False
+) -> dict[str, Any]:
     """A gearbox from a REXS file (docs/rexs.md): gear files, scenes and bearings into a folder.
 
-    Returns what was taken, assumed and not represented.
+    reduced: scenes with `hybrid` meshes of reduced gears. Returns what was taken, assumed and not represented.
     """
-    return program("import", model, "-o", folder)
+    return program("import", model, "-o", folder, *options({"reduced": reduced}))
 
 
 class Record:

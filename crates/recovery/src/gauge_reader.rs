@@ -86,7 +86,7 @@ impl GaugeArray {
             count: gauges.len(),
             slices,
             stations,
-            hats: ProfileHats::of_involute(&grid.roll_angles_rad),
+            hats: gearmesh_contact::bevel_slices::profile_hats(model, flank)?,
             rows,
         })
     }

@@ -14,7 +14,7 @@ use serde::Deserialize;
 pub(super) struct LoadTable {
     /// Torques on the gear, one to 20 of them.
     torques_Nm: Vec<f64>,
-    /// Slices along the face, 31 where not given.
+    /// Slices along the face. Where not given those of the coarser model, at most twice as many are allowed; 31 without models.
     slices: Option<usize>,
     /// Positions over a pitch, 24 where not given.
     positions_per_pitch: Option<usize>,
@@ -32,8 +32,8 @@ pub(super) struct LoadTable {
 pub struct LoadRequest {
     /// Torques on the gear \[N·m\].
     pub torques_nm: Vec<f64>,
-    /// Slices along the face.
-    pub slices: usize,
+    /// Slices along the face, where stated.
+    pub slices: Option<usize>,
     /// Positions over a pitch.
     pub positions: usize,
     /// Reduced models of pinion and gear, relative to the pair file; rigid gears without.
@@ -60,9 +60,10 @@ impl LoadTable {
                 "more than 0; `pinion_flank` says which flank drives",
             )?;
         }
-        let slices = self.slices.unwrap_or(31);
-        let ok = (3..=100).contains(&slices);
-        keys.require("slices", slices as f64, ok, "3 to 100")?;
+        if let Some(slices) = self.slices {
+            let ok = (3..=100).contains(&slices);
+            keys.require("slices", slices as f64, ok, "3 to 100")?;
+        }
         let positions = self.positions_per_pitch.unwrap_or(24);
         let ok = (4..=500).contains(&positions);
         keys.require("positions_per_pitch", positions as f64, ok, "4 to 500")?;
@@ -82,7 +83,7 @@ impl LoadTable {
         keys.require("poisson", poisson, ok, "0 up to, not including, 0.5")?;
         Ok(LoadRequest {
             torques_nm: self.torques_Nm.clone(),
-            slices,
+            slices: self.slices,
             positions,
             models: self.models.clone(),
             material: (young * 1e9, poisson),

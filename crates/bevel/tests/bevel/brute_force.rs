@@ -11,7 +11,7 @@ use crate::contacts::made;
 
 /// Points of a member along the face and in each half of the flank.
 const DENSE: [usize; 2] = [81, 20];
-/// Points that are rougly nearer than this are looked at closely \[m\].
+/// Points that are roughly nearer than this are looked at closely \[m\].
 const ROUGH: f64 = 8e-6;
 
 /// Points of the part of a flank above its fillet, ends included.

@@ -21,7 +21,7 @@ pub struct ExportArguments {
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub moments: Option<u32>,
     /// Gears that move, of a pair: torque [default: the largest one]
-    #[arg(long = "torque-Nm")]
+    #[arg(long = "torque-Nm", allow_negative_numbers = true)]
     pub torque_Nm: Option<f64>,
     /// Gears that move, of a run in time: begin [default: that of the run]
     #[arg(long)]

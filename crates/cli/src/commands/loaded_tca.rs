@@ -13,8 +13,10 @@ use gearmesh_model::{ReducedGear, read_reduced_gear};
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, LineChart, LineSeries, Section, Table, Text,
 };
-use gearmesh_report::short;
 use serde_json::{Value, json};
+
+/// Slices of rigid gears where the file says nothing.
+const SLICES: usize = 31;
 
 /// Rows of the pressure's picture up the flank.
 const ROWS: usize = 16;
@@ -39,7 +41,9 @@ pub fn analyse(
     load: &LoadRequest,
     path: &Path,
 ) -> Result<Loaded, Failure> {
-    let flanks = BevelSlices::new(&file.blank, design, load.slices).map_err(Failure::work)?;
+    let models = models(load, path)?;
+    let slices = slices(load, models.as_ref())?;
+    let flanks = BevelSlices::new(&file.blank, design, slices).map_err(Failure::work)?;
     let pair = LoadedPair {
         blank: &file.blank,
         flanks: &flanks,
@@ -48,13 +52,8 @@ pub fn analyse(
         positions: load.positions,
     };
     let side = pair.side();
-    let (contact, body) = match &load.models {
-        Some(files) => {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            let read = |i: usize| -> Result<ReducedGear, Failure> {
-                Ok(read_reduced_gear(&folder.join(&files[i]))?)
-            };
-            let models = [read(0)?, read(1)?];
+    let (contact, body) = match &models {
+        Some(models) => {
             let local = LocalContact::Calibrated;
             let contact = flanks.reduced_contact(side, [&models[0], &models[1]], local);
             (contact.map_err(Failure::work)?, "reduced gears")
@@ -69,11 +68,39 @@ pub fn analyse(
         .map_err(Failure::work)?;
     Ok(Loaded {
         side,
-        slices: load.slices,
+        slices,
         body,
         found,
         flanks,
     })
+}
+
+/// The members' models, where the file names any.
+fn models(load: &LoadRequest, path: &Path) -> Result<Option<[ReducedGear; 2]>, Failure> {
+    let Some(files) = &load.models else {
+        return Ok(None);
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let read = |i: usize| -> Result<ReducedGear, Failure> {
+        Ok(read_reduced_gear(&folder.join(&files[i]))?)
+    };
+    Ok(Some([read(0)?, read(1)?]))
+}
+
+/// Slices along the face. Those of a model share its stations: more than twice its own say nothing new, and their pressure is wrong.
+fn slices(load: &LoadRequest, models: Option<&[ReducedGear; 2]>) -> Result<usize, Failure> {
+    let Some(models) = models else {
+        return Ok(load.slices.unwrap_or(SLICES));
+    };
+    let own = models[0].grid.slices.min(models[1].grid.slices);
+    let slices = load.slices.unwrap_or(own.max(3));
+    let most = (2 * own).max(3);
+    if slices > most {
+        return Err(Failure::input(format!(
+            "load.slices: found {slices}, allowed with these models is at most {most}, twice the slices of the coarser one; state fewer, or reduce the members with more `slices`"
+        )));
+    }
+    Ok(slices)
 }
 
 /// Figures of one torque, by name.
@@ -225,10 +252,7 @@ fn error(loaded: &Loaded) -> LineChart {
     .series(LineSeries::new("without load", unloaded));
     loaded.found.iter().fold(chart, |chart, of| {
         let values = of.positions.iter().map(|p| 1e6 * p.error_rad).collect();
-        chart.series(LineSeries::new(
-            format!("{} N m", short(of.torque_nm)),
-            values,
-        ))
+        chart.series(LineSeries::new(format!("{} N m", of.torque_nm), values))
     })
 }
 
@@ -255,7 +279,7 @@ fn pressure(loaded: &Loaded, of: &LoadedContact) -> FieldPicture {
     FieldPicture::new(
         format!(
             "Largest pressure at {} N m over a pitch, flank of the gear, toe left, tip up",
-            short(of.torque_nm)
+            of.torque_nm
         ),
         "pressure",
         "MPa",

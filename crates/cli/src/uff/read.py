@@ -52,6 +52,8 @@ for place in places:
     if np.iscomplexobj(data):
         continue
     count = int(found["num_pts"])
+    if count < 1:
+        refuse(f"data set {place + 1}: it holds no values")
     if len(data) < count:
         refuse(f"data set {place + 1}: {len(data)} values, its head says {count}; the file is cut")
     data, x = data[:count], np.asarray(found["x"])[:count]

@@ -31,7 +31,10 @@ fn help_names_all_commands() {
       recover              Recover the strain of all gauges from a result, and whole fields on request
       compare              Compare a result with a reference record
       report               Write a report page
-      export               Export a result as a table: CSV, Parquet or MATLAB
+      export               Export a result as a table (CSV, Parquet, MATLAB, universal file) or as
+                           moving gears (ParaView), a gear as STEP
+      record               Make a reference record of measured curves: CSV with units, or a universal
+                           file
       signal               Analyse a column of a multibody result: spectra, orders, sidebands, envelope,
                            averages
       check                Check a gear file, bearing file, scene, study, S-N table, record, model or
@@ -323,14 +326,14 @@ fn a_name_must_end_in_what_is_written() {
         (
             "run",
             "pair.csv",
-            "this writes HDF5; allowed are names that end in .h5 .hdf5; `gearmesh export` makes .csv",
+            "this writes HDF5; allowed are names that end in .h5 .hdf5; `gearmesh export` makes tables of a result: .csv .parquet .mat .uff",
         ),
         ("reduce", "model.vtu", "this writes HDF5"),
         ("recover", "strain.csv", "this writes HDF5"),
         (
             "export",
             "x.xlsx",
-            "this writes tables; allowed are names that end in .csv .parquet .mat",
+            "this writes tables, series of moving gears or CAD; allowed are names that end in .csv .parquet .mat",
         ),
         (
             "report",

@@ -3,6 +3,7 @@
 use super::shipped_gearboxes::coarse;
 use crate::common::{Desk, argument, gearmesh, names_in, refused, succeeds};
 use gearmesh_scene::system_run::SystemResult;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Forces of the bearings on the shafts \[N\]: tools/reference/gearbox_statics.py.
@@ -42,7 +43,7 @@ fn a_gearbox_of_three_stages_is_imported_and_runs() {
     );
     succeeds(&["run", argument(&scene), "-o", argument(&output)]);
     let result = SystemResult::open(&output).unwrap();
-    bearings_carry_what_statics_say(&result);
+    bearings_carry_what_statics_say(&result, 0.02);
     let input = result
         .rows
         .read("elements/held at motor/moment_z_Nm")
@@ -93,24 +94,40 @@ fn an_imported_gearbox_of_reduced_gears_runs() {
     );
     let output = desk.path("result.h5");
     succeeds(&["run", argument(&scene), "-o", argument(&output)]);
-    bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap());
+    // Webs tilt, and the teeth carry towards one end of the face: one bearing of a shaft bears more than statics say of a
+    // load in the middle, the other less. The shipped gearbox of reduced gears has helix corrections against it.
+    bearings_carry_what_statics_say(&SystemResult::open(&output).unwrap(), 0.12);
 }
 
-/// Within 2 % of hand statics at every bearing.
-fn bearings_carry_what_statics_say(result: &SystemResult) {
+/// Both bearings of a shaft together within 2 % of hand statics, each within a share.
+fn bearings_carry_what_statics_say(result: &SystemResult, each: f64) {
     let last = |column: String| *result.rows.read(&column).unwrap().last().unwrap();
-    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut shafts: BTreeMap<char, [[f64; 3]; 2]> = BTreeMap::new();
     for row in BY_HAND.lines().skip(1) {
         let (bearing, numbers) = row.split_once(',').unwrap();
         let expected: Vec<f64> = numbers.split(',').map(|v| v.parse().unwrap()).collect();
         // The exchange file has the shafts along x: its x, y, z are z, x, y of the figures by hand.
         let found =
             ["y", "z", "x"].map(|axis| last(format!("elements/{bearing}/force_world_{axis}_N")));
-        let off: Vec<f64> = expected.iter().zip(found).map(|(a, b)| b - a).collect();
+        let off = [0, 1, 2].map(|i: usize| found[i] - expected[i]);
+        let expected = [expected[0], expected[1], expected[2]];
         assert!(
-            norm(&off) < 0.02 * norm(&expected),
+            norm(off) < each * norm(expected),
             "{bearing}: {found:?} {expected:?}"
         );
+        // "bearing 2A" is on shaft 2.
+        let shaft = bearing.chars().rev().nth(1).unwrap();
+        let sums = shafts.entry(shaft).or_default();
+        for i in 0..3 {
+            sums[0][i] += off[i];
+            sums[1][i] += expected[i];
+        }
+    }
+    assert_eq!(shafts.len(), 4);
+    for (shaft, [off, expected]) in shafts {
+        let most = 0.02 * norm(expected);
+        assert!(norm(off) < most, "shaft {shaft}: {off:?} {expected:?}");
     }
 }
 

@@ -167,7 +167,7 @@ fn gears_of_a_run_in_time_turn_under_the_forces_of_the_run() {
     let mut most = 0.0_f64;
     for moment in moments {
         let at = moment["at"].as_f64().unwrap();
-        let row = times.iter().position(|t| *t == at).unwrap();
+        let row = times.iter().position(|t| (t - at).abs() < 1e-12).unwrap();
         most = most.max(forces[row]);
         demand_contact(moment, forces[row], 1e-3);
     }

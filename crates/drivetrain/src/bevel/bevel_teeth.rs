@@ -32,7 +32,7 @@ impl BevelSlices {
             Ok::<_, DrivetrainError>(made.map_err(ContactError::from)?)
         };
         // Slices stand where they were laid on gear 1, and walk along the teeth of gear 2.
-        let compliance = [flank(0)?, flank(1)?.walking_along()];
+        let compliance = [flank(0)?, flank(1)?.walking_along(layout.face_widths_m[0])];
         let lines = self.capacity() / layout.slices;
         Ok(SliceContact::new(layout, compliance, local, lines))
     }
@@ -82,6 +82,7 @@ impl BevelSlices {
             let problem = format!("it has {} teeth, the pair {teeth}", model.teeth);
             return Err(other(problem));
         }
+        model.flank_index(side).map_err(ContactError::from)?;
         let (grid, mut farthest_m) = (&model.grid, 0.0f64);
         for (i, u) in grid.roll_angles_rad.iter().enumerate() {
             for (j, along_m) in grid.z_m.iter().enumerate() {

@@ -229,25 +229,35 @@ impl LoadedPair<'_> {
             let mut reach_m = FIRST_REACH_M;
             for k in 0..self.positions {
                 let turn = -side.mirror() * (k as f64 / self.positions as f64) * pitch;
-                let mut position = None;
+                let (mut position, mut approach_m) = (None, 0.0);
                 for _ in 0..=DOUBLINGS {
                     let flanks = self.flanks.clone().reaching(reach_m);
                     let posed = PosedFlanks::new(flanks, side, lever_m, pose_at);
                     let mut at_rest = StaticContact::of_flanks(posed, contact.clone());
                     let state = at_rest.solve(turn, Drive::Torque(*torque))?;
-                    position = Some(LoadedPosition {
+                    let loaded = LoadedPosition {
                         pinion_turn_rad: turn,
                         error_rad: state.transmission_error_m / lever_m,
                         unloaded_rad: state.unloaded_m / lever_m,
                         patches: self.patches(&at_rest),
-                    });
-                    // Whatever closes by this approach was looked at.
-                    if state.unloaded_m - state.transmission_error_m < 0.8 * reach_m {
+                    };
+                    // Whatever closes by this approach was looked at: gaps count from the pose, not from the first touch.
+                    approach_m = -state.transmission_error_m;
+                    if approach_m < 0.8 * reach_m {
+                        position = Some(loaded);
                         break;
                     }
                     reach_m *= 2.0;
                 }
-                result.positions.extend(position);
+                let Some(position) = position else {
+                    return Err(DrivetrainError::Value {
+                        owner: "bevel pair under load",
+                        what: "the approach of the flanks in mm",
+                        found: 1e3 * approach_m,
+                        allowed: "less than 1.5: state smaller torques or errors of assembly",
+                    });
+                };
+                result.positions.push(position);
             }
         }
         // Zero where the gear leads most without load.

@@ -68,6 +68,7 @@ fn bevel_slices_conform() {
 fn derivatives_of_bevel_slices_agree_with_differences() {
     let pair = pair("bevel_20_20.toml");
     let mut flanks = slices(&pair, ALONG);
+    let mut compared = 0;
     for (number, pose) in poses(&pair, 5e-6).iter().enumerate() {
         for side in Flank::ALL {
             flanks.locate(pose).unwrap();
@@ -94,6 +95,7 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
                     else {
                         continue;
                     };
+                    compared += 1;
                     let off = (a.gap_m - b.gap_m) / (2.0 * h) - contact.gradient[direction];
                     assert!(
                         off.abs() < 2e-7,
@@ -132,6 +134,7 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
             }
         }
     }
+    assert!(compared > 1000, "{compared}");
 }
 
 /// Two bodies on the flanks of the pair.
@@ -292,8 +295,8 @@ fn bevel_slices_under_load() {
     }
 }
 
-/// Slices have converged: from 41 to 82 the mean transmission error changes by less than 0.5 %, its change over the pitch by
-/// less than 1 % of the mean, the mean pressure by less than 2 %.
+/// Slices have converged: from 41 to 82 the mean transmission error changes by less than 0.6 %, its change over the pitch by
+/// less than 1 % of the mean, the mean pressure by less than 2 %, the largest one off the tips by less than 8 %.
 #[test]
 fn bevel_slices_converge() {
     for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {

@@ -15,7 +15,7 @@ use gearmesh_dynamics::{
 const STIFFNESS: f64 = 3.0;
 const DAMPING: f64 = 0.05;
 
-/// A wheel on a revolute joint under an element between it and the ground; its angle after a while.
+/// A wheel on a revolute joint under an element between it and the ground; its speed after a while, and the iterations.
 fn wheel(element: impl FnOnce(BodyId, MarkerPair) -> Box<dyn ForceElement>) -> (f64, u64) {
     let mut builder = System::builder();
     let mut body = Body::rigid("wheel", 1.0, [0.1, 0.1, 0.02]);

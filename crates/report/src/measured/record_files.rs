@@ -185,7 +185,9 @@ fn window(
         }
         widest = widest.max(pair[1] - pair[0]);
     }
-    let from_deg = request.from_deg.unwrap_or(angle_deg[0]);
+    let from_deg = request
+        .from_deg
+        .unwrap_or_else(|| angle_deg.first().copied().unwrap_or_default());
     let needed_deg = 360.0 * request.revolutions as f64;
     let begin = angle_deg.partition_point(|angle| *angle < from_deg);
     // The angle that closes the revolutions repeats the first and is left out.

@@ -30,7 +30,7 @@ const OF_TABLES: [(&str, &[&str]); 5] = [
             "model.cracks_2",
         ],
     ),
-    ("body", &["microgeometry", "cardan_deg"]),
+    ("body", &["microgeometry"]),
     (
         "bearing",
         &[

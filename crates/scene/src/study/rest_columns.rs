@@ -46,7 +46,8 @@ pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, BevelError> {
     }
     let flanks = design.flanks(file.pinion_flank);
     let found = tooth_contact(flanks, &file.blank, &file.tca)?;
-    let moved = sensitivity(flanks, &file.blank, &file.tca.error)?;
+    // Where only edges touch, no contact moves with the errors.
+    let moved = (found.mean).and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
     let lines = mesh_harmonics(&found.error_rad, 1, HARMONICS).1;
     let ellipses = found.path.iter().filter(|p| p.leading);
     let lengths = ellipses.filter_map(|p| Some(p.ellipse?.half_lengths_m(file.tca.marking_m)[0]));
@@ -59,12 +60,9 @@ pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, BevelError> {
         1e3 * lengths.fold(0.0, f64::max),
         1e6 * ease_off.fold(0.0, f64::max),
     ]);
-    let moves = [
-        moved.offset,
-        moved.pinion_axial,
-        moved.gear_axial,
-        moved.shaft_angle,
-    ];
+    let moves = moved.map_or([[f64::NAN; 2]; 4], |m| {
+        [m.offset, m.pinion_axial, m.gear_axial, m.shaft_angle]
+    });
     values.extend(moves.into_iter().flatten());
     Ok(values)
 }

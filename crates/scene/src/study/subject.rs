@@ -57,6 +57,10 @@ impl Subject {
         if InputKind::of(&document)? == InputKind::Gear {
             if PairFile::recognises(&document)? {
                 let file = PairFile::from_document(&document)?;
+                if file.load.is_some() {
+                    let problem = "a study, an optimisation and `accuracy` look at the tooth contact without load; remove this table";
+                    return Err(document.error("load", problem));
+                }
                 return Ok(Self::Bevel(Box::new(BevelSubject { file, document })));
             }
             if is_bearing(&document)? {

@@ -170,7 +170,9 @@ impl BaseScene {
         }
         let text =
             toml::to_string(&root).map_err(|e| VaryError::Scene(self.document.error("", e)))?;
-        let name = format!("{} with {}", self.document.file, case.name());
+        // A slash would look like a folder, and bevel pair files find theirs by this name.
+        let case_name = case.name().replace('/', "\u{2215}");
+        let name = format!("{} with {case_name}", self.document.file);
         Subject::from_document(InputDocument::new(name, text), &self.folder).map_err(|error| {
             match added {
                 // The key is what the scene did not have: the fault lies with it.

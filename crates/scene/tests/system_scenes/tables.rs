@@ -99,10 +99,7 @@ fn every_table_is_read() {
         model = { kind = "linear", radial_stiffness_N_per_mm = 1.0 }
     "#;
     let refused = build_in(scene, folder.path()).err().unwrap().to_string();
-    assert!(
-        refused.contains("a speed that is a product of functions cannot be prescribed"),
-        "{refused}"
-    );
+    assert!(refused.contains("is a product of functions"), "{refused}");
     let scene = changed(scene, "speed_mm_per_s = {", "position_mm = {");
     let built = build_in(&scene, folder.path()).unwrap();
     assert_labelled(&built);

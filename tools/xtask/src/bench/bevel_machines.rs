@@ -1,5 +1,7 @@
 //! `cargo xtask accuracy-cost bevel-machines`: seed 000's machines with every fidelity of their bearings, what each costs and what it changes.
 
+mod flexibility;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -12,6 +14,7 @@ use super::{Bench, Options, TIMEOUT_S, write_whole};
 use crate::console::say;
 use crate::error::XtaskError;
 use crate::workspace::Workspace;
+use flexibility::flexibility;
 
 const PAIRS: [&str; 2] = ["13_35", "31_36"];
 const SIMULATED_S: f64 = 0.1;
@@ -301,47 +304,6 @@ impl Figures {
             |(a, b): (&Spread, &Spread)| 100.0 * ((a.deviation - b.deviation) / b.mean).abs();
         pairs.map(change).fold(0.0, f64::max)
     }
-}
-
-/// Seed 001's pair rigid and flexible: every scene of it that is shipped.
-fn flexibility(text: &mut String, runner: Runner, shipped: &Path) -> Result<(), XtaskError> {
-    let runner = Runner {
-        folder: shipped.to_owned(),
-        ..runner
-    };
-    text.push_str(
-        "\n## 20/20, rigid and flexible\n\nfe_models/dynamics_bevel_20_20*.toml, second half of each run, at 3000 rpm under 100 N·m. *Speed*: peak to peak of the gear's. *Range*: peak to peak of the mesh force. \
-         *Joint*: force of the gear's revolute joint along the world's axes; x is the gear's own axis, z the pinion's. ± is the RMS about the mean.\n\n\
-         | teeth | s | speed rpm | mesh force N | range N | joint: world x N | y N | z N |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-    );
-    for (name, suffix) in [
-        ("rigid, `impact`", ""),
-        ("`hybrid`", "_hybrid"),
-        ("`modal`", "_modal"),
-    ] {
-        let file = format!("dynamics_bevel_20_20{suffix}.toml");
-        if !shipped.join(&file).exists() {
-            continue;
-        }
-        say(&format!("== 20/20: {name}"));
-        let (_, cpu_s) = runner.run(&file)?;
-        let speed = runner.spread("bodies/gear/angular_velocity_z_rad_per_s")?;
-        let force = runner.spread("elements/mesh/normal_force_left_N")?;
-        let mut joint = Vec::new();
-        for axis in ["x", "y", "z"] {
-            let found = runner.spread(&format!("joints/gear shaft/force_world_{axis}_N"))?;
-            joint.push(found.shown());
-        }
-        let _ = writeln!(
-            text,
-            "| {name} | {cpu_s:.1} | {:.2} | {} | {:.0} | {} |",
-            speed.range * 30.0 / std::f64::consts::PI,
-            force.shown(),
-            force.range,
-            joint.join(" | ")
-        );
-    }
-    Ok(())
 }
 
 fn head(host: &Host) -> String {

@@ -1,0 +1,70 @@
+//! Seed 001's pair, rigid and with its reduced members.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::Runner;
+use crate::console::say;
+use crate::error::XtaskError;
+
+/// Seed 001's pair rigid and flexible: every scene of it that is shipped.
+pub(super) fn flexibility(
+    text: &mut String,
+    runner: Runner,
+    shipped: &Path,
+) -> Result<(), XtaskError> {
+    let runner = Runner {
+        folder: shipped.to_owned(),
+        ..runner
+    };
+    text.push_str(
+        "\n## 20/20, rigid and flexible\n\nfe_models/dynamics_bevel_20_20*.toml, second half of each run, at 3000 rpm under 100 N·m. *Speed*: peak to peak of the gear's. *Range*: peak to peak of the mesh force. \
+         *Joint*: force of the gear's revolute joint along the world's axes; x is the gear's own axis, z the pinion's. ± is the RMS about the mean.\n\n\
+         | teeth | s | speed rpm | mesh force N | range N | joint: world x N | y N | z N |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+    );
+    for (name, suffix) in [("rigid, `impact`", ""), ("`hybrid`", "_hybrid")] {
+        let file = format!("dynamics_bevel_20_20{suffix}.toml");
+        if !shipped.join(&file).exists() {
+            continue;
+        }
+        say(&format!("== 20/20: {name}"));
+        if suffix == "_hybrid" {
+            reduced_members(&runner)?;
+        }
+        let (_, cpu_s) = runner.run(&file)?;
+        let speed = runner.spread("bodies/gear/angular_velocity_z_rad_per_s")?;
+        let force = runner.spread("elements/mesh/normal_force_left_N")?;
+        let mut joint = Vec::new();
+        for axis in ["x", "y", "z"] {
+            let found = runner.spread(&format!("joints/gear shaft/force_world_{axis}_N"))?;
+            joint.push(found.shown());
+        }
+        let _ = writeln!(
+            text,
+            "| {name} | {cpu_s:.1} | {:.2} | {} | {:.0} | {} |",
+            speed.range * 30.0 / std::f64::consts::PI,
+            force.shown(),
+            force.range,
+            joint.join(" | ")
+        );
+    }
+    Ok(())
+}
+
+/// Makes the models of both members, where the hybrid scene looks for them, unless they are there.
+fn reduced_members(runner: &Runner) -> Result<(), XtaskError> {
+    for member in ["pinion", "gear"] {
+        let model = format!("../out/scenes/bevel_{member}_20_20.h5");
+        let file = runner.folder.join(&model);
+        if file.exists() {
+            continue;
+        }
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder)
+                .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
+        }
+        let gear = format!("bevel_{member}_20_20.toml");
+        runner.call(&["reduce", &gear, "-o", &model, "--json"])?;
+    }
+    Ok(())
+}
