@@ -112,7 +112,7 @@ impl MeshTable {
 pub(super) struct ReductionTable {
     /// Stations of the flank grid up the profile; 9 where not given.
     profile_stations: Option<usize>,
-    /// Slices along the face; 7 where not given.
+    /// Slices along the face; 15 where not given.
     slices: Option<usize>,
     /// Flanks that carry loads; both where not given.
     flanks: Option<Vec<Flank>>,
@@ -127,7 +127,7 @@ impl ReductionTable {
         let stations = self.profile_stations.unwrap_or(9);
         let fits = (3..=65).contains(&stations);
         keys.require("profile_stations", stations as f64, fits, "3 to 65")?;
-        let slices = self.slices.unwrap_or(7);
+        let slices = self.slices.unwrap_or(15);
         let fits = (1..=100).contains(&slices);
         keys.require("slices", slices as f64, fits, "1 to 100")?;
         let flanks = self.flanks.unwrap_or(vec![Flank::Right, Flank::Left]);
