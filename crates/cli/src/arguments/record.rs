@@ -15,16 +15,16 @@ pub struct RecordArguments {
     pub output: Option<PathBuf>,
     /// Which channel a column of the record takes; may be given several times [default: channels that are called like
     /// columns]
-    #[arg(long, value_name = "HEAD=CHANNEL", value_parser = head_and_column)]
+    #[arg(long, value_name = "HEAD=CHANNEL", value_parser = head_and_column, requires = "output")]
     pub column: Vec<(String, String)>,
     /// Title of the record
-    #[arg(long)]
+    #[arg(long, requires = "output")]
     pub title: Option<String>,
     /// Where the numbers come from: rig, date, person
-    #[arg(long)]
+    #[arg(long, requires = "output")]
     pub source: Option<String>,
     /// What angle 0 is
-    #[arg(long)]
+    #[arg(long, requires = "output")]
     pub angle_origin: Option<String>,
     /// Whose angle it is
     #[arg(long, value_enum, default_value = "gear_1")]
@@ -36,19 +36,19 @@ pub struct RecordArguments {
     #[arg(long, value_name = "CHANNEL")]
     pub angle: Option<String>,
     /// Where the axis is a time: constant speed of the shaft
-    #[arg(long, value_parser = super::positive)]
+    #[arg(long, value_parser = super::positive, requires = "output")]
     pub speed_rpm: Option<f64>,
     /// Begin of the revolutions, as the file counts angles [default: the first]
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_negative_numbers = true, requires = "output")]
     pub from_deg: Option<f64>,
     /// Added to the angle, so that 0 is what --angle-origin says
     #[arg(long, allow_negative_numbers = true, default_value = "0")]
     pub angle_offset_deg: f64,
     /// Where the transmission error is an angle: base radius of the gear whose angle it is
-    #[arg(long, value_parser = super::positive)]
+    #[arg(long, value_parser = super::positive, requires = "output")]
     pub base_radius_mm: Option<f64>,
     /// Change the sign of a column of the record; may be given several times
-    #[arg(long, value_name = "HEAD")]
+    #[arg(long, value_name = "HEAD", requires = "output")]
     pub negate: Vec<String>,
     /// State the unit of a channel or of the axis; may be given several times
     #[arg(long, value_name = "CHANNEL=UNIT", value_parser = head_and_column)]

@@ -82,7 +82,8 @@ fn models(load: &LoadRequest, path: &Path) -> Result<Option<[ReducedGear; 2]>, F
     };
     let folder = path.parent().unwrap_or(Path::new(""));
     let read = |i: usize| -> Result<ReducedGear, Failure> {
-        Ok(read_reduced_gear(&folder.join(&files[i]))?)
+        let model = read_reduced_gear(&folder.join(&files[i]));
+        model.map_err(|error| Failure::input(format!("load.models.{i}: {error}")))
     };
     Ok(Some([read(0)?, read(1)?]))
 }

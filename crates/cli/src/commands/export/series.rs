@@ -28,8 +28,8 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
             }
             let mut moments = SystemMoments::new(a, *result)?;
             let rows = chosen(moments.rows(), a);
-            let surfaces = moments.surfaces.clone();
-            write(a, &surfaces, "s", rows.len(), |k| moments.moment(rows[k]))
+            let (surfaces, unit) = (moments.surfaces.clone(), moments.unit);
+            write(a, &surfaces, unit, rows.len(), |k| moments.moment(rows[k]))
         }
     }
 }

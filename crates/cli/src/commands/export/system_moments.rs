@@ -16,6 +16,8 @@ const SECTIONS: usize = 20;
 pub struct SystemMoments {
     /// Surfaces of the gears.
     pub surfaces: Vec<GearSurface>,
+    /// What the series runs over, in words.
+    pub unit: &'static str,
     gears: GearsInMotion,
     /// What the series runs over.
     at: Vec<f64>,
@@ -38,6 +40,11 @@ impl SystemMoments {
                 )));
             }
         };
+        if axis == "point" && (a.from_s.is_some() || a.to_s.is_some()) {
+            return Err(Failure::input(format!(
+                "{shown}: --from-s and --to-s are for runs in time; this result is `static`, leave them out"
+            )));
+        }
         let folder = scene_folder(a, &result)?;
         let document = InputDocument::new(
             format!("scene inside {shown}"),
@@ -86,6 +93,7 @@ impl SystemMoments {
         });
         Ok(Self {
             surfaces: surfaces.collect(),
+            unit: if axis == "time_s" { "s" } else { "equilibria" },
             gears,
             at,
             states,
