@@ -10,7 +10,7 @@
 //! ```
 //!
 //! and with ln ρ = ln(a/2) − ½, its mean over Hertz's pressure, an endless line load deflects as it does there. ρ changes
-//! with the load; the compliance has ρ₀ = [`SMEAR`] l, and the own local law the rest, δ = k q ln(ρ₀/ρ): right where q
+//! with the load; the compliance has ρ₀ = `SMEAR` l, and the own local law the rest, δ = k q ln(ρ₀/ρ): right where q
 //! changes little over ρ. Slices may be as short as 0.6 of the contact's width. How far that is from Hertz:
 //! docs/theory/sliced_contact.md.
 
