@@ -21,7 +21,7 @@ MODELS = ROOT / "fe_models"
 # `cargo xtask test` names the program that it built.
 PROGRAM = os.environ.get("GEARMESH_PROGRAM", ROOT / "target/debug/gearmesh")
 # A key at the top of a file tells its kind.
-KIND_OF_KEY = {"tooth": "gear", "pair": "scene", "body": "scene", "parameter": "study", "pitch_diameter_mm": "bearing", "pinion": "bevel", "bevel_gear": "bevel-gear"}
+KIND_OF_KEY = {"tooth": "gear", "pair": "scene", "body": "scene", "parameter": "study", "pitch_diameter_mm": "bearing", "pinion": "bevel", "bevel_gear": "bevel-gear", "objective": "optimise"}
 # S-N tables have no schema.
 FILES = sorted(path for path in MODELS.rglob("*.toml") if path.name != "sn_example.toml")
 

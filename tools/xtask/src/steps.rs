@@ -57,11 +57,6 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         "tests/python",
     ]);
     set_environment(&mut python_tests, venv);
-    // The Rust tests before them have built it.
-    python_tests.env(
-        "GEARMESH_PROGRAM",
-        python_module::build_dir()?.join("gearmesh"),
-    );
     // The step of the Rust tests builds it.
     python_tests.env("GEARMESH_PROGRAM", program()?);
 
