@@ -1,7 +1,5 @@
 """Python functions as loads, motions and force elements: beside the same scenes with closed forms."""
 
-import os
-import signal
 import threading
 import time
 import traceback
@@ -10,6 +8,7 @@ import numpy as np
 import pytest
 
 import gearmesh as gm
+from interruption import interrupt_once
 
 WHEEL = {
     "title": "wheel",
@@ -122,13 +121,16 @@ def test_functions_and_scenes_must_fit(tmp_path):
 def test_a_run_is_not_resumed_with_other_functions(tmp_path):
     output = tmp_path / "run.h5"
 
+    half_way = threading.Event()
+
     def slow(time_s):
         if time_s > 0.05:
+            half_way.set()
             time.sleep(1e-3)
         return 1.0
 
     scene = gm.Scene(loaded({"python": "fan"}), functions={"fan": slow})
-    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    interrupt_once(half_way.is_set)
     with pytest.raises(KeyboardInterrupt):
         scene.run(output, progress=False)
     assert (tmp_path / "run.h5.part").exists() and not output.exists()

@@ -1,15 +1,13 @@
 """The package gearmesh: from the definition of a gear to curves, in one process. Coarse gears."""
 
 import json
-import os
-import signal
-import threading
 import time
 
 import numpy as np
 import pytest
 
 import gearmesh as gm
+from interruption import interrupt_once
 
 # Plane strain and long elements: reduced in a second.
 COARSE = dict(
@@ -165,12 +163,13 @@ def test_a_multibody_scene_runs_without_a_file(tmp_path):
 def test_ctrl_c_leaves_a_run_that_goes_on(tmp_path):
     scene = gm.Scene(PENDULUM).but({"solver.step_s": 1e-6})
     output = tmp_path / "run.h5"
-    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    part = tmp_path / "run.h5.part"
+    interrupt_once(part.exists)
     begun = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         scene.run(output)
     assert time.monotonic() - begun < 20.0
-    assert not output.exists() and (tmp_path / "run.h5.part").exists()
+    assert not output.exists() and part.exists()
 
 
 def test_pictures_are_drawn(result):

@@ -3,7 +3,7 @@
 //! | question | answer | file |
 //! | --- | --- | --- |
 //! | what is a slice of a contact line, of whatever gears | [`ContactPatch`] | `contact_patch.rs` |
-//! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `station_blocks.rs` |
+//! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `coupled_places.rs`, `station_blocks.rs` |
 //! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
 //! | where does a slice stand that has walked along the tooth | | `walked_slice.rs` |
@@ -39,6 +39,7 @@ mod contact_error;
 pub mod contact_lines;
 pub mod contact_patch;
 pub mod contact_zone;
+pub mod coupled_places;
 pub mod crack_rows;
 pub mod drive;
 pub mod flank_deflection;

@@ -30,6 +30,22 @@ pub struct GridLoad {
     pub axial: SparseVector,
 }
 
+impl GridLoad {
+    /// Of forces along the three directions whose common weight has this sum: one newton each.
+    pub(crate) fn of_unit((directions, sum): ([BTreeMap<usize, f64>; 3], f64)) -> Self {
+        let [normal, tangential, axial] = directions.map(|map| {
+            map.into_iter()
+                .map(|(dof, value)| (dof, value / sum))
+                .collect()
+        });
+        Self {
+            normal,
+            tangential,
+            axial,
+        }
+    }
+}
+
 /// The flank grid of a gear: roll stations evenly from the form circle to the end of the flank, axial stations at
 /// the edges and middles of the slices.
 pub fn flank_grid(gear: &GearDefinition) -> FlankGrid {
@@ -128,22 +144,7 @@ pub fn flank_loads(
             }
         }
     }
-    parts
-        .into_iter()
-        .zip(sums)
-        .map(|(directions, sum)| {
-            let [normal, tangential, axial] = directions.map(|map| {
-                map.into_iter()
-                    .map(|(dof, value)| (dof, value / sum))
-                    .collect()
-            });
-            GridLoad {
-                normal,
-                tangential,
-                axial,
-            }
-        })
-        .collect()
+    parts.into_iter().zip(sums).map(GridLoad::of_unit).collect()
 }
 
 /// Product of a sparse row with a full vector.

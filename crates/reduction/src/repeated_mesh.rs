@@ -32,14 +32,41 @@ pub trait RepeatedMesh: Sync {
     fn cut_nodes(&self, sector: usize) -> Vec<u32>;
 }
 
-impl RepeatedMesh for GearMesh {
-    fn nodes(&self) -> &[[f64; 3]] {
-        &self.nodes
-    }
+/// What the meshes answer themselves, by the same names.
+macro_rules! own_cells {
+    () => {
+        fn nodes(&self) -> &[[f64; 3]] {
+            &self.nodes
+        }
 
-    fn teeth(&self) -> usize {
-        Self::teeth(self)
-    }
+        fn teeth(&self) -> usize {
+            Self::teeth(self)
+        }
+
+        fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
+            Self::cell_nodes(self, tooth)
+        }
+
+        fn cell_elements(&self, tooth: usize) -> Vec<u32> {
+            Self::cell_elements(self, tooth)
+        }
+
+        fn body_nodes(&self, sector: usize) -> Vec<u32> {
+            Self::body_nodes(self, sector)
+        }
+
+        fn body_elements(&self, sector: usize) -> Vec<u32> {
+            Self::body_elements(self, sector)
+        }
+
+        fn cut_nodes(&self, sector: usize) -> Vec<u32> {
+            Self::cut_nodes(self, sector)
+        }
+    };
+}
+
+impl RepeatedMesh for GearMesh {
+    own_cells!();
 
     fn sectors(&self) -> usize {
         Self::sectors(self)
@@ -48,36 +75,10 @@ impl RepeatedMesh for GearMesh {
     fn first_tooth(&self) -> usize {
         Self::first_tooth(self)
     }
-
-    fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
-        Self::cell_nodes(self, tooth)
-    }
-
-    fn cell_elements(&self, tooth: usize) -> Vec<u32> {
-        Self::cell_elements(self, tooth)
-    }
-
-    fn body_nodes(&self, sector: usize) -> Vec<u32> {
-        Self::body_nodes(self, sector)
-    }
-
-    fn body_elements(&self, sector: usize) -> Vec<u32> {
-        Self::body_elements(self, sector)
-    }
-
-    fn cut_nodes(&self, sector: usize) -> Vec<u32> {
-        Self::cut_nodes(self, sector)
-    }
 }
 
 impl RepeatedMesh for BevelMesh {
-    fn nodes(&self) -> &[[f64; 3]] {
-        &self.nodes
-    }
-
-    fn teeth(&self) -> usize {
-        Self::teeth(self)
-    }
+    own_cells!();
 
     fn sectors(&self) -> usize {
         Self::teeth(self)
@@ -85,25 +86,5 @@ impl RepeatedMesh for BevelMesh {
 
     fn first_tooth(&self) -> usize {
         0
-    }
-
-    fn cell_nodes(&self, tooth: usize) -> Vec<u32> {
-        Self::cell_nodes(self, tooth)
-    }
-
-    fn cell_elements(&self, tooth: usize) -> Vec<u32> {
-        Self::cell_elements(self, tooth)
-    }
-
-    fn body_nodes(&self, sector: usize) -> Vec<u32> {
-        Self::body_nodes(self, sector)
-    }
-
-    fn body_elements(&self, sector: usize) -> Vec<u32> {
-        Self::body_elements(self, sector)
-    }
-
-    fn cut_nodes(&self, sector: usize) -> Vec<u32> {
-        Self::cut_nodes(self, sector)
     }
 }

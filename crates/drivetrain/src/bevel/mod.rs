@@ -3,6 +3,7 @@
 //! | what | file |
 //! | --- | --- |
 //! | kinematics of the pair | `bevel_mesh.rs` |
+//! | which teeth face each other | `tooth_pairing.rs` |
 //! | flanks of one side of the teeth | `tooth_side.rs` |
 //! | guess of where flanks touch: from the pair as designed | `nominal_contacts.rs` |
 //! | the same for teeth that do not face each other there | `bounding_spheres.rs` |
@@ -30,6 +31,7 @@ mod pose_derivatives;
 mod section_points;
 mod sliced_mesh;
 mod sliced_side;
+mod tooth_pairing;
 mod tooth_side;
 mod touch;
 

@@ -10,12 +10,13 @@ use gearmesh_contact::SliceLayout;
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
-use super::bevel_mesh::{BevelMesh, Candidate, MOST_PAIRS, angle_of};
+use super::bevel_mesh::{BevelMesh, angle_of};
 use super::nearest_points::Nearest;
 use super::nominal_contacts::Guess;
 use super::pose_derivatives::{PoseDerivatives, gradient};
 use super::section_points::nearest_on_section;
 use super::sliced_side::{SlicedSide, TIPS, middle};
+use super::tooth_pairing::{Candidate, MOST_PAIRS};
 use super::tooth_side::{about_z, placed};
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};

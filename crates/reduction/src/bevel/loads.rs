@@ -111,20 +111,5 @@ pub fn bevel_loads(
             }
         }
     }
-    parts
-        .into_iter()
-        .zip(sums)
-        .map(|(directions, sum)| {
-            let [normal, tangential, axial] = directions.map(|map| {
-                map.into_iter()
-                    .map(|(dof, value)| (dof, value / sum))
-                    .collect()
-            });
-            GridLoad {
-                normal,
-                tangential,
-                axial,
-            }
-        })
-        .collect()
+    parts.into_iter().zip(sums).map(GridLoad::of_unit).collect()
 }
