@@ -56,7 +56,10 @@ pub mod tooth_compliance;
 pub mod tooth_overlap;
 mod tooth_zero;
 
-pub use bevel::{BevelMesh, BevelSlices, LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
+pub use bevel::{
+    BevelMesh, BevelSlices, FacetKind, FacetSize, LoadedContact, LoadedPair, LoadedPatch,
+    LoadedPosition,
+};
 pub use damping::{Damped, Damping};
 pub use error::DrivetrainError;
 pub use flank_contacts::FlankContacts;

@@ -11,7 +11,8 @@ use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
-use super::hertz_stiffness::{local_stiffness, principal, stiffness_per_pa};
+use super::facets::{FacetSize, Facets, Sunk};
+use super::hertz_stiffness::{local_measure, principal, stiffness_per_pa};
 use super::nearest_points::{Nearest, nearest_within};
 use super::nominal_contacts::Guess;
 use super::pose_derivatives::{PoseDerivatives, gradient};
@@ -49,6 +50,8 @@ pub struct BevelMesh {
     pub(super) points: Cell<u64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
+    /// Right and left flanks of gear 1 as facets.
+    facets: Option<[Facets; 2]>,
 }
 
 /// What is known of a contact beyond its gap.
@@ -56,6 +59,8 @@ pub struct BevelMesh {
 struct Found {
     motion: PoseDerivatives,
     touch: Touch,
+    /// Of flanks as facets that stand in each other.
+    sunk: Option<Sunk>,
 }
 
 impl BevelMesh {
@@ -80,6 +85,7 @@ impl BevelMesh {
             is_apart: [false; 2],
             points: Cell::new(0),
             hertz: None,
+            facets: None,
         };
         let capacity = mesh.capacity();
         mesh.found = [0, 1].map(|_| Vec::with_capacity(capacity));
@@ -122,6 +128,20 @@ impl BevelMesh {
     pub fn with_hertz(mut self) -> Self {
         self.hertz = Some(Flank::ALL.map(|side| stiffness_per_pa(&self.mean_curvature(side))));
         self
+    }
+
+    /// Takes the flanks of gear 1 as facets against the smooth ones of gear 2: the approach of a pair of teeth is then measured by all that is covered
+    /// of them. It does not depend on how fine they are, once the contact spans some.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::Value`] for edges that are not positive, longer than an eighth of the flank, or too short.
+    pub fn with_facets(mut self, size: FacetSize) -> Result<Self, DrivetrainError> {
+        let [right, left] = &self.sides;
+        self.facets = Some([
+            Facets::new(&right.patches, size)?,
+            Facets::new(&left.patches, size)?,
+        ]);
+        Ok(self)
     }
 
     /// K of F = K δ^1.5 where the mean points of a side touch \[N/m^1.5\], after Hertz, with E* \[Pa\].
@@ -235,14 +255,30 @@ impl BevelMesh {
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
             let touch = Touch::new(&point);
+            let facets = self.facets.as_ref().filter(|_| point.gap_m < 0.0);
+            let sunk =
+                facets.and_then(|sides| sides[flank as usize].sunk(&bodies, &point, &motion));
             self.push(pose, candidate.teeth, (&point, &motion, &touch), found);
+            if facets.is_some() {
+                let last = found.contacts.len() - 1;
+                let contact = &mut found.contacts[last];
+                contact.gap_m = sunk.map_or(0.0, |sunk| sunk.gap_m);
+                if let Some(sunk) = sunk {
+                    contact.gradient = sunk.gradient;
+                    contact.gap_rate_m_per_s = sunk.gradient.dot(&pose.rates());
+                }
+            }
             if let (Some(mean), true) = (&self.hertz, point.gap_m < 0.0) {
-                let (local, gradient) = local_stiffness(&bodies, &point, &motion);
+                let (local, gradient) = local_measure(&bodies, &point, &motion, stiffness_per_pa);
                 let last = found.sections.len() - 1;
                 found.sections[last].stiffness = local / mean[flank as usize];
                 found.sections[last].share_gradient = gradient;
             }
-            list.push(Found { motion, touch });
+            list.push(Found {
+                motion,
+                touch,
+                sunk,
+            });
         }
         // The nearest pair first: the transmission error is its gap.
         let gap_m = |line: usize| found.lines[line].ideal_gap_m;
@@ -391,8 +427,11 @@ impl FlankKinematics for BevelMesh {
     }
 
     fn gap_curvature(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.gap_curvature())
+        let found = self.found[side as usize].get(contact);
+        found.map_or_else(Matrix6::zeros, |found| match &found.sunk {
+            Some(sunk) => sunk.curvature,
+            None => found.motion.gap_curvature(),
+        })
     }
 
     fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {

@@ -35,16 +35,16 @@ pub(crate) fn stiffness_per_pa(relative: &RelativeCurvature) -> f64 {
     PointContact::new(least + largest, largest - least, 1.0).stiffness_n_per_m15
 }
 
-/// k at a contact, and the derivative of ln k by the increments of the pose.
-pub(crate) fn local_stiffness(
+/// What a measure of the curvatures is at a contact, and the derivative of its logarithm by the increments of the pose.
+pub(crate) fn local_measure(
     bodies: &[Placed<'_>; 2],
     found: &Nearest,
     motion: &PoseDerivatives,
+    measure: impl Fn(&RelativeCurvature) -> f64,
 ) -> (f64, Vector6) {
-    let stiffness = |points: [PatchPoint; 2]| {
-        stiffness_per_pa(&curvature(&Nearest::new(found.held, found.at, points)))
-    };
-    let here = stiffness(found.points);
+    let measured =
+        |points: [PatchPoint; 2]| measure(&curvature(&Nearest::new(found.held, found.at, points)));
+    let here = measured(found.points);
     let slope = |there: [f64; 2]| (there[1] - there[0]) / (2.0 * STEP * here);
     let mut gradient = Vector6::zeros();
     for m in 0..2 {
@@ -56,7 +56,7 @@ pub(crate) fn local_stiffness(
                 let (mut at, mut points) = (found.at[m], found.points);
                 at[k] += step;
                 points[m] = bodies[m].point(at);
-                stiffness(points)
+                measured(points)
             });
             gradient += slope(there) * motion.places.row(2 * m + k).transpose();
         }
@@ -74,7 +74,7 @@ pub(crate) fn local_stiffness(
                 dn: second.dn.map(|v| turn * v),
                 ..second
             };
-            stiffness([first, turned])
+            measured([first, turned])
         });
         gradient[3 + i] += slope(there);
     }

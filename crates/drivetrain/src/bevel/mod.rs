@@ -10,6 +10,7 @@
 //! | where two patches are nearest, edges and corners with them | `nearest_points.rs` |
 //! | how that changes with the pose | `pose_derivatives.rs` |
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
+//! | flanks divided into triangles or quadrilaterals | `facets.rs` |
 //! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
 //! | what gives way in it | `bevel_teeth.rs` |
 //! | where a section across the tooth is nearest | `section_points.rs` |
@@ -22,6 +23,7 @@
 mod bevel_mesh;
 mod bevel_teeth;
 mod bounding_spheres;
+mod facets;
 mod hertz_stiffness;
 mod line_geometry;
 mod loaded_contact;
@@ -36,5 +38,6 @@ mod tooth_side;
 mod touch;
 
 pub use bevel_mesh::BevelMesh;
+pub use facets::{FacetKind, FacetSize};
 pub use loaded_contact::{LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
 pub use sliced_mesh::BevelSlices;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod backlash;
+mod bevel_facets;
 mod bevel_pair;
 mod bevel_slices;
 mod crossed_cylinders;

@@ -167,6 +167,44 @@ fn a_pair_of_another_shaft_angle_turns_at_its_ratio() {
     );
 }
 
+/// The pinion as facets: the same motion however fine they are. Tips carry here; facets end there, so that the pair sinks in deeper than the smooth one, whose
+/// contact counts as a whole ellipse.
+#[test]
+fn flanks_as_facets_run_like_smooth_ones() {
+    let smooth = changed(&at_speed(), "end_s = 0.026", "end_s = 0.004");
+    let on = |kind: &str, [along, up]: [f64; 2]| {
+        let surface = format!(
+            "bevel_pair = \"bevel_20_20.toml\"\nbevel_surface = {{ kind = \"{kind}\", along_um = {along}, up_um = {up} }}"
+        );
+        changed(&smooth, "bevel_pair = \"bevel_20_20.toml\"", &surface)
+    };
+    let mean = |scene: &str| {
+        let result = run(scene);
+        ["tangential_force_1_N", "transmission_error_m"].map(|name| {
+            let values = result.rows.read(&format!("elements/mesh/{name}")).unwrap();
+            let last = &values[values.len() / 2..];
+            last.iter().sum::<f64>() / last.len() as f64
+        })
+    };
+    let expected = mean(&smooth);
+    let found = [
+        mean(&on("triangles", [1000.0, 250.0])),
+        mean(&on("quadrilaterals", [700.0, 175.0])),
+    ];
+    for [force, error] in found {
+        assert!(
+            (force / expected[0] - 1.0).abs() < 0.02,
+            "{expected:?} {found:?}"
+        );
+        assert!(
+            (1.0..1.3).contains(&(error / expected[1])),
+            "{expected:?} {found:?}"
+        );
+        assert!((force / found[1][0] - 1.0).abs() < 2e-4, "{found:?}");
+        assert!((error / found[1][1] - 1.0).abs() < 5e-4, "{found:?}");
+    }
+}
+
 #[test]
 fn what_bevel_pairs_do_not_know_is_refused() {
     let scene = text("dynamics_bevel_20_20.toml").replace("tooth_pairs = {}\n", "");
@@ -246,6 +284,18 @@ fn what_bevel_pairs_do_not_know_is_refused() {
             "bevel_pair = \"bevel_20_20.toml\"\nbevel_models = [\"a.h5\", \"b.h5\"]",
             "bevel_models",
             &["is not used by kind = \"impact\""],
+        ),
+        (
+            "bevel_pair = \"bevel_20_20.toml\"",
+            "bevel_pair = \"bevel_20_20.toml\"\nbevel_surface = { kind = \"triangles\", along_um = 500.0, up_um = 2000.0 }",
+            "bevel_surface",
+            &["longest edge up the flank", "at most an eighth"],
+        ),
+        (
+            stiff,
+            "bevel_surface = { kind = \"triangles\", along_um = 500.0, up_um = 100.0 }\nmodel = { kind = \"hybrid\", half_space = {} }",
+            "bevel_surface",
+            &["belongs to kind = \"impact\""],
         ),
         (
             "bevel_pair = \"bevel_20_20.toml\"",

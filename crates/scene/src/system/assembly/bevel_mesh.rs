@@ -4,7 +4,8 @@ use std::path::Path;
 
 use gearmesh_bevel::{BevelError, PairFile};
 use gearmesh_drivetrain::{
-    BevelMesh, BevelSlices, DrivetrainError, FlankKinematics, GearMesh, PowerStiffness,
+    BevelMesh, BevelSlices, DrivetrainError, FacetKind, FacetSize, FlankKinematics, GearMesh,
+    PowerStiffness,
 };
 use gearmesh_geometry::input::TableKeys;
 use gearmesh_geometry::point_contact::contact_modulus_pa;
@@ -14,7 +15,9 @@ use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, pose, seat};
 use super::mesh_stiffness::{impact_law, stated_impact};
 use super::parts::Parts;
-use crate::system::tables::gear_mesh::{GearMeshTable, PathWord, TeethTable, TouchingFlanks};
+use crate::system::tables::gear_mesh::{
+    BevelSurfaceTable, GearMeshTable, PathWord, TeethTable, TouchingFlanks,
+};
 use crate::system::tables::mesh_model::{HertzTable, ImpactTable, MeshModel};
 use crate::system::tables::{MM, UM};
 
@@ -81,6 +84,10 @@ impl SceneBevel<'_> {
             }
             MeshModel::Impact(model) => {
                 let mut flanks = BevelMesh::new(&file.blank, &design).map_err(fault)?;
+                if let Some(surface) = self.table.bevel_surface {
+                    let divided = flanks.with_facets(facets(surface));
+                    flanks = divided.map_err(|e| self.keys.error("bevel_surface", e))?;
+                }
                 let located = flanks.locate(&at_start);
                 located.map_err(|e| self.keys.error("gear_2", e))?;
                 let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
@@ -143,6 +150,11 @@ impl SceneBevel<'_> {
                 }
             }
             MeshModel::Hybrid(model) => {
+                if self.table.bevel_surface.is_some() {
+                    let problem =
+                        "belongs to kind = \"impact\"; slices cut smooth flanks, remove it";
+                    return Err(self.keys.error("bevel_surface", problem));
+                }
                 if self.table.tooth_pairs.is_some() {
                     let problem = "belongs to kind = \"impact\", one contact for each pair of teeth; the slices of \"hybrid\" have forces and pressures of their own, remove it";
                     return Err(self.keys.error("tooth_pairs", problem));
@@ -264,6 +276,9 @@ impl SceneBevel<'_> {
                     let law = "F = K d^1.5, K from the curvatures at each contact";
                     parts.effect(name("hertz"), Some(law.to_string()));
                 }
+                if let Some(surface) = self.table.bevel_surface {
+                    parts.effect(name("flanks of the pinion"), Some(words(surface)));
+                }
                 let damping = model.damping_N_s_per_mm;
                 damping.map(|_| "STEP of the depth".to_string())
             }
@@ -290,6 +305,30 @@ impl SceneBevel<'_> {
             file.blank.mean_cone_m / MM
         ));
     }
+}
+
+fn facets(surface: BevelSurfaceTable) -> FacetSize {
+    let (kind, along_um, up_um) = match surface {
+        BevelSurfaceTable::Triangles { along_um, up_um } => (FacetKind::Triangles, along_um, up_um),
+        BevelSurfaceTable::Quadrilaterals { along_um, up_um } => {
+            (FacetKind::Quadrilaterals, along_um, up_um)
+        }
+    };
+    FacetSize {
+        kind,
+        along_m: UM * along_um,
+        up_m: UM * up_um,
+    }
+}
+
+fn words(surface: BevelSurfaceTable) -> String {
+    let size = facets(surface);
+    let kind = match size.kind {
+        FacetKind::Triangles => "triangles",
+        FacetKind::Quadrilaterals => "quadrilaterals",
+    };
+    let [along, up] = [size.along_m, size.up_m].map(|edge| edge / UM);
+    format!("{kind}, edges up to {along:.0} um along the face and {up:.0} um up the flank")
 }
 
 /// E* of both gears of a material \[Pa\], of the table at a key.

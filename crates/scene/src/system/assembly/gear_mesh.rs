@@ -90,6 +90,17 @@ impl PreparedMesh {
             let problem = "tells the pairs of teeth of a `bevel_pair`, which this mesh is not; remove it (the load along cylindrical teeth is in the columns line_load_slice_…)";
             return Err(keys.error("tooth_pairs", problem));
         }
+        for (key, given) in [
+            ("bevel_models", table.bevel_models.is_some()),
+            ("bevel_surface", table.bevel_surface.is_some()),
+        ] {
+            if given {
+                return Err(keys.error(
+                    key,
+                    "belongs to a `bevel_pair`, which this mesh is not; remove it",
+                ));
+            }
+        }
         let gear = |i: usize| {
             let placed = &bodies.list[numbers[i]];
             placed.gear.as_ref().ok_or_else(|| {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearmesh_geometry::Flank;
+use gearmesh_geometry::{Flank, kinds};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,6 +26,8 @@ pub struct GearMeshTable {
     pub bevel_pair: Option<PathBuf>,
     /// With `bevel_pair` and kind `hybrid`: reduced models (.h5) of the pinion and the gear, relative to the scene.
     pub bevel_models: Option<[PathBuf; 2]>,
+    /// With `bevel_pair` and kind `impact`: flanks of the pinion divided into facets against the smooth ones of the gear; smooth on both where not given.
+    pub bevel_surface: Option<BevelSurfaceTable>,
     /// Model of the teeth.
     pub model: MeshModel,
     /// What touches and how. Not with kind `kinematic`.
@@ -38,6 +40,30 @@ pub struct GearMeshTable {
     /// whose curve holds it.
     pub microgeometry: Option<bool>,
 }
+
+/// `gear_mesh.bevel_surface`: what the pinion's flanks are divided into. Edges should be a fifth of the contact ellipse or less; at least eight facets along
+/// the face and up the flank, two hundred thousand on a flank at most.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(remote = "Self", rename_all = "kebab-case", deny_unknown_fields)]
+#[schemars(tag = "kind", rename = "BevelSurfaceTable")]
+pub enum BevelSurfaceTable {
+    /// Plane triangles.
+    Triangles {
+        /// Longest edge along the face.
+        along_um: f64,
+        /// Longest edge up the flank.
+        up_um: f64,
+    },
+    /// Quadrilaterals, bilinear between their corners.
+    Quadrilaterals {
+        /// Longest edge along the face.
+        along_um: f64,
+        /// Longest edge up the flank.
+        up_um: f64,
+    },
+}
+
+kinds!(BevelSurfaceTable, "kind");
 
 /// `gear_mesh.teeth`: what touches and how, whatever the model that knows flanks.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
