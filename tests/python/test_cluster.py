@@ -1,6 +1,7 @@
 """Studies on a Dask cluster: the table is that of this machine, whatever is killed meanwhile; nothing is computed twice."""
 
 import contextlib
+import json
 import os
 import signal
 import socket
@@ -101,7 +102,7 @@ class Folder:
 def test_models_lie_where_the_worker_can_read_them(tmp_path):
     model = tmp_path / "a" / "model.h5"
     cluster_worker.store(model, b"content")
-    files = cluster_worker.Files([str(model)])
+    files = cluster_worker.Files({str(model): []})
     worker = Folder(str(tmp_path / "worker"))
     files.setup(worker)
     # It sees the same file.
@@ -110,6 +111,25 @@ def test_models_lie_where_the_worker_can_read_them(tmp_path):
     files.setup(worker)
     place = Path(cluster_worker.places_of[files.name][str(model)])
     assert place.read_bytes() == b"content" and place.is_relative_to(tmp_path / "worker")
+
+
+def test_files_that_files_name_go_with_them(tmp_path):
+    """A pair's text names a table of points, beside it and by its whole path: both are the worker's own."""
+    pair, points, other = tmp_path / "a" / "pair.toml", tmp_path / "a" / "points.csv", tmp_path / "b" / "other.csv"
+    cluster_worker.store(points, b"1,2\n")
+    cluster_worker.store(other, b"3,4\n")
+    cluster_worker.store(pair, f'[gear]\nconcave_points = "points.csv"\nconvex_points = "{other}"\n'.encode())
+    named = cluster._with_named({str(pair)})
+    assert set(named) == {str(pair), str(points), str(other)}
+    files, worker = cluster_worker.Files(named), Folder(str(tmp_path / "worker"))
+    # The worker's machine has the text at the same place, but not the same points.
+    points.write_bytes(b"5,6\n")
+    other.unlink()
+    files.setup(worker)
+    places = cluster_worker.places_of[files.name]
+    gear = cluster_worker._native.json_from_toml(Path(places[str(pair)]).read_text(), "pair")
+    assert json.loads(gear)["gear"] == {"concave_points": places[str(points)], "convex_points": places[str(other)]}
+    assert Path(places[str(points)]).read_bytes() == b"1,2\n" and Path(places[str(other)]).read_bytes() == b"3,4\n"
 
 
 def test_what_is_wrong_is_told_before_a_worker_is_asked(few, tmp_path):

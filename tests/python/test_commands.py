@@ -55,13 +55,33 @@ def test_a_relief_is_optimised(pair, tmp_path):
         variable=[{"name": "relief", "keys": keys, "from": 0.0, "to": 30.0}],
         objective=[dict(name="te", term=term)],
     )
-    found = gm.optimise(tables, tmp_path / "out")
+    told = []
+    found = gm.optimise(tables, tmp_path / "out", progress=lambda *stand: told.append(stand))
     best = found.best
+    assert {stage for stage, _, _ in told} == {"search"} and 0.0 < told[-1][1] <= told[-1][2]
     relieved = scene.but(dict.fromkeys(keys, best["variables"]["relief"])).run(progress=False)
     assert 1e6 * np.ptp(relieved["te_m"][1]) == pytest.approx(best["objectives"]["te"], rel=1e-9)
     assert found.before is not None and best["objectives"]["te"] < 0.7 * found.before[0]
     assert len(found.to_pandas("tried")) == found.tried
     assert found.plot().get_xlabel() == "relief"
+
+
+def test_the_program_is_told_to_stop(pair, tmp_path):
+    """Ctrl-C while it works, and a function for the progress that fails: the program has ended when the call does."""
+    pair.write(tmp_path / "pair.toml")
+    words = ("accuracy", tmp_path / "pair.toml", "--columns", "te_mean_um", "-o", tmp_path / "page.html")
+    with pytest.raises(ZeroDivisionError):
+        gm.program(*words, progress=lambda *told: 1 / 0)
+    ran = []
+
+    def interrupted(*told):
+        ran.append(told)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        gm.accuracy(pair, ["te_mean_um"], progress=interrupted)
+    assert len(ran) == 1 and ran[0][0] == "settings"
+    assert not (tmp_path / "page.html").exists()
 
 
 def test_models_that_change_are_read_again(models, pair, tmp_path):

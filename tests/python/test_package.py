@@ -106,6 +106,23 @@ def test_the_program_gives_the_same_curves(pair, result, tmp_path):
     assert np.ptp(result["te_m"], axis=1) == pytest.approx(ranges, rel=1e-12)
 
 
+def test_arrays_are_the_memory_of_the_result(result, tmp_path):
+    again = result._native.data_sets()
+    for name in ("te_m", "force_N", "pair_count", "angle_rad"):
+        assert np.shares_memory(again[name][0], result[name]), name
+        # It belongs to what has computed it, which lives as long as the array.
+        assert not result[name].flags.owndata and not result[name].flags.writeable
+    kept, expected = result["te_m"], result["te_m"].copy()
+    result.save(tmp_path / "result.h5")
+    other = gm.Result.open(tmp_path / "result.h5")
+    opened = other["te_m"]
+    del other
+    assert np.array_equal(opened, expected) and np.array_equal(kept, expected)
+    with pytest.raises(ValueError, match="read-only"):
+        kept[0, 0] = 1.0
+    assert np.shares_memory(result.to_xarray()["te_m"].values, kept)
+
+
 def test_data_sets_say_what_they_are(result):
     assert result["te_m"].shape == (2, 12)
     assert result.axes("force_N") == ("torque", "angle", "line", "slice")

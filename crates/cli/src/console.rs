@@ -1,5 +1,6 @@
 //! Printing: data to standard output, progress, warnings and errors to standard error.
 
+use crate::progress_lines::ProgressLines;
 use gearmesh_reduction::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::cell::Cell;
@@ -62,6 +63,7 @@ pub struct RunBar {
     begun: Instant,
     /// Share of the work at the first call, and when the last remark was made.
     state: Cell<(Option<f64>, Instant)>,
+    lines: ProgressLines,
 }
 
 impl RunBar {
@@ -79,11 +81,15 @@ impl RunBar {
             bar,
             begun: now,
             state: Cell::new((None, now)),
+            lines: ProgressLines::from_environment(),
         }
     }
 
     /// So much of it is done.
     pub fn advance(&self, done: f64, total: f64) {
+        if self.lines.are_asked_for() {
+            return self.lines.tell(&self.title, done, total);
+        }
         let (first, told) = self.state.get();
         let first = first.unwrap_or(done);
         let now = Instant::now();
@@ -119,6 +125,7 @@ impl RunBar {
 pub struct StageBar {
     title: String,
     now: Mutex<Stage>,
+    lines: ProgressLines,
 }
 
 /// The present stage.
@@ -157,6 +164,7 @@ impl StageBar {
                 begun: now,
                 told: now,
             }),
+            lines: ProgressLines::from_environment(),
         }
     }
 
@@ -180,12 +188,19 @@ impl Progress for StageBar {
             stage.bar.enable_steady_tick(Duration::from_millis(200));
             name.clone_into(&mut stage.name);
             stage.begun = Instant::now();
-            stage.remark(&self.title, None);
+            if self.lines.are_asked_for() {
+                self.lines.tell(name, 0.0, 0.0);
+            } else {
+                stage.remark(&self.title, None);
+            }
         });
     }
 
     fn advance(&self, done: usize, total: usize) {
         self.with(|stage| {
+            if self.lines.are_asked_for() {
+                return self.lines.tell(&stage.name, done as f64, total as f64);
+            }
             if stage.bar.length().is_none() {
                 stage.bar.set_length(total as u64);
                 if let Ok(style) =
@@ -217,7 +232,7 @@ impl Progress for StageBar {
             if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {to_go}") {
                 stage.bar.set_style(style.with_key("to_go", to_go));
             }
-            if left >= REMARK_EVERY {
+            if left >= REMARK_EVERY && !self.lines.are_asked_for() {
                 // A wait that is worth a word whenever the last one was.
                 stage.told = stage.told.checked_sub(REMARK_EVERY).unwrap_or(stage.told);
                 stage.remark(&self.title, Some(left));

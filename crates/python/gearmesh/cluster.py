@@ -40,6 +40,9 @@ _MOST_A_TASK = 16
 _MOST_LOSSES = 20
 """A scheduler that is lost more often has another trouble."""
 
+Named = dict[str, list[tuple[str, str]]]
+"""Files, each with the files that it names: (name in its text, file)."""
+
 _runner = _native.NativeCaseRunner()
 
 
@@ -84,7 +87,7 @@ class _Work:
     """The cases of a study, and what has become of them."""
 
     def __init__(
-        self, cases: list[Sent], out: Path, token: str, files: list[str], batch: int, bar: Bar
+        self, cases: list[Sent], out: Path, token: str, files: Named, batch: int, bar: Bar
     ) -> None:
         self.count, self.out, self.token, self.batch, self.bar = len(cases), out, token, batch, bar
         self.failures: dict[str, str] = {}
@@ -290,18 +293,20 @@ def _demand_version(client: Client) -> None:
             raise _native.InputError(f"the worker {address} has no gearmesh: {answer}")
 
 
-def _with_named(files: set[str]) -> list[str]:
-    """The files, and those that texts among them name, and so on."""
-    found, waiting = set(files), list(files)
+def _with_named(files: set[str]) -> Named:
+    """The files, and those that texts among them name, and so on; of each what it names: (name, file)."""
+    found: Named = {}
+    waiting = list(files)
     while waiting:
-        path = Path(waiting.pop())
-        if path.suffix != ".toml":
+        file = waiting.pop()
+        if file in found:
             continue
-        text = path.read_text(encoding="utf-8")
-        further = {str(place.absolute()) for _, place in _native.files_of(text, path.parent)} - found
-        found |= further
-        waiting.extend(further)
-    return sorted(found)
+        path, found[file] = Path(file), []
+        if path.suffix == ".toml":
+            text = path.read_text(encoding="utf-8")
+            found[file] = [(name, str(place.absolute())) for name, place in _native.files_of(text, path.parent)]
+            waiting += [place for _, place in found[file]]
+    return found
 
 
 @contextlib.contextmanager

@@ -11,7 +11,7 @@ import tempfile
 import time
 import uuid
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, Sequence
+from typing import TYPE_CHECKING, Mapping, Protocol, Sequence
 
 from distributed import WorkerPlugin, get_worker
 
@@ -70,27 +70,42 @@ class Files(WorkerPlugin):
 
     idempotent = True
 
-    def __init__(self, paths: Sequence[str]) -> None:
-        self.contents = {path: Path(path).read_bytes() for path in paths}
+    def __init__(self, files: Mapping[str, Sequence[tuple[str, str]]]) -> None:
+        """files: paths, and of a text among them what it names: (name, path); these are among the files, too."""
+        self.named = {path: list(named) for path, named in files.items()}
+        self.contents = {path: Path(path).read_bytes() for path in files}
         self.digests = {path: hashlib.sha256(content).hexdigest() for path, content in self.contents.items()}
         self.name = f"gearmesh-{hashlib.sha256(json.dumps(self.digests, sort_keys=True).encode()).hexdigest()[:16]}"
 
     def setup(self, worker: HasFolder) -> None:
         """Lays the files below the worker's own folder, unless they are where the scenes look for them."""
-        root = Path(worker.local_directory) / "gearmesh"
+        root = Path(worker.local_directory) / "gearmesh" / self.name
+        there = self._there()
         places: dict[str, str] = {}
+        for path in self.contents:
+            whole = Path(path)
+            places[path] = path if path in there else str(root / whole.relative_to(whole.anchor))
         for path, content in self.contents.items():
-            there = Path(path)
-            with contextlib.suppress(OSError):
-                if hashlib.sha256(there.read_bytes()).hexdigest() == self.digests[path]:
-                    places[path] = path
-                    continue
-            # As deep as where it comes from, so that files beside it that it names are beside it here, too.
-            place = root / self.name / there.relative_to(there.anchor)
-            store(place, content)
-            places[path] = str(place)
+            if path in there:
+                continue
+            if self.named[path]:
+                # What it names may lie elsewhere, or be named by its whole path, which is not the one here.
+                names = {name: places[file] for name, file in self.named[path]}
+                content = _native.with_files(content.decode("utf-8"), names).encode("utf-8")
+            store(Path(places[path]), content)
         places_of[self.name] = places
         received.append(self.name)
+
+    def _there(self) -> set[str]:
+        """Files that this machine has at the same place, with all that they name."""
+        there: set[str] = set()
+        for path, digest in self.digests.items():
+            with contextlib.suppress(OSError):
+                if hashlib.sha256(Path(path).read_bytes()).hexdigest() == digest:
+                    there.add(path)
+        while lacking := {path for path in there if any(file not in there for _, file in self.named[path])}:
+            there -= lacking
+        return there
 
     def teardown(self, worker: HasFolder) -> None:
         """The worker's folder goes with it."""

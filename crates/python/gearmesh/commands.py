@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .program import options, program
+from .progress import Progress
 from .scene import Scene, scene_file
 from .toml_text import Tables, from_toml
 
@@ -24,20 +25,21 @@ def accuracy(
     page: str | os.PathLike[str] | None = None,
     elements: str | os.PathLike[str] | None = None,
     time: Literal["wall", "processor"] = "wall",
+    progress: Progress = None,
 ) -> dict[str, Any]:
     """What accuracy costs in time, for columns of a scene: every knob of it against a reference (docs/accuracy-cost.md).
 
     columns: those of a study; of series COLUMN:FIGURE. from_s: figures from this time on, of multibody runs. page: also
     write the page with the picture. elements: folder for models, where the gears' elements and element lengths are varied,
-    too. time: what stands for cost. Returns what `gearmesh accuracy --json` prints: the errors
-    and seconds of each setting and what is advised for 1 %, 0.1 % and interactive work. Takes minutes.
+    too. time: what stands for cost. progress: see gearmesh.progress.Progress. Returns what `gearmesh accuracy --json`
+    prints: the errors and seconds of each setting and what is advised for 1 %, 0.1 % and interactive work. Takes minutes.
     """
     further = [] if page is None else ["-o", page]
     if from_s:
         further.append(f"--from-s={from_s!r}")
     further += options({"elements": elements, "time": time})
     with scene_file(scene) as path:
-        return program("accuracy", path, "--columns", ",".join(columns), *further)
+        return program("accuracy", path, "--columns", ",".join(columns), *further, progress=progress)
 
 
 def check(file: str | os.PathLike[str]) -> dict[str, Any]:
@@ -55,9 +57,9 @@ def init(kind: Literal["gear", "pair", "gearbox"], folder: str | os.PathLike[str
     return [Path(file) for file in program("init", kind, "-o", folder)["files"]]
 
 
-def demo(folder: str | os.PathLike[str]) -> str:
-    """Makes gear pairs A and B from definition to report; a minute or two."""
-    return str(program("demo", "-o", folder))
+def demo(folder: str | os.PathLike[str], *, progress: Progress = None) -> str:
+    """Makes gear pairs A and B from definition to report; a minute or two. progress: see gearmesh.progress.Progress."""
+    return str(program("demo", "-o", folder, progress=progress))
 
 
 def import_rexs(
@@ -113,7 +115,12 @@ def compliance(model: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
 
 
 def natural_frequencies(
-    gear: Any, *, count: int | None = None, up_to_Hz: float | None = None, shapes: str | os.PathLike[str] | None = None
+    gear: Any,
+    *,
+    count: int | None = None,
+    up_to_Hz: float | None = None,
+    shapes: str | os.PathLike[str] | None = None,
+    progress: Progress = None,
 ) -> dict[str, Any]:
     """Natural frequencies of a gear (a Gear, or its file) held at its bore, with their nodal diameters.
 
@@ -121,13 +128,15 @@ def natural_frequencies(
     """
     given = {"count": count, "up_to_Hz": up_to_Hz, "shapes": shapes}
     with tempfile.TemporaryDirectory() as folder:
-        return program("modes", gear_file(gear, folder), *options(given))
+        return program("modes", gear_file(gear, folder), *options(given), progress=progress)
 
 
-def mesh(gear: Any, path: str | os.PathLike[str], *, length_unit: Literal["m", "mm"] = "m") -> dict[str, Any]:
+def mesh(
+    gear: Any, path: str | os.PathLike[str], *, length_unit: Literal["m", "mm"] = "m", progress: Progress = None
+) -> dict[str, Any]:
     """Writes the finite element mesh of a gear (a Gear, or its file); the ending of path names the format."""
     with tempfile.TemporaryDirectory() as folder:
-        return program("mesh", gear_file(gear, folder), "-o", path, "--length-unit", length_unit)
+        return program("mesh", gear_file(gear, folder), "-o", path, "--length-unit", length_unit, progress=progress)
 
 
 def gear_file(gear: Any, folder: str) -> Path:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .optional import demanded
 from .program import program
+from .progress import Progress
 from .study import written
 from .toml_text import Tables
 
@@ -68,12 +69,14 @@ class Optimum:
         return f"<Optimum {self.title!r}: {len(self.front)} choices of {self.tried} tried; {self.folder}>"
 
 
-def optimise(source: str | os.PathLike[str] | Tables, folder: str | os.PathLike[str]) -> Optimum:
+def optimise(
+    source: str | os.PathLike[str] | Tables, folder: str | os.PathLike[str], *, progress: Progress = None
+) -> Optimum:
     """Seeks the relief, crowning or other keys that make the objectives of a pair least (docs/reference/optimise.md).
 
-    source: the file, or its tables with a Scene or the path of one under "scene". Computed by the program: raises
-    InputError, WorkError with its messages; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
+    source: the file, or its tables with a Scene or the path of one under "scene". progress: see
+    gearmesh.progress.Progress. Computed by the program: raises InputError, WorkError with its messages; KeyboardInterrupt on Ctrl-C, when folder has what was tried until then.
     """
     with tempfile.TemporaryDirectory(prefix="gearmesh-optimise-") as beside:
         path = written(source, Path(beside), "optimise.toml") if isinstance(source, dict) else Path(source)
-        return Optimum(program("optimise", path, "-o", folder), Path(folder))
+        return Optimum(program("optimise", path, "-o", folder, progress=progress), Path(folder))

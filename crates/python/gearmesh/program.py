@@ -5,32 +5,42 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
+import threading
 from pathlib import Path
 from typing import Any, Mapping
 
 from ._native import InputError, WorkError
+from .progress import Bar, Progress
+
+_END_S = 60.0
+"""So long the program may take to end on Ctrl-C: it finishes a file, or a run that it has begun."""
 
 
-def program(*arguments: str | os.PathLike[str] | float) -> Any:
+def program(*arguments: str | os.PathLike[str] | float, progress: Progress = False) -> Any:
     """Runs `gearmesh ARGUMENTS --json` and returns what it prints, parsed; a text where it prints none.
 
         gearmesh.program("bearing", "6206.toml", "--load-N", "0,0,500")["stiffness_SI"]
 
-    Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt (130),
-    FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
+    progress: see gearmesh.progress.Progress; none unless told otherwise.
+
+    Raises InputError (exit code 2) or WorkError (1) with the program's message, KeyboardInterrupt on Ctrl-C, which the
+    program is told; FileNotFoundError where there is no program: it is installed with the wheel, or named by GEARMESH_PROGRAM.
     """
     words = [str(os.fspath(a)) if isinstance(a, os.PathLike) else str(a) for a in arguments]
     # Notebooks ask for colours, which would stand in the messages.
     asks = ("FORCE_COLOR", "CLICOLOR_FORCE")
     environment = {name: value for name, value in os.environ.items() if name not in asks}
     environment["NO_COLOR"] = "1"
+    environment["GEARMESH_PROGRESS"] = "lines"
     environment.setdefault("GEARMESH_PYTHON", sys.executable)
-    answer = _call([*words, "--json"], environment)
-    if answer.returncode == 2 and "unexpected argument '--json'" in answer.stderr:
-        answer = _call(words, environment)
+    with Bar(progress, words[0]) as bar:
+        answer = _call([*words, "--json"], environment, bar)
+        if answer.returncode == 2 and "unexpected argument '--json'" in answer.stderr:
+            answer = _call(words, environment, bar)
     if answer.returncode != 0:
         message = _message(answer.stderr)
         if answer.returncode == 130:
@@ -56,8 +66,42 @@ def options(given: Mapping[str, Any]) -> list[str]:
     return words
 
 
-def _call(words: list[str], environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([_path(), *words], capture_output=True, text=True, env=environment, check=False)
+def _call(words: list[str], environment: dict[str, str], bar: Bar) -> subprocess.CompletedProcess[str]:
+    """Runs the program; on Ctrl-C, and where the bar's function raises, it is told and waited for."""
+    pipe = subprocess.PIPE
+    # In a session of its own: Ctrl-C reaches it once, from here, and not from the terminal as well.
+    with subprocess.Popen(
+        [_path(), *words], stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, text=True, env=environment, start_new_session=True
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        data, said = process.stdout, list[str]()
+        printed: list[str] = []
+        reader = threading.Thread(target=lambda: printed.append(data.read()), daemon=True)
+        reader.start()
+        try:
+            for line in process.stderr:
+                told = _told(line)
+                if told is None:
+                    said.append(line)
+                else:
+                    bar.tell(*told)
+        except BaseException:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.wait(_END_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+            raise
+        reader.join()
+    return subprocess.CompletedProcess(process.args, process.returncode, "".join(printed), "".join(said))
+
+
+def _told(line: str) -> tuple[str, float, float] | None:
+    """Stage, done, of how much: a line of progress."""
+    if not line.startswith('{"progress":'):
+        return None
+    told = json.loads(line)["progress"]
+    return told["stage"], told["done"], told["total"]
 
 
 def _message(stderr: str) -> str:

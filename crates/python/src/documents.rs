@@ -1,10 +1,11 @@
 //! Texts of files: TOML from Python's dicts and back, what may stand in them, whether they are sound.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use gearmesh_geometry::GearDefinition;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_scene::{SceneFile, named_files};
+use gearmesh_scene::{SceneFile, named_files, renamed_files};
 use pyo3::prelude::*;
 
 use crate::errors::{InputError, input_error};
@@ -89,4 +90,10 @@ pub(crate) fn check_scene(
 #[pyfunction]
 pub(crate) fn files_of(text: &str, folder: PathBuf) -> Vec<(String, PathBuf)> {
     named_files(text, &folder).into_iter().collect()
+}
+
+/// The text with other names of files. Raises InputError where it is no TOML.
+#[pyfunction]
+pub(crate) fn with_files(text: &str, names: BTreeMap<String, String>) -> PyResult<String> {
+    renamed_files(text, &names).map_err(InputError::new_err)
 }

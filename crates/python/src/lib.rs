@@ -25,6 +25,7 @@ mod functions;
 mod mesh_arrays;
 mod meshio_exchange;
 mod meshio_format;
+mod pair_arrays;
 mod reduced;
 mod reducing;
 mod results;
@@ -38,7 +39,7 @@ mod watched;
 mod native {
     #[pymodule_export]
     use crate::documents::{
-        check_gear, check_scene, files_of, json_from_toml, schema, toml_from_json,
+        check_gear, check_scene, files_of, json_from_toml, schema, toml_from_json, with_files,
     };
     #[pymodule_export]
     use crate::errors::{InputError, WorkError};

@@ -2,40 +2,47 @@
 
 use std::path::PathBuf;
 
-use gearmesh_model::{DataTree, Values, write_record};
 use gearmesh_report::export::{Cells, Table, pair_tables, system_tables};
 use gearmesh_scene::system_run::SystemResult;
 use gearmesh_scene::{ResultFile, SceneResult};
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{InputError, file_error};
+use crate::pair_arrays::PairArrays;
 
 /// A data set: array, names of its axes, unit, what it is.
 type DataSet<'py> = (Bound<'py, PyAny>, Vec<String>, String, String);
 
 /// A result in memory (of a pair) or a file whose columns are read when they are asked for (of a multibody scene).
 #[pyclass(frozen, module = "gearmesh._native")]
-pub(crate) struct NativeResult(ResultFile);
+pub(crate) struct NativeResult(Kept);
+
+enum Kept {
+    Pair(Box<PairArrays>),
+    System(Box<SystemResult>),
+}
 
 impl NativeResult {
     /// Of a pair.
-    pub(crate) fn of_pair(result: SceneResult) -> Self {
-        Self(ResultFile::Pair(Box::new(result)))
+    pub(crate) fn of_pair(py: Python<'_>, result: SceneResult) -> PyResult<Self> {
+        Ok(Self(Kept::Pair(Box::new(PairArrays::new(py, result)?))))
     }
 
     /// Of a multibody scene.
     pub(crate) fn of_system(result: SystemResult) -> Self {
-        Self(ResultFile::System(Box::new(result)))
+        Self(Kept::System(Box::new(result)))
     }
 }
 
 /// Opens a result file of either kind.
 #[pyfunction]
 pub(crate) fn open_result(py: Python<'_>, path: PathBuf) -> PyResult<NativeResult> {
-    let result = py.detach(|| ResultFile::open(&path)).map_err(file_error)?;
-    Ok(NativeResult(result))
+    match py.detach(|| ResultFile::open(&path)).map_err(file_error)? {
+        ResultFile::Pair(result) => NativeResult::of_pair(py, *result),
+        ResultFile::System(result) => Ok(NativeResult::of_system(*result)),
+    }
 }
 
 #[pymethods]
@@ -44,8 +51,8 @@ impl NativeResult {
     #[getter]
     fn kind(&self) -> String {
         match &self.0 {
-            ResultFile::Pair(_) => "pair".to_owned(),
-            ResultFile::System(result) => result.kind.to_string(),
+            Kept::Pair(_) => "pair".to_owned(),
+            Kept::System(result) => result.kind.to_string(),
         }
     }
 
@@ -53,8 +60,8 @@ impl NativeResult {
     #[getter]
     fn title(&self) -> &str {
         match &self.0 {
-            ResultFile::Pair(result) => &result.title,
-            ResultFile::System(result) => &result.head.title,
+            Kept::Pair(pair) => &pair.head.title,
+            Kept::System(result) => &result.head.title,
         }
     }
 
@@ -62,8 +69,8 @@ impl NativeResult {
     #[getter]
     fn scene_toml(&self) -> &str {
         match &self.0 {
-            ResultFile::Pair(result) => &result.scene_toml,
-            ResultFile::System(result) => &result.head.scene_toml,
+            Kept::Pair(pair) => &pair.head.scene_toml,
+            Kept::System(result) => &result.head.scene_toml,
         }
     }
 
@@ -71,8 +78,8 @@ impl NativeResult {
     #[getter]
     fn made(&self) -> (&str, &str) {
         match &self.0 {
-            ResultFile::Pair(result) => (&result.version, &result.created_utc),
-            ResultFile::System(result) => (&result.version, &result.created_utc),
+            Kept::Pair(pair) => (&pair.head.version, &pair.head.created_utc),
+            Kept::System(result) => (&result.version, &result.created_utc),
         }
     }
 
@@ -80,12 +87,12 @@ impl NativeResult {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         match &self.0 {
-            ResultFile::Pair(result) => {
-                let mut warnings = result.warnings.clone();
-                warnings.extend(result.incomplete());
+            Kept::Pair(pair) => {
+                let mut warnings = pair.head.warnings.clone();
+                warnings.extend(pair.head.incomplete());
                 warnings
             }
-            ResultFile::System(result) => {
+            Kept::System(result) => {
                 let mut warnings = result.head.notes.clone();
                 warnings.extend(result.problem());
                 warnings
@@ -96,35 +103,25 @@ impl NativeResult {
     /// Names of all data sets of a pair, of the columns of a multibody result.
     fn names(&self) -> Vec<String> {
         match &self.0 {
-            ResultFile::Pair(result) => tree_of(result).arrays.into_keys().collect(),
-            ResultFile::System(result) => {
+            Kept::Pair(pair) => pair.names(),
+            Kept::System(result) => {
                 let columns = result.rows.columns().iter();
                 columns.map(|column| column.name.clone()).collect()
             }
         }
     }
 
-    /// All data sets of a pair by name: (array, names of the axes, unit, description). Made from one copy.
+    /// All data sets of a pair by name: (array, names of the axes, unit, description). The arrays are this result's own memory.
     fn data_sets<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let found = PyDict::new(py);
-        let ResultFile::Pair(result) = &self.0 else {
-            return Ok(found);
-        };
-        for (name, array) in py.detach(|| tree_of(result)).arrays {
-            let shape = array.shape;
-            let values = match array.values {
-                Values::F64(values) => PyArray1::from_vec(py, values).reshape(shape)?.into_any(),
-                Values::U32(values) => PyArray1::from_vec(py, values).reshape(shape)?.into_any(),
-            };
-            let axes = array.axis_labels;
-            found.set_item(name, (values, axes, array.unit, array.description))?;
+        match &self.0 {
+            Kept::Pair(pair) => pair.data_sets(py),
+            Kept::System(_) => Ok(PyDict::new(py)),
         }
-        Ok(found)
     }
 
     /// A column of a multibody result, read now: (array (rows,), ["row"], unit, description).
     fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<DataSet<'py>> {
-        let ResultFile::System(result) = &self.0 else {
+        let Kept::System(result) = &self.0 else {
             return Err(InputError::new_err("a pair's result has no columns"));
         };
         let mut columns = result.rows.columns().iter();
@@ -139,12 +136,15 @@ impl NativeResult {
 
     /// The tables that `gearmesh export` knows, by name: {column: array or list of texts}.
     fn tables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let tables = py
-            .detach(|| match &self.0 {
-                ResultFile::Pair(result) => Ok(pair_tables(result)),
-                ResultFile::System(result) => system_tables(result),
-            })
-            .map_err(|error| InputError::new_err(error.to_string()))?;
+        let tables = match &self.0 {
+            Kept::Pair(pair) => {
+                let result = pair.result(py)?;
+                py.detach(|| pair_tables(&result))
+            }
+            Kept::System(result) => py
+                .detach(|| system_tables(result))
+                .map_err(|error| InputError::new_err(error.to_string()))?,
+        };
         let found = PyDict::new(py);
         for Table { name, columns } in tables {
             let table = PyDict::new(py);
@@ -164,17 +164,13 @@ impl NativeResult {
     /// Writes a pair's result; that of a multibody scene is a file already.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         match &self.0 {
-            ResultFile::Pair(result) => py.detach(|| result.write(&path)).map_err(file_error),
-            ResultFile::System(_) => Err(InputError::new_err(
+            Kept::Pair(pair) => {
+                let result = pair.result(py)?;
+                py.detach(|| result.write(&path)).map_err(file_error)
+            }
+            Kept::System(_) => Err(InputError::new_err(
                 "the result of a multibody scene is a file already; copy it",
             )),
         }
     }
-}
-
-/// The data sets as the file has them.
-fn tree_of(result: &SceneResult) -> DataTree {
-    let mut tree = DataTree::default();
-    write_record(&mut result.clone(), &mut tree);
-    tree
 }

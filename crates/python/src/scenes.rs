@@ -124,7 +124,7 @@ fn run_pair(
     output: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(NativeResult, Vec<String>)> {
-    watched(py, progress, OnInterrupt::Leave, move |watch| {
+    let (result, notes) = watched(py, progress, OnInterrupt::Leave, move |watch| {
         let loaded = shelved_models(&scene).load(&scene).map_err(run_error)?;
         let notes = notes(&loaded.scene.notes, &loaded.unit_slips());
         let told = |done: usize, total: usize| {
@@ -134,8 +134,9 @@ fn run_pair(
         if let Some(output) = output {
             result.write(&output).map_err(file_error)?;
         }
-        Ok((NativeResult::of_pair(result), notes))
-    })
+        Ok((result, notes))
+    })?;
+    Ok((NativeResult::of_pair(py, result)?, notes))
 }
 
 /// Models that this process has read, and what their files were then: a relief is varied in milliseconds, where reading

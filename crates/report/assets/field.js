@@ -94,7 +94,10 @@ function fieldPicture(figure, place, d) {
     ratio = printing ? 2 : devicePixelRatio;
     const room = drawingWidth(place) - 102;
     width = Math.max(120, Math.round(room * ratio));
-    height = Math.round(Math.min(620, Math.max(320, room * 0.62)) * ratio);
+    const most = Math.min(620, Math.max(320, room * 0.62));
+    // A flat shape has no empty room above and below.
+    const needed = d.window ? most : Math.max(240, room * 1.2 * box.height / box.width);
+    height = Math.round(Math.min(most, needed) * ratio);
     canvas.width = width; canvas.height = height;
     canvas.style.height = `${height / ratio}px`;
     paint(); // at once: a print does not wait for a frame

@@ -107,25 +107,25 @@ fn unbeaten(found: &Accuracy) -> Vec<&Tried> {
 }
 
 fn table(found: &Accuracy) -> Table {
-    let mut table = Table::new("Settings, by what differs from the reference")
-        .column("setting", Align::Left)
-        .column(format!("{} s", found.time.words()), Align::Right)
-        .column("iterations", Align::Right)
-        .column("reduction s", Align::Right);
+    let mut table =
+        Table::new("Settings, by what differs from the reference: time, and error of each column")
+            .column("setting", Align::Phrase)
+            .column(format!("{} s", found.time.words()), Align::Right)
+            .column("iterations", Align::Right);
+    let any_reduced = found.tried.iter().any(|one| one.reduction_s > 0.0);
+    if any_reduced {
+        table = table.column("reduction s", Align::Right);
+    }
     for column in &found.columns {
-        table = table.column(format!("error of {column} %"), Align::Right);
+        table = table.column(format!("{column} %"), Align::Right);
     }
     for one in &found.tried {
-        let reduction = match one.reduction_s > 0.0 {
-            true => short(one.reduction_s),
-            false => String::new(),
-        };
-        let iterations = short(one.effort.iterations);
-        let numbers = [short(one.seconds), iterations, reduction].into_iter();
-        let errors = one.errors.iter().map(|error| short(100.0 * error));
-        let cells = std::iter::once(words(&found.knobs, &one.rungs))
-            .chain(numbers)
-            .chain(errors);
+        let setting = words(&found.knobs, &one.rungs);
+        let mut cells = vec![setting, short(one.seconds), short(one.effort.iterations)];
+        if any_reduced {
+            cells.push(short(one.reduction_s));
+        }
+        cells.extend(one.errors.iter().map(|error| short(100.0 * error)));
         table.push_row(cells);
     }
     table
@@ -134,7 +134,7 @@ fn table(found: &Accuracy) -> Table {
 /// What each effect changes, in the scene as it is, and takes.
 fn effects(found: &Accuracy) -> Table {
     let mut table = Table::new("With each effect against without it, all else as the scene has it")
-        .column("effect", Align::Left)
+        .column("effect", Align::Phrase)
         .column("in the scene", Align::Left);
     for head in ["states", "calls", "iterations"] {
         table = table.column(format!("{head} with / without"), Align::Right);

@@ -23,10 +23,13 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
         1 => String::new(),
         samples => format!(" Each is the result of {samples} pairs that scatter makes of it."),
     };
+    let variables = match tables.variable.len() {
+        1 => "1 variable".to_owned(),
+        count => format!("{count} variables"),
+    };
     let told = format!(
-        "{} choices of {} variables were tried.{scatter}",
-        found.tried.len(),
-        tables.variable.len()
+        "{} choices of {variables} were tried.{scatter}",
+        found.tried.len()
     );
     let mut section = Section::new("What was found")
         .push(figures)

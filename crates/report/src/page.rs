@@ -217,11 +217,24 @@ impl Page {
 
     fn navigation(&self, html: &mut String) {
         html.push_str("<nav aria-label=\"Sections\"><ul>");
+        // What all headings begin with stands above them already.
+        let of_one = match &self.sections[..] {
+            [first, rest @ ..] => {
+                let start = format!("{}: ", first.heading);
+                let common = rest.iter().all(|s| s.heading.starts_with(&start));
+                common.then_some(start)
+            }
+            [] => None,
+        };
         for (i, section) in self.sections.iter().enumerate() {
+            let heading = &section.heading;
+            let stripped = of_one
+                .as_ref()
+                .and_then(|start| heading.strip_prefix(start));
             let _ = write!(
                 html,
                 "<li><a href=\"#s{i}\">{}</a></li>",
-                escape(&section.heading)
+                escape(stripped.unwrap_or(heading))
             );
         }
         html.push_str("</ul><button type=\"button\" id=\"theme\" hidden>Dark</button></nav>\n");

@@ -4,7 +4,7 @@ use crate::comparison_table;
 use crate::contact_pattern;
 use crate::page::{
     Align, Axis, FieldPicture, FieldValues, KeyFigures, LineChart, LineSeries, LineStyle, Page,
-    PageError, Section, SpectrumChart, SpectrumSeries, Table, Text,
+    PageError, Section, SeriesColour, SpectrumChart, SpectrumSeries, Table, Text,
 };
 use crate::pair_orders::{PairOrders, Shaft};
 use crate::peak_view::PeakView;
@@ -153,7 +153,7 @@ fn overview(r: &SceneResult) -> Section {
         .figure(
             format!("K_Hbeta{mark}"),
             format!("{:.3}", r.k_h_beta[last]),
-            "1",
+            "",
         );
     if let Some(s) = r.strain.first() {
         let range = figure(peak_to_peak(r.curve(&s.method_2, last)));
@@ -271,11 +271,14 @@ fn transmission_error(chapter: &SceneChapter) -> Section {
     .x_values(angles_deg(r));
     for (k, &torque) in r.torque_nm.iter().enumerate() {
         let te = r.curve(&r.te_m, k);
-        chart = chart.series(LineSeries::new(format!("{torque} N m"), micro(te)));
+        // The same for a torque and its reference; other ones beside them.
+        let colour = SeriesColour::Palette(k);
+        chart = chart.series(LineSeries::new(format!("{torque} N m"), micro(te)).colour(colour));
         if let Some(values) = reference_values(chapter, &Quantity::TransmissionError, torque) {
             chart = chart.series(
                 LineSeries::new(format!("{torque} N m reference"), values)
                     .style(LineStyle::Dashed)
+                    .colour(colour)
                     .hidden(),
             );
         }

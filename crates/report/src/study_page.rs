@@ -38,10 +38,13 @@ pub fn study_page(study: &Study, cases: &[CaseResult]) -> Page {
         0 => String::new(),
         _ => format!(" {failed} of them failed."),
     };
+    let parameters = match study.tables.parameter.len() {
+        1 => "1 parameter".to_owned(),
+        count => format!("{count} parameters"),
+    };
     let told = format!(
-        "{} cases of {} parameters.{failures} The numbers are in study.csv.",
-        cases.len(),
-        study.tables.parameter.len()
+        "{} cases of {parameters}.{failures} The numbers are in study.csv.",
+        cases.len()
     );
     let mut first = Section::new("What was found");
     if !figures.is_empty() {
@@ -187,8 +190,9 @@ fn groups(cases: &[CaseResult], parameter: &str) -> Vec<(String, Option<f64>, Ve
     if numbers {
         by_value.sort_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(std::cmp::Ordering::Equal));
     }
-    // Few values, or several cases each: the values themselves.
-    if !numbers || by_value.len() <= 2 * GROUPS {
+    // Few values, or nothing else that varies: the values themselves.
+    let alone = cases.iter().all(|case| case.case.settings.len() < 2);
+    if !numbers || alone || by_value.len() <= 2 * GROUPS {
         return by_value;
     }
     let share = by_value.len().div_ceil(GROUPS);

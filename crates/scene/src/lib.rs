@@ -25,7 +25,7 @@ pub mod study;
 pub mod system;
 pub mod system_run;
 
-pub use named_files::named_files;
+pub use named_files::{named_files, named_files_and_theirs, renamed_files};
 pub use pair::{
     ContactPlaces, LoadedScene, Plan, RESULT_FORMAT, RunError, Scene, SceneResult, StrainSeries,
     load, run,

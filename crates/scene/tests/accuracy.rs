@@ -244,3 +244,63 @@ fn the_last_step_of_the_reference_is_told() {
     let told = found_in(folder.path(), &["bodies/block/velocity_x_m_per_s"]).unwrap_err();
     assert!(told.contains("is a series; say what of it"), "{told}");
 }
+
+/// Positions of a tooth contact analysis are doubled until the last step matters no more; the rungs below are kept.
+#[test]
+fn the_reference_is_refined_until_its_last_step_is_small() {
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models/bevel_13_35.toml");
+    std::fs::copy(shipped, folder.path().join("scene.toml")).unwrap();
+    let found = found_in(
+        folder.path(),
+        &["te_peak_to_peak_urad", "te_harmonic_1_urad"],
+    )
+    .unwrap();
+    let [knob] = &found.knobs[..] else {
+        unreachable!("{:?}", found.knobs)
+    };
+    let counts: Vec<usize> = knob
+        .rungs
+        .iter()
+        .map(|rung| rung.label.parse().unwrap())
+        .collect();
+    assert_eq!(counts[..4], [12, 24, 48, 96]);
+    assert!(counts.len() > 4 && counts.iter().all(|count| *count <= 1000));
+    let (_, change) = found.unsettled().unwrap();
+    assert!(change < 0.01, "{change} {counts:?}");
+    // The step before was too large, or the last would not have been taken.
+    let single = |rung: usize| found.tried.iter().find(|one| one.rungs[0] == rung).unwrap();
+    let last = counts.len() - 1;
+    assert!(single(last - 2).error() > 0.01, "{found:?}");
+}
+
+/// A disc on a damped torsion spring behind a shaft whose speed is stepped: what is left of the swing decays with the time that is given to it.
+#[test]
+fn a_sweep_is_worth_its_settling_time() {
+    let scene = "title = \"sweep\"\n[run]\nkind = \"speed-sweep\"\nmotion = \"driver\"\nfrom_rpm = 60.0\nto_rpm = 120.0\nspeeds = 2\ndirection = \"up\"\n\
+        settle_s = 0.4\nmeasure_s = 0.1\n[solver]\nstep_s = 2e-3\n[output]\ninterval_s = 2e-3\n\
+        [[body]]\nname = \"shaft\"\nmass_kg = 1.0\ninertia_kg_m2 = [1e-3, 1e-3, 1e-3]\nspeed_rpm = 60.0\n\
+        [[body]]\nname = \"disc\"\nmass_kg = 1.0\ninertia_kg_m2 = [1e-2, 1e-2, 1e-2]\nspeed_rpm = 60.0\n\
+        [[joint]]\nname = \"axle\"\nkind = \"revolute\"\nbody_2 = \"shaft\"\n\
+        [[joint]]\nname = \"bearing\"\nkind = \"revolute\"\nbody_2 = \"disc\"\n\
+        [[motion]]\nname = \"driver\"\njoint = \"axle\"\nspeed_rpm = 60.0\n\
+        [[torsion_spring]]\nname = \"coupling\"\nbody_1 = \"shaft\"\nbody_2 = \"disc\"\nstiffness_Nm_per_rad = 100.0\ndamping_Nm_s_per_rad = 0.2\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let column = "bodies/disc/angular_velocity_z_rad_per_s:peak-to-peak";
+    let found = found_in(folder.path(), &[column]).unwrap();
+    let of = |settle: &str| {
+        let setting = format!("run.settle_s = {settle}");
+        let mut tried = found.tried.iter();
+        let one = tried.find(|one| words(&found.knobs, &one.rungs) == setting);
+        one.unwrap_or_else(|| unreachable!("{setting} is not among {found:?}"))
+    };
+    let [quarter, half] = ["0.1", "0.2"].map(of);
+    assert!(
+        quarter.error() > 2.0 * half.error() && half.error() > 1e-3,
+        "{found:?}"
+    );
+    // Two speeds: a shorter settling time saves steps.
+    let reference = found.tried[0].effort.calls;
+    assert!(quarter.effort.calls < half.effort.calls && half.effort.calls < reference);
+}

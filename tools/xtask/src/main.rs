@@ -53,7 +53,7 @@ Usage: cargo xtask <COMMAND>
   wheel [--quick] the Python package and the program in one wheel, into target/wheel: stripped, with links across crates
                   --quick     the development build instead, to try the wheel out
   release [--quick]
-                  the wheel, and an archive of program, documentation, examples, completions and manual pages in target/archive
+                  the wheel, and an archive of it, program, documentation, examples, completions and manual pages in target/archive
   prepare         only makes what the others need
   help            this text
 
@@ -195,7 +195,7 @@ fn run(command: Command) -> Result<ExitCode, XtaskError> {
             steps::rust_tests(&workspace, &venv, steps::Extent::Full, &names)?;
             Ok(ExitCode::SUCCESS)
         }
-        Command::Wheel(build) => wheel::wheel(&workspace, &venv, build),
+        Command::Wheel(build) => wheel::wheel(&workspace, &venv, build).map(|_| ExitCode::SUCCESS),
         Command::Release(build) => release::release(&workspace, &venv, build),
         Command::Demo(arguments) => steps::demo(&workspace, &venv, &arguments),
         Command::Prepare

@@ -1,4 +1,4 @@
-//! `cargo xtask release`: the wheel, and an archive with the program and what a user of it reads.
+//! `cargo xtask release`: the wheel, and an archive with it, the program and what a user of both reads.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -7,12 +7,12 @@ use std::process::{Command, ExitCode, Stdio};
 
 use crate::console::say;
 use crate::error::XtaskError;
-use crate::steps::run_checked;
+use crate::steps::{run_checked, shown};
 use crate::venv::Venv;
 use crate::wheel::{self, Build};
 use crate::workspace::Workspace;
 
-/// What goes into the archive as it is.
+/// What goes into the archive as it is, as far as git knows it: results that lie beside stay here.
 const FILES: [&str; 7] = [
     "README.md",
     "CHANGELOG.md",
@@ -33,9 +33,9 @@ const COMPLETIONS: [(&str, &str); 3] = [
 /// Makes wheel and archive in `target/wheel` and `target/archive`.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] where a build or tar fails, [`XtaskError::Io`] where a file cannot be copied.
+/// [`XtaskError::Failed`] where a build, git or tar fails, [`XtaskError::Io`] where a file cannot be copied.
 pub fn release(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCode, XtaskError> {
-    wheel::wheel(workspace, venv, build)?;
+    let wheel = wheel::wheel(workspace, venv, build)?;
     let target = workspace.root().join("target");
     // Where the wheel takes it from.
     let program = target.join("wheel/gearmesh.data/scripts/gearmesh");
@@ -54,14 +54,19 @@ pub fn release(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitC
     if folder.exists() {
         fs::remove_dir_all(&folder).map_err(io("removing", &folder))?;
     }
-    for part in ["bin", "completions", "man"] {
+    for part in ["bin", "completions", "man/man1"] {
         let part = folder.join(part);
         fs::create_dir_all(&part).map_err(io("making", &part))?;
     }
     let packed = folder.join("bin/gearmesh");
     fs::copy(&program, &packed).map_err(io("copying", &program))?;
-    for file in FILES {
-        copy_all(&workspace.root().join(file), &folder.join(file))?;
+    let wheel_name = wheel.file_name().unwrap_or_default();
+    fs::copy(&wheel, folder.join(wheel_name)).map_err(io("copying", &wheel))?;
+    for file in tracked(workspace)? {
+        let (from, to) = (workspace.root().join(&file), folder.join(&file));
+        fs::create_dir_all(to.parent().unwrap_or(&folder))
+            .and_then(|()| fs::copy(&from, &to))
+            .map_err(io("copying", &from))?;
     }
     for (shell, file) in COMPLETIONS {
         let path = folder.join("completions").join(file);
@@ -76,7 +81,7 @@ pub fn release(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitC
     pages.args([
         OsStr::new("man"),
         OsStr::new("-o"),
-        folder.join("man").as_os_str(),
+        folder.join("man/man1").as_os_str(),
     ]);
     run_checked(pages.stdout(Stdio::null()))?;
     let archive = format!("{name}.tar.gz");
@@ -94,18 +99,50 @@ pub fn release(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitC
     Ok(ExitCode::SUCCESS)
 }
 
-/// Copies a file, or a folder with all that is in it.
-fn copy_all(from: &Path, to: &Path) -> Result<(), XtaskError> {
-    let failed = || XtaskError::io(|| format!("copying {} to {}", from.display(), to.display()));
-    if !from.is_dir() {
-        return fs::copy(from, to).map(|_| ()).map_err(failed());
+/// Paths of [`FILES`] that git keeps, from the root.
+fn tracked(workspace: &Workspace) -> Result<Vec<PathBuf>, XtaskError> {
+    let mut git = Command::new("git");
+    git.current_dir(workspace.root())
+        .args(["ls-files", "-z", "--"])
+        .args(FILES)
+        .stderr(Stdio::inherit());
+    let listed = git
+        .output()
+        .map_err(XtaskError::io(|| format!("starting {}", shown(&git))))?;
+    let files = paths(&listed.stdout);
+    if !listed.status.success() || files.is_empty() {
+        return Err(XtaskError::Failed {
+            command: shown(&git),
+            status: format!("{}, {} files", listed.status, files.len()),
+        });
     }
-    fs::create_dir_all(to).map_err(failed())?;
-    let entries: Vec<PathBuf> = fs::read_dir(from)
-        .and_then(|entries| entries.map(|entry| entry.map(|e| e.path())).collect())
-        .map_err(failed())?;
-    for entry in entries {
-        copy_all(&entry, &to.join(entry.file_name().unwrap_or_default()))?;
+    Ok(files)
+}
+
+/// The paths of a list that git has ended with zeros.
+fn paths(listed: &[u8]) -> Vec<PathBuf> {
+    let names = listed.split(|byte| *byte == 0);
+    let names = names.filter(|name| !name.is_empty());
+    names
+        .map(|name| PathBuf::from(String::from_utf8_lossy(name).into_owned()))
+        .collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_that_is_packed_is_tracked() {
+        assert_eq!(
+            paths(b"README.md\0docs/a b.md\0"),
+            ["README.md", "docs/a b.md"].map(PathBuf::from)
+        );
+        // Nothing that the archive names is missing in git.
+        let files = tracked(&Workspace::find().unwrap()).unwrap();
+        for name in FILES {
+            assert!(files.iter().any(|file| file.starts_with(name)), "{name}");
+        }
     }
-    Ok(())
 }

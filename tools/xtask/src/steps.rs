@@ -10,6 +10,7 @@ use crate::error::XtaskError;
 use crate::machine;
 use crate::python_module;
 use crate::rust_tests;
+use crate::system_libs;
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
@@ -81,6 +82,7 @@ pub fn test(workspace: &Workspace, venv: &Venv, extent: Extent) -> Result<ExitCo
         ),
         ("Python tests", command(python_tests)),
     ];
+    system_libs::offer_calculix();
     let start = Instant::now();
     for (name, step) in steps {
         say(&format!("\n== {name}"));

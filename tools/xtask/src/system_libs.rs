@@ -1,4 +1,5 @@
-//! The shared libraries that gmsh's wheel links to and does not bring (OpenGL and X11, even without a window).
+//! What comes from the system: the shared libraries that gmsh's wheel links to and does not bring (OpenGL and X11, even without
+//! a window), and CalculiX for the tests that compute with exported decks.
 
 use std::process::{Command, Stdio};
 
@@ -43,6 +44,28 @@ pub fn ensure(venv: &Venv) -> Result<(), XtaskError> {
             .args(PACKAGES),
     )?;
     import_gmsh(venv)?.map_err(|message| XtaskError::GmshUnusable { message })
+}
+
+/// Installs CalculiX for the tests that need it, as root; without root, apt-get or a network says which tests are left out.
+pub fn offer_calculix() {
+    const PACKAGE: &str = "calculix-ccx";
+    // Without a deck it says how it is used.
+    let there = || Command::new("ccx").arg("-v").output().is_ok();
+    if there() {
+        return;
+    }
+    if is_root() && has_apt() {
+        console::say("installing CalculiX for the tests of exported decks");
+        let install = ["install", "-y", "-qq", "--no-install-recommends", PACKAGE];
+        let done = run_checked(apt().args(["update", "-qq"]))
+            .and_then(|()| run_checked(apt().args(install)));
+        if done.is_ok() && there() {
+            return;
+        }
+    }
+    console::say(&format!(
+        "CalculiX is not there: its tests are left out; `apt-get install -y {PACKAGE}` installs it"
+    ));
 }
 
 /// Tries the import; the inner error is the last line that Python printed.

@@ -2,11 +2,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 use crate::console::say;
 use crate::error::XtaskError;
-use crate::steps::{cargo, run_checked, set_environment};
+use crate::steps::{cargo, run_checked, set_environment, shown};
 use crate::venv::Venv;
 use crate::workspace::Workspace;
 
@@ -36,11 +36,11 @@ impl Build {
     }
 }
 
-/// Builds the program and the wheel around it, into `target/wheel`.
+/// Builds the program and the wheel around it, into `target/wheel`; the wheel's path.
 ///
 /// # Errors
-/// [`XtaskError::Failed`] where a build fails, [`XtaskError::Io`] where a file cannot be copied.
-pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCode, XtaskError> {
+/// [`XtaskError::Failed`] where a build fails or leaves no wheel, [`XtaskError::Io`] where a file cannot be copied.
+pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<PathBuf, XtaskError> {
     let arguments = ["--workspace", "--bin", "gearmesh"];
     let profile = ["--profile", build.profile()];
     run_checked(
@@ -55,6 +55,11 @@ pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCod
     let built = std::env::var_os("CARGO_TARGET_DIR").map_or(target, PathBuf::from);
     let program = built.join(build.folder()).join("gearmesh");
     copy(&program, &out.join("gearmesh.data/scripts"))?;
+    // Of former builds, which pip would take for this one.
+    for former in wheels(&out)? {
+        fs::remove_file(&former)
+            .map_err(XtaskError::io(|| format!("removing {}", former.display())))?;
+    }
 
     let mut maturin = Command::new(venv.bin_dir().join("maturin"));
     set_environment(&mut maturin, venv);
@@ -65,8 +70,32 @@ pub fn wheel(workspace: &Workspace, venv: &Venv, build: Build) -> Result<ExitCod
         .arg("--out")
         .arg(&out);
     run_checked(&mut maturin)?;
-    say(&format!("the wheel is in {}", out.display()));
-    Ok(ExitCode::SUCCESS)
+    let [wheel] = &wheels(&out)?[..] else {
+        return Err(XtaskError::Failed {
+            command: shown(&maturin),
+            status: format!("no wheel in {}", out.display()),
+        });
+    };
+    let size = |path: &Path| fs::metadata(path).map_or(0.0, |found| 1e-6 * found.len() as f64);
+    say(&format!(
+        "the wheel is {}, {:.1} MB; its program has {:.1} MB",
+        wheel.display(),
+        size(wheel),
+        size(&out.join("gearmesh.data/scripts/gearmesh"))
+    ));
+    Ok(wheel.clone())
+}
+
+/// The wheels in a folder.
+fn wheels(folder: &Path) -> Result<Vec<PathBuf>, XtaskError> {
+    let failed = || XtaskError::io(|| format!("reading {}", folder.display()));
+    let entries: Vec<_> = fs::read_dir(folder)
+        .and_then(Iterator::collect)
+        .map_err(failed())?;
+    let paths = entries.iter().map(fs::DirEntry::path);
+    Ok(paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "whl"))
+        .collect())
 }
 
 /// Copies a file into a folder, which is made.

@@ -46,6 +46,9 @@ impl PointSeries {
     }
 }
 
+/// Of a linear axis, relative to the numbers on it.
+const LEAST_SPAN: f64 = 1e-3;
+
 /// Points of some kinds over two axes. A logarithmic abscissa has no points at 0 and below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScatterChart {
@@ -79,10 +82,11 @@ impl Scale {
                 logarithmic,
             };
         }
-        let span = if high > low {
-            high - low
-        } else {
-            low.abs().max(1.0)
+        // Not so near that the numbers beside the axis are all the same.
+        let least = LEAST_SPAN * low.abs().max(high.abs());
+        let span = match high - low {
+            0.0 => low.abs().max(1.0),
+            span => span.max(least),
         };
         let step = round_step(span);
         let ends = [
@@ -111,7 +115,7 @@ impl Scale {
         if self.logarithmic {
             let powers = low as i32..=high as i32;
             return powers
-                .map(|p| (10.0_f64.powi(p), format!("1e{p}")))
+                .map(|p| (10.0_f64.powi(p), power_of_ten(p)))
                 .collect();
         }
         let step = self.step;
@@ -124,6 +128,19 @@ impl Scale {
             (value, text.unwrap_or(value).to_string())
         };
         (0..=count).map(at).collect()
+    }
+}
+
+/// As people write it.
+fn power_of_ten(power: i32) -> String {
+    match power {
+        -3..=-1 => format!(
+            "{:.1$}",
+            10.0_f64.powi(power),
+            power.unsigned_abs() as usize
+        ),
+        0..=4 => format!("{:.0}", 10.0_f64.powi(power)),
+        _ => format!("1e{power}"),
     }
 }
 
@@ -281,7 +298,7 @@ mod tests {
         let mut html = String::new();
         let log = chart(vec![[0.1, 1.0], [10.0, 100.0]]).logarithmic(true, true);
         log.render(&mut html).unwrap();
-        assert!(html.contains(&corner) && html.contains("1e-1"), "{html}");
+        assert!(html.contains(&corner) && html.contains(">0.1<"), "{html}");
     }
 
     #[test]

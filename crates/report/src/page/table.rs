@@ -9,6 +9,8 @@ use std::fmt::Write as _;
 pub enum Align {
     /// For words.
     Left,
+    /// For phrases of many words, which get room beside many numbers.
+    Phrase,
     /// For numbers.
     Right,
 }
@@ -66,12 +68,10 @@ impl Table {
     }
 
     pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
-        let class = |align| {
-            if align == Align::Right {
-                " class=\"number\""
-            } else {
-                ""
-            }
+        let class = |align| match align {
+            Align::Left => "",
+            Align::Phrase => " class=\"phrase\"",
+            Align::Right => " class=\"number\"",
         };
         if self.folded {
             let _ = writeln!(

@@ -20,6 +20,10 @@ pub(super) fn quantity(unit: &str) -> &'static str {
         "rad" => "angle",
         "m/s" => "speed",
         "rad/s" => "angular velocity",
+        "m/s²" => "acceleration",
+        "rad/s²" => "angular acceleration",
+        "√kg·m" => "modal coordinate",
+        "Hz" => "frequency",
         "Pa" => "pressure",
         "µε" => "strain",
         "J" => "energy",
@@ -76,6 +80,13 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
                 "Angular velocities about the bodies' own z axes".to_owned(),
                 owner.clone(),
             ),
+            "joints" if stem.contains("_world_") => (
+                format!(
+                    "{owner}, {} of the joint on body 2 in world axes",
+                    quantity(unit)
+                ),
+                stem.replace('_', " "),
+            ),
             "joints" if matches!(unit, "N" | "N·m") => (
                 format!("{owner}, {} of the joint on body 2", quantity(unit)),
                 stem.replace('_', " "),
@@ -122,6 +133,14 @@ pub(super) fn groups(r: &SystemResult, varies: impl Fn(usize) -> bool) -> Vec<Gr
 }
 
 impl Group {
+    /// What the ordinate shows, without its unit.
+    pub(super) fn ordinate(&self) -> &str {
+        match &self.columns[..] {
+            [(_, curve)] if self.is_of_elements() => curve,
+            _ => quantity(&self.unit),
+        }
+    }
+
     /// Whether all columns are channels of force elements.
     pub(super) fn is_of_elements(&self) -> bool {
         let mut columns = self.columns.iter();

@@ -3,7 +3,7 @@
 use gearmesh_model::{Column, FileError};
 use gearmesh_scene::system_run::{SystemResult, rank, stem};
 
-use super::columns::{MOST_CHARTS, groups, left_out, quantity, readable, scaled};
+use super::columns::{MOST_CHARTS, groups, left_out, readable, scaled};
 use crate::page::{Align, Axis, LineChart, LineSeries, Section, Table};
 use crate::short_number::short;
 
@@ -58,7 +58,7 @@ pub(super) fn equilibria(r: &SystemResult) -> Result<Option<Section>, FileError>
             let columns = group.columns.iter().map(of_rows);
             let mut curves: Vec<Vec<f64>> = columns.collect::<Result<_, _>>()?;
             let unit = scaled(&group.unit, curves.iter_mut());
-            let y = Axis::new(quantity(&group.unit), unit);
+            let y = Axis::new(group.ordinate(), unit);
             let mut chart = LineChart::new(title, axis.clone(), y)
                 .x_values(rows.iter().map(|&row| x[row]).collect());
             for ((_, name), values) in group.columns.iter().zip(curves) {

@@ -4,7 +4,7 @@ use gearmesh_model::FileError;
 use gearmesh_scene::system_run::{MeshPassing, RunRecord, SystemResult, is_prominent, stem};
 use gearmesh_signal::{Window, amplitude_spectrum};
 
-use super::columns::{MOST_CHARTS, groups, left_out, quantity, scaled, turning, varies};
+use super::columns::{MOST_CHARTS, groups, left_out, scaled, turning, varies};
 use crate::min_max;
 use crate::page::{Align, Axis, AxisScale, LineChart, LineSeries, Section, Table, Text};
 use crate::short_number::short;
@@ -35,7 +35,7 @@ pub(super) fn histories(r: &SystemResult) -> Result<Section, FileError> {
         let mut chart = LineChart::new(
             group.title.clone(),
             Axis::new("time", "s"),
-            Axis::new(quantity(&group.unit), unit),
+            Axis::new(group.ordinate(), unit),
         )
         .x_values(x.clone());
         for ((_, name), values) in group.columns.iter().zip(curves) {

@@ -9,7 +9,7 @@ use gearmesh_model::{ReducedGear, write_text};
 
 use super::effects::{Effect, of_scene};
 use super::element_knob;
-use super::knobs::{Knob, case_of, of_bevel, of_pair};
+use super::knobs::{Knob, Rung, case_of_rung, of_bevel, of_pair};
 use super::system_knobs::of_system;
 use crate::pair::ModelShelf;
 use crate::study::{
@@ -153,17 +153,15 @@ impl<'a> Bench<'a> {
         let mut left_out = Vec::new();
         for knob in &mut knobs {
             let name = knob.name.clone();
+            let refused = |rung: &Rung| self.try_load(&case_of_rung(rung)).err();
             knob.rungs.retain(|rung| {
-                let alone = Knob {
-                    name: name.clone(),
-                    rungs: vec![rung.clone()],
-                };
-                let loaded = self.try_load(&case_of(&[alone], &[0]));
-                if let Err(told) = &loaded {
+                let told = refused(rung);
+                if let Some(told) = &told {
                     left_out.push(format!("{name} = {}: {told}", rung.label));
                 }
-                loaded.is_ok()
+                told.is_none()
             });
+            knob.further.retain(|rung| refused(rung).is_none());
         }
         if self.options.elements {
             // What each rung needs is reduced when it is run.

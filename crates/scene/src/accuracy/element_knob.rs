@@ -18,6 +18,14 @@ const RUNGS: [(Choice, f64); 5] = [
     (Choice::Quadratic, 1.3),
 ];
 
+/// Of cross-sections in plane strain, which have one element and no length along the tooth.
+const PLANE_RUNGS: [(Choice, f64); 4] = [
+    (Choice::Own, 1.8),
+    (Choice::Own, 1.3),
+    (Choice::Own, 1.0),
+    (Choice::Own, 0.7),
+];
+
 #[derive(Clone, Copy, PartialEq)]
 enum Choice {
     Linear,
@@ -62,13 +70,17 @@ pub(super) fn of_gears(base: &BaseScene, folder: &Path, shelf: &ModelShelf) -> O
                 ("flank_mm", mesh.flank_m),
                 ("fillet_mm", mesh.fillet_m),
                 ("body_mm", mesh.body_m),
-                ("axial_mm", mesh.axial_m),
             ];
-            let element = ("element", Value::String(element.to_owned()));
+            let solid = (!mesh.plane_strain).then_some(("axial_mm", mesh.axial_m));
+            let lengths = lengths.into_iter().chain(solid);
             let lengths =
                 lengths.map(|(key, own)| (key, Value::Float(rounded(1e3 * own * factor))));
-            let all = std::iter::once(element).chain(lengths);
-            all.map(move |(inner, value)| (format!("{key}:mesh.{inner}"), value))
+            let element =
+                (!mesh.plane_strain).then_some(("element", Value::String(element.to_owned())));
+            element
+                .into_iter()
+                .chain(lengths)
+                .map(move |(inner, value)| (format!("{key}:mesh.{inner}"), value))
                 .collect::<Vec<_>>()
         });
         let word = match choice {
@@ -91,8 +103,13 @@ pub(super) fn of_gears(base: &BaseScene, folder: &Path, shelf: &ModelShelf) -> O
             },
         }
     };
+    let rungs = match gears.iter().any(|(_, gear)| gear.mesh.plane_strain) {
+        true => &PLANE_RUNGS[..],
+        false => &RUNGS[..],
+    };
     Some(Knob {
         name: "gears' meshes".to_owned(),
-        rungs: RUNGS.iter().map(rung).collect(),
+        rungs: rungs.iter().map(rung).collect(),
+        further: Vec::new(),
     })
 }

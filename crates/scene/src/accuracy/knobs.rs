@@ -21,36 +21,57 @@ pub struct Knob {
     pub name: String,
     /// The rungs; the last is the reference's.
     pub rungs: Vec<Rung>,
+    /// Rungs beyond, which the reference takes as long as its last step still changes the columns too much.
+    pub further: Vec<Rung>,
 }
 
 impl Knob {
     /// A knob of one key.
     pub(super) fn of(key: &str, values: impl IntoIterator<Item = Value>) -> Self {
-        let rung = |value: Value| Rung {
-            label: value.to_string().trim_matches('"').to_owned(),
-            settings: vec![(key.to_owned(), value)],
-        };
         Self {
             name: key.to_owned(),
-            rungs: values.into_iter().map(rung).collect(),
+            rungs: values.into_iter().map(|value| rung(key, value)).collect(),
+            further: Vec::new(),
         }
+    }
+
+    /// The same with rungs beyond.
+    fn and_further(mut self, values: impl IntoIterator<Item = Value>) -> Self {
+        let beyond = values.into_iter().map(|value| rung(&self.name, value));
+        self.further = beyond.collect();
+        self
+    }
+}
+
+/// A rung of one key.
+fn rung(key: &str, value: Value) -> Rung {
+    Rung {
+        label: value.to_string().trim_matches('"').to_owned(),
+        settings: vec![(key.to_owned(), value)],
     }
 }
 
 /// The settings of a choice of rungs, as a case of a study.
 #[must_use]
 pub(super) fn case_of(knobs: &[Knob], rungs: &[usize]) -> Case {
-    let chosen = knobs
-        .iter()
-        .zip(rungs)
-        .flat_map(|(knob, rung)| &knob.rungs[*rung].settings);
+    let chosen = knobs.iter().zip(rungs);
+    case_with(chosen.flat_map(|(knob, rung)| &knob.rungs[*rung].settings))
+}
+
+/// A rung by itself, as a case of a study.
+#[must_use]
+pub(super) fn case_of_rung(rung: &Rung) -> Case {
+    case_with(&rung.settings)
+}
+
+fn case_with<'a>(settings: impl IntoIterator<Item = &'a (String, Value)>) -> Case {
     let setting = |(key, value): &(String, Value)| Setting {
         parameter: key.clone(),
         keys: vec![key.clone()],
         value: value.clone(),
     };
     Case {
-        settings: chosen.map(setting).collect(),
+        settings: settings.into_iter().map(setting).collect(),
         ..Case::default()
     }
 }
@@ -82,11 +103,14 @@ pub(super) fn of_pair(loaded: &LoadedScene) -> Vec<Knob> {
     let own = loaded.scene.points_per_pitch;
     let mut points = vec![own / 4, own / 2, own, 2 * own, 4 * own];
     points.retain(|count| *count >= 4);
+    // Peaks between two positions are missed: they ask for many.
+    let further = [8, 16, 32, 64].map(|times| own * times);
     let count = |count: usize| Value::Integer(count as i64);
     let mut knobs = vec![
         Knob::of("mesh.model.local", words(local)),
         Knob::of("mesh.model.slices", slices.into_iter().map(count)),
-        Knob::of("run.points_per_pitch", points.into_iter().map(count)),
+        Knob::of("run.points_per_pitch", points.into_iter().map(count))
+            .and_further(further.map(count)),
     ];
     if !loaded.lines.pair.is_helical() {
         knobs.push(Knob::of("mesh.teeth.path", words(&PATHS)));
@@ -96,13 +120,14 @@ pub(super) fn of_pair(loaded: &LoadedScene) -> Vec<Knob> {
 
 /// Knobs of the tooth contact analysis of a bevel pair.
 pub(super) fn of_bevel(own: usize) -> Vec<Knob> {
-    let mut counts = vec![own / 4, own / 2, own, 2 * own];
-    counts.retain(|count| (8..=1000).contains(count));
-    let count = |count: usize| Value::Integer(count as i64);
-    vec![Knob::of(
-        "tca.positions_per_pitch",
-        counts.into_iter().map(count),
-    )]
+    let allowed = |counts: &[usize]| {
+        let allowed = counts.iter().filter(|count| (8..=1000).contains(*count));
+        let values = allowed.map(|count| Value::Integer(*count as i64));
+        values.collect::<Vec<_>>()
+    };
+    let counts = [own / 4, own / 2, own, 2 * own];
+    let further = [4, 8, 16].map(|times| own * times);
+    vec![Knob::of("tca.positions_per_pitch", allowed(&counts)).and_further(allowed(&further))]
 }
 
 /// To six digits: a step is read by people.

@@ -50,7 +50,7 @@ impl Tried {
     /// The largest error of all columns.
     #[must_use]
     pub fn error(&self) -> f64 {
-        self.errors.iter().copied().fold(0.0, f64::max)
+        largest(&self.errors)
     }
 }
 
@@ -98,6 +98,9 @@ pub struct Accuracy {
 /// An answer that a user waits for without losing the thread \[s\].
 const INTERACTIVE_S: f64 = 0.1;
 
+/// A last step of the reference that changes the columns by more than this is too large.
+const SETTLED: f64 = 0.01;
+
 /// Runs a scene in all settings worth a look. `progress` is told what was run, and how many are known to come.
 ///
 /// # Errors
@@ -106,10 +109,10 @@ pub fn accuracy(
     bench: &Bench<'_>,
     progress: &dyn Fn(usize, usize),
 ) -> Result<Accuracy, StudyError> {
-    let (knobs, left_out) = bench.knobs()?;
-    let top: Vec<usize> = knobs.iter().map(|knob| knob.rungs.len() - 1).collect();
-    let reference = bench.measure(&case_of(&knobs, &top))?;
+    let (mut knobs, left_out) = bench.knobs()?;
     let columns = bench.names();
+    let reference = settled_reference(bench, &mut knobs)?;
+    let top = top_of(&knobs);
     let judge = |measured: &Measured| errors(&measured.values, &reference.values, columns.len());
     let mut found = Accuracy {
         tried: vec![tried(
@@ -203,6 +206,40 @@ pub fn accuracy(
         }
     }
     Ok(found)
+}
+
+fn top_of(knobs: &[Knob]) -> Vec<usize> {
+    knobs.iter().map(|knob| knob.rungs.len() - 1).collect()
+}
+
+/// The scene with every knob at its top. Knobs with further rungs get as many as it takes for the last step to change the columns by less
+/// than [`SETTLED`].
+fn settled_reference(bench: &Bench<'_>, knobs: &mut [Knob]) -> Result<Measured, StudyError> {
+    let columns = bench.names().len();
+    let mut reference = bench.measure(&case_of(knobs, &top_of(knobs)))?;
+    for number in 0..knobs.len() {
+        if knobs[number].further.is_empty() || knobs[number].rungs.len() < 2 {
+            continue;
+        }
+        let mut lower = top_of(knobs);
+        lower[number] -= 1;
+        stopped(bench)?;
+        let mut below = bench.measure(&case_of(knobs, &lower))?;
+        while largest(&errors(&below.values, &reference.values, columns)) > SETTLED
+            && !knobs[number].further.is_empty()
+        {
+            stopped(bench)?;
+            let rung = knobs[number].further.remove(0);
+            knobs[number].rungs.push(rung);
+            let higher = bench.measure(&case_of(knobs, &top_of(knobs)))?;
+            below = std::mem::replace(&mut reference, higher);
+        }
+    }
+    Ok(reference)
+}
+
+fn largest(errors: &[f64]) -> f64 {
+    errors.iter().copied().fold(0.0, f64::max)
 }
 
 impl Accuracy {
@@ -383,6 +420,7 @@ mod tests {
                     settings: Vec::new(),
                 })
                 .into(),
+            further: Vec::new(),
         };
         let mut found = Accuracy {
             columns: vec!["x".to_owned()],

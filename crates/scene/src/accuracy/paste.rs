@@ -91,6 +91,7 @@ mod tests {
     #[test]
     fn keys_of_lists_stand_under_their_tables() {
         let knob = |settings: &[&str]| Knob {
+            further: Vec::new(),
             name: "k".to_owned(),
             rungs: vec![Rung {
                 label: "l".to_owned(),

@@ -71,6 +71,7 @@ fn of_solver(base: &BaseScene) -> Vec<Knob> {
             knobs.push(Knob {
                 name: "solver.adaptive tolerances".to_owned(),
                 rungs: [100.0, 10.0, 1.0, 0.1].map(rung).into(),
+                further: Vec::new(),
             });
         }
     }
@@ -100,6 +101,7 @@ fn together(name: &str, labels: &[&str], of: impl Fn(&str) -> Vec<(String, Value
     Knob {
         name: name.to_owned(),
         rungs: labels.iter().map(rung).collect(),
+        further: Vec::new(),
     }
 }
 

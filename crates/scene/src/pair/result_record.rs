@@ -134,10 +134,10 @@ impl SceneResult {
         )?;
         let (t, a) = (("torque", torques.len()), ("driver angle", angles.len()));
         let what = "transmission error r_b2 theta_2 - r_b1 theta_1, negative under load";
-        f.numbers("te_m", &mut self.te_m, &[t, a], "m", what)?;
+        f.bulk("te_m", &mut self.te_m, &[t, a], "m", what)?;
         let what = "transmission error at first touch";
-        f.numbers("te_unloaded_m", &mut self.unloaded_m, &[a], "m", what)?;
-        f.numbers(
+        f.bulk("te_unloaded_m", &mut self.unloaded_m, &[a], "m", what)?;
+        f.bulk(
             "torque_1_Nm",
             &mut self.torque_1_nm,
             &[t, a],
@@ -146,7 +146,7 @@ impl SceneResult {
         )?;
         if f.has("axial_force_1_N") {
             let what = "axial force on gear 1, positive along +z; gear 2 feels the opposite";
-            f.numbers(
+            f.bulk(
                 "axial_force_1_N",
                 &mut self.axial_force_1_n,
                 &[t, a],
@@ -158,9 +158,9 @@ impl SceneResult {
             self.axial_force_1_n = vec![0.0; t.1 * a.1];
         }
         let (name, values) = ("stiffness_secant_N_per_m", &mut self.secant_n_per_m);
-        f.numbers(name, values, &[t, a], "N/m", "secant mesh stiffness")?;
+        f.bulk(name, values, &[t, a], "N/m", "secant mesh stiffness")?;
         let (name, values) = ("stiffness_tangent_N_per_m", &mut self.tangent_n_per_m);
-        f.numbers(name, values, &[t, a], "N/m", "tangent mesh stiffness")?;
+        f.bulk(name, values, &[t, a], "N/m", "tangent mesh stiffness")?;
         let what = "face load factor of the most loaded line, worst position";
         f.numbers("k_h_beta", &mut self.k_h_beta, &[t], "1", what)?;
         let what = "Newton iterations, sum over all positions";
@@ -192,7 +192,7 @@ impl SceneResult {
         f.counts("pair_count", &mut self.pair_count, &[a], what)?;
         let axes = [t, a, l, ("slice", OPEN)];
         let what = "normal force of each slice, positive in compression";
-        f.numbers("force_N", &mut self.force_n, &axes, "N", what)?;
+        f.bulk("force_N", &mut self.force_n, &axes, "N", what)?;
         if f.is_reading() {
             self.slices = self.force_n.len() / (t.1 * a.1 * l.1).max(1);
         }

@@ -18,7 +18,7 @@ use super::study_file::Study;
 use super::subject::Subject;
 use super::system_cases;
 use super::varied_scene::{MadeFile, MadeFiles};
-use crate::named_files;
+use crate::{named_files, renamed_files};
 
 /// A case that can be sent.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -155,26 +155,15 @@ fn relocated(
     case: &SentCase,
     places: &BTreeMap<PathBuf, PathBuf>,
 ) -> Result<InputDocument, InputError> {
-    let document = InputDocument::new(case.title.clone(), case.text.clone());
-    let mut root: toml::Value = document.glance()?;
-    for (name, path) in &case.named {
+    let place = |(name, path): &(String, PathBuf)| {
         let place = places.get(path).unwrap_or(path);
-        replace(&mut root, name, &place.display().to_string());
-    }
-    let text = toml::to_string(&root).map_err(|error| document.error("", error))?;
+        (name.clone(), place.display().to_string())
+    };
+    let names = case.named.iter().map(place).collect();
+    let text = renamed_files(&case.text, &names).map_err(|problem| {
+        InputDocument::new(case.title.clone(), case.text.clone()).error("", problem)
+    })?;
     Ok(InputDocument::new(case.title.clone(), text))
-}
-
-fn replace(value: &mut toml::Value, name: &str, by: &str) {
-    match value {
-        // A name without an ending is that of a part, which only happens to be the name of a file.
-        toml::Value::String(text) if text == name && name.contains('.') => by.clone_into(text),
-        toml::Value::Array(items) => items.iter_mut().for_each(|item| replace(item, name, by)),
-        toml::Value::Table(table) => table
-            .iter_mut()
-            .for_each(|(_, item)| replace(item, name, by)),
-        _ => {}
-    }
 }
 
 /// Makes the table of a study from what lies in its folder; nothing is computed. `failures`: why cases have failed, by the

@@ -13,7 +13,7 @@ use super::figure::Wanted;
 use super::pair_columns::{self, RestColumn, columns, place, unit_of};
 use super::rest_columns;
 use super::subject::Subject;
-use crate::named_files;
+use crate::named_files_and_theirs;
 use crate::pair::{LoadedScene, ModelShelf, RunError, Scene, load_from, run};
 
 /// Digits of the digest in a file's name.
@@ -260,7 +260,7 @@ impl RestCases {
         let text = &subject.document().text;
         let mut parts = vec![text.clone(), env!("CARGO_PKG_VERSION").to_owned()];
         if let Some(folder) = subject.folder() {
-            for path in named_files(text, folder).into_values() {
+            for path in named_files_and_theirs(text, folder).into_values() {
                 parts.push(self.digest(path)?);
             }
         }

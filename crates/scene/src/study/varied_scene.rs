@@ -223,11 +223,9 @@ impl BaseScene {
             let name = format!("{} changed", document.file);
             let gear = GearDefinition::from_document(&InputDocument::new(name, &text));
             let gear = gear.map_err(|e| {
-                of_key(
-                    first.1,
-                    &whole(first.0),
-                    &format!("is refused: {}", e.problem),
-                )
+                let key = Some(&e.key[..]).filter(|key| !key.is_empty());
+                let key = whole(key.unwrap_or(first.0));
+                of_key(first.1, &key, &format!("is refused: {}", e.problem))
             })?;
             (
                 MadeFile::Model(Box::new(gear)),

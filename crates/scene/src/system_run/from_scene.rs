@@ -14,7 +14,7 @@ use super::job::{
 };
 use super::recorder::Selection;
 use super::speed_plan::SpeedPlan;
-use crate::named_files::named_files;
+use crate::named_files_and_theirs;
 use crate::system::tables::function::FunctionTable;
 use crate::system::tables::joint::MotionTable;
 use crate::system::tables::load::LoadTable;
@@ -255,7 +255,7 @@ pub(crate) fn inputs(scene: &SystemScene) -> Vec<String> {
     inputs
 }
 
-/// Names and digests of all files that a scene names, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.
+/// Names and digests of all files that a scene names, and that these name, as [`RunHead::inputs`] keeps them: whether files beside a scene are still those of a result.
 pub fn digests_of_named_files(text: &str, folder: &Path) -> Vec<String> {
     let digest = |(name, path): (String, PathBuf)| {
         // The seal of a model names its content; anything else is read.
@@ -266,7 +266,8 @@ pub fn digests_of_named_files(text: &str, folder: &Path) -> Vec<String> {
         });
         format!("{name} {}", digest.unwrap_or_default())
     };
-    named_files(text, folder).into_iter().map(digest).collect()
+    let files = named_files_and_theirs(text, folder).into_iter();
+    files.map(digest).collect()
 }
 
 /// What `[output]` names; all of a kind where it names none.
