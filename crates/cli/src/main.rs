@@ -13,6 +13,7 @@ mod offline;
 mod output_name;
 mod overwriting;
 mod page_file;
+mod stressed_gear;
 mod uff;
 
 use arguments::{Arguments, Command};

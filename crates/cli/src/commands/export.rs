@@ -4,10 +4,11 @@
 //! | --- | --- |
 //! | tables | `export/tables.rs` |
 //! | gears that move | `export/series.rs`, of multibody scenes `export/system_moments.rs` |
-//! | a gear's flanks as STEP | `export/step.rs` |
+//! | a gear's flanks as STEP | `export/step.rs`, of a bevel gear `export/step_bevel.rs` |
 
 mod series;
 mod step;
+mod step_bevel;
 mod system_moments;
 mod tables;
 
@@ -26,6 +27,7 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
         ("--from-s", a.from_s.is_some()),
         ("--to-s", a.to_s.is_some()),
         ("--scene-folder", a.scene_folder.is_some()),
+        ("--stress", a.stress),
     ];
     let given = of_series.iter().filter(|(_, given)| *given && !moves);
     let unused = given.map(|(name, _)| *name);
