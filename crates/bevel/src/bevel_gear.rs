@@ -1,8 +1,6 @@
 //! One member of a bevel pair as a body: its teeth, the blank below them, material, mesh and what is computed of it.
 
-use gearmesh_geometry::{
-    Flank, HubSupport, Material, MeshSettings, ModeRange, ReductionSettings,
-};
+use gearmesh_geometry::{Flank, HubSupport, Material, MeshSettings, ModeRange, ReductionSettings};
 
 use crate::blank::MemberBlank;
 use crate::flank_patch::FlankPatch;

@@ -44,9 +44,15 @@ pub enum StressedBody {
 /// The bevel gear of a reduced model, from the texts that it keeps; `file` names the model in messages.
 pub fn bevel_gear_of(model: &ReducedGear, file: &str) -> Result<BevelGear, Failure> {
     let bevel = model.bevel.as_ref().ok_or_else(|| {
-        Failure::input(format!("{file}: found a cylindrical gear, allowed is a reduced bevel gear"))
+        Failure::input(format!(
+            "{file}: found a cylindrical gear, allowed is a reduced bevel gear"
+        ))
     })?;
-    Ok(BevelGear::from_texts(file, &model.input.text, &bevel.pair_text)?)
+    Ok(BevelGear::from_texts(
+        file,
+        &model.input.text,
+        &bevel.pair_text,
+    )?)
 }
 
 impl StressedGear {
@@ -136,7 +142,9 @@ impl StressedGear {
             StressedBody::Cylindrical(_, body) => self.units.fields(body, &cases)?,
             StressedBody::Bevel(_, body) => self.units.fields(body, &cases)?,
         };
-        fields.pop().ok_or_else(|| Failure::work("no field was made"))
+        fields
+            .pop()
+            .ok_or_else(|| Failure::work("no field was made"))
     }
 
     /// The surface of the elements, to be drawn.
@@ -230,9 +238,10 @@ fn element_surface(
             .map(|(k, face)| {
                 let at: Vec<[f64; 2]> = face.corners_m().iter().map(|p| place(*p)).collect();
                 let range = |axis: usize| {
-                    at.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
-                        [a.min(p[axis]), b.max(p[axis])]
-                    })
+                    at.iter()
+                        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
+                            [a.min(p[axis]), b.max(p[axis])]
+                        })
                 };
                 let quads = of_teeth.iter().filter_map(|faces| {
                     let corners = &faces[k].nodes[..faces[k].shape.corner_count()];

@@ -41,11 +41,7 @@ impl AxialSpread {
     /// Slices of `width_m` whose middles stand at `centres_m` of the gear's mid-face; within its face.
     #[must_use]
     pub fn new(gear: &ReducedGear, centres_m: impl IntoIterator<Item = f64>, width_m: f64) -> Self {
-        Self::on_face(
-            (gear.grid.slices, gear.face_width_m),
-            centres_m,
-            width_m,
-        )
+        Self::on_face((gear.grid.slices, gear.face_width_m), centres_m, width_m)
     }
 
     /// The same on a face of so many own slices and this width \[m\].

@@ -164,7 +164,13 @@ pub fn estimate(
         let rows = (coarse.gauges.iter())
             .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
-        mesh_figures(reduced, &body, (&loads, rows), Deformation::of(gear), progress)
+        mesh_figures(
+            reduced,
+            &body,
+            (&loads, rows),
+            Deformation::of(gear),
+            progress,
+        )
     })
 }
 
@@ -187,7 +193,13 @@ pub fn estimate_bevel(
         let rows = (coarse.gauges.iter())
             .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
             .collect::<Result<_, _>>()?;
-        mesh_figures(reduced, &body, (&loads, rows), Deformation::Spatial, progress)
+        mesh_figures(
+            reduced,
+            &body,
+            (&loads, rows),
+            Deformation::Spatial,
+            progress,
+        )
     })
 }
 

@@ -281,12 +281,17 @@ fn rows_are_products(model: &ReducedGear, ring: &GearBody<BevelMesh>, fields: &[
         strain[0] += dot(&row, field).powi(2);
         strain[1] += basis.gauges[mode].powi(2);
         // About the axis: the torsion.
-        let turned: f64 = (0..field.len()).map(|dof| momenta[(dof, 5)] * field[dof]).sum();
+        let turned: f64 = (0..field.len())
+            .map(|dof| momenta[(dof, 5)] * field[dof])
+            .sum();
         rigid[0] += turned.powi(2);
         rigid[1] += basis.coupling[6 * mode + 5].powi(2);
     }
     assert!((strain[0] / strain[1] - 1.0).abs() < 1e-6, "{strain:?}");
-    assert!((rigid[0] / rigid[1] - 1.0).abs() < 1e-6 && rigid[0] > 0.0, "{rigid:?}");
+    assert!(
+        (rigid[0] / rigid[1] - 1.0).abs() < 1e-6 && rigid[0] > 0.0,
+        "{rigid:?}"
+    );
 }
 
 /// Rigid motions of the free body cost no energy, so that a body on a reference point moves as one: K R = 0 over all degrees of freedom.
@@ -299,7 +304,9 @@ fn rigid_motions_cost_nothing() {
     let free = DofMap::all_free(model.node_count()).unwrap();
     let k = assemble_stiffness(model, &free).unwrap();
     for q in 0..6 {
-        let motion: Vec<f64> = (0..model.dof_count()).map(|d| rigid.motions[(d, q)]).collect();
+        let motion: Vec<f64> = (0..model.dof_count())
+            .map(|d| rigid.motions[(d, q)])
+            .collect();
         let force = product(&k, &motion);
         let sizes: Vec<f64> = motion.iter().map(|x| x.abs()).collect();
         let terms = product_of(&k, &sizes, f64::abs);
@@ -332,7 +339,8 @@ fn the_estimate_is_above_the_error() {
     let line = |model: &ReducedGear, tooth: usize| -> f64 {
         let c = model.c_hub_block(0, Flank::Right, tooth, Flank::Right);
         let w = model.c_tooth_block(Flank::Right);
-        let share = |j: usize| if j == 0 || j + 1 == along { 0.5 } else { 1.0 } / (along - 1) as f64;
+        let share =
+            |j: usize| if j == 0 || j + 1 == along { 0.5 } else { 1.0 } / (along - 1) as f64;
         let mut sum = 0.0;
         for j in 0..along {
             for l in 0..along {
@@ -360,7 +368,10 @@ fn the_estimate_is_above_the_error() {
         own.gauges[0].error_estimate_relative,
     ];
     for [found, estimated] in [loaded, other, gauge] {
-        assert!(found < estimated && estimated < 0.3, "{loaded:?} {other:?} {gauge:?}");
+        assert!(
+            found < estimated && estimated < 0.3,
+            "{loaded:?} {other:?} {gauge:?}"
+        );
     }
     eprintln!("error and estimate: loaded tooth {loaded:?}, others {other:?}, gauge {gauge:?}");
 }

@@ -6,8 +6,8 @@
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_model::{Flank, ReducedGear, read_reduced_gear, write_reduced_gear};
-use gearmesh_reduction::{ReductionOptions, Silent};
 use gearmesh_reduction::bevel::reduce_bevel;
+use gearmesh_reduction::{ReductionOptions, Silent};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 

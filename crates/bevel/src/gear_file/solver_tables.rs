@@ -1,9 +1,7 @@
 //! `[mesh]` and `[reduction]` of a bevel gear file.
 
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{
-    Element, Flank, InputError, MeshSettings, ReductionSettings, Symmetry,
-};
+use gearmesh_geometry::{Element, Flank, InputError, MeshSettings, ReductionSettings, Symmetry};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -33,7 +33,11 @@ pub struct TcaArguments {
     #[arg(long, allow_negative_numbers = true, requires = "field_gear")]
     pub field_angle_deg: Option<f64>,
     /// Torque of the field; the largest computed one where not given
-    #[arg(long = "field-torque-Nm", allow_negative_numbers = true, requires = "field_gear")]
+    #[arg(
+        long = "field-torque-Nm",
+        allow_negative_numbers = true,
+        requires = "field_gear"
+    )]
     pub field_torque_Nm: Option<f64>,
     /// Mesh file of the field (vtu, ...)
     #[arg(long, requires = "field_gear")]

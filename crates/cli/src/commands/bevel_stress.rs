@@ -89,7 +89,9 @@ fn torque_of(loaded: &Loaded, named: Option<f64>) -> Result<&LoadedContact, Fail
     found.ok_or_else(|| {
         let torques: Vec<f64> = loaded.found.iter().map(|c| c.torque_nm).collect();
         let named = named.unwrap_or_default();
-        Failure::input(format!("--field-torque-Nm: found {named}, the pair is loaded by {torques:?}"))
+        Failure::input(format!(
+            "--field-torque-Nm: found {named}, the pair is loaded by {torques:?}"
+        ))
     })
 }
 
@@ -109,7 +111,12 @@ fn case(torque: &LoadedContact, angle_deg: Option<f64>) -> Result<Case<'_>, Fail
 }
 
 /// What presses on a member.
-fn forces(loaded: &Loaded, case: &Case<'_>, member: usize, model: &ReducedGear) -> Vec<PlacedForce> {
+fn forces(
+    loaded: &Loaded,
+    case: &Case<'_>,
+    member: usize,
+    model: &ReducedGear,
+) -> Vec<PlacedForce> {
     let patches = case.position.patches.iter();
     patches
         .map(|patch| {

@@ -87,10 +87,7 @@ pub fn analyse(
 }
 
 /// The members' models, where the file names any, with their files.
-fn models(
-    load: &LoadRequest,
-    path: &Path,
-) -> Result<Option<[(ReducedGear, PathBuf); 2]>, Failure> {
+fn models(load: &LoadRequest, path: &Path) -> Result<Option<[(ReducedGear, PathBuf); 2]>, Failure> {
     let Some(files) = &load.models else {
         return Ok(None);
     };

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::{console, memory, offline, output_name};
 use gearmesh_bevel::BevelGear;
 use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
-use gearmesh_reduction::{OfflineJob, ReductionOptions};
 use gearmesh_reduction::bevel::reduce_bevel;
+use gearmesh_reduction::{OfflineJob, ReductionOptions};
 use serde_json::json;
 
 /// Runs the command.

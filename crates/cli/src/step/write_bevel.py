@@ -17,6 +17,8 @@ answer = os.fdopen(os.dup(1), "w")
 os.dup2(2, 1)
 given = json.load(sys.stdin)
 teeth, sections, rings = given["teeth"], given["sections"], given["rings"]
+# Rings that the bore is skinned over.
+BORE_RINGS = 9
 gmsh.initialize(interruptible=False)
 gmsh.option.setNumber("General.Terminal", 0)
 gmsh.option.setString("Geometry.OCCTargetUnit", "MM")
@@ -34,14 +36,16 @@ def outline(pieces):
     return occ.addWire(curves)
 
 
-def ring(pieces, radius, z):
-    """Wire of arcs at a radius and height whose ends stand at the azimuths of the pieces' ends."""
+def azimuths(pieces):
+    """Angles about the axis of the ends of the pieces, from the first to the last."""
     ends = [pieces[0][0]] + [points[-1] for points in pieces]
+    return [math.atan2(y, x) for x, y, _ in ends]
+
+
+def ring(angles, radius, z):
+    """Wire of arcs at a radius and height between these angles."""
     centre = occ.addPoint(0.0, 0.0, z)
-    around = []
-    for x, y, _ in ends:
-        angle = math.atan2(y, x)
-        around.append(occ.addPoint(radius * math.cos(angle), radius * math.sin(angle), z))
+    around = [occ.addPoint(radius * math.cos(a), radius * math.sin(a), z) for a in angles]
     return occ.addWire([occ.addCircleArc(a, centre, b) for a, b in zip(around, around[1:])])
 
 
@@ -50,16 +54,20 @@ def skinned(wires, ruled):
 
 
 tooth = skinned([outline(pieces) for pieces in sections], False)
-# From the toe's outline over the body to the heel's: between each two a ruled surface.
-chain = [lambda: outline(sections[0])]
-chain += [lambda r=r, z=z: ring(sections[0], r, z) for r, z in rings["toe"]]
-turn = [lambda: outline(sections[-1])]
-turn += [lambda r=r, z=z: ring(sections[-1], r, z) for r, z in rings["heel"]]
-for one in (chain, turn):
-    for a, b in zip(one, one[1:]):
-        tooth += skinned([a(), b()], True)
-# The bore: its rings stand at the azimuths of toe and heel, a tooth's spiral apart.
-tooth += skinned([chain[-1](), turn[-1]()], True)
+# From the outlines of toe and heel down to the bore: between each two a ruled surface.
+turns = [azimuths(sections[0]), azimuths(sections[-1])]
+for section, angles, circles in zip((sections[0], sections[-1]), turns, (rings["toe"], rings["heel"])):
+    tooth += skinned([outline(section), ring(angles, *circles[0])], True)
+    for inner, outer in zip(circles[1:], circles):
+        tooth += skinned([ring(angles, *outer), ring(angles, *inner)], True)
+# The bore turns with the tooth from toe to heel, so that its edges are those of the ends.
+bore = []
+for k in range(BORE_RINGS):
+    share = k / (BORE_RINGS - 1)
+    (radius, toe_z), (_, heel_z) = rings["toe"][-1], rings["heel"][-1]
+    angles = [a + share * (b - a) for a, b in zip(*turns)]
+    bore.append(ring(angles, radius, toe_z + share * (heel_z - toe_z)))
+tooth += skinned(bore, False)
 faces = list(tooth)
 for number in range(1, teeth):
     copy = occ.copy(tooth)

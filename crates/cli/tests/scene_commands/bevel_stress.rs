@@ -28,7 +28,13 @@ fn reduced_pair() -> Desk {
         );
         let file = desk.file(&format!("{member}.toml"), &text);
         let model = desk.path(&format!("{member}.h5"));
-        let words = ["reduce", argument(&file), "-o", argument(&model), "--no-error-estimate"];
+        let words = [
+            "reduce",
+            argument(&file),
+            "-o",
+            argument(&model),
+            "--no-error-estimate",
+        ];
         succeeds(&words);
     }
     desk
@@ -103,9 +109,17 @@ fn at_rest(desk: &Desk) {
         argument(&field),
     ];
     let told = succeeds(&words);
-    assert!(told.stderr.contains("field of the gear, 100 N m"), "{}", told.stderr);
+    assert!(
+        told.stderr.contains("field of the gear, 100 N m"),
+        "{}",
+        told.stderr
+    );
     let html = std::fs::read_to_string(&page).unwrap();
-    for title in ["Stress in the bodies", "pinion along its axis, 100 N m", "gear, tooth "] {
+    for title in [
+        "Stress in the bodies",
+        "pinion along its axis, 100 N m",
+        "gear, tooth ",
+    ] {
         assert!(html.contains(title), "{title}");
     }
     let first = python(FIELD, &[argument(&field)]);
@@ -130,10 +144,24 @@ fn at_rest(desk: &Desk) {
     let second = python(FIELD, &[argument(&field)]);
     assert!(figure(&second, "largest") < 0.5 * largest);
     let unknown = [&words[..2], &words[5..], &["--field-torque-Nm", "21"]];
-    refused(&gearmesh(&unknown.concat()), 2, &["--field-torque-Nm", "21"]);
+    refused(
+        &gearmesh(&unknown.concat()),
+        2,
+        &["--field-torque-Nm", "21"],
+    );
     // Rigid gears have no bodies.
-    let rigid = desk.file("rigid.toml", &format!("{text}\n[load]\ntorques_Nm = [100.0]\npositions_per_pitch = 4\n"));
-    let words = ["tca", argument(&rigid), "--field-gear", "1", "--field-output", argument(&field)];
+    let rigid = desk.file(
+        "rigid.toml",
+        &format!("{text}\n[load]\ntorques_Nm = [100.0]\npositions_per_pitch = 4\n"),
+    );
+    let words = [
+        "tca",
+        argument(&rigid),
+        "--field-gear",
+        "1",
+        "--field-output",
+        argument(&field),
+    ];
     refused(&gearmesh(&words), 2, &["--field-gear", "models"]);
 }
 
@@ -152,7 +180,15 @@ fn in_motion(desk: &Desk) {
     let result = desk.path("run.h5");
     succeeds(&["run", argument(&scene), "-o", argument(&result)]);
     let output = desk.path("run.pvd");
-    let words = ["export", argument(&result), "-o", argument(&output), "--stress", "--moments", "4"];
+    let words = [
+        "export",
+        argument(&result),
+        "-o",
+        argument(&output),
+        "--stress",
+        "--moments",
+        "4",
+    ];
     succeeds(&words);
     let moments = python(SERIES, &[argument(&output)]);
     let moments = moments.as_array().unwrap();
@@ -178,7 +214,10 @@ fn in_motion(desk: &Desk) {
             assert!(teeth.contains(&moment["worst"][gear]), "{moment}");
             // Of the order of the force on a tooth of 18 mm by 5 mm.
             let nominal = sizes[gear] / (18e-3 * 5e-3);
-            assert!(stress[gear] > nominal && stress[gear] < 30.0 * nominal, "{moment}");
+            assert!(
+                stress[gear] > nominal && stress[gear] < 30.0 * nominal,
+                "{moment}"
+            );
         }
     }
     assert!(most > 10.0, "{most}");

@@ -156,7 +156,12 @@ impl GearSurface {
 
     /// The quadrilateral of a flank at a roll angle and height; the nearest where they lie beyond its ends.
     #[must_use]
-    pub fn flank_quad(&self, (number, side): (usize, Flank), roll_rad: f64, height_m: f64) -> usize {
+    pub fn flank_quad(
+        &self,
+        (number, side): (usize, Flank),
+        roll_rad: f64,
+        height_m: f64,
+    ) -> usize {
         let (tooth, heights_m, before_flank, half) = match &self.flanks {
             Flanks::Outline {
                 tooth,
@@ -167,13 +172,12 @@ impl GearSurface {
             Flanks::Faces(sides) => {
                 let place = [roll_rad, height_m];
                 let faces = sides[side as usize].iter();
-                let nearest =
-                    faces.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place)));
+                let nearest = faces.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place)));
                 return nearest.map_or(0, |face| face.quads[number % face.quads.len()] as usize);
             }
         };
-        let share = (roll_rad - tooth.form_roll_rad)
-            / (tooth.flank_end_roll_rad - tooth.form_roll_rad);
+        let share =
+            (roll_rad - tooth.form_roll_rad) / (tooth.flank_end_roll_rad - tooth.form_roll_rad);
         let place = ((FLANK as f64 * share) as usize).min(FLANK - 1) + before_flank;
         let column = match side {
             Flank::Right => place,

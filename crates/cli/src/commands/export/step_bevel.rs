@@ -35,7 +35,12 @@ pub fn description(gear: &BevelGear) -> Result<Value, Failure> {
     let rings = [0, 1].map(|k: usize| {
         let [z, r] = blank.meridian_m(ends[k], -blank.dedendum_m(ends[k]) - gear.body.rim_m);
         let mut rings = vec![[1e3 * r, 1e3 * z]];
-        rings.extend(gear.body.contour.iter().map(|p| [1e3 * p.radius_m, 1e3 * p.z_m[k]]));
+        rings.extend(
+            gear.body
+                .contour
+                .iter()
+                .map(|p| [1e3 * p.radius_m, 1e3 * p.z_m[k]]),
+        );
         rings
     });
     let mut checked = serde_json::Map::new();
@@ -68,7 +73,13 @@ fn pieces(levels: &Levels<'_>, level: &Level) -> Vec<Vec<[f64; 3]>> {
         points.iter().map(|p| p.map(|x| 1e3 * x)).collect()
     };
     let [right, left] = &level.outline_points_m;
-    let three = |line: &[[f64; 3]]| [mm(&line[..=root]), mm(&line[root..=flank]), mm(&line[flank..])];
+    let three = |line: &[[f64; 3]]| {
+        [
+            mm(&line[..=root]),
+            mm(&line[root..=flank]),
+            mm(&line[flank..]),
+        ]
+    };
     let [bottom_r, fillet_r, flank_r] = three(right);
     let mut others = three(left);
     for points in &mut others {
@@ -76,7 +87,9 @@ fn pieces(levels: &Levels<'_>, level: &Level) -> Vec<Vec<[f64; 3]>> {
     }
     let [bottom_l, fillet_l, flank_l] = others;
     let tip = arc(flank_r[flank_r.len() - 1], flank_l[0]);
-    vec![bottom_r, fillet_r, flank_r, tip, flank_l, fillet_l, bottom_l]
+    vec![
+        bottom_r, fillet_r, flank_r, tip, flank_l, fillet_l, bottom_l,
+    ]
 }
 
 /// Points on the circle about the axis from one point to another.
@@ -91,7 +104,11 @@ fn arc(from: [f64; 3], to: [f64; 3]) -> Vec<[f64; 3]> {
                 let share = f64::from(k) / 4.0;
                 let (s, c) = (a + share * (b - a)).sin_cos();
                 let radius = (1.0 - share) * from[0].hypot(from[1]) + share * to[0].hypot(to[1]);
-                [radius * c, radius * s, (1.0 - share) * from[2] + share * to[2]]
+                [
+                    radius * c,
+                    radius * s,
+                    (1.0 - share) * from[2] + share * to[2],
+                ]
             }
         })
         .collect()
