@@ -4,11 +4,10 @@
 //! | --- | --- |
 //! | tables | `export/tables.rs` |
 //! | gears that move | `export/series.rs`, of multibody scenes `export/system_moments.rs` |
-//! | a gear's flanks as STEP | `export/step.rs`, of a bevel gear `export/step_bevel.rs` |
+//! | a gear's flanks as STEP | `export/step.rs` |
 
 mod series;
 mod step;
-mod step_bevel;
 mod system_moments;
 mod tables;
 

@@ -207,8 +207,8 @@ fn in_motion(desk: &Desk) {
             continue;
         }
         most = most.max(sizes[0]);
-        // Loaded flanks lie on each other, and the largest stress is on a tooth that carries.
-        assert!(moment["apart_m"].as_f64().unwrap() < 4e-3, "{moment}");
+        // Loaded cells, 4.6 by 1.5 mm, lie on each other within a diagonal; the largest stress is on a tooth that carries.
+        assert!(moment["apart_m"].as_f64().unwrap() < 5e-3, "{moment}");
         for gear in 0..2 {
             let teeth = moment["teeth"][gear].as_array().unwrap();
             assert!(teeth.contains(&moment["worst"][gear]), "{moment}");

@@ -1,6 +1,5 @@
 //! A gear's exact flanks as STEP, by gmsh's OCC kernel in a Python process.
 
-use super::step_bevel;
 use crate::arguments::ExportArguments;
 use crate::failure::Failure;
 use crate::{console, offline};
@@ -23,49 +22,34 @@ const CHECKED: [usize; 2] = [13, 7];
 
 /// Runs the command.
 pub fn run(a: &ExportArguments) -> Result<(), Failure> {
-    if let Some(gear) = offline::bevel_gear(&a.result)? {
-        let input = step_bevel::description(&gear)?;
-        let what = "flanks and fillets";
-        let solid = (gear.name.as_str(), step_bevel::WRITE, input, what);
-        return write(a, solid, &[]);
-    }
     let gear = offline::gear(&a.result)?;
-    let input = description(&gear);
-    write(a, (&gear.name, WRITE, input, "flanks"), &left_out(&gear))
-}
-
-/// Lets a script write the solid of a description and says what came of it. `what`: surfaces that were compared with the exact ones.
-fn write(
-    a: &ExportArguments,
-    (name, script, input, what): (&str, &str, Value, &str),
-    left_out: &[&str],
-) -> Result<(), Failure> {
     let python = offline::python()?;
     let task = format!("writing {}", a.output.display());
-    let input = input.to_string();
+    let input = description(&gear).to_string();
     let mut told = Vec::new();
-    let bar = console::StageBar::new(name);
+    let bar = console::StageBar::new(&gear.name);
     gearmesh_reduction::Progress::stage(
         &bar,
-        "making the solid and comparing it with the exact surfaces",
+        "making the solid and comparing it with the exact flanks",
     );
     let outcome = write_by(&a.output, |beside| {
         let beside = beside.display().to_string();
         let blame = |error: PythonError| Failure::work(error);
         told = python
-            .run(&task, script, &[&beside], input.as_bytes())
+            .run(&task, WRITE, &[&beside], input.as_bytes())
             .map_err(blame)?;
         Ok::<(), Failure>(())
     });
     bar.finish();
     outcome?;
     let told: Value = serde_json::from_slice(&told).map_err(Failure::work)?;
+    let left_out = left_out(&gear);
     if a.json {
         console::json(&json!({ "file": a.output, "solid": told, "left_out": left_out }));
     } else {
         let off_nm = 1e6 * told["largest_error_mm"].as_f64().unwrap_or_default();
         console::data(format!(
-            "{}: one solid of {} faces, in mm; {what} within {off_nm:.3} nm of the exact ones",
+            "{}: one solid of {} faces, in mm; flanks within {off_nm:.3} nm of the exact ones",
             a.output.display(),
             told["faces"]
         ));
