@@ -1,6 +1,6 @@
 //! One member of a bevel pair as a body: its teeth, the blank below them, material, mesh and what is computed of it.
 
-use gearmesh_geometry::{Flank, HubSupport, Material, MeshSettings, ReductionSettings};
+use gearmesh_geometry::{Flank, HubSupport, Material, MeshSettings, ModeRange, ReductionSettings};
 
 use crate::blank::MemberBlank;
 use crate::flank_patch::FlankPatch;
@@ -33,6 +33,8 @@ pub struct BevelGear {
     pub reduction: ReductionSettings,
     /// How the bore is held.
     pub hub: HubSupport,
+    /// Natural modes to be found; none where not asked for.
+    pub modes: Option<ModeRange>,
     /// Strain gauges.
     pub gauges: Vec<BevelGauge>,
     /// The gear file, word for word.

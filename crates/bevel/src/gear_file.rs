@@ -7,6 +7,7 @@ mod solver_tables;
 use std::path::Path;
 
 use gearmesh_geometry::InputError;
+use gearmesh_geometry::gear_file::{HubTable, MaterialTable, ModesTable};
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -34,7 +35,7 @@ struct BevelGearFile {
     /// The body below the teeth.
     blank: body_table::BodyTable,
     /// Material.
-    material: solver_tables::MaterialTable,
+    material: MaterialTable,
     /// Element and element lengths.
     #[serde(default)]
     mesh: solver_tables::MeshTable,
@@ -43,7 +44,9 @@ struct BevelGearFile {
     reduction: solver_tables::ReductionTable,
     /// How the bore is held.
     #[serde(default)]
-    hub: solver_tables::HubTable,
+    hub: HubTable,
+    /// Natural modes with the bore held, for the dynamics; none where not given.
+    modes: Option<ModesTable>,
     /// Strain gauges in the tooth roots.
     #[serde(default)]
     gauge: Vec<gauge_table::GaugeTable>,
@@ -100,7 +103,25 @@ impl BevelGear {
         let file: BevelGearFile = document.parse()?;
         let pair_document = InputDocument::read(&folder.join(&file.bevel_gear.pair))
             .map_err(|e| document.error("bevel_gear.pair", e))?;
-        let pair = PairFile::from_document(&pair_document)?;
+        Self::of_files(document, file, &pair_document)
+    }
+
+    /// A gear from the texts of its file and its pair's, as a reduced gear keeps them; `name` stands for them in messages.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn from_texts(name: &str, text: &str, pair_text: &str) -> Result<Self, InputError> {
+        let document = InputDocument::new(format!("gear inside {name}"), text);
+        let pair_document = InputDocument::new(format!("pair inside {name}"), pair_text);
+        Self::of_files(&document, document.parse()?, &pair_document)
+    }
+
+    fn of_files(
+        document: &InputDocument,
+        file: BevelGearFile,
+        pair_document: &InputDocument,
+    ) -> Result<Self, InputError> {
+        let pair = PairFile::from_document(pair_document)?;
         let cut = |e: BevelError| document.error("bevel_gear.pair", e);
         let design = pair.design().map_err(cut)?;
         let member = match file.bevel_gear.member {
@@ -135,7 +156,10 @@ impl BevelGear {
             name: file.name,
             mesh: file.mesh.check(document, &tooth)?,
             reduction: file.reduction.check(document)?,
-            hub: file.hub.check(document, &material)?,
+            hub: file.hub.check(document, &material, false)?,
+            modes: (file.modes)
+                .map(|table| table.check(document, &material, false))
+                .transpose()?,
             gauges: Vec::new(),
             source: document.text.clone(),
             pair_text: pair_document.text.clone(),

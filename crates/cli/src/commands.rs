@@ -5,6 +5,7 @@ pub mod bearing;
 pub mod bearing_frequencies;
 mod bearing_page;
 pub mod bevel;
+mod bevel_stress;
 pub mod check;
 pub mod compare;
 pub mod completions;

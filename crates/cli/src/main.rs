@@ -14,6 +14,7 @@ mod output_name;
 mod overwriting;
 mod page_file;
 mod progress_lines;
+mod stressed_gear;
 mod uff;
 
 use arguments::{Arguments, Command};

@@ -178,6 +178,7 @@ pub fn export_mesh(
 pub fn export_bevel_mesh(
     gear: &BevelGear,
     mesh: &BevelMesh,
+    fields: MeshFields,
     unit: LengthUnit,
     output: &Path,
 ) -> Result<(), Failure> {
@@ -196,7 +197,8 @@ pub fn export_bevel_mesh(
         points: mesh.nodes.clone(),
         cells: cells_of(&mesh.elements),
         point_sets,
-        ..MeshData::default()
+        point_fields: fields.point,
+        cell_fields: fields.cell,
     };
     export((&data, gear.mesh.element), unit, output)
 }

@@ -41,10 +41,19 @@ impl AxialSpread {
     /// Slices of `width_m` whose middles stand at `centres_m` of the gear's mid-face; within its face.
     #[must_use]
     pub fn new(gear: &ReducedGear, centres_m: impl IntoIterator<Item = f64>, width_m: f64) -> Self {
-        let slices = gear.grid.slices;
-        let own_m = gear.slice_width_m();
+        Self::on_face((gear.grid.slices, gear.face_width_m), centres_m, width_m)
+    }
+
+    /// The same on a face of so many own slices and this width \[m\].
+    #[must_use]
+    pub fn on_face(
+        (slices, face_width_m): (usize, f64),
+        centres_m: impl IntoIterator<Item = f64>,
+        width_m: f64,
+    ) -> Self {
+        let own_m = face_width_m / slices as f64;
         let rows = centres_m.into_iter().map(|centre_m| {
-            let from_face = centre_m + 0.5 * gear.face_width_m;
+            let from_face = centre_m + 0.5 * face_width_m;
             let ends = [-0.5, 0.5].map(|half| (from_face + half * width_m) / own_m);
             stretch_shares(ends, slices)
         });

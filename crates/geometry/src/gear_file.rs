@@ -17,7 +17,10 @@ mod reduction_table;
 mod tooth_table;
 mod topography_table;
 
+pub use hub_table::HubTable;
+pub use material_table::MaterialTable;
 pub use microgeometry_table::MicrogeometryTable;
+pub use modes_table::ModesTable;
 
 use crate::definition::{GearDefinition, HubSupport};
 use crate::input::{InputDocument, InputError, TableKeys};

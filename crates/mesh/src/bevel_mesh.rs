@@ -314,6 +314,22 @@ impl BevelMesh {
             .collect()
     }
 
+    /// Columns of elements along the teeth, of all sectors: corners in the section nearest to the middle of the face, and elements from toe to heel.
+    pub fn columns_along(&self) -> Vec<([u32; 4], Vec<u32>)> {
+        let (grid, p) = (self.grid, self.grid.order);
+        let middle = (grid.sections - 1) / p / 2 * p;
+        let quads = grid.quads();
+        let of_tooth = |tooth: usize| {
+            let quads = quads.iter().enumerate();
+            quads.map(move |(number, quad)| {
+                let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
+                let corners = corners.map(|node| self.node(tooth, node, middle));
+                (corners, self.elements_of(tooth, number..number + 1))
+            })
+        };
+        (0..self.teeth).flat_map(of_tooth).collect()
+    }
+
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
         let row = self.grid.rows;

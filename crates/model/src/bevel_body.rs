@@ -124,20 +124,6 @@ impl BevelNearField {
         let size = stations * stations;
         &self.mesh_m2_per_n[(flank_index * self.sections_m.len() + section) * size..][..size]
     }
-
-    /// Distance to the opposite side (m) at the stations of a section.
-    ///
-    /// # Panics
-    /// If there is no such flank or section.
-    pub fn opposite_distances_m(
-        &self,
-        flank_index: usize,
-        section: usize,
-        stations: usize,
-    ) -> &[f64] {
-        let first = (flank_index * self.sections_m.len() + section) * stations;
-        &self.opposite_distance_m[first..][..stations]
-    }
 }
 
 impl ReducedGear {

@@ -204,10 +204,13 @@ class Result:
         with tempfile.TemporaryDirectory() as folder:
             program("report", self._file(folder), "-o", path)
 
-    def export(self, path: str | os.PathLike[str], table: str | None = None) -> None:
-        """Writes a table for other programs; the ending chooses the format: .csv, .parquet, .mat."""
+    def export(self, path: str | os.PathLike[str], table: str | None = None, **given: Any) -> None:
+        """Writes a table for other programs; the ending chooses the format: .csv, .parquet, .mat, .uff; .pvd writes gears that move.
+
+        Further options of `gearmesh export` with underscores: export("drive.pvd", stress=True, moments=50).
+        """
         with tempfile.TemporaryDirectory() as folder:
-            program("export", self._file(folder), "-o", path, *([] if table is None else ["--table", table]))
+            program("export", self._file(folder), "-o", path, *([] if table is None else ["--table", table]), *options(given))
 
     def recover(self, path: str | os.PathLike[str], **given: Any) -> dict[str, Any]:
         """Writes the strain of all gauges to a file; options of `gearmesh recover` with underscores.

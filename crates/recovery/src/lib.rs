@@ -9,4 +9,4 @@ mod gauge_reader;
 mod grid_forces;
 
 pub use gauge_reader::{GaugeArray, GaugeReader, LoadedSlice, Strain};
-pub use grid_forces::{GridLoadForce, grid_forces};
+pub use grid_forces::{GridLoadForce, PlacedForce, grid_forces, placed_forces};

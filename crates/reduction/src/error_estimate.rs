@@ -21,15 +21,21 @@
 //! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116 (1994)
 //! 405-413.
 
-use crate::flank_loads::{SparseVector, flank_loads};
+use crate::bevel::gauge::bevel_gauge_row;
+use crate::bevel::loads::bevel_loads;
+use crate::bevel::reduce::{bevel_body, flank_patch};
+use crate::flank_loads::{GridLoad, SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
+use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::tooth_vectors::summed;
+use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Within};
-use gearmesh_geometry::{Element, GearDefinition};
+use gearmesh_bevel::BevelGear;
+use gearmesh_geometry::{Element, Flank, GearDefinition, MeshSettings};
 use gearmesh_mesh::python::PythonEnvironment;
-use gearmesh_model::{FlankGrid, GaugeRows};
+use gearmesh_model::{FlankGrid, GaugeRows, ReductionChecks};
 
 /// Ratio of the element lengths.
 const COARSENING: f64 = 1.5;
@@ -48,6 +54,21 @@ pub struct ErrorEstimate {
     pub gauges: Vec<f64>,
 }
 
+impl ErrorEstimate {
+    /// Writes the estimates among the checks and to the gauges.
+    pub(crate) fn state(self, further: &mut Vec<(String, f64)>, gauges: &mut [GaugeRows]) {
+        for (name, error) in [
+            (ReductionChecks::LOADED_TOOTH_ERROR, self.loaded_tooth),
+            (ReductionChecks::OTHER_TEETH_ERROR, self.other_teeth),
+        ] {
+            further.push((name.to_string(), error));
+        }
+        for (gauge, error) in gauges.iter_mut().zip(self.gauges) {
+            gauge.error_estimate_relative = error;
+        }
+    }
+}
+
 /// What the estimate compares of one mesh.
 struct Figures {
     /// Deflection of tooth 0 under its own load, then of the others that are looked at.
@@ -61,21 +82,18 @@ fn teeth_looked_at(teeth: usize) -> [usize; 6] {
     [0, 1, teeth - 1, 2, teeth - 2, teeth / 2]
 }
 
-/// The same gear with coarser elements in the section, and along the axis.
-fn coarsened(gear: &GearDefinition, axial: bool) -> GearDefinition {
-    let mut coarse = gear.clone();
-    // The estimate is that of the sound gear.
-    coarse.crack = None;
-    let mesh = &mut coarse.mesh;
-    mesh.flank_m *= COARSENING;
-    mesh.fillet_m *= COARSENING;
-    mesh.body_m *= COARSENING;
-    if axial {
-        mesh.axial_m *= COARSENING;
+/// The same mesh with longer elements in the section, and along the teeth.
+fn coarsened(mesh: &MeshSettings, axial: bool) -> MeshSettings {
+    let along = if axial { COARSENING } else { 1.0 };
+    MeshSettings {
+        flank_m: COARSENING * mesh.flank_m,
+        fillet_m: COARSENING * mesh.fillet_m,
+        body_m: COARSENING * mesh.body_m,
+        axial_m: along * mesh.axial_m,
+        // Judged by the fine mesh; the coarse ones only serve to estimate.
+        min_scaled_jacobian: 0.05,
+        ..mesh.clone()
     }
-    // Judged by the fine mesh; the coarse ones only serve to estimate.
-    mesh.min_scaled_jacobian = 0.05;
-    coarse
 }
 
 /// Weights of a load over the whole width at a roll station, per load of one flank: the axial hats overlap, each inner
@@ -107,34 +125,98 @@ fn by_station(grid: &FlankGrid, reading: impl Fn(usize) -> f64) -> Vec<f64> {
     (0..grid.roll_angles_rad.len()).map(of_line).collect()
 }
 
-/// Estimates the errors of a reduction that has just been made.
+/// A reduction that has just been made.
+pub struct Reduced<'a> {
+    /// Number of teeth.
+    pub teeth: usize,
+    /// Flanks that carry loads; the estimate looks at the first.
+    pub flanks: &'a [Flank],
+    /// Flank grid.
+    pub grid: &'a FlankGrid,
+    /// C_hub of sector 1's teeth.
+    pub c_hub: &'a [f64],
+    /// C_tooth.
+    pub c_tooth: &'a [f64],
+    /// Gauges.
+    pub gauges: &'a [GaugeRows],
+}
+
+/// Estimates the errors of a cylindrical gear's reduction.
 ///
 /// # Errors
 /// [`ReductionError`] when a coarse mesh cannot be made or solved.
 pub fn estimate(
     gear: &GearDefinition,
     python: &PythonEnvironment,
-    gauges: &[GaugeRows],
-    c_hub: &[f64],
-    c_tooth: &[f64],
-    grid: &FlankGrid,
+    reduced: &Reduced<'_>,
     progress: &dyn Progress,
 ) -> Result<ErrorEstimate, ReductionError> {
-    let fine = reduced_figures(gear, gauges, c_hub, c_tooth, grid);
     let one_step = gear.mesh.plane_strain || gear.mesh.element == Element::Tet10;
     let steps: &[bool] = if one_step { &[true] } else { &[false, true] };
-    let mut meshes = vec![fine];
+    estimated(reduced, steps, progress, |axial, progress| {
+        let mut coarse = gear.clone();
+        // The estimate is that of the sound gear.
+        coarse.crack = None;
+        coarse.mesh = coarsened(&gear.mesh, axial);
+        let body = GearBody::new(&coarse, python, progress)?;
+        let side = reduced.flanks[0];
+        let loads = flank_loads(&coarse, &body.mesh, reduced.grid, 0, side);
+        let rows = (coarse.gauges.iter())
+            .map(|gauge| gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
+            .collect::<Result<_, _>>()?;
+        mesh_figures(
+            reduced,
+            &body,
+            (&loads, rows),
+            Deformation::of(gear),
+            progress,
+        )
+    })
+}
+
+/// The same of a bevel gear.
+///
+/// # Errors
+/// As [`estimate`].
+pub fn estimate_bevel(
+    gear: &BevelGear,
+    reduced: &Reduced<'_>,
+    progress: &dyn Progress,
+) -> Result<ErrorEstimate, ReductionError> {
+    estimated(reduced, &[false, true], progress, |axial, progress| {
+        let mut coarse = gear.clone();
+        coarse.mesh = coarsened(&gear.mesh, axial);
+        let body = bevel_body(&coarse, progress)?;
+        let side = reduced.flanks[0];
+        let patch = flank_patch(&coarse, side)?;
+        let loads = bevel_loads(&body.mesh, &patch, side, reduced.grid);
+        let rows = (coarse.gauges.iter())
+            .map(|gauge| bevel_gauge_row(&coarse, &body.mesh, &body.model, gauge, gauge.tooth))
+            .collect::<Result<_, _>>()?;
+        mesh_figures(
+            reduced,
+            &body,
+            (&loads, rows),
+            Deformation::Spatial,
+            progress,
+        )
+    })
+}
+
+/// The estimate from the figures of coarser meshes; `steps`: whether they are coarser along the teeth, too.
+fn estimated(
+    reduced: &Reduced<'_>,
+    steps: &[bool],
+    progress: &dyn Progress,
+    coarse: impl Fn(bool, &dyn Progress) -> Result<Figures, ReductionError>,
+) -> Result<ErrorEstimate, ReductionError> {
+    let mut meshes = vec![reduced_figures(reduced)];
     for (k, &axial) in steps.iter().enumerate() {
         let progress = Within {
             all: progress,
             part: format!("error estimate, coarser mesh {} of {}", k + 1, steps.len()),
         };
-        meshes.push(mesh_figures(
-            &coarsened(gear, axial),
-            python,
-            grid,
-            &progress,
-        )?);
+        meshes.push(coarse(axial, &progress)?);
     }
     let error = |(order, safety): (i32, f64), values: &dyn Fn(&Figures) -> Vec<f64>| -> f64 {
         let all: Vec<Vec<f64>> = meshes.iter().map(values).collect();
@@ -149,29 +231,23 @@ pub fn estimate(
     Ok(ErrorEstimate {
         loaded_tooth: deflection(0),
         other_teeth: (1..6).map(deflection).fold(0.0, f64::max),
-        gauges: (0..gauges.len())
+        gauges: (0..reduced.gauges.len())
             .map(|k| error(GAUGE, &|figures| figures.gauges[k].clone()))
             .collect(),
     })
 }
 
 /// The figures of the reduction.
-fn reduced_figures(
-    gear: &GearDefinition,
-    gauges: &[GaugeRows],
-    c_hub: &[f64],
-    c_tooth: &[f64],
-    grid: &FlankGrid,
-) -> Figures {
-    let count = grid.len();
+fn reduced_figures(reduced: &Reduced<'_>) -> Figures {
+    let (grid, count) = (reduced.grid, reduced.grid.len());
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
     // Rows of C_hub are [tooth][flank of the response][load][response]; those of the first flank are asked for.
-    let flanks = gear.reduction.flanks.len();
+    let flanks = reduced.flanks.len();
     let deflection = |tooth: usize| {
-        let block = &c_hub[tooth * flanks * count * count..][..count * count];
+        let block = &reduced.c_hub[tooth * flanks * count * count..][..count * count];
         let mut value = compliance_of(&weights, |l, m| block[l * count + m]);
         if tooth == 0 {
-            value -= compliance_of(&weights, |l, m| c_tooth[l * count + m]);
+            value -= compliance_of(&weights, |l, m| reduced.c_tooth[l * count + m]);
         }
         value
     };
@@ -180,25 +256,23 @@ fn reduced_figures(
         by_station(grid, |load| gauge.adjoint[3 * (first + load)])
     };
     Figures {
-        deflections: teeth_looked_at(gear.tooth.teeth).map(deflection).to_vec(),
-        gauges: gauges.iter().map(of_gauge).collect(),
+        deflections: teeth_looked_at(reduced.teeth).map(deflection).to_vec(),
+        gauges: reduced.gauges.iter().map(of_gauge).collect(),
     }
 }
 
-/// The same of another mesh.
-fn mesh_figures(
-    gear: &GearDefinition,
-    python: &PythonEnvironment,
-    grid: &FlankGrid,
+/// The same of another mesh; `loads` on the first flank of tooth 0, and the gauges' rows.
+fn mesh_figures<M: RepeatedMesh + ToothParts>(
+    reduced: &Reduced<'_>,
+    body: &GearBody<M>,
+    (loads, gauge_rows): (&[GridLoad], Vec<SparseVector>),
+    deformation: Deformation,
     progress: &dyn Progress,
 ) -> Result<Figures, ReductionError> {
-    let body = GearBody::new(gear, python, progress)?;
     progress.stage("solving");
-    let count = grid.len();
-    let side = gear.reduction.flanks[0];
-    let loads = flank_loads(gear, &body.mesh, grid, 0, side);
-    let submodel =
-        ToothSubmodel::new(&body.model, &body.mesh, side, &loads, Deformation::of(gear))?;
+    let (grid, count) = (reduced.grid, reduced.grid.len());
+    let side = reduced.flanks[0];
+    let submodel = ToothSubmodel::new(&body.model, &body.mesh, side, loads, deformation)?;
     let weights = line_load(grid, grid.roll_angles_rad.len() / 2);
     let shares = weights.iter().flat_map(|&(load, share)| {
         let normal = &loads[load].normal;
@@ -207,12 +281,7 @@ fn mesh_figures(
     let line = summed(shares.collect());
     let normals: Vec<&SparseVector> = loads.iter().map(|l| &l.normal).collect();
     let w = submodel.products(&normals);
-    let mut rows = vec![line];
-    for gauge in &gear.gauges {
-        let row = gauge_row(gear, &body.mesh, &body.model, gauge, gauge.tooth)?;
-        rows.push(row);
-    }
-    let rows: Vec<&SparseVector> = rows.iter().collect();
+    let rows: Vec<&SparseVector> = std::iter::once(&line).chain(&gauge_rows).collect();
     let all = body.readings(&rows, &normals, progress);
     // Normal loads of a row's own tooth; the line load stands on tooth 0.
     let own = |row: usize, tooth: usize| &all[row][tooth * count..(tooth + 1) * count];
@@ -227,9 +296,9 @@ fn mesh_figures(
         value
     };
     let of_gauge = |(k, tooth): (usize, usize)| by_station(grid, |load| own(k + 1, tooth)[load]);
-    let teeth = gear.gauges.iter().map(|gauge| gauge.tooth).enumerate();
+    let teeth = reduced.gauges.iter().map(|gauge| gauge.tooth).enumerate();
     Ok(Figures {
-        deflections: teeth_looked_at(gear.tooth.teeth).map(deflection).to_vec(),
+        deflections: teeth_looked_at(reduced.teeth).map(deflection).to_vec(),
         gauges: teeth.map(of_gauge).collect(),
     })
 }

@@ -1,10 +1,21 @@
 //! The whole displacement and stress field of a gear under given grid forces: made only when a picture is asked for.
+//!
+//! Nothing of it is in the reduced model: displacements of all nodes under each unit load would be thousands of times its compliance. The gear is
+//! meshed and factorised again and solved for the forces at hand.
 
-use crate::flank_loads::{SparseVector, flank_grid, flank_loads};
-use crate::gear_body::GearBody;
-use crate::{ReductionError, Silent};
-use gearmesh_fe::{ElementFormulas, von_mises};
+use gearmesh_bevel::BevelGear;
+use gearmesh_fe::{ElementFormulas, FeError, FeModel, von_mises};
 use gearmesh_geometry::{Flank, GearDefinition};
+use gearmesh_mesh::BevelMesh;
+use std::collections::BTreeMap;
+
+use crate::bevel::loads::{bevel_grid, bevel_loads};
+use crate::bevel::reduce::flank_patch;
+use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
+use crate::gear_body::GearBody;
+use crate::repeated_mesh::RepeatedMesh;
+use crate::tooth_vectors::{on_tooth, summed};
+use crate::{ReductionError, Silent};
 
 /// A force on one grid load: tooth, side, load number, normal and tangential (towards the tip) part \[N\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +41,122 @@ pub struct Field {
     pub von_mises_pa: Vec<f64>,
 }
 
-/// Solves K d = f for each set of grid forces.
+/// Unit loads of tooth 0 on both sides; empty on a side that no force needs.
+pub struct FlankUnits([Vec<GridLoad>; 2]);
+
+impl FlankUnits {
+    /// Those of a cylindrical gear.
+    ///
+    /// # Errors
+    /// [`ReductionError::FieldWithCrack`].
+    pub fn of_gear(
+        gear: &GearDefinition,
+        body: &GearBody,
+        sides: &[Flank],
+    ) -> Result<Self, ReductionError> {
+        if gear.crack.is_some() {
+            return Err(ReductionError::FieldWithCrack);
+        }
+        let grid = flank_grid(gear);
+        let mut units = Self(Default::default());
+        for &side in sides {
+            units.0[side as usize] = flank_loads(gear, &body.mesh, &grid, 0, side);
+        }
+        Ok(units)
+    }
+
+    /// Those of a bevel gear.
+    ///
+    /// # Errors
+    /// [`ReductionError::Mesh`] where the tool leaves no surface.
+    pub fn of_bevel(
+        gear: &BevelGear,
+        mesh: &BevelMesh,
+        sides: &[Flank],
+    ) -> Result<Self, ReductionError> {
+        let grid = bevel_grid(gear);
+        let mut units = Self(Default::default());
+        for &side in sides {
+            let patch = flank_patch(gear, side)?;
+            units.0[side as usize] = bevel_loads(mesh, &patch, side, &grid);
+        }
+        Ok(units)
+    }
+
+    /// Nodal forces \[N\] on the whole mesh.
+    fn on_mesh(&self, mesh: &impl RepeatedMesh, forces: &[GridForce]) -> SparseVector {
+        let mut of_tooth: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
+        for force in forces {
+            let unit = &self.0[force.side as usize][force.load];
+            let entries = of_tooth.entry(force.tooth).or_default();
+            for (part, amount) in [
+                (&unit.normal, force.normal_n),
+                (&unit.tangential, force.tangential_n),
+            ] {
+                if amount != 0.0 {
+                    entries.extend(part.iter().map(|&(dof, value)| (dof, amount * value)));
+                }
+            }
+        }
+        let turned = of_tooth
+            .into_iter()
+            .flat_map(|(tooth, entries)| on_tooth(mesh, &summed(entries), tooth));
+        summed(turned.collect())
+    }
+
+    /// Solves K d = f for each set of grid forces and hands the displacements of all degrees of freedom \[m\] to `each`.
+    ///
+    /// # Panics
+    /// If a force stands on a side whose units were not asked for.
+    pub fn solve_each(
+        &self,
+        body: &GearBody<impl RepeatedMesh>,
+        cases: &[Vec<GridForce>],
+        each: impl FnMut(usize, &[f64]),
+    ) {
+        let on_mesh = |case: &Vec<GridForce>| self.on_mesh(&body.mesh, case);
+        let rows: Vec<SparseVector> = cases.iter().map(on_mesh).collect();
+        body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, each);
+    }
+
+    /// The fields of some sets of grid forces.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fe`] when an element's strain cannot be taken.
+    ///
+    /// # Panics
+    /// As [`Self::solve_each`].
+    pub fn fields(
+        &self,
+        body: &GearBody<impl RepeatedMesh>,
+        cases: &[Vec<GridForce>],
+    ) -> Result<Vec<Field>, ReductionError> {
+        let mut displacements = Vec::with_capacity(cases.len());
+        self.solve_each(body, cases, |_, u| displacements.push(u.to_vec()));
+        displacements
+            .into_iter()
+            .map(|u| Field::new(&body.model, &u))
+            .collect()
+    }
+}
+
+impl Field {
+    fn new(model: &FeModel, u: &[f64]) -> Result<Self, ReductionError> {
+        let at_centre = |e: usize| {
+            let strain = model.strain(e, model.element_of(e).centre(), u)?;
+            Ok(von_mises(&model.material().stress(&strain)))
+        };
+        let von_mises_pa = (0..model.element_count())
+            .map(at_centre)
+            .collect::<Result<_, FeError>>()?;
+        Ok(Self {
+            displacement_m: u.chunks_exact(3).map(|d| [d[0], d[1], d[2]]).collect(),
+            von_mises_pa,
+        })
+    }
+}
+
+/// The fields of a cylindrical gear under some sets of grid forces.
 ///
 /// # Errors
 /// [`ReductionError::Fe`] when an element's strain cannot be taken, [`ReductionError::FieldWithCrack`].
@@ -39,51 +165,23 @@ pub fn fields(
     body: &GearBody,
     cases: &[Vec<GridForce>],
 ) -> Result<Vec<Field>, ReductionError> {
-    if gear.crack.is_some() {
-        return Err(ReductionError::FieldWithCrack);
-    }
-    let grid = flank_grid(gear);
-    let mut rows: Vec<SparseVector> = Vec::with_capacity(cases.len());
-    for case in cases {
-        let mut total: std::collections::BTreeMap<usize, f64> = Default::default();
-        let mut teeth: Vec<(usize, Flank)> = case.iter().map(|f| (f.tooth, f.side)).collect();
-        teeth.sort_unstable();
-        teeth.dedup();
-        for (tooth, side) in teeth {
-            let loads = flank_loads(gear, &body.mesh, &grid, tooth, side);
-            for force in case.iter().filter(|f| (f.tooth, f.side) == (tooth, side)) {
-                let load = &loads[force.load];
-                for (part, amount) in [
-                    (&load.normal, force.normal_n),
-                    (&load.tangential, force.tangential_n),
-                ] {
-                    for &(dof, value) in part {
-                        *total.entry(dof).or_default() += amount * value;
-                    }
-                }
-            }
-        }
-        rows.push(total.into_iter().collect());
-    }
-    let mut displacements = Vec::with_capacity(cases.len());
-    body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, |_, u| {
-        displacements.push(u.to_vec())
-    });
-    displacements
-        .into_iter()
-        .map(|u| {
-            let von_mises_pa = (0..body.mesh.elements.len())
-                .map(|e| {
-                    let strain = body
-                        .model
-                        .strain(e, body.model.element_of(e).centre(), &u)?;
-                    Ok(von_mises(&body.model.material().stress(&strain)))
-                })
-                .collect::<Result<Vec<f64>, gearmesh_fe::FeError>>()?;
-            Ok(Field {
-                displacement_m: u.chunks_exact(3).map(|d| [d[0], d[1], d[2]]).collect(),
-                von_mises_pa,
-            })
-        })
-        .collect()
+    FlankUnits::of_gear(gear, body, &sides(cases))?.fields(body, cases)
+}
+
+/// The same of a bevel gear.
+///
+/// # Errors
+/// [`ReductionError::Fe`] when an element's strain cannot be taken, [`ReductionError::Mesh`] where the tool leaves no surface.
+pub fn bevel_fields(
+    gear: &BevelGear,
+    body: &GearBody<BevelMesh>,
+    cases: &[Vec<GridForce>],
+) -> Result<Vec<Field>, ReductionError> {
+    FlankUnits::of_bevel(gear, &body.mesh, &sides(cases))?.fields(body, cases)
+}
+
+/// The sides that forces stand on.
+fn sides(cases: &[Vec<GridForce>]) -> Vec<Flank> {
+    let stands = |side: &Flank| cases.iter().flatten().any(|f| f.side == *side);
+    Flank::ALL.into_iter().filter(stands).collect()
 }

@@ -24,6 +24,7 @@
 //! | memory that all this will take, before it is taken | `memory_estimate.rs`, `mode_count.rs` |
 //! | a crack in one tooth, as rows added to the compliance | `root_crack.rs` |
 //! | the whole displacement and stress field | `field.rs` |
+//! | the surface and the stress on it | `skin.rs` |
 //!
 //! With N the unit loads, U = K⁻¹N, W the same loads on the tooth-only submodel and Ψ = U − W the deformation
 //! patterns, the reduced compliance is C_g = ΨᵀKΨ = NᵀU − NᵀW. It is never computed by inverting ΨᵀKΨ: the proof that
@@ -58,6 +59,7 @@ pub mod repeated_mesh;
 pub mod rigid_mass;
 pub mod root_crack;
 pub mod sector_substructure;
+pub mod skin;
 mod tooth_frame;
 pub mod tooth_submodel;
 pub mod tooth_substructure;

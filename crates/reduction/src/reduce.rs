@@ -1,7 +1,7 @@
 //! The reduction: compliance of the flanks, gauge rows, and the identities they must fulfil.
 
 use crate::dynamics::{DynamicsRequest, dynamics};
-use crate::error_estimate::{ErrorEstimate, estimate};
+use crate::error_estimate::{Reduced, estimate};
 use crate::flank_compliance::{
     AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
 };
@@ -106,20 +106,16 @@ pub fn reduce(
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     further.extend(dynamics.checks);
     if options.estimate_error {
-        let ErrorEstimate {
-            loaded_tooth,
-            other_teeth,
-            gauges: errors,
-        } = estimate(gear, python, &gauges, &c_hub, &c_tooth, &grid, progress)?;
-        for (name, error) in [
-            (ReductionChecks::LOADED_TOOTH_ERROR, loaded_tooth),
-            (ReductionChecks::OTHER_TEETH_ERROR, other_teeth),
-        ] {
-            further.push((name.to_string(), error));
-        }
-        for (gauge, error) in gauges.iter_mut().zip(errors) {
-            gauge.error_estimate_relative = error;
-        }
+        let reduced = Reduced {
+            teeth: gear.tooth.teeth,
+            flanks,
+            grid: &grid,
+            c_hub: &c_hub,
+            c_tooth: &c_tooth,
+            gauges: &gauges,
+        };
+        let errors = estimate(gear, python, &reduced, progress)?;
+        errors.state(&mut further, &mut gauges);
         lap("error estimate");
     }
     let crack = gear.crack.as_ref();
@@ -137,8 +133,7 @@ pub fn reduce(
         lap("crack");
     }
     let mut effort = body.effort();
-    let mode_solves = dynamics.solves.map(|solves| solves as f64);
-    effort.extend(mode_solves.map(|solves| ("solves for natural modes".to_string(), solves)));
+    effort.extend(dynamics.solves.map(mode_solves));
     let jumps = crack.as_ref().map(|crack| crack.jumps as f64);
     effort.extend(jumps.map(|jumps| ("jumps of the crack".to_string(), jumps)));
     let mut reduced = assembled(gear, grid, c_hub, c_tooth, near_field, gauges);
@@ -218,6 +213,11 @@ pub(crate) fn assembled(
         },
         grid,
     }
+}
+
+/// What the search for natural modes cost, as a count by name.
+pub(crate) fn mode_solves(solves: usize) -> (String, f64) {
+    ("solves for natural modes".to_string(), solves as f64)
 }
 
 /// Names of the kinds of elements of a model.

@@ -11,7 +11,7 @@ mod gear_surface;
 mod pair_moments;
 mod vtu_text;
 
-pub use gear_surface::GearSurface;
+pub use gear_surface::{FlankFace, GearSurface};
 pub use pair_moments::{pair_moment, pair_surfaces};
 pub use vtu_text::{Series, series_text};
 
@@ -22,7 +22,7 @@ use gearmesh_geometry::Flank;
 pub struct Placement {
     /// World from gear axes.
     pub rotation: [[f64; 3]; 3],
-    /// Middle of the face, on the axis \[m\].
+    /// Middle of the face on the axis, of a bevel gear the pitch apex \[m\].
     pub origin_m: [f64; 3],
 }
 
@@ -57,10 +57,14 @@ pub struct FlankLoad {
     pub tooth: usize,
     /// Flank.
     pub side: Flank,
-    /// Roll angle \[rad\].
+    /// Roll angle \[rad\]; on a bevel gear the share of the way up the flank.
     pub roll_rad: f64,
-    /// Height above mid-face \[m\].
+    /// Height above mid-face \[m\], on a bevel gear along the pitch cone.
     pub height_m: f64,
+    /// Width of the slice \[m\].
+    pub width_m: f64,
+    /// Along the inward normal and along the profile towards the tip \[N\].
+    pub components_n: [f64; 2],
     /// Force on this gear, world axes \[N\].
     pub force_n: [f64; 3],
     /// Line load \[N/m\].
@@ -78,4 +82,6 @@ pub struct Moment {
     pub placements: Vec<Placement>,
     /// What presses on the flanks.
     pub loads: Vec<FlankLoad>,
+    /// Von Mises stress of each gear's cells \[Pa\]; empty where none is asked for.
+    pub von_mises_pa: Vec<Vec<f64>>,
 }

@@ -1,46 +1,12 @@
-//! `[material]`, `[mesh]`, `[reduction]` and `[hub]` of a bevel gear file.
+//! `[mesh]` and `[reduction]` of a bevel gear file.
 
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{
-    Element, Flank, HubSupport, InputError, Material, MeshSettings, ReductionSettings, Symmetry,
-};
+use gearmesh_geometry::{Element, Flank, InputError, MeshSettings, ReductionSettings, Symmetry};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::MM;
 use crate::tooth::Tooth;
-
-/// The keys of `[material]`.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[allow(non_snake_case)]
-pub(super) struct MaterialTable {
-    /// Young's modulus.
-    young_GPa: f64,
-    /// Poisson's ratio.
-    poisson: f64,
-    /// Density; needed by a body that moves.
-    density_kg_per_m3: Option<f64>,
-}
-
-impl MaterialTable {
-    pub(super) fn check(self, document: &InputDocument) -> Result<Material, InputError> {
-        let keys = TableKeys::new(document, "material");
-        let young = self.young_GPa;
-        keys.require("young_GPa", young, young > 0.0, "more than 0")?;
-        let allowed = "0 up to, not including, 0.5";
-        let poisson = self.poisson;
-        keys.require("poisson", poisson, (0.0..0.5).contains(&poisson), allowed)?;
-        if let Some(density) = self.density_kg_per_m3 {
-            keys.require("density_kg_per_m3", density, density > 0.0, "more than 0")?;
-        }
-        Ok(Material {
-            young_pa: young * 1e9,
-            poisson,
-            density_kg_per_m3: self.density_kg_per_m3,
-        })
-    }
-}
 
 /// The keys of `[mesh]`.
 #[derive(Deserialize, JsonSchema, Default)]
@@ -142,28 +108,5 @@ impl ReductionTable {
             slices,
             flanks,
         })
-    }
-}
-
-/// The keys of `[hub]`.
-#[derive(Deserialize, JsonSchema, Default)]
-#[serde(deny_unknown_fields)]
-pub(super) struct HubTable {
-    /// "fixed", or "reference-point": rigid, with six degrees of freedom, at the pitch apex; "fixed" where not given.
-    #[serde(default)]
-    support: HubSupport,
-}
-
-impl HubTable {
-    pub(super) fn check(
-        self,
-        document: &InputDocument,
-        material: &Material,
-    ) -> Result<HubSupport, InputError> {
-        if self.support == HubSupport::ReferencePoint && material.density_kg_per_m3.is_none() {
-            let problem = "bodies on a reference point need a density; add material.density_kg_per_m3, 7850 for steel";
-            return Err(document.error("hub.support", problem));
-        }
-        Ok(self.support)
     }
 }

@@ -20,6 +20,9 @@ pub struct ExportArguments {
     /// Gears that move: most moments, evenly chosen [default: 100]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub moments: Option<u32>,
+    /// Gears that move: with the von Mises stress on the surfaces of their finite elements; meshes and solves each gear again
+    #[arg(long)]
+    pub stress: bool,
     /// Gears that move, of a pair: torque [default: the largest one]
     #[arg(long = "torque-Nm", allow_negative_numbers = true)]
     pub torque_Nm: Option<f64>,

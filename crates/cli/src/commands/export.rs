@@ -26,6 +26,7 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
         ("--from-s", a.from_s.is_some()),
         ("--to-s", a.to_s.is_some()),
         ("--scene-folder", a.scene_folder.is_some()),
+        ("--stress", a.stress),
     ];
     let given = of_series.iter().filter(|(_, given)| *given && !moves);
     let unused = given.map(|(name, _)| *name);

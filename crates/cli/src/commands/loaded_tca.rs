@@ -1,6 +1,6 @@
 //! The loaded part of `gearmesh tca`: transmission error, load sharing and pressure of a bevel pair under torques.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::console;
 use crate::failure::Failure;
@@ -24,12 +24,22 @@ const ROWS: usize = 16;
 /// What was found under load.
 pub struct Loaded {
     flanks: BevelSlices,
-    side: Flank,
+    /// Flanks that press.
+    pub side: Flank,
     slices: usize,
     /// What gives way, in words.
     body: &'static str,
+    /// The reduced members, where the file names any, and their files.
+    pub models: Option<[(ReducedGear, PathBuf); 2]>,
     /// One for each torque.
-    found: Vec<LoadedContact>,
+    pub found: Vec<LoadedContact>,
+}
+
+impl Loaded {
+    /// Width of a slice along the pinion's face \[m\].
+    pub fn slice_width_m(&self) -> f64 {
+        self.flanks.pair().face_widths_m()[0] / self.slices as f64
+    }
 }
 
 /// Loads a pair.
@@ -55,7 +65,7 @@ pub fn analyse(
     let (contact, body) = match &models {
         Some(models) => {
             let local = LocalContact::Calibrated;
-            let contact = flanks.reduced_contact(side, [&models[0], &models[1]], local);
+            let contact = flanks.reduced_contact(side, [&models[0].0, &models[1].0], local);
             (contact.map_err(Failure::work)?, "reduced gears")
         }
         None => {
@@ -72,28 +82,35 @@ pub fn analyse(
         body,
         found,
         flanks,
+        models,
     })
 }
 
-/// The members' models, where the file names any.
-fn models(load: &LoadRequest, path: &Path) -> Result<Option<[ReducedGear; 2]>, Failure> {
+/// The members' models, where the file names any, with their files.
+fn models(load: &LoadRequest, path: &Path) -> Result<Option<[(ReducedGear, PathBuf); 2]>, Failure> {
     let Some(files) = &load.models else {
         return Ok(None);
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let read = |i: usize| -> Result<ReducedGear, Failure> {
-        let model = read_reduced_gear(&folder.join(&files[i]));
-        model.map_err(|error| Failure::input(format!("load.models.{i}: {error}")))
+    let read = |i: usize| -> Result<(ReducedGear, PathBuf), Failure> {
+        let file = folder.join(&files[i]);
+        match read_reduced_gear(&file) {
+            Ok(model) => Ok((model, file)),
+            Err(error) => Err(Failure::input(format!("load.models.{i}: {error}"))),
+        }
     };
     Ok(Some([read(0)?, read(1)?]))
 }
 
 /// Slices along the face. Those of a model share its stations: more than twice its own say nothing new, and their pressure is wrong.
-fn slices(load: &LoadRequest, models: Option<&[ReducedGear; 2]>) -> Result<usize, Failure> {
+fn slices(
+    load: &LoadRequest,
+    models: Option<&[(ReducedGear, PathBuf); 2]>,
+) -> Result<usize, Failure> {
     let Some(models) = models else {
         return Ok(load.slices.unwrap_or(SLICES));
     };
-    let own = models[0].grid.slices.min(models[1].grid.slices);
+    let own = models[0].0.grid.slices.min(models[1].0.grid.slices);
     let slices = load.slices.unwrap_or(own.max(3));
     let most = (2 * own).max(3);
     if slices > most {

@@ -67,7 +67,8 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
 fn bevel(arguments: &MeshArguments, gear: &BevelGear) -> Result<(), Failure> {
     let mesh = BevelMesh::new(gear).map_err(gearmesh_reduction::ReductionError::from)?;
     gearmesh_reduction::bevel::bevel_model(gear, &mesh)?;
-    offline::export_bevel_mesh(gear, &mesh, arguments.length_unit, &arguments.output)?;
+    let (no_fields, unit) = (offline::MeshFields::default(), arguments.length_unit);
+    offline::export_bevel_mesh(gear, &mesh, no_fields, unit, &arguments.output)?;
     let quality = mesh.quality;
     let bore = mesh.bore().len();
     let dofs = 3 * (mesh.nodes.len() - bore);

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::{console, memory, offline, output_name};
 use gearmesh_bevel::BevelGear;
 use gearmesh_model::{ReducedGear, ReductionChecks, write_reduced_gear};
-use gearmesh_reduction::OfflineJob;
 use gearmesh_reduction::bevel::reduce_bevel;
+use gearmesh_reduction::{OfflineJob, ReductionOptions};
 use serde_json::json;
 
 /// Runs the command.
@@ -35,11 +35,11 @@ pub fn run(arguments: &ReduceArguments) -> Result<(), Failure> {
 }
 
 fn bevel(arguments: &ReduceArguments, gear: &BevelGear) -> Result<(), Failure> {
-    if !arguments.no_error_estimate {
-        console::note("no error estimate: it is not offered for bevel gears");
-    }
+    let options = ReductionOptions {
+        estimate_error: !arguments.no_error_estimate,
+    };
     let bar = StageBar::new(&gear.name);
-    let outcome = reduce_bevel(gear, &bar);
+    let outcome = reduce_bevel(gear, options, &bar);
     bar.finish();
     write(arguments, &outcome?.0)
 }

@@ -1,7 +1,7 @@
 //! `gearmesh tca`: tooth contact analysis of a bevel pair.
 
 use crate::arguments::TcaArguments;
-use crate::commands::{bevel, loaded_tca, tca_page};
+use crate::commands::{bevel, bevel_stress, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
@@ -12,6 +12,9 @@ use serde_json::{Value, json};
 pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     if let Some(path) = &a.report {
         output_name::demand_report(path)?;
+    }
+    if let Some(path) = &a.field_output {
+        output_name::demand_mesh(path)?;
     }
     let file = PairFile::read(&a.pair)?;
     let (design, _) = bevel::design(&file)?;
@@ -25,6 +28,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
         None => None,
     };
+    let stress = bevel_stress::asked(a, loaded.as_ref())?;
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
@@ -32,6 +36,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
             contact: &found,
             moved: moved.as_ref(),
             loaded: loaded.as_ref(),
+            stress,
         };
         tca_page::write(&analysed, a, path)?;
     }

@@ -32,6 +32,8 @@ pub struct Analysed<'a> {
     pub moved: Option<&'a Sensitivity>,
     /// Under load, where the file asks for it.
     pub loaded: Option<&'a Loaded>,
+    /// Pictures of both members' stress, where they are asked for.
+    pub stress: Option<Section>,
 }
 
 /// Writes the page.
@@ -62,6 +64,9 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
         .section(at_a_glance(of));
     if let Some(loaded) = of.loaded {
         page = page.section(loaded_tca::section(loaded));
+    }
+    if let Some(stress) = &of.stress {
+        page = page.section(stress.clone());
     }
     Ok(page
         .section(pattern)

@@ -8,6 +8,7 @@
 
 mod bearing;
 mod bevel;
+mod bevel_stress;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../../../scene/tests/made_up_gears/drilled_pair.rs"]

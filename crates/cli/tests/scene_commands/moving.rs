@@ -140,6 +140,76 @@ fn a_pair_turns_under_load() {
     );
 }
 
+/// Of the first moment of a series with stress: largest stress and the tooth it is on, of each gear; of a whole field the largest stress.
+const STRESS: &str = "
+import json, sys
+import meshio, numpy as np
+moment, field = meshio.read(sys.argv[1]), meshio.read(sys.argv[2])
+data = {name: np.concatenate(parts) for name, parts in moment.cell_data.items()}
+told = []
+for g in (1, 2):
+    own = data['gear'] == g
+    stress, tooth = data['von_mises_Pa'][own], data['tooth'][own]
+    loaded = set(tooth[data['line_load_N_per_m'][own] > 0].tolist())
+    told.append([float(stress.max()), int(tooth[stress.argmax()]) in loaded, float(np.median(stress))])
+json.dump({'gears': told, 'field': float(field.cell_data['von_mises_Pa'][0].max())}, sys.stdout)
+";
+
+#[test]
+fn a_pair_turns_with_the_stress_of_its_bodies() {
+    let desk = Desk::new();
+    let (file, _) = run_scene(&desk, "");
+    let output = desk.path("pair.pvd");
+    let words = [
+        "export",
+        argument(&file),
+        "-o",
+        argument(&output),
+        "--stress",
+        "--moments",
+        "2",
+        "--json",
+    ];
+    let told = succeeds(&words).json();
+    let first = desk.path("").join(told["files"][0].as_str().unwrap());
+    let (strain, field) = (desk.path("strain.h5"), desk.path("field.vtu"));
+    let angle = told["moments"][0].as_f64().unwrap().to_string();
+    succeeds(&[
+        "recover",
+        argument(&file),
+        "-o",
+        argument(&strain),
+        "--field-gear",
+        "1",
+        "--field-angle-deg",
+        &angle,
+        "--field-output",
+        argument(&field),
+    ]);
+    let read = python(STRESS, &[argument(&first), argument(&field)]);
+    for gear in read["gears"].as_array().unwrap() {
+        assert_eq!(gear[1].as_bool(), Some(true), "{read}");
+        let (largest, median) = (gear[0].as_f64().unwrap(), gear[2].as_f64().unwrap());
+        assert!(0.0 < median && median < 0.5 * largest, "{read}");
+    }
+    // On the surface and at centres of the same elements.
+    let ratio = read["gears"][0][0].as_f64().unwrap() / read["field"].as_f64().unwrap();
+    assert!((0.8..2.0).contains(&ratio), "{read}");
+    let table = desk.path("x.csv");
+    let unused = [
+        "export",
+        argument(&file),
+        "-o",
+        argument(&table),
+        "--stress",
+    ];
+    refused(
+        &gearmesh(&unused),
+        2,
+        &["--stress has no use for a .csv file"],
+    );
+}
+
 #[test]
 fn gears_of_a_run_in_time_turn_under_the_forces_of_the_run() {
     let desk = Desk::new();

@@ -10,8 +10,8 @@ use serde::Deserialize;
 /// The keys of `[hub]`.
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
-pub(super) struct HubTable {
-    /// "fixed", or "reference-point": rigid, with six degrees of freedom; "fixed" where not given.
+pub struct HubTable {
+    /// "fixed", or "reference-point": rigid, with six degrees of freedom, on the axis at mid-face, of bevel gears at the pitch apex; "fixed" where not given.
     #[serde(default)]
     support: HubSupport,
 }
@@ -23,7 +23,10 @@ impl HubTable {
     }
 
     /// The support.
-    pub(super) fn check(
+    ///
+    /// # Errors
+    /// [`InputError`] for a reference point without a density or in plane strain.
+    pub fn check(
         self,
         document: &InputDocument,
         material: &Material,

@@ -10,18 +10,21 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-pub(super) struct MaterialTable {
+pub struct MaterialTable {
     /// Young's modulus.
     young_GPa: f64,
     /// Poisson's ratio.
     poisson: f64,
-    /// Density; needed by natural modes.
+    /// Density; needed by natural modes and by a body that moves.
     density_kg_per_m3: Option<f64>,
 }
 
 impl MaterialTable {
     /// The material, in SI units.
-    pub(super) fn check(self, document: &InputDocument) -> Result<Material, InputError> {
+    ///
+    /// # Errors
+    /// [`InputError`] for a constant that no elastic material has.
+    pub fn check(self, document: &InputDocument) -> Result<Material, InputError> {
         let keys = TableKeys::new(document, "material");
         keys.require(
             "young_GPa",

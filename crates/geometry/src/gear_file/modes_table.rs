@@ -11,7 +11,7 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)]
-pub(super) struct ModesTable {
+pub struct ModesTable {
     /// So many, the lowest. This or up_to_Hz.
     count: Option<usize>,
     /// All up to this frequency.
@@ -20,7 +20,10 @@ pub(super) struct ModesTable {
 
 impl ModesTable {
     /// Which modes are wanted.
-    pub(super) fn check(
+    ///
+    /// # Errors
+    /// [`InputError`] without a density, in plane strain, or where it does not say one of both ways which modes.
+    pub fn check(
         self,
         document: &InputDocument,
         material: &Material,

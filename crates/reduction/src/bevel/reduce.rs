@@ -2,6 +2,7 @@
 
 use gearmesh_bevel::{BevelError, BevelGear, FlankPatch, Hand};
 use gearmesh_fe::{FeModel, Material};
+use gearmesh_geometry::Flank;
 use gearmesh_mesh::{BevelMesh, MeshError};
 use gearmesh_model::{
     BevelBody, BevelMember, FlankGrid, Provenance, ReducedGear, ReductionChecks, SpiralHand,
@@ -13,16 +14,22 @@ use super::gauge::{bevel_gauge_row, describe_bevel_gauge};
 use super::loads::{area_m2, bevel_grid, bevel_loads};
 use super::near_field::{opposite_distances_m, section_fields};
 use crate::dynamics::{DynamicsRequest, dynamics};
+use crate::error_estimate::{Reduced, estimate_bevel};
 use crate::flank_compliance::{
     AskedGauge, FlankCase, FlankCompliance, ROWS_BY_FIELDS, flank_compliance, gauge_readings,
 };
 use crate::flank_loads::{GridLoad, SparseVector};
-use crate::reduce::element_names;
+use crate::reduce::{ReductionOptions, element_names, mode_solves};
 use crate::tooth_submodel::Deformation;
 use crate::{GearBody, Progress, ReductionError};
 
-fn cut(error: BevelError) -> ReductionError {
-    ReductionError::Mesh(MeshError::Bevel(error))
+/// A flank as a patch.
+///
+/// # Errors
+/// [`ReductionError::Mesh`] where the tool leaves no surface.
+pub(crate) fn flank_patch(gear: &BevelGear, side: Flank) -> Result<FlankPatch, ReductionError> {
+    let cut = |error: BevelError| ReductionError::Mesh(MeshError::Bevel(error));
+    gear.patch(side).map_err(cut)
 }
 
 /// The finite element model of a bevel gear, held at its bore.
@@ -63,6 +70,7 @@ pub fn bevel_model(gear: &BevelGear, mesh: &BevelMesh) -> Result<FeModel, Reduct
 /// than round-off explains.
 pub fn reduce_bevel(
     gear: &BevelGear,
+    options: ReductionOptions,
     progress: &dyn Progress,
 ) -> Result<(ReducedGear, GearBody<BevelMesh>), ReductionError> {
     let body = bevel_body(gear, progress)?;
@@ -76,9 +84,8 @@ pub fn reduce_bevel(
     let flanks = &gear.reduction.flanks;
     let patches: Vec<FlankPatch> = flanks
         .iter()
-        .map(|&side| gear.patch(side))
-        .collect::<Result<_, _>>()
-        .map_err(cut)?;
+        .map(|&side| flank_patch(gear, side))
+        .collect::<Result<_, _>>()?;
     let loads: Vec<Vec<GridLoad>> = flanks
         .iter()
         .zip(&patches)
@@ -125,19 +132,34 @@ pub fn reduce_bevel(
             })
         })
         .collect::<Result<_, ReductionError>>()?;
-    let gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
+    let mut gauges = gauge_readings(&body, &loads, &submodels, &asked, progress);
     lap("gauges");
     let request = DynamicsRequest {
         density_kg_per_m3: gear.material.density_kg_per_m3,
         hub: gear.hub,
-        modes: None,
+        modes: gear.modes,
     };
     let dynamics = dynamics(&request, &body, &loads, &rows, progress)?;
     if dynamics.rigid_body.is_some() {
-        lap("mass");
+        lap("mass and modes");
     }
     let mut further = vec![(ROWS_BY_FIELDS.to_string(), rows_by_fields)];
     further.extend(dynamics.checks);
+    if options.estimate_error {
+        let reduced = Reduced {
+            teeth,
+            flanks,
+            grid: &grid,
+            c_hub: &c_hub,
+            c_tooth: &c_tooth,
+            gauges: &gauges,
+        };
+        let errors = estimate_bevel(gear, &reduced, progress)?;
+        errors.state(&mut further, &mut gauges);
+        lap("error estimate");
+    }
+    let mut effort = body.effort();
+    effort.extend(dynamics.solves.map(mode_solves));
     let opposite = opposite_distances_m(gear, &patches, &grid.roll_angles_rad, 0.5)?;
     let model = ReducedGear {
         name: gear.name.clone(),
@@ -156,7 +178,7 @@ pub fn reduce_bevel(
         gauges,
         rigid_body: dynamics.rigid_body,
         reference_point: dynamics.reference_point,
-        modes: None,
+        modes: dynamics.modes,
         crack: None,
         bevel: Some(BevelBody {
             near_field: Some(near_field),
@@ -172,7 +194,7 @@ pub fn reduce_bevel(
             elements: body.mesh.elements.len(),
             dofs: body.dofs.free_count(),
             stage_seconds,
-            effort: body.effort(),
+            effort,
         },
         checks: ReductionChecks {
             symmetry,

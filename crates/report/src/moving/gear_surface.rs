@@ -1,4 +1,4 @@
-//! The surface of a gear in quadrilaterals: the exact outline of the teeth over the height, faces and bore of a solid disc.
+//! The surface of a gear: the exact outline of the teeth over the height with faces and bore of a solid disc, or that of its finite elements.
 
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve, ToothGeometry};
 use std::f64::consts::TAU;
@@ -12,19 +12,50 @@ const TIP: usize = 2;
 /// A gear's surface in its own frame: z along the axis, tooth 0 on +x.
 #[derive(Debug, Clone)]
 pub struct GearSurface {
-    /// The teeth.
-    pub tooth: ToothGeometry,
     /// Points \[m\].
     pub points_m: Vec<[f64; 3]>,
-    /// Corners, counter-clockwise seen from outside.
+    /// Corners, counter-clockwise seen from outside; a triangle names its last one twice.
     pub quads: Vec<[u32; 4]>,
     /// Tooth of each quadrilateral; −1 on faces and bore.
     pub teeth: Vec<i32>,
-    /// Heights of the sections \[m\], rising.
-    heights_m: Vec<f64>,
-    /// Quadrilaterals along half an outline before the flank, and in all.
-    before_flank: usize,
-    half: usize,
+    flanks: Flanks,
+}
+
+/// Which quadrilaterals the flanks are made of.
+#[derive(Debug, Clone)]
+enum Flanks {
+    /// Of the exact outline.
+    Outline {
+        tooth: Box<ToothGeometry>,
+        /// Heights of the sections \[m\], rising.
+        heights_m: Vec<f64>,
+        /// Quadrilaterals along half an outline before the flank, and in all.
+        before_flank: usize,
+        half: usize,
+    },
+    /// Faces of elements, right and left.
+    Faces([Vec<FlankFace>; 2]),
+}
+
+/// A face of finite elements on a flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankFace {
+    /// Least and largest place along the profile: roll angle \[rad\], on a bevel gear the share of the way up the flank.
+    pub along_profile: [f64; 2],
+    /// Least and largest height \[m\], as [`super::FlankLoad::height_m`].
+    pub heights_m: [f64; 2],
+    /// Its number among the quadrilaterals, tooth by tooth.
+    pub quads: Vec<u32>,
+}
+
+impl FlankFace {
+    /// Distance of a place, in sizes of the face.
+    fn distance(&self, place: [f64; 2]) -> f64 {
+        let beyond = |[low, high]: [f64; 2], x: f64| {
+            (low - x).max(x - high).max(0.0) / (high - low).max(f64::MIN_POSITIVE)
+        };
+        beyond(self.along_profile, place[0]).hypot(beyond(self.heights_m, place[1]))
+    }
 }
 
 impl GearSurface {
@@ -95,47 +126,83 @@ impl GearSurface {
             teeth.extend([-1; 3]);
         }
         Self {
-            tooth: tooth.clone(),
             points_m: points,
             quads,
             teeth,
-            heights_m: heights,
-            before_flank,
-            half,
+            flanks: Flanks::Outline {
+                tooth: Box::new(tooth.clone()),
+                heights_m: heights,
+                before_flank,
+                half,
+            },
+        }
+    }
+
+    /// The surface of a mesh of finite elements: points \[m\], corners, the tooth of each face, and the faces that right and left flanks are made of.
+    #[must_use]
+    pub fn of_elements(
+        points_m: Vec<[f64; 3]>,
+        quads: Vec<[u32; 4]>,
+        teeth: Vec<i32>,
+        flanks: [Vec<FlankFace>; 2],
+    ) -> Self {
+        Self {
+            points_m,
+            quads,
+            teeth,
+            flanks: Flanks::Faces(flanks),
         }
     }
 
     /// The quadrilateral of a flank at a roll angle and height; the nearest where they lie beyond its ends.
     #[must_use]
-    pub fn flank_quad(&self, (tooth, side): (usize, Flank), roll_rad: f64, height_m: f64) -> usize {
-        let t = &self.tooth;
-        let share = (roll_rad - t.form_roll_rad) / (t.flank_end_roll_rad - t.form_roll_rad);
-        let place = ((FLANK as f64 * share) as usize).min(FLANK - 1) + self.before_flank;
-        let column = match side {
-            Flank::Right => place,
-            Flank::Left => 2 * self.half - 1 - place,
-        };
-        let layers = self.heights_m.len() - 1;
-        let above = self.heights_m.partition_point(|z| *z <= height_m);
-        let layer = above.saturating_sub(1).min(layers - 1);
-        (tooth % t.teeth * 2 * self.half + column) * layers + layer
-    }
-
-    /// Force along the inward normal and towards the tip in the gear's frame, of unit components.
-    #[must_use]
-    pub fn directions(
+    pub fn flank_quad(
         &self,
-        (tooth, side): (usize, Flank),
+        (number, side): (usize, Flank),
         roll_rad: f64,
         height_m: f64,
-    ) -> [[f64; 3]; 2] {
-        let t = &self.tooth;
-        let turn = TAU * tooth as f64 / t.teeth as f64 + height_m * t.twist_rad_per_m();
-        let (s, c) = turn.sin_cos();
-        let turned = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
-        let (_, [x, y]) = t.flank_frame(side, roll_rad);
-        [turned(t.flank_normal(side, roll_rad)), turned([x, y, 0.0])]
+    ) -> usize {
+        let (tooth, heights_m, before_flank, half) = match &self.flanks {
+            Flanks::Outline {
+                tooth,
+                heights_m,
+                before_flank,
+                half,
+            } => (tooth, heights_m, *before_flank, *half),
+            Flanks::Faces(sides) => {
+                let place = [roll_rad, height_m];
+                let faces = sides[side as usize].iter();
+                let nearest = faces.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place)));
+                return nearest.map_or(0, |face| face.quads[number % face.quads.len()] as usize);
+            }
+        };
+        let share =
+            (roll_rad - tooth.form_roll_rad) / (tooth.flank_end_roll_rad - tooth.form_roll_rad);
+        let place = ((FLANK as f64 * share) as usize).min(FLANK - 1) + before_flank;
+        let column = match side {
+            Flank::Right => place,
+            Flank::Left => 2 * half - 1 - place,
+        };
+        let layers = heights_m.len() - 1;
+        let above = heights_m.partition_point(|z| *z <= height_m);
+        let layer = above.saturating_sub(1).min(layers - 1);
+        (number % tooth.teeth * 2 * half + column) * layers + layer
     }
+}
+
+/// Inward normal and direction along the profile towards the tip at a place of a flank, in the gear's frame.
+#[must_use]
+pub fn flank_directions(
+    t: &ToothGeometry,
+    (tooth, side): (usize, Flank),
+    roll_rad: f64,
+    height_m: f64,
+) -> [[f64; 3]; 2] {
+    let turn = TAU * tooth as f64 / t.teeth as f64 + height_m * t.twist_rad_per_m();
+    let (s, c) = turn.sin_cos();
+    let turned = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
+    let (_, [x, y]) = t.flank_frame(side, roll_rad);
+    [turned(t.flank_normal(side, roll_rad)), turned([x, y, 0.0])]
 }
 
 /// The right half of a tooth's outline from the middle of the space to that of the tip land, and how many quadrilaterals lie before the flank.

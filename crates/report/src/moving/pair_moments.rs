@@ -1,5 +1,6 @@
 //! Moments of a pair at rest: where the gears stand at a driver angle and torque, and what presses on their flanks.
 
+use super::gear_surface::flank_directions;
 use super::{FlankLoad, GearSurface, Moment, Placement};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_scene::{LoadedScene, SceneResult};
@@ -33,7 +34,7 @@ pub fn pair_surfaces(loaded: &LoadedScene, gears: [&GearDefinition; 2]) -> [Gear
 pub fn pair_moment(
     loaded: &LoadedScene,
     result: &SceneResult,
-    surfaces: &[GearSurface; 2],
+    gears: [&GearDefinition; 2],
     (torque, angle): (usize, usize),
 ) -> Moment {
     let pair = &loaded.lines.pair;
@@ -67,7 +68,8 @@ pub fn pair_moment(
         for gear in 0..2 {
             let place = patch.places[gear];
             let flank = (patch.teeth[gear], pair.flank);
-            let [normal, tip] = surfaces[gear].directions(flank, place.u, place.v);
+            let tooth = &gears[gear].profile;
+            let [normal, tip] = flank_directions(tooth, flank, place.u, place.v);
             let [a, b] = patch.force_components(gear).map(|part| part * forces[at]);
             let own = std::array::from_fn(|k| a * normal[k] + b * tip[k]);
             loads.push(FlankLoad {
@@ -76,6 +78,8 @@ pub fn pair_moment(
                 side: pair.flank,
                 roll_rad: place.u,
                 height_m: place.v,
+                width_m: loaded.layout.width_m(),
+                components_n: [a, b],
                 force_n: placements[gear].direction(own),
                 line_load_n_per_m: forces[at] / (loaded.layout.width_m() * patch.share),
                 pressure_pa: pressures[at],
@@ -86,5 +90,6 @@ pub fn pair_moment(
         at: turn_1.to_degrees(),
         placements,
         loads,
+        von_mises_pa: Vec::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! A moment as a VTU file (VTK XML, unstructured grid of quadrilaterals), the series as a PVD file.
+//! A moment as a VTU file (VTK XML, unstructured grid of quadrilaterals and triangles), the series as a PVD file.
 //!
 //! Source: VTK file formats, docs.vtk.org, "XML file formats": binary arrays are base64, compressed ones preceded by a header of their own
 //! (number of blocks, size of a block, size of the last one where it is shorter, compressed sizes).
@@ -11,7 +11,8 @@ use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// A quadrilateral, in VTK's list of cells.
+/// A triangle and a quadrilateral, in VTK's list of cells.
+const VTK_TRIANGLE: u8 = 5;
 const VTK_QUAD: u8 = 9;
 
 /// Arrays that are the same at all moments, and what is needed for the others.
@@ -29,10 +30,16 @@ impl<'a> Series<'a> {
     #[must_use]
     pub fn new(surfaces: &'a [GearSurface]) -> Self {
         let (mut corners, mut teeth, mut gears) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut offsets, mut types, mut end) = (Vec::new(), Vec::new(), 0_u32);
         let mut points = 0;
         for (number, surface) in surfaces.iter().enumerate() {
             for quad in &surface.quads {
-                corners.extend(quad.iter().flat_map(|n| (points as u32 + n).to_le_bytes()));
+                let is_triangle = quad[2] == quad[3];
+                let own = &quad[..if is_triangle { 3 } else { 4 }];
+                corners.extend(own.iter().flat_map(|n| (points as u32 + n).to_le_bytes()));
+                end += own.len() as u32;
+                offsets.extend(end.to_le_bytes());
+                types.push(if is_triangle { VTK_TRIANGLE } else { VTK_QUAD });
             }
             teeth.extend(surface.teeth.iter().flat_map(|n| n.to_le_bytes()));
             let gear = (number as i32 + 1).to_le_bytes();
@@ -40,13 +47,10 @@ impl<'a> Series<'a> {
             points += surface.points_m.len();
         }
         let quads = teeth.len() / 4;
-        let offsets: Vec<u8> = (1..=quads as u32)
-            .flat_map(|n| (4 * n).to_le_bytes())
-            .collect();
         let cells = [
             array("Int32", "connectivity", 1, &corners),
             array("Int32", "offsets", 1, &offsets),
-            array("UInt8", "types", 1, &vec![VTK_QUAD; quads]),
+            array("UInt8", "types", 1, &types),
         ];
         let fixed = [
             array("Int32", "gear", 1, &gears),
@@ -87,7 +91,7 @@ impl<'a> Series<'a> {
         }
         let bytes =
             |values: &[f32]| -> Vec<u8> { values.iter().flat_map(|x| x.to_le_bytes()).collect() };
-        let varying = [
+        let mut varying = vec![
             array("Float32", "hertz_pressure_Pa", 1, &bytes(&pressure)),
             array("Float32", "line_load_N_per_m", 1, &bytes(&line_load)),
             array(
@@ -97,6 +101,12 @@ impl<'a> Series<'a> {
                 &bytes(force.as_flattened()),
             ),
         ];
+        if !moment.von_mises_pa.is_empty() {
+            let stress: Vec<f32> = (moment.von_mises_pa.iter().flatten())
+                .map(|x| *x as f32)
+                .collect();
+            varying.push(array("Float32", "von_mises_Pa", 1, &bytes(&stress)));
+        }
         format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\n\

@@ -16,7 +16,9 @@ pub mod plan;
 pub mod scene;
 pub mod tables;
 
-pub use assembly::{GearState, GearsInMotion, LoadedSystem, MovingGear, SliceLoad, Variation};
+pub use assembly::{
+    GearState, GearsInMotion, LoadedSystem, MovingGear, MovingShape, SliceLoad, Variation,
+};
 pub(crate) use assembly::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 pub use built::{
     BuiltBody, BuiltGauge, BuiltMesh, BuiltPart, BuiltSystem, Effect, RatingJob, RatingRule,

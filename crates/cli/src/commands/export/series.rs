@@ -5,7 +5,9 @@ use crate::arguments::ExportArguments;
 use crate::commands::recover::scene_of;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
+use crate::stressed_gear::StressedGear;
 use gearmesh_model::write_text;
+use gearmesh_recovery::PlacedForce;
 use gearmesh_report::moving::{
     GearSurface, Moment, Series, pair_moment, pair_surfaces, series_text,
 };
@@ -29,7 +31,10 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
             let mut moments = SystemMoments::new(a, *result)?;
             let rows = chosen(moments.rows(), a);
             let (surfaces, unit) = (moments.surfaces.clone(), moments.unit);
-            write(a, &surfaces, unit, rows.len(), |k| moments.moment(rows[k]))
+            let stressed = std::mem::take(&mut moments.stressed);
+            write(a, &surfaces, unit, rows.len(), |k| {
+                with_stress(moments.moment(rows[k])?, &stressed)
+            })
         }
     }
 }
@@ -65,12 +70,41 @@ fn pair(a: &ExportArguments, result: &SceneResult) -> Result<(), Failure> {
         gear_1.definition_in("the result")?,
         gear_2.definition_in("the result")?,
     ];
-    let surfaces = pair_surfaces(&loaded, gears);
+    let stressed = match a.stress {
+        true => gears.map(StressedGear::of_gear).into_iter().collect(),
+        false => Ok(Vec::new()),
+    };
+    let stressed = stressed?;
+    let surfaces = match &stressed[..] {
+        [] => pair_surfaces(&loaded, gears).to_vec(),
+        stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
+    };
     let angles = chosen((0..result.angles()).collect(), a);
     console::note(format!("torque on gear 2: {} N m", torques[torque]));
     write(a, &surfaces, "deg", angles.len(), |k| {
-        Ok(pair_moment(&loaded, result, &surfaces, (torque, angles[k])))
+        let moment = pair_moment(&loaded, result, gears, (torque, angles[k]));
+        with_stress(moment, &stressed)
     })
+}
+
+/// Adds the stress of each gear under the forces on its flanks, where gears are given.
+fn with_stress(mut moment: Moment, gears: &[StressedGear]) -> Result<Moment, Failure> {
+    for (number, gear) in gears.iter().enumerate() {
+        let own = moment.loads.iter().filter(|load| load.gear == number);
+        let forces: Vec<PlacedForce> = own
+            .map(|load| PlacedForce {
+                tooth: load.tooth,
+                side: load.side,
+                u: load.roll_rad,
+                v_m: load.height_m,
+                width_m: load.width_m,
+                normal_n: load.components_n[0],
+                tangential_n: load.components_n[1],
+            })
+            .collect();
+        moment.von_mises_pa.push(gear.stress(&forces)?);
+    }
+    Ok(moment)
 }
 
 /// So many of them as are asked for, evenly.

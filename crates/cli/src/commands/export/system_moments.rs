@@ -3,9 +3,14 @@
 use crate::arguments::ExportArguments;
 use crate::console;
 use crate::failure::Failure;
+use crate::stressed_gear::{StressedGear, bevel_gear_of, bevel_surface};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_mesh::BevelMesh;
+use gearmesh_reduction::ReductionError;
+use gearmesh_reduction::bevel::bevel_model;
+use gearmesh_reduction::skin::skin;
 use gearmesh_report::moving::{FlankLoad, GearSurface, Moment, Placement};
-use gearmesh_scene::system::{GearState, GearsInMotion, SystemScene};
+use gearmesh_scene::system::{GearState, GearsInMotion, MovingGear, MovingShape, SystemScene};
 use gearmesh_scene::system_run::{ResultKind, SystemResult, digests_of_named_files};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +21,8 @@ const SECTIONS: usize = 20;
 pub struct SystemMoments {
     /// Surfaces of the gears.
     pub surfaces: Vec<GearSurface>,
+    /// Their bodies, where the stress is asked for.
+    pub stressed: Vec<StressedGear>,
     /// What the series runs over, in words.
     pub unit: &'static str,
     gears: GearsInMotion,
@@ -55,7 +62,7 @@ impl SystemMoments {
             .gears_in_motion()?;
         if gears.gears.is_empty() {
             return Err(Failure::input(format!(
-                "{shown}: no body of the scene is a cylindrical gear"
+                "{shown}: no body of the scene is a cylindrical gear or has a reduced bevel gear (bevel_models)"
             )));
         }
         for mesh in &gears.without_forces {
@@ -85,14 +92,18 @@ impl SystemMoments {
                 at.last().unwrap_or(&0.0)
             )));
         }
-        let surfaces = gears.gears.iter().map(|gear| {
-            let width_m = gear.definition.tooth.face_width_m;
-            let share = |k: usize| k as f64 / SECTIONS as f64 - 0.5;
-            let heights: Vec<f64> = (0..=SECTIONS).map(|k| share(k) * width_m).collect();
-            GearSurface::new(&gear.definition, &heights)
-        });
+        let stressed = match a.stress {
+            true => gears.gears.iter().map(stressed).collect(),
+            false => Ok(Vec::new()),
+        };
+        let stressed = stressed?;
+        let surfaces: Vec<GearSurface> = match &stressed[..] {
+            [] => gears.gears.iter().map(surface).collect::<Result<_, _>>()?,
+            stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
+        };
         Ok(Self {
-            surfaces: surfaces.collect(),
+            surfaces,
+            stressed,
             unit: if axis == "time_s" { "s" } else { "equilibria" },
             gears,
             at,
@@ -127,6 +138,8 @@ impl SystemMoments {
             side: load.side,
             roll_rad: load.roll_rad,
             height_m: load.height_m,
+            width_m: load.width_m,
+            components_n: [load.force_n.iter().map(|x| x * x).sum::<f64>().sqrt(), 0.0],
             force_n: load.force_n,
             line_load_n_per_m: load.line_load_n_per_m,
             pressure_pa: load.pressure_pa,
@@ -135,7 +148,36 @@ impl SystemMoments {
             at: self.at[row],
             placements: states.iter().map(placed).collect(),
             loads: loads.collect(),
+            von_mises_pa: Vec::new(),
         })
+    }
+}
+
+/// A gear as it is drawn without stress.
+fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
+    match &gear.shape {
+        MovingShape::Cylindrical(definition) => {
+            let width_m = definition.tooth.face_width_m;
+            let share = |k: usize| k as f64 / SECTIONS as f64 - 0.5;
+            let heights: Vec<f64> = (0..=SECTIONS).map(|k| share(k) * width_m).collect();
+            Ok(GearSurface::new(definition, &heights))
+        }
+        MovingShape::Bevel(model) => {
+            let bevel = bevel_gear_of(model, &format!("model of body `{}`", gear.body))?;
+            let mesh = BevelMesh::new(&bevel).map_err(ReductionError::from)?;
+            let faces = skin(&bevel_model(&bevel, &mesh)?);
+            bevel_surface(&bevel, &mesh, &faces)
+        }
+    }
+}
+
+/// A gear's body, factorised.
+fn stressed(gear: &MovingGear) -> Result<StressedGear, Failure> {
+    match &gear.shape {
+        MovingShape::Cylindrical(definition) => StressedGear::of_gear(definition),
+        MovingShape::Bevel(model) => {
+            StressedGear::of_bevel(model, &format!("model of body `{}`", gear.body))
+        }
     }
 }
 

@@ -1,8 +1,11 @@
 //! The gears of a scene where the bodies of a result stand: their teeth, and what presses on them there.
 
+use std::sync::Arc;
+
 use gearmesh_drivetrain::{DrivetrainError, GearMesh, Pose};
 use gearmesh_dynamics::{BodyMotion, Marker, MarkerPair};
 use gearmesh_geometry::{Flank, GearDefinition, InputError};
+use gearmesh_model::ReducedGear;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::LoadedSystem;
@@ -10,13 +13,34 @@ use super::gear_mesh::PreparedMesh;
 use super::parts::Parts;
 use super::shafts::PlacedShaft;
 
-/// A body that is a gear. The frame of the body is that of the gear: z along the axis, origin at mid-face, tooth 0 on +x.
+/// A body that is a gear. The frame of the body is that of the gear: z along the axis, tooth 0 on +x, the origin at mid-face or, of a bevel gear, in
+/// the pitch apex.
 #[derive(Debug, Clone)]
 pub struct MovingGear {
     /// Body.
     pub body: String,
     /// The gear.
-    pub definition: GearDefinition,
+    pub shape: MovingShape,
+}
+
+/// What a moving gear is.
+#[derive(Debug, Clone)]
+pub enum MovingShape {
+    /// A cylindrical gear.
+    Cylindrical(Box<GearDefinition>),
+    /// A reduced bevel gear.
+    Bevel(Arc<ReducedGear>),
+}
+
+impl MovingGear {
+    /// (1 − ν²)/E \[1/Pa\].
+    fn contact_compliance(&self) -> f64 {
+        let (young_pa, poisson) = match &self.shape {
+            MovingShape::Cylindrical(gear) => (gear.material.young_pa, gear.material.poisson),
+            MovingShape::Bevel(model) => (model.young_pa, model.poisson),
+        };
+        (1.0 - poisson * poisson) / young_pa
+    }
 }
 
 /// Where a gear's body is, and how it moves, as columns of a result state it.
@@ -92,10 +116,12 @@ pub struct SliceLoad {
     pub tooth: usize,
     /// Flank.
     pub side: Flank,
-    /// Roll angle \[rad\].
+    /// Roll angle \[rad\]; on a bevel gear the share of the way up the flank.
     pub roll_rad: f64,
-    /// Height above mid-face \[m\].
+    /// Height above mid-face \[m\], on a bevel gear along the pitch cone.
     pub height_m: f64,
+    /// Width of the slice \[m\].
+    pub width_m: f64,
     /// Normal force on this gear, damping included, without friction; world axes \[N\].
     pub force_n: [f64; 3],
     /// Over the width that touches \[N/m\].
@@ -141,7 +167,7 @@ impl LoadedSystem {
                 places[place] = Some(gears.len());
                 gears.push(MovingGear {
                     body: body.body.name.clone(),
-                    definition: gear.definition.clone(),
+                    shape: MovingShape::Cylindrical(Box::new(gear.definition.clone())),
                 });
             }
         }
@@ -149,8 +175,16 @@ impl LoadedSystem {
         for (i, table) in tables.gear_mesh.iter().enumerate() {
             let key = format!("gear_mesh.{i}");
             let prepared = PreparedMesh::new(table, files, key, &bodies, &mut Parts::default())?;
-            let [Some(a), Some(b)] = prepared.bodies.map(|body| places[body]) else {
-                without_forces.push(format!("`{}`: no cylindrical gears", prepared.name));
+            let drawn = match &prepared.models {
+                Some(models) => [0, 1].map(|k: usize| {
+                    let body = &bodies.list[prepared.bodies[k]].body.name;
+                    Some(place_of_bevel(&mut gears, body, &models[k]))
+                }),
+                None => prepared.bodies.map(|body| places[body]),
+            };
+            let [Some(a), Some(b)] = drawn else {
+                let why = "neither cylindrical nor reduced bevel gears";
+                without_forces.push(format!("`{}`: {why}", prepared.name));
                 continue;
             };
             let Some(mesh) = prepared.mesh else {
@@ -163,10 +197,7 @@ impl LoadedSystem {
                 without_forces.push(format!("`{}`: {why}", prepared.name));
                 continue;
             }
-            let compliance = [a, b].map(|gear| {
-                let material = &gears[gear].definition.material;
-                (1.0 - material.poisson.powi(2)) / material.young_pa
-            });
+            let compliance = [a, b].map(|gear| gears[gear].contact_compliance());
             meshes.push(MovingMesh {
                 gears: [a, b],
                 seats: prepared.seats,
@@ -181,6 +212,23 @@ impl LoadedSystem {
             meshes,
         })
     }
+}
+
+/// Number of a bevel gear on a body; two of its meshes share it.
+fn place_of_bevel(gears: &mut Vec<MovingGear>, body: &str, model: &Arc<ReducedGear>) -> usize {
+    let same = |gear: &MovingGear| {
+        let MovingShape::Bevel(other) = &gear.shape else {
+            return false;
+        };
+        gear.body == body && other.input == model.input
+    };
+    gears.iter().position(same).unwrap_or_else(|| {
+        gears.push(MovingGear {
+            body: body.to_owned(),
+            shape: MovingShape::Bevel(Arc::clone(model)),
+        });
+        gears.len() - 1
+    })
 }
 
 impl GearsInMotion {
@@ -220,6 +268,7 @@ impl GearsInMotion {
                             side,
                             roll_rad: section.touching_roll_rad[k],
                             height_m: contact.heights_m[k],
+                            width_m: at.slice_width_m,
                             force_n: on_gear.into(),
                             line_load_n_per_m: force_n / (at.slice_width_m * section.share),
                             pressure_pa: pressure.sqrt(),

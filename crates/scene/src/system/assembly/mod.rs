@@ -45,7 +45,7 @@ mod stiffness;
 
 pub(super) use self::bearings::cages::PlacedCage;
 pub(super) use self::bearings::tangent::TangentSeat;
-pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, SliceLoad};
+pub use gears_in_motion::{GearState, GearsInMotion, MovingGear, MovingShape, SliceLoad};
 pub(crate) use mesh_frequency::{STEPS_A_PERIOD, floored, line_of_centres_rad_per_s};
 
 use std::sync::Arc;

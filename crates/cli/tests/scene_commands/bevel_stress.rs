@@ -1,0 +1,224 @@
+//! Stress of bevel bodies: pictures and fields of `tca`, series of a run in time, read back by meshio and PyVista.
+
+use crate::common::{Desk, argument, gearmesh, refused, succeeds};
+use gearmesh_mesh::python::PythonEnvironment;
+use serde_json::Value;
+
+fn shipped(name: &str) -> String {
+    let path = format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn python(script: &str, arguments: &[&str]) -> Value {
+    let python = PythonEnvironment::find().unwrap();
+    let told = python.run("reading", script, arguments, b"").unwrap();
+    serde_json::from_slice(&told).unwrap()
+}
+
+/// Pair, scene and both members reduced on coarse meshes.
+fn reduced_pair() -> Desk {
+    let desk = Desk::new();
+    let pair = desk.file("bevel_20_20.toml", &shipped("bevel_20_20.toml"));
+    assert!(pair.exists());
+    for member in ["pinion", "gear"] {
+        let text = format!(
+            "name = \"{member}\"\n[bevel_gear]\npair = \"bevel_20_20.toml\"\nmember = \"{member}\"\n[blank]\nbore_diameter_mm = 34.0\n\
+             [material]\nyoung_GPa = 206.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n\
+             [mesh]\nflank_mm = 1.5\nfillet_mm = 0.4\nbody_mm = 6.0\nalong_mm = 3.75\n[reduction]\nprofile_stations = 4\nslices = 3\n"
+        );
+        let file = desk.file(&format!("{member}.toml"), &text);
+        let model = desk.path(&format!("{member}.h5"));
+        let words = [
+            "reduce",
+            argument(&file),
+            "-o",
+            argument(&model),
+            "--no-error-estimate",
+        ];
+        succeeds(&words);
+    }
+    desk
+}
+
+/// Of a field's file: largest stress and where (node sets of the element's corners), displacement at the bore and the largest elsewhere.
+const FIELD: &str = "
+import json, sys
+import meshio, numpy as np
+mesh = meshio.read(sys.argv[1])
+stress = mesh.cell_data['von_mises_Pa'][0]
+moved = np.linalg.norm(mesh.point_data['displacement_m'], axis=1)
+r = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+worst = mesh.points[mesh.cells[0].data[stress.argmax()]].mean(axis=0)
+json.dump({'largest': float(stress.max()), 'at': worst.tolist(), 'bore': float(moved[r < r.min() * 1.0001].max()),
+           'moved': float(moved.max()), 'cells': len(stress)}, sys.stdout)
+";
+
+/// Of each moment: force on each gear (vector, sum of magnitudes), largest stress of each gear and of the two gears' cells that carry load, open edges.
+const SERIES: &str = "
+import json, sys
+import numpy as np, pyvista
+reader = pyvista.PVDReader(sys.argv[1])
+moments = []
+for at in reader.time_values:
+    reader.set_active_time_value(at)
+    mesh = reader.read()[0]
+    force = mesh.cell_data['contact_force_N'].astype(float)
+    gear, stress, tooth = mesh.cell_data['gear'], mesh.cell_data['von_mises_Pa'].astype(float), mesh.cell_data['tooth']
+    loaded = mesh.cell_data['line_load_N_per_m'] > 0
+    centre = mesh.cell_centers().points
+    apart = [np.linalg.norm(centre[(gear == 2) & loaded] - p, axis=1).min() for p in centre[(gear == 1) & loaded]]
+    surfaces = [mesh.extract_cells(gear == g).extract_surface(algorithm='dataset_surface') for g in (1, 2)]
+    moments.append({
+        'at': at, 'apart_m': float(max(apart, default=0.0)),
+        'force': [force[gear == g].sum(axis=0).tolist() for g in (1, 2)],
+        'size': [float(np.linalg.norm(force[gear == g], axis=1).sum()) for g in (1, 2)],
+        'stress': [float(stress[gear == g].max()) for g in (1, 2)],
+        'worst': [int(tooth[gear == g][stress[gear == g].argmax()]) for g in (1, 2)],
+        'teeth': [sorted(set(tooth[(gear == g) & loaded].tolist())) for g in (1, 2)],
+        'open': [s.n_open_edges for s in surfaces],
+    })
+json.dump(moments, sys.stdout)
+";
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let all = value.as_array().unwrap().iter();
+    all.map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn bevel_bodies_have_stress_at_rest_and_in_motion() {
+    let desk = reduced_pair();
+    at_rest(&desk);
+    in_motion(&desk);
+}
+
+fn at_rest(desk: &Desk) {
+    let text = shipped("bevel_20_20.toml");
+    let load = "\n[load]\ntorques_Nm = [20.0, 100.0]\nmodels = [\"pinion.h5\", \"gear.h5\"]\npositions_per_pitch = 4\n";
+    let pair = desk.file("loaded.toml", &format!("{text}{load}"));
+    let (page, field) = (desk.path("page.html"), desk.path("field.vtu"));
+    let words = [
+        "tca",
+        argument(&pair),
+        "--report",
+        argument(&page),
+        "--stress",
+        "--field-gear",
+        "2",
+        "--field-output",
+        argument(&field),
+    ];
+    let told = succeeds(&words);
+    assert!(
+        told.stderr.contains("field of the gear, 100 N m"),
+        "{}",
+        told.stderr
+    );
+    let html = std::fs::read_to_string(&page).unwrap();
+    for title in [
+        "Stress in the bodies",
+        "pinion along its axis, 100 N m",
+        "gear, tooth ",
+    ] {
+        assert!(html.contains(title), "{title}");
+    }
+    let first = python(FIELD, &[argument(&field)]);
+    let figure = |value: &Value, name: &str| value[name].as_f64().unwrap();
+    // Held at the bore; some hundred MPa at 3.4 kN on teeth of 3.5 mm.
+    assert_eq!(figure(&first, "bore"), 0.0);
+    assert!(figure(&first, "moved") > 1e-6);
+    let largest = figure(&first, "largest");
+    assert!((1e8..2e9).contains(&largest), "{largest}");
+    // A tooth carries it, not the body.
+    let [x, y, _] = numbers(&first["at"])[..] else {
+        panic!("{first}");
+    };
+    assert!(x.hypot(y) > 0.022, "{first}");
+    // Less torque, less stress; by another torque and position.
+    let again = [
+        &words[..2],
+        &words[5..],
+        &["--field-torque-Nm", "20", "--field-angle-deg", "0"],
+    ];
+    succeeds(&again.concat());
+    let second = python(FIELD, &[argument(&field)]);
+    assert!(figure(&second, "largest") < 0.5 * largest);
+    let unknown = [&words[..2], &words[5..], &["--field-torque-Nm", "21"]];
+    refused(
+        &gearmesh(&unknown.concat()),
+        2,
+        &["--field-torque-Nm", "21"],
+    );
+    // Rigid gears have no bodies.
+    let rigid = desk.file(
+        "rigid.toml",
+        &format!("{text}\n[load]\ntorques_Nm = [100.0]\npositions_per_pitch = 4\n"),
+    );
+    let words = [
+        "tca",
+        argument(&rigid),
+        "--field-gear",
+        "1",
+        "--field-output",
+        argument(&field),
+    ];
+    refused(&gearmesh(&words), 2, &["--field-gear", "models"]);
+}
+
+fn in_motion(desk: &Desk) {
+    let mut scene = shipped("dynamics_bevel_20_20_hybrid.toml");
+    for (from, to) in [
+        ("../out/scenes/bevel_pinion_20_20.h5", "pinion.h5"),
+        ("../out/scenes/bevel_gear_20_20.h5", "gear.h5"),
+        ("end_s = 0.08", "end_s = 2e-4"),
+        ("end_s = 0.01, to = 100.0", "end_s = 1e-6, to = 100.0"),
+    ] {
+        assert!(scene.contains(from), "{from}");
+        scene = scene.replace(from, to);
+    }
+    let scene = desk.file("scene.toml", &scene);
+    let result = desk.path("run.h5");
+    succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    let output = desk.path("run.pvd");
+    let words = [
+        "export",
+        argument(&result),
+        "-o",
+        argument(&output),
+        "--stress",
+        "--moments",
+        "4",
+    ];
+    succeeds(&words);
+    let moments = python(SERIES, &[argument(&output)]);
+    let moments = moments.as_array().unwrap();
+    assert_eq!(moments.len(), 4);
+    let mut most = 0.0_f64;
+    for moment in moments {
+        assert_eq!(numbers(&moment["open"]), [0.0, 0.0]);
+        let [on_1, on_2] = [0, 1].map(|gear| numbers(&moment["force"][gear]));
+        let sizes = numbers(&moment["size"]);
+        for (a, b) in on_1.iter().zip(&on_2) {
+            assert!((a + b).abs() < 1e-3 * sizes[0].max(1.0), "{moment}");
+        }
+        let stress = numbers(&moment["stress"]);
+        if sizes[0] == 0.0 {
+            assert_eq!(stress, [0.0, 0.0]);
+            continue;
+        }
+        most = most.max(sizes[0]);
+        // Loaded cells, 4.6 by 1.5 mm, lie on each other within a diagonal; the largest stress is on a tooth that carries.
+        assert!(moment["apart_m"].as_f64().unwrap() < 5e-3, "{moment}");
+        for gear in 0..2 {
+            let teeth = moment["teeth"][gear].as_array().unwrap();
+            assert!(teeth.contains(&moment["worst"][gear]), "{moment}");
+            // Of the order of the force on a tooth of 18 mm by 5 mm.
+            let nominal = sizes[gear] / (18e-3 * 5e-3);
+            assert!(
+                stress[gear] > nominal && stress[gear] < 30.0 * nominal,
+                "{moment}"
+            );
+        }
+    }
+    assert!(most > 10.0, "{most}");
+}
