@@ -14,6 +14,9 @@ const GRADING: f64 = 0.35;
 /// [`crate::layers`]), and most of a twisted web's deformation is there.
 const AT_HUB: f64 = 1.0 / 3.0;
 
+/// Circles nearer to each other are one.
+const SAME_M: f64 = 1e-9;
+
 /// One sector of the body, ready for the mesher.
 #[derive(Debug, Clone)]
 pub struct BodyProblem {
@@ -124,6 +127,16 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
                 .map(|r| (r, true)),
         );
         levels.push((web.hub_radius_m, false));
+    }
+    if let Some(shaft) = gear.blank.cut_into_shaft() {
+        // Nodes lie on the outline of the faces at which the gear is held.
+        let [a, b] = shaft.end_radii_m;
+        for r in [a.max(b), a.min(b)] {
+            let above = levels[levels.len() - 1].0;
+            if r > shaft.hole_radius_m && r < above - SAME_M {
+                levels.push((r, false));
+            }
+        }
     }
     levels.push((gear.blank.bore_radius_m(), false));
     levels

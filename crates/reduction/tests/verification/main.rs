@@ -2,6 +2,7 @@
 //! other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod cut_into_shaft;
 mod cyclic_symmetry;
 mod helical;
 mod imported_mesh;
