@@ -52,15 +52,22 @@ impl Blank {
         }
     }
 
-    /// Bore radius \[m\]; of a gear cut into its shaft that of the hole that its mesh leaves open.
+    /// Bore radius \[m\]; 0 of a gear cut into its shaft.
     #[must_use]
     pub fn bore_radius_m(&self) -> f64 {
         match self {
-            Self::CutIntoShaft(shaft) => shaft.hole_radius_m,
+            Self::CutIntoShaft(_) => 0.0,
             Self::Solid { bore_radius_m, .. }
             | Self::Webbed { bore_radius_m, .. }
             | Self::Meshed { bore_radius_m, .. } => *bore_radius_m,
         }
+    }
+
+    /// Radius at which the mesh ends inwards \[m\]: the bore, or the hole that is left open in a gear cut into its shaft.
+    #[must_use]
+    pub fn inner_radius_m(&self) -> f64 {
+        self.cut_into_shaft()
+            .map_or(self.bore_radius_m(), |shaft| shaft.hole_radius_m)
     }
 
     /// Hub, web and rim; none of a solid disc of full width.

@@ -92,15 +92,20 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
 }
 
 /// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle
-/// too.
+/// too. Towards the hole in the axis of a gear cut into its shaft no element is longer than the sector is wide.
 pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
     let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web());
+    let sector = gear
+        .blank
+        .cut_into_shaft()
+        .map(|_| TAU / gear.sectors() as f64);
     move |r: f64| {
+        let in_sector = sector.map_or(f64::INFINITY, |angle| r * angle);
         let from_ring = ring_size + GRADING * (ring - r).abs();
         let from_hub = web.map_or(f64::INFINITY, |web| {
             AT_HUB * largest + GRADING * (r - web.hub_radius_m).abs()
         });
-        from_ring.min(from_hub).min(largest)
+        from_ring.min(from_hub).min(largest).min(in_sector)
     }
 }
 
@@ -138,7 +143,7 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
             }
         }
     }
-    levels.push((gear.blank.bore_radius_m(), false));
+    levels.push((gear.blank.inner_radius_m(), false));
     levels
 }
 

@@ -79,12 +79,7 @@ impl Section {
             return Ok(Self::of_teeth(cell, teeth, sectors, first_tooth(gear)?));
         }
         let ring_pieces = cell_problem.ring_pieces();
-        // Towards a hole in the axis only narrow elements fit into the sector.
-        let lengths = match gear.blank.cut_into_shaft() {
-            Some(_) => BodyLengths::WithinSector,
-            None => BodyLengths::Wanted,
-        };
-        let mut body = body_problem(gear, ring_pieces, lengths)?;
+        let mut body = body_problem(gear, ring_pieces, BodyLengths::Wanted)?;
         let mut meshes = mesh_plane(
             python,
             &[cell_problem.problem.clone(), body.problem.clone()],

@@ -1,7 +1,7 @@
 //! The parts of a gear's definition in a file. Lengths in metres, angles in radians.
 
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GaugeDefinition, GearDefinition,
+    Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GaugeDefinition, GearDefinition,
     GearMicrogeometry, GeometryError, Holes, HubSupport, LengthUnit, Material, MeshSettings,
     MeshedBody, ModeRange, Openings, ReductionSettings, RootPosition, Slots, Symmetry,
     ToothDefinition, ToothGeometry, Web,
@@ -126,6 +126,8 @@ impl Record for Blank {
         f.optional("holes", &mut holes, Holes::fields)?;
         f.optional("meshed", &mut meshed, MeshedBody::fields)?;
         f.optional("shaft", &mut shaft, |shaft, f| {
+            let what = "radius of the hole that the mesh leaves open along the axis";
+            f.number("hole_radius", &mut shaft.hole_radius_m, "m", what)?;
             let what = "radius of the shaft at back and front, where a gear cut into it is held; 0 where it does not go on";
             let ends = [("back, front", 2)];
             f.fixed("end_radii", &mut shaft.end_radii_m, &ends, "m", what)
@@ -142,10 +144,10 @@ impl Record for Blank {
                 let what = "there is a web, a contour, openings or a mesh from elsewhere, too";
                 return Err(f.contradiction("shaft", what));
             }
-            *self = Self::CutIntoShaft(CutIntoShaft {
-                hole_radius_m: bore_radius_m,
-                ..shaft
-            });
+            if bore_radius_m != 0.0 {
+                return Err(f.contradiction("shaft", "there is a bore, too"));
+            }
+            *self = Self::CutIntoShaft(shaft);
             return Ok(());
         }
         *self = match (meshed, web, contour) {

@@ -6,8 +6,9 @@ use gearmesh_geometry::microgeometry::{
     EndRelief, FaceEnds, ProfileCrowning, ReliefShape, RootRelief, TipRelief, Topography,
 };
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GearMicrogeometry, LengthUnit,
-    MeshSettings, MeshedBody, Microgeometry, ModeRange, Openings, RootPosition, Slots, Web,
+    Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GearMicrogeometry,
+    LengthUnit, MeshSettings, MeshedBody, Microgeometry, ModeRange, Openings, RootPosition, Slots,
+    Web,
 };
 use std::path::Path;
 

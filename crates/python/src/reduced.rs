@@ -43,6 +43,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         "roll_angles_rad",
         PyArray1::from_vec(py, gear.grid.roll_angles_rad),
     )?;
+    let c_hub = gear.c_hub_in_full().into_owned();
     result.set_item("z_m", PyArray1::from_vec(py, gear.grid.z_m))?;
     result.set_item("slices", gear.grid.slices)?;
     result.set_item(
@@ -54,7 +55,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
     )?;
     result.set_item(
         "c_hub",
-        shaped(py, gear.c_hub, vec![own, hands, teeth, hands, loads, loads])?,
+        shaped(py, c_hub, vec![own, hands, teeth, hands, loads, loads])?,
     )?;
     result.set_item(
         "c_tooth",

@@ -8,7 +8,7 @@ use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Silent};
 use faer::Mat;
 use gearmesh_geometry::Flank;
-use gearmesh_model::GaugeRows;
+use gearmesh_model::{GaugeRows, HubPatterns};
 
 /// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
 pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
@@ -37,6 +37,8 @@ pub(crate) struct FlankCompliance {
     pub symmetry: f64,
     pub pattern_identity: f64,
     pub rows_by_fields: f64,
+    /// C_hub by patterns, of a body that does not repeat.
+    pub patterns: Option<HubPatterns>,
 }
 
 /// Solves the loads of one sector's teeth against all teeth, and those of one tooth on its submodel. `lap` is told each stage's end.
@@ -71,7 +73,7 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
 
     progress.stage("solving flank loads");
     let normals: Vec<&SparseVector> = loads.iter().flatten().map(|load| &load.normal).collect();
-    let c_rows = body.compliance(own, &normals, progress);
+    let (c_rows, by_patterns) = body.compliance(own, &normals, progress);
     lap("solve");
 
     progress.stage("checking");
@@ -102,6 +104,7 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
         symmetry,
         pattern_identity,
         rows_by_fields,
+        patterns: by_patterns.and_then(|found| found.stored()),
     })
 }
 

@@ -59,6 +59,7 @@ pub mod rigid_mass;
 pub mod root_crack;
 pub mod sector_substructure;
 mod tooth_frame;
+mod tooth_patterns;
 pub mod tooth_submodel;
 pub mod tooth_substructure;
 pub mod tooth_vectors;

@@ -19,6 +19,9 @@ use gearmesh_model::{
 };
 use std::time::Instant;
 
+/// C_hub of more numbers (32 MB) is kept by patterns where the body does not repeat.
+const MOST_IN_FULL: usize = 4_000_000;
+
 /// What a reduction does besides its main job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReductionOptions {
@@ -68,6 +71,7 @@ pub fn reduce(
         symmetry,
         pattern_identity,
         rows_by_fields,
+        patterns,
     } = flank_compliance(&body, &case, progress, &mut lap)?;
     progress.stage("calibrating the near field");
     let near_field = calibrate(gear, &body.mesh, &body.model, &grid)?;
@@ -158,6 +162,10 @@ pub fn reduce(
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
     reduced.crack = crack.map(|rows| rows.crack);
+    if let Some(patterns) = patterns.filter(|_| reduced.c_hub.len() > MOST_IN_FULL) {
+        reduced.c_hub = Vec::new();
+        reduced.hub_patterns = Some(patterns);
+    }
     Ok((reduced, body))
 }
 
@@ -198,6 +206,7 @@ pub(crate) fn assembled(
         reference_point: None,
         modes: None,
         crack: None,
+        hub_patterns: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),

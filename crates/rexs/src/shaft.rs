@@ -62,12 +62,22 @@ impl Shaft {
     /// else stands within the face.
     pub fn cut_in(&mut self, mid_mm: f64, width_mm: f64) -> bool {
         let face = [mid_mm - 0.5 * width_mm, mid_mm + 0.5 * width_mm];
-        let mut others = self.points_mm.iter().filter(|u| (*u - mid_mm).abs() > SAME_MM);
+        let mut others = self
+            .points_mm
+            .iter()
+            .filter(|u| (*u - mid_mm).abs() > SAME_MM);
         let is_free = others.all(|u| !within(&face, *u));
         if is_free {
             self.faces_mm.push(face);
         }
         is_free
+    }
+
+    /// Whether there is shaft at a place along u.
+    pub fn reaches(&self, u_mm: f64) -> bool {
+        self.sections
+            .iter()
+            .any(|s| u_mm >= s.start_mm && u_mm <= s.end_mm)
     }
 
     /// Outer and inner diameter between two stations, outside the faces of gears that are cut into the shaft \[mm\].

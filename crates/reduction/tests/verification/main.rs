@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 mod cut_into_shaft;
+mod cut_with_stubs;
 mod cyclic_symmetry;
 mod helical;
 mod imported_mesh;

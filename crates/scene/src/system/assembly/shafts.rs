@@ -327,7 +327,10 @@ fn spans(
     for (i, seat) in table.seat.iter().enumerate() {
         let at = format!("{key}.seat.{i}");
         let index = bodies.find_body(&TableKeys::new(document, &at), "body", &seat.body)?;
-        let gear = bodies.list[index].gear.as_ref().map(|gear| &gear.definition);
+        let gear = bodies.list[index]
+            .gear
+            .as_ref()
+            .map(|gear| &gear.definition);
         let cut = gear.filter(|gear| gear.blank.cut_into_shaft().is_some());
         if let (Some(gear), Some(face)) = (cut, faces.get_mut(seat.station)) {
             *face = (0.5 * gear.tooth.face_width_m, &seat.body);
@@ -338,7 +341,11 @@ fn spans(
         let whole = z[i + 1] - z[i];
         let (from, to) = (faces[i].0, whole - faces[i + 1].0);
         if to - from < 1e-6 * whole {
-            let (half, name) = if faces[i].0 >= faces[i + 1].0 { faces[i] } else { faces[i + 1] };
+            let (half, name) = if faces[i].0 >= faces[i + 1].0 {
+                faces[i]
+            } else {
+                faces[i + 1]
+            };
             let problem = format!(
                 "stations {i} and {} are {:.4} mm apart, but the gear `{name}` is cut into the shaft and reaches {:.4} mm to either side of its station: put no \
                  station within its face",
