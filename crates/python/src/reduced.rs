@@ -31,6 +31,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         .map(|gauge| gauge_dict(py, &gear, gauge))
         .collect::<PyResult<Vec<_>>>()?;
     result.set_item("gauges", PyList::new(py, gauges)?)?;
+    let c_hub = gear.c_hub_in_full().into_owned();
     result.set_item("name", gear.name)?;
     result.set_item("input_toml", gear.input.text)?;
     result.set_item("teeth", teeth)?;
@@ -43,7 +44,6 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         "roll_angles_rad",
         PyArray1::from_vec(py, gear.grid.roll_angles_rad),
     )?;
-    let c_hub = gear.c_hub_in_full().into_owned();
     result.set_item("z_m", PyArray1::from_vec(py, gear.grid.z_m))?;
     result.set_item("slices", gear.grid.slices)?;
     result.set_item(

@@ -13,7 +13,6 @@ use crate::Progress;
 use crate::flank_loads::SparseVector;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_substructure::SectorSubstructure;
-use crate::tooth_patterns::{PatternCompliance, TransmittedPatterns};
 use crate::tooth_substructure::ToothSubstructure;
 use faer::Mat;
 use gearmesh_fe::{CondensedLoads, CyclicInterface, CylindricalFrames, FeError, FeModel};
@@ -106,18 +105,15 @@ impl CyclicBody {
         ]
     }
 
-    /// aᵀ K⁻¹ b for vectors that are given on tooth 0 and placed, turned, on every tooth; loaded are the teeth of one sector.
-    pub fn compliance(
-        &self,
-        vectors: &[&SparseVector],
-        progress: &dyn Progress,
-    ) -> PatternCompliance {
+    /// aᵀ K⁻¹ b for vectors that are given on tooth 0 and placed, turned, on every tooth:
+    /// `[loaded tooth 0..own][load][tooth][response]`.
+    pub fn compliance(&self, vectors: &[&SparseVector], progress: &dyn Progress) -> Vec<f64> {
+        let n = vectors.len();
         let own = self.sector.own;
+        let teeth = own * self.sector.sectors;
         let on_tooth = self.tooth.condense(&self.frames, vectors);
-        let TransmittedPatterns { at_foot, shares } =
-            TransmittedPatterns::new(&on_tooth.kept, self.sector.sectors);
-        let n = shares.ncols();
-        // The patterns of a tooth are solved together: they reach the same, small part of the sector's factor.
+        let inside_tooth = on_tooth.gram(&on_tooth);
+        // The loads of a tooth are solved together: they reach the same, small part of the sector's factor.
         let mut at_cuts = Mat::<f64>::zeros(2 * self.interface.cut_size(), own * n);
         let loaded: Vec<CondensedLoads> = (0..own)
             .map(|a| {
@@ -125,7 +121,8 @@ impl CyclicBody {
                 for column in 0..n {
                     for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
                         for axis in 0..3 {
-                            loads[(3 * node + axis, column)] = at_foot[(3 * b + axis, column)];
+                            loads[(3 * node + axis, column)] =
+                                on_tooth.kept[(3 * b + axis, column)];
                         }
                     }
                 }
@@ -149,23 +146,33 @@ impl CyclicBody {
         for (&(a, b), work) in pairs.iter().zip(&works) {
             let mut block = inside_sector.as_mut().submatrix_mut(a * n, b * n, n, n);
             block.copy_from(work);
-            if a != b {
+            if a == b {
+                block += &inside_tooth;
+            } else {
                 inside_sector
                     .as_mut()
                     .submatrix_mut(b * n, a * n, n, n)
                     .copy_from(work.transpose());
             }
         }
-        let mut body = self.interface.products(at_cuts.as_ref());
-        body[0] += &inside_sector;
-        PatternCompliance {
-            own_tooth: on_tooth.gram(&on_tooth),
-            shares,
-            body,
-            places: (0..own * self.sector.sectors)
-                .map(|tooth| self.sector.of_tooth(tooth))
-                .collect(),
-        }
+        let mut products = self.interface.products(at_cuts.as_ref());
+        products[0] += &inside_sector;
+        drop(inside_sector);
+
+        let mut rows = vec![0.0; own * n * teeth * n];
+        rows.par_chunks_mut(teeth * n)
+            .enumerate()
+            .for_each(|(row, values)| {
+                let (from, a) = self.sector.of_tooth(row / n);
+                for (t, block) in values.chunks_mut(n).enumerate() {
+                    let (to, b) = self.sector.of_tooth(t);
+                    let offset = (to + self.sector.sectors - from) % self.sector.sectors;
+                    for (m, value) in block.iter_mut().enumerate() {
+                        *value = products[offset][(b * n + m, a * n + row % n)];
+                    }
+                }
+            });
+        rows
     }
 
     /// XᵀKX for full Cartesian fields that are zero where the body is held: the sum over all parts.

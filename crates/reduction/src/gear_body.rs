@@ -3,7 +3,6 @@
 use crate::cyclic_body::CyclicBody;
 use crate::flank_loads::SparseVector;
 use crate::repeated_mesh::RepeatedMesh;
-use crate::tooth_patterns::PatternCompliance;
 use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
@@ -147,27 +146,36 @@ impl<M: RepeatedMesh> GearBody<M> {
     }
 
     /// aᵀ K⁻¹ b \[m/N\] for vectors given on tooth 0 and placed, turned, on every tooth; the loaded teeth are those of
-    /// the first `own`: `[loaded tooth][load][tooth][response]`. Beside it the same by patterns of a tooth, where it was found so.
+    /// the first `own`: `[loaded tooth][load][tooth][response]`.
     pub fn compliance(
         &self,
         own: usize,
         vectors: &[&SparseVector],
         progress: &dyn Progress,
-    ) -> (Vec<f64>, Option<PatternCompliance>) {
+    ) -> Vec<f64> {
+        self.count(own * vectors.len());
         match &self.solver {
             Solver::Whole(whole) => {
-                self.count(own * vectors.len());
                 let loads: Vec<SparseVector> = (0..own)
                     .flat_map(|t| vectors.iter().map(move |v| on_tooth(&self.mesh, v, t)))
                     .collect();
                 let loads: Vec<&SparseVector> = loads.iter().collect();
-                let readings = whole.readings(&self.mesh, &self.dofs, &loads, vectors, progress);
-                (readings.concat(), None)
+                whole
+                    .readings(&self.mesh, &self.dofs, &loads, vectors, progress)
+                    .concat()
             }
+            Solver::Cyclic(body) => body.compliance(vectors, progress),
+        }
+    }
+
+    /// The part of aᵀ K⁻¹ b that stays inside a tooth cell, its shared nodes held \[m/N\], for vectors given on tooth 0; none where the
+    /// gear was factorised as a whole.
+    pub(crate) fn inside_tooth(&self, vectors: &[&SparseVector]) -> Option<Mat<f64>> {
+        match &self.solver {
+            Solver::Whole(_) => None,
             Solver::Cyclic(body) => {
-                let by_patterns = body.compliance(vectors, progress);
-                self.count(own * by_patterns.patterns());
-                (by_patterns.rows(own), Some(by_patterns))
+                let on_tooth = body.tooth.condense(&body.frames, vectors);
+                Some(on_tooth.gram(&on_tooth))
             }
         }
     }

@@ -19,9 +19,6 @@ use gearmesh_model::{
 };
 use std::time::Instant;
 
-/// C_hub of more numbers (32 MB) is kept by patterns where the body does not repeat.
-const MOST_IN_FULL: usize = 4_000_000;
-
 /// What a reduction does besides its main job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReductionOptions {
@@ -162,7 +159,9 @@ pub fn reduce(
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
     reduced.crack = crack.map(|rows| rows.crack);
-    if let Some(patterns) = patterns.filter(|_| reduced.c_hub.len() > MOST_IN_FULL) {
+    if let Some((patterns, left_out)) = patterns {
+        let name = "C_hub by patterns, largest entry left out".to_string();
+        reduced.checks.further.push((name, left_out));
         reduced.c_hub = Vec::new();
         reduced.hub_patterns = Some(patterns);
     }

@@ -1,9 +1,7 @@
 //! A pinion cut into its shaft, with stubs of the shaft on its faces in one finite element model, against the reduced pinion on beams.
 
-#[path = "../../../../tests/support/whole_compliance.rs"]
-mod whole_compliance;
-
 use crate::small_gears::{COARSE, body};
+use crate::whole_compliance::products;
 use gearmesh_fe::{DofMap, FeModel, RigidGroup};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearDefinition};
@@ -11,7 +9,6 @@ use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
 use gearmesh_reduction::{GearBody, Silent};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use std::f64::consts::PI;
-use whole_compliance::products;
 
 /// 17 teeth of module 3 mm, 30 mm wide.
 fn pinion(blank: &str) -> GearDefinition {
@@ -150,7 +147,7 @@ fn on_beams(
     }
     let beams = stiffness.try_inverse().unwrap();
     let vectors: Vec<&SparseVector> = loads.iter().collect();
-    let (own, _) = body.compliance(1, &vectors, &Silent);
+    let own = body.compliance(1, &vectors, &Silent);
     let row = gear.tooth.teeth * loads.len();
     (loads.iter().enumerate())
         .map(|(i, load)| {

@@ -13,3 +13,5 @@ mod reduction;
 mod root_crack;
 mod small_gears;
 mod tetrahedra;
+#[path = "../../../../tests/support/whole_compliance.rs"]
+mod whole_compliance;
