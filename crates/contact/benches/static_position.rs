@@ -68,6 +68,7 @@ fn model(gear: &GearDefinition, profile: &ToothGeometry, slices: usize) -> Reduc
         reference_point: None,
         modes: None,
         crack: None,
+        hub_patterns: None,
         bevel: None,
         grid,
         flanks: vec![Flank::Right],

@@ -149,7 +149,7 @@ impl SliceCompliance {
             for other in 0..gear.teeth {
                 let block = match local.part() {
                     CompliancePart::Patterns => gear.c_g_block(tooth, flank, other, flank),
-                    CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank).into(),
+                    CompliancePart::Hub => gear.c_hub_block(tooth, flank, other, flank),
                 };
                 for (row, responses) in axial.iter().zip(condensed.chunks_exact_mut(size)) {
                     // First the loads, then the responses: each entry of the block is used a few times only.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::definition::Flank;
 
-/// The body below the teeth. Held at the bore.
+/// The body below the teeth. Held at the bore, or at the end faces of the shaft that it is cut into.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Blank {
     /// A disc of full width, perhaps with openings through it.
@@ -25,6 +25,8 @@ pub enum Blank {
         /// Openings.
         openings: Option<Openings>,
     },
+    /// A disc of full width, cut into its shaft: solid down to the axis.
+    CutIntoShaft(CutIntoShaft),
     /// The whole gear, teeth included, was meshed elsewhere; web and openings are not known.
     Meshed {
         /// Bore radius \[m\].
@@ -50,14 +52,22 @@ impl Blank {
         }
     }
 
-    /// Bore radius \[m\].
+    /// Bore radius \[m\]; 0 of a gear cut into its shaft.
     #[must_use]
     pub fn bore_radius_m(&self) -> f64 {
         match self {
+            Self::CutIntoShaft(_) => 0.0,
             Self::Solid { bore_radius_m, .. }
             | Self::Webbed { bore_radius_m, .. }
             | Self::Meshed { bore_radius_m, .. } => *bore_radius_m,
         }
+    }
+
+    /// Radius at which the mesh ends inwards \[m\]: the bore, or the hole that is left open in a gear cut into its shaft.
+    #[must_use]
+    pub fn inner_radius_m(&self) -> f64 {
+        self.cut_into_shaft()
+            .map_or(self.bore_radius_m(), |shaft| shaft.hole_radius_m)
     }
 
     /// Hub, web and rim; none of a solid disc of full width.
@@ -65,7 +75,7 @@ impl Blank {
     pub fn web(&self) -> Option<Web> {
         match self {
             Self::Webbed { web, .. } => Some(*web),
-            Self::Solid { .. } | Self::Meshed { .. } => None,
+            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
         }
     }
 
@@ -74,7 +84,7 @@ impl Blank {
     pub fn contour(&self) -> Option<&Contour> {
         match self {
             Self::Webbed { contour, .. } => contour.as_ref(),
-            Self::Solid { .. } | Self::Meshed { .. } => None,
+            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
         }
     }
 
@@ -83,7 +93,16 @@ impl Blank {
     pub fn openings(&self) -> Option<Openings> {
         match self {
             Self::Solid { openings, .. } | Self::Webbed { openings, .. } => *openings,
-            Self::Meshed { .. } => None,
+            Self::CutIntoShaft(_) | Self::Meshed { .. } => None,
+        }
+    }
+
+    /// How it is cut into its shaft; none of a gear with a bore.
+    #[must_use]
+    pub fn cut_into_shaft(&self) -> Option<&CutIntoShaft> {
+        match self {
+            Self::CutIntoShaft(shaft) => Some(shaft),
+            _ => None,
         }
     }
 
@@ -92,9 +111,23 @@ impl Blank {
     pub fn meshed(&self) -> Option<&MeshedBody> {
         match self {
             Self::Meshed { body, .. } => Some(body),
-            Self::Solid { .. } | Self::Webbed { .. } => None,
+            Self::Solid { .. } | Self::CutIntoShaft(_) | Self::Webbed { .. } => None,
         }
     }
+}
+
+/// A gear that is one with its shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CutIntoShaft {
+    /// Radius of the hole that the mesh leaves open along the axis, free of loads and not held \[m\].
+    pub hole_radius_m: f64,
+    /// Radius of the shaft at the back and the front face, where the gear is held; 0 where it does not go on \[m\].
+    pub end_radii_m: [f64; 2],
+}
+
+impl CutIntoShaft {
+    /// The hole over the root radius: it takes 0.06 % of the root disc's area, and 4e-7 of its polar moment.
+    pub const HOLE: f64 = 1.0 / 40.0;
 }
 
 /// Axial contour of hub and web.

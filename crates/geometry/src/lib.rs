@@ -34,7 +34,7 @@ mod tip_in_fillet;
 pub mod tooth;
 
 pub use blank::{
-    Blank, Contour, ContourPoint, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
+    Blank, Contour, ContourPoint, CutIntoShaft, Holes, LengthUnit, MeshedBody, Openings, Slots, Web,
 };
 pub use definition::{
     CrackDefinition, Flank, GaugeDefinition, GearDefinition, HubSupport, Material, MeshSettings,

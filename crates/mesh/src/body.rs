@@ -14,6 +14,9 @@ const GRADING: f64 = 0.35;
 /// [`crate::layers`]), and most of a twisted web's deformation is there.
 const AT_HUB: f64 = 1.0 / 3.0;
 
+/// Circles nearer to each other are one.
+const SAME_M: f64 = 1e-9;
+
 /// One sector of the body, ready for the mesher.
 #[derive(Debug, Clone)]
 pub struct BodyProblem {
@@ -89,15 +92,20 @@ pub(crate) fn first_tooth(gear: &GearDefinition) -> Result<usize, MeshError> {
 }
 
 /// Element length wanted at a radius of the body: from that of the ring's pieces inwards, shorter at the hub's circle
-/// too.
+/// too. Towards the hole in the axis of a gear cut into its shaft no element is longer than the sector is wide.
 pub(crate) fn element_length(gear: &GearDefinition, ring_size: f64) -> impl Fn(f64) -> f64 {
     let (ring, largest, web) = (ring_radius_m(gear), gear.mesh.body_m, gear.blank.web());
+    let sector = gear
+        .blank
+        .cut_into_shaft()
+        .map(|_| TAU / gear.sectors() as f64);
     move |r: f64| {
+        let in_sector = sector.map_or(f64::INFINITY, |angle| r * angle);
         let from_ring = ring_size + GRADING * (ring - r).abs();
         let from_hub = web.map_or(f64::INFINITY, |web| {
             AT_HUB * largest + GRADING * (r - web.hub_radius_m).abs()
         });
-        from_ring.min(from_hub).min(largest)
+        from_ring.min(from_hub).min(largest).min(in_sector)
     }
 }
 
@@ -125,7 +133,17 @@ pub(crate) fn region_circles(gear: &GearDefinition) -> Vec<(f64, bool)> {
         );
         levels.push((web.hub_radius_m, false));
     }
-    levels.push((gear.blank.bore_radius_m(), false));
+    if let Some(shaft) = gear.blank.cut_into_shaft() {
+        // Nodes lie on the outline of the faces at which the gear is held.
+        let [a, b] = shaft.end_radii_m;
+        for r in [a.max(b), a.min(b)] {
+            let above = levels[levels.len() - 1].0;
+            if r > shaft.hole_radius_m && r < above - SAME_M {
+                levels.push((r, false));
+            }
+        }
+    }
+    levels.push((gear.blank.inner_radius_m(), false));
     levels
 }
 
@@ -294,7 +312,7 @@ fn opening_outline(openings: &Openings, body_m: f64) -> Vec<(f64, f64)> {
                 })
                 .collect()
         }
-        Openings::Slots(s) => slot_outline(s, body_m.min(0.6 * s.corner_radius_m)),
+        Openings::Slots(s) => slot_outline(s, body_m),
     }
 }
 
@@ -302,20 +320,32 @@ fn cartesian_to_polar(x: f64, y: f64) -> (f64, f64) {
     (x.hypot(y), y.atan2(x))
 }
 
+/// Sides of a slot's corners over the corner's radius, and sides far from corners over the body's elements at least.
+const AT_CORNER: f64 = 0.6;
+const FAR_FROM_CORNER: f64 = 0.4;
+
 /// A slot counter-clockwise from the middle of its outer arc: outer arc, corner, radial edge, corner, inner arc, ...
-/// Sides are about `size` long; their middles stand between the nodes.
-fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
+/// Sides are as long as the corners want, and longer with the distance from small ones; their middles stand between the nodes.
+fn slot_outline(s: &Slots, body_m: f64) -> Vec<(f64, f64)> {
     let (r_in, r_out, c, half) = (
         s.inner_radius_m,
         s.outer_radius_m,
         s.corner_radius_m,
         0.5 * s.width_rad,
     );
+    let near = body_m.min(AT_CORNER * c);
+    let far = near.max(FAR_FROM_CORNER * body_m);
+    let size = |from_corner_m: f64| (near + GRADING * from_corner_m).min(far);
     let outer_centre = half - (c / (r_out - c)).asin();
     let inner_centre = half - (c / (r_in + c)).asin();
-    let sides = |length: f64, least: usize| ((length / size).ceil() as usize).max(least);
+    // Places along a piece of the outline, each followed by the middle of the side after it.
+    let sides = |from: f64, to: f64, corner: &dyn Fn(f64) -> f64, least: usize| -> Vec<f64> {
+        let ends = graded(from, to, |x| size(corner(x)), Pieces { least, even: false });
+        let with_middles = ends.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+        with_middles.chain([to]).collect()
+    };
     let corner = |radius: f64, angle: f64, from: f64, to: f64| -> Vec<(f64, f64)> {
-        let n = 2 * sides(c * (to - from).abs(), 3);
+        let n = 2 * ((c * (to - from).abs() / near).ceil() as usize).max(3);
         (0..=n)
             .map(|k| {
                 let a = angle + from + (to - from) * k as f64 / n as f64;
@@ -327,17 +357,20 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
             .collect()
     };
     // Upper half (positive angles): outer arc from the middle, corner, edge, corner, inner arc to the middle.
-    let mut upper: Vec<(f64, f64)> = Vec::new();
-    let n_outer = 2 * sides(r_out * outer_centre, 1);
-    upper.extend((0..n_outer).map(|k| (r_out, outer_centre * k as f64 / n_outer as f64)));
+    let length = r_out * outer_centre;
+    let outer = sides(0.0, length, &|x| length - x, 1);
+    let mut upper: Vec<(f64, f64)> = (outer[..outer.len() - 1].iter())
+        .map(|x| (r_out, x / r_out))
+        .collect();
     let edge_turn = FRAC_PI_2 + half - outer_centre;
     upper.extend(corner(r_out - c, outer_centre, 0.0, edge_turn));
     let (from, to) = (
         ((r_out - c).powi(2) - c * c).sqrt(),
         ((r_in + c).powi(2) - c * c).sqrt(),
     );
-    let n_edge = 2 * sides((from - to).max(0.0), 1);
-    upper.extend((1..n_edge).map(|k| (from + (to - from) * k as f64 / n_edge as f64, half)));
+    // Where the corners meet there is no edge between them.
+    let edge = sides(from, to.min(from), &|r| (from - r).min(r - to).max(0.0), 1);
+    upper.extend(edge[1..edge.len() - 1].iter().map(|r| (*r, half)));
     let inner_turn = FRAC_PI_2 + half - inner_centre;
     upper.extend(corner(
         r_in + c,
@@ -346,10 +379,14 @@ fn slot_outline(s: &Slots, size: f64) -> Vec<(f64, f64)> {
         std::f64::consts::PI,
     ));
     // The whole outline has twice as many sides as this half; an even half makes it a multiple of four.
-    let mut inner_sides = sides(r_in * inner_centre, 1);
-    inner_sides += ((upper.len() - 1) / 2 + inner_sides) % 2;
-    let n_inner = 2 * inner_sides;
-    upper.extend((1..=n_inner).map(|k| (r_in, inner_centre * (1.0 - k as f64 / n_inner as f64))));
+    let length = r_in * inner_centre;
+    let inner = |least: usize| sides(length, 0.0, &|x| length - x, least);
+    let mut last = inner(1);
+    let count = (last.len() - 1) / 2;
+    if ((upper.len() - 1) / 2 + count) % 2 == 1 {
+        last = inner(count + 1);
+    }
+    upper.extend(last[1..].iter().map(|x| (r_in, x / r_in)));
     let lower: Vec<(f64, f64)> = upper[1..upper.len() - 1]
         .iter()
         .rev()

@@ -16,11 +16,13 @@ use crate::solid_body::SolidBody;
 use crate::tet_split;
 use crate::twist::Twist;
 use gearmesh_elements::CellKind;
-use gearmesh_geometry::{Element, Flank, GearDefinition, ProfileCurve};
+use gearmesh_geometry::{Blank, Element, Flank, GearDefinition, ProfileCurve};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 const NONE: u32 = u32::MAX;
+/// Rounding of radii.
+const SAME_RADIUS: f64 = 1e-6;
 
 /// A meshed gear.
 #[derive(Debug, Clone)]
@@ -207,6 +209,27 @@ impl GearMesh {
             CellKind::Tet10 => tet_split::TETRAHEDRA as u32,
             _ => 1,
         }
+    }
+
+    /// Nodes at which the gear is held: those of the bore, or of a gear cut into its shaft those of the end faces within the
+    /// shaft's outline.
+    pub fn held(&self, blank: &Blank) -> Vec<u32> {
+        let Some(shaft) = blank.cut_into_shaft() else {
+            return self.bore();
+        };
+        let last = self.levels_m.len() - 1;
+        let ends = [(0, shaft.end_radii_m[0]), (last, shaft.end_radii_m[1])];
+        let within = |node: &u32, radius: f64| {
+            let [x, y, _] = self.nodes[*node as usize];
+            x.hypot(y) <= radius * (1.0 + SAME_RADIUS)
+        };
+        let mut held: Vec<u32> = (0..self.section.nodes.len())
+            .flat_map(|n| ends.map(|(level, radius)| (self.node(n, level), radius)))
+            .filter_map(|(node, radius)| node.filter(|node| within(node, radius)))
+            .collect();
+        held.sort_unstable();
+        held.dedup();
+        held
     }
 
     /// Nodes of the bore.
@@ -419,7 +442,7 @@ impl GearMesh {
             .unwrap_or(0)
     }
 
-    /// Named node sets for files: `bore`, and for each tooth `tooth<k>_right_flank`, `_left_flank`, `_root`.
+    /// Named node sets for files: `bore` (of a gear cut into its shaft `shaft`), and for each tooth `tooth<k>_right_flank`, `_left_flank`, `_root`.
     pub fn node_sets(&self, gear: &GearDefinition) -> BTreeMap<String, Vec<u32>> {
         let curve = ProfileCurve::new(&gear.profile);
         let (start, end) = (curve.flank_start_m(), curve.flank_end_m());
@@ -436,7 +459,8 @@ impl GearMesh {
             .iter()
             .rposition(|&s| s <= end + tolerance)
             .unwrap_or(last);
-        let mut sets = BTreeMap::from([("bore".to_string(), self.bore())]);
+        let name = gear.blank.cut_into_shaft().map_or("bore", |_| "shaft");
+        let mut sets = BTreeMap::from([(name.to_string(), self.held(&gear.blank))]);
         for tooth in 0..gear.tooth.teeth {
             sets.insert(
                 format!("tooth{tooth}_right_flank"),

@@ -50,6 +50,6 @@ pub fn ring_radius_m(gear: &GearDefinition) -> f64 {
         }
         Some(web) if web.rim_inner_radius_m > root - 2.5 * module => web.rim_inner_radius_m,
         Some(_) => default,
-        None => default.max(0.5 * (gear.blank.bore_radius_m() + root)),
+        None => default.max(0.5 * (gear.blank.inner_radius_m() + root)),
     }
 }

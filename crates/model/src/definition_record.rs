@@ -113,6 +113,7 @@ impl Record for Blank {
         let mut bore_radius_m = self.bore_radius_m();
         let (mut web, mut contour) = (self.web(), self.contour().cloned());
         let mut meshed = self.meshed().cloned();
+        let mut shaft = self.cut_into_shaft().copied();
         let (mut slots, mut holes) = match self.openings() {
             None => (None, None),
             Some(Openings::Slots(slots)) => (Some(slots), None),
@@ -124,6 +125,13 @@ impl Record for Blank {
         f.optional("slots", &mut slots, Slots::fields)?;
         f.optional("holes", &mut holes, Holes::fields)?;
         f.optional("meshed", &mut meshed, MeshedBody::fields)?;
+        f.optional("shaft", &mut shaft, |shaft, f| {
+            let what = "radius of the hole that the mesh leaves open along the axis";
+            f.number("hole_radius", &mut shaft.hole_radius_m, "m", what)?;
+            let what = "radius of the shaft at back and front, where a gear cut into it is held; 0 where it does not go on";
+            let ends = [("back, front", 2)];
+            f.fixed("end_radii", &mut shaft.end_radii_m, &ends, "m", what)
+        })?;
         if !f.is_reading() {
             return Ok(());
         }
@@ -131,6 +139,17 @@ impl Record for Blank {
             (Some(_), Some(_)) => return Err(f.contradiction("holes", "there are slots, too")),
             (slots, holes) => slots.map(Openings::Slots).or(holes.map(Openings::Holes)),
         };
+        if let Some(shaft) = shaft {
+            if meshed.is_some() || web.is_some() || contour.is_some() || openings.is_some() {
+                let what = "there is a web, a contour, openings or a mesh from elsewhere, too";
+                return Err(f.contradiction("shaft", what));
+            }
+            if bore_radius_m != 0.0 {
+                return Err(f.contradiction("shaft", "there is a bore, too"));
+            }
+            *self = Self::CutIntoShaft(shaft);
+            return Ok(());
+        }
         *self = match (meshed, web, contour) {
             (Some(body), None, None) if openings.is_none() => Self::Meshed {
                 bore_radius_m,

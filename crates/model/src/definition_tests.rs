@@ -6,8 +6,9 @@ use gearmesh_geometry::microgeometry::{
     EndRelief, FaceEnds, ProfileCrowning, ReliefShape, RootRelief, TipRelief, Topography,
 };
 use gearmesh_geometry::{
-    Blank, Contour, ContourPoint, CrackDefinition, Element, Flank, GearMicrogeometry, LengthUnit,
-    MeshSettings, MeshedBody, Microgeometry, ModeRange, Openings, RootPosition, Slots, Web,
+    Blank, Contour, ContourPoint, CrackDefinition, CutIntoShaft, Element, Flank, GearMicrogeometry,
+    LengthUnit, MeshSettings, MeshedBody, Microgeometry, ModeRange, Openings, RootPosition, Slots,
+    Web,
 };
 use std::path::Path;
 
@@ -101,6 +102,11 @@ fn rarer_parts_come_back_equal() {
     };
     assert_eq!(read_back(&meshed), meshed);
     assert_eq!(read_back(&Blank::solid(0.02)), Blank::solid(0.02));
+    let cut = Blank::CutIntoShaft(CutIntoShaft {
+        hole_radius_m: 5e-4,
+        end_radii_m: [0.0, 0.015],
+    });
+    assert_eq!(read_back(&cut), cut);
     let crack = CrackDefinition {
         tooth: 4,
         side: Flank::Left,

@@ -29,6 +29,7 @@ mod definition_record;
 #[allow(clippy::unwrap_used)]
 mod definition_tests;
 mod file_error;
+mod hub_patterns;
 mod mesh_data;
 mod mesh_file;
 mod microgeometry_record;
@@ -59,6 +60,7 @@ pub use data_tree_read::format_of;
 pub use file_error::FileError;
 pub use gearmesh_elements::CellKind;
 pub use gearmesh_geometry::Flank;
+pub use hub_patterns::HubPatterns;
 pub use mesh_data::{EXPORT_ENDINGS, Field, MeshData, MeshDataError};
 pub use mesh_file::{MESH_FORMAT, read_mesh, write_mesh};
 pub use modal_basis::ModalBasis;

@@ -94,7 +94,7 @@ impl ReducedGear {
     ) -> Result<Vec<f64>, ReducedGearError> {
         let basis = self.modal_basis()?;
         let hub = self.c_hub_block(load_tooth, load_flank, response_tooth, response_flank);
-        let mut rest = hub.to_vec();
+        let mut rest = hub.into_owned();
         for (mode, omega_squared) in basis.omega_squared.iter().enumerate() {
             let load = self.mode_at_flank(mode, load_tooth, load_flank)?;
             let response = self.mode_at_flank(mode, response_tooth, response_flank)?;

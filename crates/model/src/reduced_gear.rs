@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use gearmesh_geometry::Flank;
 
 use crate::bevel_body::BevelBody;
+use crate::hub_patterns::HubPatterns;
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
 use crate::reduced_gear_error::ReducedGearError;
@@ -150,8 +151,11 @@ pub struct ReducedGear {
     /// C_hub in m/N,
     /// `[load tooth in sector z/N][load flank f][response tooth z][response flank f][load L][response L]`: deflection
     /// along the inward normal at the response point for a unit force along the inward normal at the load point, hub
-    /// held, no crack. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`].
+    /// held, no crack. Teeth of other sectors follow by rotation: use [`ReducedGear::c_hub_block`]. Empty where
+    /// `hub_patterns` has it.
     pub c_hub: Vec<f64>,
+    /// C_hub by patterns, of a large body that does not repeat.
+    pub hub_patterns: Option<HubPatterns>,
     /// C_tooth in m/N, `[flank f][load L][response L]`: the same on the tooth-only submodel, equal for all teeth.
     pub c_tooth: Vec<f64>,
     /// `[flank f][roll station]`: distance along the normal to the opposite side of the tooth in metres, the h of the
@@ -203,7 +207,7 @@ impl ReducedGear {
     }
 
     /// C_hub between two flanks in m/N, `[load L][response L]`. Any two teeth; a load on tooth s·z/N + r acts as one on
-    /// tooth r with all teeth renumbered by s sectors. No allocation.
+    /// tooth r with all teeth renumbered by s sectors. Allocates only where it is kept by patterns, 4·10⁶ operations a block.
     ///
     /// # Panics
     /// If a tooth does not exist or a hand carries no loads (ask [`ReducedGear::flank_index`] once beforehand).
@@ -213,7 +217,7 @@ impl ReducedGear {
         load_flank: Flank,
         response_tooth: usize,
         response_flank: Flank,
-    ) -> &[f64] {
+    ) -> Cow<'_, [f64]> {
         let (load_flank, response_flank) =
             (self.carrying(load_flank), self.carrying(response_flank));
         let teeth = self.teeth;
@@ -221,13 +225,37 @@ impl ReducedGear {
             load_tooth < teeth && response_tooth < teeth,
             "teeth {load_tooth}, {response_tooth} of {teeth}"
         );
+        if let Some(patterns) = &self.hub_patterns {
+            let loads = self.grid.len();
+            let first = [load_flank, response_flank].map(|flank| flank * loads);
+            return Cow::Owned(patterns.block([load_tooth, response_tooth], first, loads));
+        }
         let tooth_in_sector = load_tooth % self.teeth_per_sector();
         let response = (response_tooth + teeth - (load_tooth - tooth_in_sector)) % teeth;
         let flanks = self.flanks.len();
         let block =
             ((tooth_in_sector * flanks + load_flank) * teeth + response) * flanks + response_flank;
         let size = self.grid.len() * self.grid.len();
-        &self.c_hub[block * size..(block + 1) * size]
+        Cow::Borrowed(&self.c_hub[block * size..(block + 1) * size])
+    }
+
+    /// C_hub in full, as `c_hub` where it is not kept by patterns.
+    pub fn c_hub_in_full(&self) -> Cow<'_, [f64]> {
+        if self.hub_patterns.is_none() {
+            return Cow::Borrowed(&self.c_hub);
+        }
+        let mut full = Vec::new();
+        for load in 0..self.teeth_per_sector() {
+            for &load_flank in &self.flanks {
+                for response in 0..self.teeth {
+                    for &response_flank in &self.flanks {
+                        let block = self.c_hub_block(load, load_flank, response, response_flank);
+                        full.extend_from_slice(&block);
+                    }
+                }
+            }
+        }
+        Cow::Owned(full)
     }
 
     /// C_tooth of a hand of flank in m/N, `[load L][response L]`.
@@ -254,7 +282,7 @@ impl ReducedGear {
     ) -> Cow<'_, [f64]> {
         let hub = self.c_hub_block(load_tooth, load_flank, response_tooth, response_flank);
         if load_tooth != response_tooth || load_flank != response_flank {
-            return Cow::Borrowed(hub);
+            return hub;
         }
         let tooth = self.c_tooth_block(load_flank);
         Cow::Owned(

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::hub_patterns::HubPatterns;
 use crate::near_field::NearField;
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
@@ -17,7 +18,13 @@ impl ReducedGear {
         self.check_definition()?;
         let (teeth, flanks, loads) = (self.teeth, self.flanks.len(), self.grid.len());
         let own = self.teeth_per_sector();
-        let expected = own * flanks * teeth * flanks * loads * loads;
+        let expected = match &self.hub_patterns {
+            None => own * flanks * teeth * flanks * loads * loads,
+            Some(patterns) => {
+                self.check_patterns(patterns)?;
+                0
+            }
+        };
         check_array(
             "c_hub",
             &self.c_hub,
@@ -105,6 +112,25 @@ impl ReducedGear {
         )
     }
 
+    fn check_patterns(&self, patterns: &HubPatterns) -> Result<(), ReducedGearError> {
+        if self.sectors != 1 {
+            let item = "the sectors of a body whose C_hub is kept by patterns";
+            return Err(out_of_range(item, self.sectors, "1"));
+        }
+        let loads = self.flanks.len() * self.grid.len();
+        let [own_tooth, shares, body] = patterns.lengths(loads, self.teeth);
+        let square = "(flanks * loads) squared";
+        check_array("own_tooth of C_hub", &patterns.own_tooth, own_tooth, square)?;
+        check_array(
+            "shares of C_hub",
+            &patterns.shares,
+            shares,
+            "flanks * loads * patterns",
+        )?;
+        let triangle = "a lower triangle over teeth * patterns";
+        check_array("body of C_hub", &patterns.body, body, triangle)
+    }
+
     /// The gear's definition, where it is known, is that of this body and holds quantities that there can be.
     fn check_definition(&self) -> Result<(), ReducedGearError> {
         let Some(gear) = self.input.definition() else {
@@ -119,7 +145,7 @@ impl ReducedGear {
         for (item, value) in [
             ("definition.tooth.module", tooth.module_m),
             ("definition.tooth.face_width", tooth.face_width_m),
-            ("definition.blank.bore_radius", gear.blank.bore_radius_m()),
+            ("definition.blank.inner_radius", gear.blank.inner_radius_m()),
             ("definition.material.young", material.young_pa),
             (
                 "definition.material.density",

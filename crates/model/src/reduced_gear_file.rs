@@ -16,8 +16,8 @@ use gearmesh_geometry::Flank;
 /// Name and version of the reduced gear file.
 pub const REDUCED_GEAR_FORMAT: FileFormat = FileFormat {
     name: "gearmesh reduced gear",
-    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body
-    version: 6,
+    // 2: near field; 3: rigid body, reference point, modes; 4: crack; 5: definition of the gear; 6: bevel body; 7: C_hub by patterns
+    version: 7,
 };
 
 /// The first version that holds what the gear file says, besides its text.
@@ -169,8 +169,14 @@ impl ReducedGear {
             response,
         ];
         let what = "deflection at the response point per force at the load point, hub held";
-        f.in_frame(NORMAL)
-            .bulk("compliance/c_hub", &mut self.c_hub, &axes, "m/N", what)?;
+        let patterns = "compliance/c_hub_patterns";
+        f.optional(patterns, &mut self.hub_patterns, |it, f| {
+            it.fields(f, hands * loads, NORMAL)
+        })?;
+        if f.is_listing() || self.hub_patterns.is_none() {
+            f.in_frame(NORMAL)
+                .bulk("compliance/c_hub", &mut self.c_hub, &axes, "m/N", what)?;
+        }
         let axes = [("flank", hands), (LOAD, loads), response];
         let what = "the same on the tooth-only submodel, equal for all teeth";
         f.in_frame(NORMAL)

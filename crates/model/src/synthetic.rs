@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::bevel_body::{BevelBody, BevelMember, BevelNearField, SpiralHand};
+use crate::hub_patterns::HubPatterns;
 use crate::mesh_data::{Field, MeshData};
 use crate::modal_basis::ModalBasis;
 use crate::near_field::NearField;
@@ -47,6 +48,29 @@ tangent_deg = 30.0
 length_mm = 1.0
 width_mm = 2.0
 "#;
+
+/// The same teeth on a body that does not repeat, C_hub by two patterns a tooth.
+pub fn small_patterned_gear() -> ReducedGear {
+    let gear = small_reduced_gear();
+    let loads = gear.flanks.len() * gear.grid.len();
+    let (count, all) = (2, 2 * gear.teeth);
+    let apart = |k: usize| (k / loads).abs_diff(k % loads) as f64;
+    ReducedGear {
+        sectors: 1,
+        c_hub: Vec::new(),
+        hub_patterns: Some(HubPatterns {
+            count,
+            own_tooth: (0..loads * loads)
+                .map(|k| 1e-9 * (-apart(k)).exp())
+                .collect(),
+            shares: (0..loads * count).map(|k| 0.3 * (k as f64).cos()).collect(),
+            body: (0..all * (all + 1) / 2)
+                .map(|k| 1e-10 * (1.0 + k as f64))
+                .collect(),
+        }),
+        ..gear
+    }
+}
 
 /// Six teeth in three sectors, three by three loads on both hands, symmetric compliance that decays with distance.
 pub fn small_reduced_gear() -> ReducedGear {
@@ -155,6 +179,7 @@ pub fn small_reduced_gear() -> ReducedGear {
             coupling: (0..12).map(|i| 0.01 * f64::from(i)).collect(),
         }),
         crack: None,
+        hub_patterns: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".to_owned(),

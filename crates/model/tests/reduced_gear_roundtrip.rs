@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use gearmesh_model::synthetic::{small_bevel_gear, small_crack, small_reduced_gear};
+use gearmesh_model::synthetic::{
+    small_bevel_gear, small_crack, small_patterned_gear, small_reduced_gear,
+};
 use gearmesh_model::{
     DataArray, DataTree, FileError, FileFormat, Flank, FlankGrid, GaugeRows, ReducedGear,
     StoredGear, Values, file_digest, read_reduced_gear, write_reduced_gear,
@@ -208,4 +210,46 @@ proptest! {
         write_reduced_gear(&path, &gear).unwrap();
         prop_assert_eq!(read_reduced_gear(&path).unwrap(), gear);
     }
+}
+
+/// Each entry by its formula (`hub_patterns.rs`), and a force here moves what is there as much as the other way round.
+#[test]
+fn blocks_are_sums_over_patterns() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gear.h5");
+    let gear = small_patterned_gear();
+    write_reduced_gear(&path, &gear).unwrap();
+    assert_eq!(read_reduced_gear(&path).unwrap(), gear);
+    let patterns = gear.hub_patterns.as_ref().unwrap();
+    let (loads, r) = (gear.grid.len(), patterns.count);
+    let flanks = [Flank::Right, Flank::Left];
+    for (a, b) in [(0, 0), (0, 3), (5, 2)] {
+        for (f, g) in [(0, 0), (0, 1), (1, 0)] {
+            let block = gear.c_hub_block(a, flanks[f], b, flanks[g]);
+            let back = gear.c_hub_block(b, flanks[g], a, flanks[f]);
+            for l in 0..loads {
+                for m in 0..loads {
+                    let (i, j) = (f * loads + l, g * loads + m);
+                    let mut sum = if a == b {
+                        patterns.own_tooth[i * 2 * loads + j]
+                    } else {
+                        0.0
+                    };
+                    for p in 0..r {
+                        for q in 0..r {
+                            let (load, response) = (a * r + p, b * r + q);
+                            let (row, column) = (load.max(response), load.min(response));
+                            let between = patterns.body[row * (row + 1) / 2 + column];
+                            sum +=
+                                patterns.shares[i * r + p] * between * patterns.shares[j * r + q];
+                        }
+                    }
+                    let value = block[l * loads + m];
+                    assert!((value - sum).abs() < 1e-12 * sum.abs().max(1e-9));
+                    assert!((value - back[m * loads + l]).abs() < 1e-15);
+                }
+            }
+        }
+    }
+    assert_eq!(gear.c_hub_in_full().len(), (gear.teeth * 2 * loads).pow(2));
 }

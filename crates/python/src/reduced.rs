@@ -31,6 +31,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
         .map(|gauge| gauge_dict(py, &gear, gauge))
         .collect::<PyResult<Vec<_>>>()?;
     result.set_item("gauges", PyList::new(py, gauges)?)?;
+    let c_hub = gear.c_hub_in_full().into_owned();
     result.set_item("name", gear.name)?;
     result.set_item("input_toml", gear.input.text)?;
     result.set_item("teeth", teeth)?;
@@ -54,7 +55,7 @@ pub(crate) fn read_reduced(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
     )?;
     result.set_item(
         "c_hub",
-        shaped(py, gear.c_hub, vec![own, hands, teeth, hands, loads, loads])?,
+        shaped(py, c_hub, vec![own, hands, teeth, hands, loads, loads])?,
     )?;
     result.set_item(
         "c_tooth",

@@ -2,13 +2,14 @@
 
 use crate::flank_loads::{GridLoad, SparseVector};
 use crate::gear_body::GearBody;
+use crate::hub_patterns::by_patterns;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_submodel::{Deformation, ToothSubmodel};
 use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Silent};
 use faer::Mat;
 use gearmesh_geometry::Flank;
-use gearmesh_model::GaugeRows;
+use gearmesh_model::{GaugeRows, HubPatterns};
 
 /// Largest asymmetry of C_hub and largest violation of the pattern identity that round-off explains.
 pub(crate) const SYMMETRY_ALLOWED: f64 = 1e-10;
@@ -17,6 +18,9 @@ pub(crate) const IDENTITY_ALLOWED: f64 = 1e-9;
 const IDENTITY_SAMPLES: usize = 8;
 
 pub(crate) const ROWS_BY_FIELDS: &str = "C_hub against solved fields";
+
+/// C_hub of more numbers (32 MB) is kept by patterns where the body does not repeat.
+const MOST_IN_FULL: usize = 4_000_000;
 
 /// What is loaded.
 pub(crate) struct FlankCase<'a> {
@@ -37,6 +41,8 @@ pub(crate) struct FlankCompliance {
     pub symmetry: f64,
     pub pattern_identity: f64,
     pub rows_by_fields: f64,
+    /// C_hub by patterns, where it is long and the body does not repeat, and what they leave out.
+    pub patterns: Option<(HubPatterns, f64)>,
 }
 
 /// Solves the loads of one sector's teeth against all teeth, and those of one tooth on its submodel. `lap` is told each stage's end.
@@ -95,6 +101,9 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
         checked(check, found, allowed)?;
     }
     lap("checks");
+    let is_long = case.sectors == 1 && c_rows.len() > MOST_IN_FULL;
+    let inside = is_long.then(|| body.inside_tooth(&normals)).flatten();
+    let patterns = inside.and_then(|inside| by_patterns(&c_rows, &inside));
     Ok(FlankCompliance {
         submodels,
         c_hub,
@@ -102,6 +111,7 @@ pub(crate) fn flank_compliance<M: RepeatedMesh + ToothParts>(
         symmetry,
         pattern_identity,
         rows_by_fields,
+        patterns,
     })
 }
 

@@ -49,7 +49,7 @@ pub fn model_of(gear: &GearDefinition, mesh: &GearMesh) -> Result<FeModel, Reduc
 }
 
 impl GearBody {
-    /// Meshes and factorises a gear with its bore fixed, in plane strain where its definition says so.
+    /// Meshes and factorises a gear with its bore, or the ends of its shaft, fixed, in plane strain where its definition says so.
     ///
     /// # Errors
     /// [`ReductionError`] when it cannot be meshed or is not held.
@@ -63,7 +63,8 @@ impl GearBody {
         let mesh = GearMesh::new(gear, python)?;
         let meshed_s = clock.elapsed().as_secs_f64();
         let model = model_of(gear, &mesh)?;
-        let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
+        let held = mesh.held(&gear.blank);
+        let bore: Vec<usize> = held.into_iter().map(|n| n as usize).collect();
         let deformation = Deformation::of(gear);
         // A plane problem is small: its whole factor takes less than the ring's frames.
         let symmetry = match deformation {
@@ -164,6 +165,18 @@ impl<M: RepeatedMesh> GearBody<M> {
                     .concat()
             }
             Solver::Cyclic(body) => body.compliance(vectors, progress),
+        }
+    }
+
+    /// The part of aᵀ K⁻¹ b that stays inside a tooth cell, its shared nodes held \[m/N\], for vectors given on tooth 0; none where the
+    /// gear was factorised as a whole.
+    pub(crate) fn inside_tooth(&self, vectors: &[&SparseVector]) -> Option<Mat<f64>> {
+        match &self.solver {
+            Solver::Whole(_) => None,
+            Solver::Cyclic(body) => {
+                let on_tooth = body.tooth.condense(&body.frames, vectors);
+                Some(on_tooth.gram(&on_tooth))
+            }
         }
     }
 

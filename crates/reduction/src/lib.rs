@@ -44,6 +44,7 @@ pub mod gauge_row;
 pub mod gear_body;
 pub mod gear_modes;
 mod harmonic_problem;
+mod hub_patterns;
 pub mod import;
 mod imported_check;
 pub mod imported_error;

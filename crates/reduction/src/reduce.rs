@@ -68,6 +68,7 @@ pub fn reduce(
         symmetry,
         pattern_identity,
         rows_by_fields,
+        patterns,
     } = flank_compliance(&body, &case, progress, &mut lap)?;
     progress.stage("calibrating the near field");
     let near_field = calibrate(gear, &body.mesh, &body.model, &grid)?;
@@ -153,6 +154,12 @@ pub fn reduce(
     reduced.reference_point = dynamics.reference_point;
     reduced.modes = dynamics.modes;
     reduced.crack = crack.map(|rows| rows.crack);
+    if let Some((patterns, left_out)) = patterns {
+        let name = "C_hub by patterns, largest entry left out".to_string();
+        reduced.checks.further.push((name, left_out));
+        reduced.c_hub = Vec::new();
+        reduced.hub_patterns = Some(patterns);
+    }
     Ok((reduced, body))
 }
 
@@ -193,6 +200,7 @@ pub(crate) fn assembled(
         reference_point: None,
         modes: None,
         crack: None,
+        hub_patterns: None,
         bevel: None,
         provenance: Provenance {
             program: "gearmesh".into(),

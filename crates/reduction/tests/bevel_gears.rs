@@ -154,7 +154,7 @@ fn the_other_hand_is_the_mirror_image() {
         ] {
             let a = one.c_hub_block(0, f, tooth, g);
             let b = other.c_hub_block(0, f.opposite(), (20 - tooth) % 20, g.opposite());
-            assert!(difference(a, b) < 1e-8, "{tooth} {}", difference(a, b));
+            assert!(difference(&a, &b) < 1e-8, "{tooth} {}", difference(&a, &b));
         }
     }
     let [a, b] = [(&one, Flank::Right), (&other, Flank::Left)].map(|(m, f)| m.c_tooth_block(f));

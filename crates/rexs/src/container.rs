@@ -46,8 +46,12 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Unpacked, RexsError> {
         let hidden = lower.starts_with("__macosx") || lower.contains("/.");
         ENDINGS.iter().position(|e| lower.ends_with(e) && !hidden)
     };
-    let mut members: Vec<(usize, &String)> =
-        names.iter().filter_map(|n| Some((rank(n)?, n))).collect();
+    // The model lies on top, what it refers to in folders.
+    let depth = |name: &str| name.matches('/').count();
+    let mut members: Vec<((usize, usize), &String)> = names
+        .iter()
+        .filter_map(|n| Some(((depth(n), rank(n)?), n)))
+        .collect();
     members.sort();
     let Some(&(best, name)) = members.first() else {
         return Err(RexsError::Container {

@@ -59,8 +59,10 @@ pub struct Gear {
     pub thickness_allowance_mm: f64,
     /// Tip chamfer \[mm\].
     pub tip_chamfer_mm: f64,
-    /// Bore \[mm\]; none until the shaft is known.
+    /// Bore \[mm\], 0 of a gear that is cut into its shaft; none until the shaft is known.
     pub bore_mm: Option<f64>,
+    /// Diameters of the shaft at the back and the front face of a gear that is cut into it, 0 where it is not held \[mm\].
+    pub shaft_mm: Option<[f64; 2]>,
     /// Material.
     pub material: Material,
     /// Modifications of left and right flanks.
@@ -205,6 +207,7 @@ pub fn read(
         thickness_allowance_mm: 0.0,
         tip_chamfer_mm: 0.0,
         bore_mm: None,
+        shaft_mm: None,
         material: material(source, structure, component)?,
         microgeometry: Microgeometry::default(),
     };

@@ -1,7 +1,7 @@
 //! The text of gear files.
 
 use crate::gear::Gear;
-use crate::text::{comment, number, quoted};
+use crate::text::{comment, number, numbers, quoted};
 
 /// Text of the file of a gear.
 pub fn gear_file(gear: &Gear, origin: &str) -> String {
@@ -43,6 +43,9 @@ pub fn gear_file(gear: &Gear, origin: &str) -> String {
         "\n[blank]\nkind = \"solid\"\nbore_diameter_mm = {}\n",
         number(gear.bore_mm.unwrap_or(0.0))
     ));
+    if let Some(ends) = gear.shaft_mm {
+        text.push_str(&format!("shaft_diameter_mm = {}\n", numbers(&ends)));
+    }
     let m = gear.material;
     text.push_str(&format!(
         "\n[material]\nyoung_GPa = {}\npoisson = {}\ndensity_kg_per_m3 = {}\n",

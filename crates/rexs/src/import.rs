@@ -106,6 +106,19 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
     let used = RefCell::new(BTreeSet::new());
     let stem = file_stem(stem);
     let cases: Vec<&LoadCase> = model.spectra.iter().flat_map(|s| &s.cases).collect();
+    for (case, component) in cases
+        .iter()
+        .flat_map(|case| case.components.iter().map(move |c| (case, c)))
+        .filter(|(_, c)| model.component(c.id).is_none())
+    {
+        ledger.borrow_mut().leave_out(
+            &format!("load case {}", case.id),
+            format!(
+                "values of component {}, which is not in the file",
+                component.id
+            ),
+        );
+    }
     let mut made = Made {
         with,
         ..Made::default()
@@ -117,11 +130,14 @@ pub fn import(bytes: Vec<u8>, stem: &str, with: Meshes) -> Result<Import, RexsEr
     for (i, case) in cases.iter().enumerate() {
         let in_case = model.in_case(case);
         let source = Source::new(&in_case, &ledger, &used);
-        let name = if i == 0 {
-            stem.clone()
-        } else {
-            format!("{stem}_case_{}", case.id)
+        let mut name = match i {
+            0 => stem.clone(),
+            _ => format!("{stem}_case_{}", case.id),
         };
+        // Cases of several spectra may have the same numbers.
+        if made.scenes.contains(&format!("{name}.toml")) {
+            name = format!("{stem}_case_{}_{}", i + 1, case.id);
+        }
         made.case(&source, &structure, &name, &model, Some(case))?;
         if i + 1 == cases.len() {
             source.list_unused();

@@ -75,8 +75,21 @@ impl Value {
     pub fn is_empty(&self) -> bool {
         match self {
             Self::Scalar(text) => text.trim().is_empty(),
-            Self::List(items) => items.is_empty(),
-            Self::Rows(rows) => rows.is_empty(),
+            Self::List(items) => items.iter().all(|item| item.trim().is_empty()),
+            Self::Rows(rows) => rows.iter().flatten().all(|item| item.trim().is_empty()),
+        }
+    }
+
+    /// Whether all of it says that there is no value, as programs write numbers that they have not computed: `NaN` in any letters.
+    pub fn is_nan(&self) -> bool {
+        let nan = |text: &String| text.trim().eq_ignore_ascii_case("nan");
+        match self {
+            Self::Scalar(text) => nan(text),
+            Self::List(items) => !items.is_empty() && items.iter().all(nan),
+            Self::Rows(rows) => {
+                let mut all = rows.iter().flatten().peekable();
+                all.peek().is_some() && all.all(nan)
+            }
         }
     }
 }

@@ -84,10 +84,14 @@ pub fn frame(source: &Source<'_>, component: &Component) -> Result<Option<Frame>
         };
         chain.push((next, own));
         let reference = source.integer(next, "reference_component_for_position")?;
-        let Some(parent) = reference
-            .filter(|&id| id != next.id)
-            .and_then(|id| source.model.component(id))
-        else {
+        let Some(id) = reference.filter(|&id| id != next.id) else {
+            break;
+        };
+        let Some(parent) = source.model.component(id) else {
+            let what = format!(
+                "its place is given from component {id}, which is not in the file: taken as from the gear unit"
+            );
+            source.assume(next, what);
             break;
         };
         let is_seen = chain.iter().any(|(c, _)| c.id == parent.id);

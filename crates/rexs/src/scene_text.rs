@@ -113,10 +113,8 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
     let frame = shaft.frame.unwrap_or(Frame::WORLD);
     let axis = frame.axes[0].map(|x| shaft.sign() * x);
     let stations = shaft.stations_mm();
-    let middles = stations
-        .windows(2)
-        .map(|w| shaft.sign() * 0.5 * (w[0] + w[1]));
-    let diameters: Vec<[f64; 2]> = middles.map(|u| shaft.diameters_mm(u)).collect();
+    let pairs = stations.windows(2);
+    let diameters: Vec<[f64; 2]> = pairs.map(|w| shaft.between_mm([w[0], w[1]])).collect();
     let outer: Vec<f64> = diameters.iter().map(|d| d[0]).collect();
     let inner: Vec<f64> = diameters.iter().map(|d| d[1]).collect();
     text.push_str(&format!(

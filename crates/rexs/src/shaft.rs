@@ -40,6 +40,8 @@ pub struct Shaft {
     pub speed_rpm: Option<f64>,
     /// Places of stations along u \[mm\].
     points_mm: Vec<f64>,
+    /// Faces along u of gears that are cut into the shaft, from the lower to the higher one \[mm\].
+    faces_mm: Vec<[f64; 2]>,
 }
 
 /// Points nearer than this are one station \[mm\].
@@ -56,11 +58,52 @@ impl Shaft {
         self.points_mm.push(u_mm);
     }
 
+    /// Cuts a gear into the shaft, with its station in the middle of the face and none elsewhere in it. False where something
+    /// else stands within the face.
+    pub fn cut_in(&mut self, mid_mm: f64, width_mm: f64) -> bool {
+        let face = [mid_mm - 0.5 * width_mm, mid_mm + 0.5 * width_mm];
+        let mut others = self
+            .points_mm
+            .iter()
+            .filter(|u| (*u - mid_mm).abs() > SAME_MM);
+        let is_free = others.all(|u| !within(&face, *u));
+        if is_free {
+            self.faces_mm.push(face);
+        }
+        is_free
+    }
+
+    /// Whether there is shaft at a place along u.
+    pub fn reaches(&self, u_mm: f64) -> bool {
+        self.sections
+            .iter()
+            .any(|s| u_mm >= s.start_mm && u_mm <= s.end_mm)
+    }
+
+    /// Outer and inner diameter between two stations, outside the faces of gears that are cut into the shaft \[mm\].
+    pub fn between_mm(&self, stations_mm: [f64; 2]) -> [f64; 2] {
+        let [mut low, mut high] = stations_mm.map(|z| self.sign() * z);
+        if low > high {
+            (low, high) = (high, low);
+        }
+        for [from, to] in &self.faces_mm {
+            if (from..=to).contains(&&low) {
+                low = *to;
+            }
+            if (from..=to).contains(&&high) {
+                high = *from;
+            }
+        }
+        self.diameters_mm(0.5 * (low + high))
+    }
+
     /// Stations along z \[mm\], increasing.
     pub fn stations_mm(&self) -> Vec<f64> {
         let ends = self.sections.iter().flat_map(|s| [s.start_mm, s.end_mm]);
         // Marked points go before borders of sections, which they may move by less than a micrometre.
         let mut kept: Vec<f64> = Vec::new();
+        let in_face = |u: &f64| self.faces_mm.iter().any(|face| within(face, *u));
+        let ends = ends.filter(|u| !in_face(u));
         for u in self.points_mm.iter().copied().chain(ends) {
             let z = self.sign() * u;
             if !kept.iter().any(|other| (other - z).abs() < SAME_MM) {
@@ -95,6 +138,11 @@ impl Shaft {
             .min_by(|a, b| distance(a).total_cmp(&distance(b)));
         nearest.map_or([0.0, 0.0], |s| [s.outer_mm, s.inner_mm])
     }
+}
+
+/// Whether a place lies between two faces, or on one.
+fn within([low, high]: &[f64; 2], u_mm: f64) -> bool {
+    u_mm >= low - SAME_MM && u_mm <= high + SAME_MM
 }
 
 /// Pieces of a taper.
@@ -177,6 +225,7 @@ pub fn read(
         material: material(source, structure, component)?,
         speed_rpm: speed.filter(|n| *n != 0.0 && defines != Some(false)),
         points_mm: Vec::new(),
+        faces_mm: Vec::new(),
     })
 }
 

@@ -8,6 +8,9 @@ use crate::units::{self, Unit};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
+/// What an infinite stiffness is read as, in the unit of the file: far above what stands for rigid.
+const RIGID: f64 = 1e30;
+
 /// A model and the list of what became of it.
 #[derive(Debug)]
 pub struct Source<'a> {
@@ -48,13 +51,19 @@ impl<'a> Source<'a> {
 
     fn attribute<'c>(&self, component: &'c Component, id: &str) -> Option<&'c Attribute> {
         let attribute = component.attribute(id).filter(|a| !a.value.is_empty())?;
+        if attribute.value.is_nan() {
+            self.leave_out(component, format!("{id} NaN: as if it were not given"));
+            self.used.borrow_mut().insert((component.id, id.to_owned()));
+            return None;
+        }
         self.used.borrow_mut().insert((component.id, id.to_owned()));
         Some(attribute)
     }
 
     /// Whether a component has an attribute; asking does not use it.
     pub fn has(&self, component: &Component, id: &str) -> bool {
-        component.attribute(id).is_some_and(|a| !a.value.is_empty())
+        let given = |a: &Attribute| !a.value.is_empty() && !a.value.is_nan();
+        component.attribute(id).is_some_and(given)
     }
 
     fn wrong(
@@ -110,6 +119,9 @@ impl<'a> Source<'a> {
             _ => None,
         };
         let value: Option<f64> = plain.parse().ok().or_else(comma);
+        // Rigid, as some programs write it.
+        let rigid = |v: f64| a.id.ends_with("stiffness") && v == f64::INFINITY;
+        let value = value.map(|v| if rigid(v) { RIGID } else { v });
         value.filter(|v| v.is_finite()).ok_or_else(|| {
             self.wrong(
                 component,
@@ -274,8 +286,8 @@ impl<'a> Source<'a> {
             return Ok(None);
         };
         match text.to_lowercase().as_str() {
-            "true" | "1" | "1.0" | "yes" | "ja" => Ok(Some(true)),
-            "false" | "0" | "0.0" | "no" | "nein" => Ok(Some(false)),
+            "true" | "1" | "1.0" | "yes" | "ja" | "wahr" => Ok(Some(true)),
+            "false" | "0" | "0.0" | "no" | "nein" | "falsch" => Ok(Some(false)),
             _ => Err(RexsError::Attribute {
                 line: component.attribute(id).and_then(|a| a.line),
                 component: component.words(),

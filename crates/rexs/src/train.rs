@@ -158,6 +158,9 @@ fn seat_gears(
             format!("{}s have no model", component.kind.replace('_', " ")),
         );
     }
+    for component in source.model.of_kind(&["planetary_stage"]) {
+        source.leave_out(component, "planetary stages have no model in scenes");
+    }
     for component in source.model.of_kind(&["cylindrical_gear"]) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("{stem}_{}", file_stem(&name)), component.id);
@@ -292,7 +295,12 @@ fn bevel_stage(
             continue;
         };
         // The apex at +u turns the cone round.
-        if source.text(gear, "bevel_cone_orientation").as_deref() == Some("positive") {
+        // Version 1.0 has a whole number for it.
+        let orientation = source.text(gear, "bevel_cone_orientation");
+        if matches!(
+            orientation.as_deref(),
+            Some("positive" | "1" | "+1" | "1.0")
+        ) {
             sense = -sense;
         }
         let start = source

@@ -161,33 +161,99 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
             gear.tip_diameter_mm = Some(tip);
         }
     }
-    for seated in &mut train.gears {
+    bores(source, train);
+}
+
+/// Thinnest shaft that holds a gear cut into it, over the gear's root: what gear files allow.
+const LEAST_END: f64 = 0.1;
+
+/// Bores, and gears that are cut into their shafts.
+fn bores(source: &Source<'_>, train: &mut Train) {
+    for i in 0..train.gears.len() {
+        let sides = torque_sides(train, i);
+        let seated = &mut train.gears[i];
         let gear = &mut seated.gear;
         let Some(component) = source.model.component(gear.id) else {
             continue;
         };
-        let shaft = train.shafts.iter().find(|s| s.id == seated.shaft);
-        let [outer, _] = shaft.map_or([0.0, 0.0], |s| s.diameters_mm(seated.mid_mm));
+        let mut shaft = train.shafts.iter_mut().find(|s| s.id == seated.shaft);
+        let outer = shaft
+            .as_ref()
+            .map_or(0.0, |s| s.diameters_mm(seated.mid_mm)[0]);
         let most = gear.root_diameter_mm() - 3.0 * gear.module_mm;
         let wanted = gear.bore_mm.unwrap_or(outer);
-        let bore = if wanted > 0.0 && wanted <= most {
+        if wanted > 0.0 && wanted <= most {
             if gear.bore_mm.is_none() {
+                let what = format!("bore {wanted} mm, the diameter of its shaft");
+                source.assume(component, what);
+            }
+            gear.bore_mm = Some(wanted);
+            continue;
+        }
+        let root = gear.root_diameter_mm();
+        let half = 0.5 * gear.face_width_mm;
+        if let Some(shaft) = shaft.as_mut() {
+            // Just beyond each face, along z; a millimetre is no shaft's length.
+            let ends = [-1.0, 1.0].map(|side| {
+                let u = seated.mid_mm + shaft.sign() * side * (half + 1.0);
+                let beyond = shaft.reaches(u).then(|| shaft.diameters_mm(u)[0].min(most));
+                beyond.filter(|d| *d >= LEAST_END * root).unwrap_or(0.0)
+            });
+            let held = match sides {
+                [true, false] if ends[0] > 0.0 => [ends[0], 0.0],
+                [false, true] if ends[1] > 0.0 => [0.0, ends[1]],
+                _ => ends,
+            };
+            let faces = match held.map(|d| d > 0.0) {
+                [true, true] => "both faces",
+                [true, false] => "its back face",
+                _ => "its front face",
+            };
+            if held != [0.0; 2] && shaft.cut_in(seated.mid_mm, gear.face_width_mm) {
                 source.assume(
                     component,
-                    format!("bore {wanted} mm, the diameter of its shaft"),
+                    format!(
+                        "cut into its shaft ({outer} mm thick, root {root:.3} mm): no bore, held at {faces} within the shaft; beams begin at its faces, so that the \
+                         core's mass and torsion count once"
+                    ),
                 );
+                (gear.bore_mm, gear.shaft_mm) = (Some(0.0), Some(held));
+                continue;
             }
-            wanted
-        } else {
-            let bore = 0.5 * gear.root_diameter_mm();
-            source.assume(
-                component,
-                format!("cut into its shaft ({outer} mm thick, root {:.3} mm): a ring from a bore of {bore:.3} mm on, held there; the shaft's own mass under the teeth counts besides", gear.root_diameter_mm()),
-            );
-            bore
-        };
+        }
+        let bore = 0.5 * root;
+        source.assume(
+            component,
+            format!("cut into its shaft ({outer} mm thick, root {root:.3} mm), where other things stand within its face, or no shaft goes on: a ring from a bore of {bore:.3} mm on, held there; the shaft's own mass under the teeth counts besides"),
+        );
         gear.bore_mm = Some(bore);
     }
+}
+
+/// Whether torque enters or leaves the shaft of a gear at lower, and at higher z than the gear.
+fn torque_sides(train: &Train, gear: usize) -> [bool; 2] {
+    let own = &train.gears[gear];
+    let sign = train.shaft(own.shaft).map_or(1.0, Shaft::sign);
+    let gears = train.gears.iter().enumerate();
+    let gears = gears
+        .filter(|(i, _)| *i != gear)
+        .map(|(_, g)| (g.shaft, g.mid_mm));
+    let bevels = train.bevels.iter().map(|b| (b.shaft, b.u_mm));
+    let loads = train
+        .loads
+        .iter()
+        .filter(|l| l.transmits)
+        .map(|l| (l.shaft, l.u_mm));
+    let couplings = train.couplings.iter().flat_map(|c| {
+        let places = c.sides.into_iter().zip(c.u_mm);
+        places.filter_map(|(shaft, u)| Some((shaft, u?)))
+    });
+    let all = gears.chain(bevels).chain(loads).chain(couplings);
+    let mut sides = [false; 2];
+    for (_, u) in all.filter(|(shaft, _)| *shaft == own.shaft) {
+        sides[usize::from(sign * (u - own.mid_mm) > 0.0)] = true;
+    }
+    sides
 }
 
 /// Speeds and torques by the ratios.

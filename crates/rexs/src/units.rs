@@ -93,7 +93,7 @@ pub const KW: Unit = unit("kW", Dimension::Power, 1e3);
 pub const M_PER_S2: Unit = unit("m / s^2", Dimension::Acceleration, 1.0);
 
 /// Spellings without spaces, µ as `mu`, powers with `^`.
-const KNOWN: [(&str, Dimension, f64); 77] = [
+const KNOWN: [(&str, Dimension, f64); 78] = [
     ("", Dimension::One, 1.0),
     ("none", Dimension::One, 1.0),
     ("-", Dimension::One, 1.0),
@@ -122,6 +122,7 @@ const KNOWN: [(&str, Dimension, f64); 77] = [
     ("Nmm", Dimension::Torque, 1e-3),
     ("1/min", Dimension::Speed, RPM_SI),
     ("min^-1", Dimension::Speed, RPM_SI),
+    ("min-1", Dimension::Speed, RPM_SI),
     ("rpm", Dimension::Speed, RPM_SI),
     ("U/min", Dimension::Speed, RPM_SI),
     ("rad/s", Dimension::Speed, 1.0),
@@ -181,6 +182,8 @@ pub fn read(text: &str) -> Option<(Dimension, f64)> {
             '\u{b5}' | '\u{3bc}' => plain.push_str("mu"),
             '²' => plain.push_str("^2"),
             '³' => plain.push_str("^3"),
+            '⁻' => plain.push_str("^-"),
+            '¹' => plain.push('1'),
             'º' => plain.push('°'),
             '*' | '·' | '⋅' | '(' | ')' | '[' | ']' => {}
             c if c.is_whitespace() => {}

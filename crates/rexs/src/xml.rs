@@ -195,7 +195,7 @@ fn attribute(node: &Node<'_, '_>) -> Result<Attribute, RexsError> {
         ));
     };
     let value = match elements(*node).next() {
-        None => Value::Scalar(node.text().unwrap_or_default().trim().to_owned()),
+        None => Value::Scalar(text_of(node)),
         Some(child) => match child.tag_name().name() {
             "array" => Value::List(array(&child)?),
             "matrix" => Value::Rows(matrix(&child)?),
@@ -220,17 +220,21 @@ fn attribute(node: &Node<'_, '_>) -> Result<Attribute, RexsError> {
     })
 }
 
+/// Text of an element, comments left out.
+fn text_of(node: &Node<'_, '_>) -> String {
+    let parts = node.children().filter(Node::is_text);
+    let text: String = parts.filter_map(|part| part.text()).collect();
+    text.trim().to_owned()
+}
+
 fn cells(node: Node<'_, '_>) -> Vec<String> {
-    let text = |c: Node<'_, '_>| c.text().unwrap_or_default().trim().to_owned();
-    elements(node).map(text).collect()
+    elements(node).map(|c| text_of(&c)).collect()
 }
 
 fn array(node: &Node<'_, '_>) -> Result<Vec<String>, RexsError> {
     match node.attribute("code") {
         None => Ok(cells(*node)),
-        Some(code) => {
-            decoded(code, node.text().unwrap_or_default()).map_err(|what| wrong(node, what))
-        }
+        Some(code) => decoded(code, &text_of(node)).map_err(|what| wrong(node, what)),
     }
 }
 
@@ -238,11 +242,15 @@ fn matrix(node: &Node<'_, '_>) -> Result<Vec<Vec<String>>, RexsError> {
     let Some(code) = node.attribute("code") else {
         return Ok(elements(*node).map(cells).collect());
     };
-    let values =
-        decoded(code, node.text().unwrap_or_default()).map_err(|what| wrong(node, what))?;
-    let columns = usize::try_from(number(node, "columns")?)
-        .unwrap_or(0)
-        .max(1);
+    let values = decoded(code, &text_of(node)).map_err(|what| wrong(node, what))?;
+    // The grammar lets either be left out.
+    let count = |name: &str| -> Result<usize, RexsError> {
+        Ok(usize::try_from(number(node, name)?).unwrap_or(0).max(1))
+    };
+    let columns = match (node.has_attribute("columns"), node.has_attribute("rows")) {
+        (false, true) => values.len().div_ceil(count("rows")?).max(1),
+        _ => count("columns")?,
+    };
     Ok(values.chunks(columns).map(<[String]>::to_vec).collect())
 }
 

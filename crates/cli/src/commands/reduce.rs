@@ -140,6 +140,13 @@ pub fn summary(model: &ReducedGear) -> Vec<String> {
     if let Some(body) = &model.rigid_body {
         let support = match &model.reference_point {
             Some(_) => "bore rigid on a reference point",
+            None if model
+                .input
+                .definition()
+                .is_some_and(|gear| gear.blank.cut_into_shaft().is_some()) =>
+            {
+                "faces of the shaft fixed"
+            }
             None => "bore fixed",
         };
         lines.push(format!("mass {:.4} kg, {support}", body.mass_kg));

@@ -83,6 +83,7 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
         reference_point: None,
         modes: None,
         crack: None,
+        hub_patterns: None,
         bevel: Some(BevelBody {
             member: [BevelMember::Pinion, BevelMember::Gear][member],
             points_m: all()

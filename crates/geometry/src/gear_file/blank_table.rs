@@ -3,7 +3,7 @@
 use super::contour_table::{ContourRoom, WebPointTable, check_contour, check_fillets};
 use super::openings_table::{HolesTable, SlotsTable, check_openings};
 use super::{MM, TableKeys};
-use crate::blank::{Blank, Contour, LengthUnit, MeshedBody, Web};
+use crate::blank::{Blank, Contour, CutIntoShaft, LengthUnit, MeshedBody, Web};
 use crate::definition::ToothDefinition;
 use crate::input::{InputDocument, InputError};
 use crate::kinds;
@@ -33,8 +33,11 @@ kinds!(BlankTable, "kind");
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolidTable {
-    /// Bore.
+    /// Bore; 0 for a gear that is cut into its shaft.
     bore_diameter_mm: f64,
+    /// Diameter of the shaft at the back and the front face, where a gear without bore is held; 0 where the shaft does not go
+    /// on.
+    shaft_diameter_mm: Option<[f64; 2]>,
     /// Annular slots through the disc; none where not given.
     slots: Option<SlotsTable>,
     /// Round holes through the disc; none where not given.
@@ -125,6 +128,11 @@ impl BlankTable {
             ring_diameter_mm: root_diameter_mm - tooth.module_m / MM,
             width_mm: tooth.face_width_m / MM,
         };
+        if let Self::Solid(table) = &self
+            && (table.bore_diameter_mm == 0.0 || table.shaft_diameter_mm.is_some())
+        {
+            return table.check_shaft(&keys, &room, tooth);
+        }
         room.check_bore(&keys)?;
         let bore_radius_m = 0.5 * bore_mm * MM;
         let (web, slots, holes) = match self {
@@ -193,6 +201,59 @@ impl Room {
                 self.root_diameter_mm
             ),
         )
+    }
+}
+
+impl SolidTable {
+    /// A gear without bore.
+    fn check_shaft(
+        &self,
+        keys: &TableKeys,
+        room: &Room,
+        tooth: &ToothDefinition,
+    ) -> Result<Blank, InputError> {
+        if self.bore_diameter_mm != 0.0 {
+            let problem = "is not used with a bore, at which the gear is held; remove it or set bore_diameter_mm = 0";
+            return Err(keys.error("shaft_diameter_mm", problem));
+        }
+        for (key, given) in [
+            ("slots", self.slots.is_some()),
+            ("holes", self.holes.is_some()),
+        ] {
+            if given {
+                let problem = "is not used with bore_diameter_mm = 0: a gear cut into its shaft has no openings; remove it";
+                return Err(keys.error(key, problem));
+            }
+        }
+        let ends = self.shaft_diameter_mm.ok_or_else(|| {
+            let problem = "found 0; a gear that is cut into its shaft needs shaft_diameter_mm = [back, front] as well, the faces at which it is held";
+            keys.error("bore_diameter_mm", problem)
+        })?;
+        // Teeth and the ring below them are condensed by themselves.
+        let most = room.root_diameter_mm - 3.0 * tooth.module_m / MM;
+        let hole = CutIntoShaft::HOLE * room.root_diameter_mm;
+        for (i, diameter) in ends.into_iter().enumerate() {
+            keys.require(
+                &format!("shaft_diameter_mm.{i}"),
+                diameter,
+                diameter == 0.0 || (diameter >= 4.0 * hole && diameter <= most * (1.0 + 1e-9)),
+                &format!(
+                    "0 where the shaft does not go on, or {:.3} to {most:.3}: the root diameter {:.3} less three modules",
+                    4.0 * hole,
+                    room.root_diameter_mm
+                ),
+            )?;
+        }
+        if ends == [0.0; 2] {
+            return Err(keys.error(
+                "shaft_diameter_mm",
+                "found 0 at both faces: the gear is held nowhere",
+            ));
+        }
+        Ok(Blank::CutIntoShaft(CutIntoShaft {
+            hole_radius_m: 0.5 * hole * MM,
+            end_radii_m: ends.map(|d| 0.5 * d * MM),
+        }))
     }
 }
 

@@ -81,6 +81,17 @@ impl MeshTable {
                 "plane strain knows straight teeth only; set tooth.helix_angle_deg = 0 or plane_strain = false",
             ));
         }
+        if blank.cut_into_shaft().is_some() {
+            if self.plane_strain {
+                let problem = "a gear cut into its shaft is held at its end faces, of which plane strain has none; set plane_strain = false";
+                return Err(keys.error("plane_strain", problem));
+            }
+            if self.element == Some(Element::Tet10) {
+                let problem =
+                    "a gear cut into its shaft is meshed in hexahedra; choose one of them";
+                return Err(keys.error("element", problem));
+            }
+        }
         if self.plane_strain && blank.web().is_some() {
             return Err(keys.error(
                 "plane_strain",

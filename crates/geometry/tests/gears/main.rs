@@ -2,6 +2,7 @@
 //! and what holds for gears, pairs and gear files of any numbers.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod cut_into_shaft;
 mod microgeometry_tables;
 #[path = "../../../../tests/support/property_cases.rs"]
 mod property_cases;

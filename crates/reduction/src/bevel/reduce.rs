@@ -107,6 +107,7 @@ pub fn reduce_bevel(
         symmetry,
         pattern_identity,
         rows_by_fields,
+        ..
     } = flank_compliance(&body, &case, progress, &mut lap)?;
     progress.stage("calibrating the near field");
     let near_field = section_fields(gear, &patches, &grid)?;
@@ -180,6 +181,7 @@ pub fn reduce_bevel(
         reference_point: dynamics.reference_point,
         modes: dynamics.modes,
         crack: None,
+        hub_patterns: None,
         bevel: Some(BevelBody {
             near_field: Some(near_field),
             ..surface(gear, &patches, &grid)

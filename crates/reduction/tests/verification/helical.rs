@@ -117,13 +117,13 @@ fn a_left_hand_gear_is_a_right_hand_one_turned_over() {
             let turned: Vec<f64> = (0..n * n)
                 .map(|k| b[over(k / n) * n + over(k % n)])
                 .collect();
-            assert!(difference(a, &turned) < 1e-9);
+            assert!(difference(&a, &turned) < 1e-9);
             if response == 0 && from == to {
                 // Not symmetric about mid-face by itself: the helix matters.
                 let same: Vec<f64> = (0..n * n)
                     .map(|k| a[over(k / n) * n + over(k % n)])
                     .collect();
-                assert!(difference(a, &same) > 1e-3);
+                assert!(difference(&a, &same) > 1e-3);
             }
         }
     }

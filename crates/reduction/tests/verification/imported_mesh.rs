@@ -73,8 +73,8 @@ fn the_same_numbers(gear: &GearDefinition) {
         for &a in &made.flanks {
             for &b in &made.flanks {
                 let difference = difference(
-                    made.c_hub_block(load, a, response, b),
-                    read.c_hub_block(load, a, response, b),
+                    &made.c_hub_block(load, a, response, b),
+                    &read.c_hub_block(load, a, response, b),
                 );
                 assert!(difference < AGREEMENT, "{load} {response}: {difference:e}");
             }

@@ -2,6 +2,8 @@
 //! other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+mod cut_into_shaft;
+mod cut_with_stubs;
 mod cyclic_symmetry;
 mod helical;
 mod imported_mesh;
@@ -11,3 +13,5 @@ mod reduction;
 mod root_crack;
 mod small_gears;
 mod tetrahedra;
+#[path = "../../../../tests/support/whole_compliance.rs"]
+mod whole_compliance;

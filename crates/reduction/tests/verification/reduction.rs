@@ -235,7 +235,11 @@ fn a_reduced_gear_is_symmetric_and_its_mirror_image_equal() {
         model.c_hub_block(0, Flank::Right, 2, Flank::Right),
         model.c_hub_block(0, Flank::Left, 16, Flank::Left),
     );
-    assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 2e-3 * largest));
+    assert!(
+        a.iter()
+            .zip(&*b)
+            .all(|(a, b)| (a - b).abs() < 2e-3 * largest)
+    );
     // A gauge on the tension side reads tension for a load at the tip of its tooth, in both methods.
     let gauge = &model.gauges[0];
     let tip = model.grid.load(

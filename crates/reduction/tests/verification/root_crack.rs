@@ -1,12 +1,10 @@
 //! A crack as rows added to the sound gear: against a mesh whose nodes are doubled, with and without symmetry, and by
 //! its depth.
 
-#[path = "../../../../tests/support/whole_compliance.rs"]
-mod whole_compliance;
-
 use crate::small_gears::{
     MESH, SLOTS, SOLID, THIN_RIM, difference, reduced, with_gauges, without_symmetry,
 };
+use crate::whole_compliance::products;
 use gearmesh_fe::{DofMap, FeModel};
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{Flank, GearDefinition};
@@ -14,7 +12,6 @@ use gearmesh_model::ReducedGear;
 use gearmesh_reduction::flank_loads::{SparseVector, flank_grid, flank_loads};
 use gearmesh_reduction::gauge_row::gauge_row;
 use gearmesh_reduction::{GearBody, ReductionError};
-use whole_compliance::products;
 
 const TOOTH: usize = 4;
 

@@ -122,8 +122,12 @@ impl GearSurface {
             quads.push([at(column, 0), on(0, column), on(0, next), at(next, 0)]);
             let top = layers - 1;
             quads.push([at(column, top), at(next, top), on(1, next), on(1, column)]);
-            quads.push([on(0, column), on(1, column), on(1, next), on(0, next)]);
-            teeth.extend([-1; 3]);
+            teeth.extend([-1; 2]);
+            // A gear cut into its shaft has no bore: its faces end at the axis.
+            if bore > 0.0 {
+                quads.push([on(0, column), on(1, column), on(1, next), on(0, next)]);
+                teeth.push(-1);
+            }
         }
         Self {
             points_m: points,

@@ -93,7 +93,7 @@ fn numbers_and_units() {
     );
     refused(
         &change("id=\"normal_module\" unit=\"mm\">NaN<"),
-        &["no number"],
+        &["normal_module is missing"],
     );
     refused(
         &change("id=\"normal_module\" unit=\"mm\">-2<"),

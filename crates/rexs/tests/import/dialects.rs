@@ -165,7 +165,13 @@ fn rigid_bearings_and_pinions_cut_into_the_shaft_are_told() {
     let told = |e: &gearmesh_rexs::Entry| {
         e.subject.contains("pinion 17") && e.text.contains("cut into its shaft")
     };
-    assert!(read(&cut).ledger.assumed.iter().any(told));
+    let made = read(&cut);
+    assert!(made.ledger.assumed.iter().any(told));
+    let pinion = file(&made, "box_pinion_17.toml");
+    assert!(
+        pinion.contains("bore_diameter_mm = 0.0\nshaft_diameter_mm = ["),
+        "{pinion}"
+    );
 }
 
 #[test]

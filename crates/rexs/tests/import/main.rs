@@ -8,6 +8,7 @@ mod containers;
 mod dialects;
 mod other_gearboxes;
 mod power;
+mod real_files;
 
 use gearmesh_rexs::{Import, Meshes, import};
 

@@ -182,7 +182,8 @@ fn bevel_and_cylindrical() -> String {
             "half coupling",
             &[
                 ("u_coordinate_on_shaft", "mm", "195"),
-                ("mass", "kg", "1.5"),
+                ("mass_of_component", "kg", "1.5"),
+                ("moment_of_inertia_u_axis", "kg m^2", "0.002"),
                 ("colour", "none", "grey"),
             ],
         )
@@ -276,7 +277,12 @@ fn nothing_is_dropped_in_silence() {
     demand_all_listed(&text, &made);
     assert_eq!(made.scenes.len(), 2, "{:?}", names(&made));
     let scene = file(&made, "box.toml");
-    for words in ["name = \"coupling\"", "[[bushing]]", "kind = \"iso6336\""] {
+    for words in [
+        "name = \"coupling\"",
+        "[[bushing]]",
+        "kind = \"iso6336\"",
+        "mass_kg = 1.5, inertia_kg_m2 = [0.0, 0.0, 0.002]",
+    ] {
         assert!(scene.contains(words), "{words} is not in {scene}");
     }
     assert!(file(&made, "box_case_2.toml").contains("30.0000 % of the time"));

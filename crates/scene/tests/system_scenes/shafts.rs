@@ -203,3 +203,81 @@ fn a_beam_shaft_twists_as_the_closed_form_says() {
     let turned = (start.orientations[0].inverse() * found.state.orientations[0]).scaled_axis();
     assert!((turned[2] / (0.5 * twist) - 1.0).abs() < 1e-9);
 }
+
+const CUT: &str = "name = \"cut\"\n[tooth]\nteeth = 17\nmodule_mm = 3.0\nprofile_shift = 0.2\nface_width_mm = 30.0\n[blank]\nkind = \"solid\"\n\
+    bore_diameter_mm = 0\nshaft_diameter_mm = [0, 32]\n[material]\nyoung_GPa = 210.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n";
+
+const CUT_SCENE: &str = r#"
+title = "Pinion shaft"
+[run]
+kind = "static"
+[[body]]
+name = "pinion"
+gear = "cut.toml"
+[[shaft]]
+name = "bar"
+model = { kind = "beam", young_GPa = 210.0, poisson = 0.3 }
+origin_mm = [0.0, 0.0, 0.0]
+stations_mm = [-55.0, 0.0, 65.0]
+outer_diameters_mm = [28.0, 32.0]
+density_kg_per_m3 = 7850.0
+[[shaft.seat]]
+station = 1
+body = "pinion"
+[[joint]]
+name = "wall"
+kind = "fixed"
+body_2 = "bar/2"
+[[load]]
+body = "pinion"
+torque_Nm = 40.0
+"#;
+
+/// A pinion cut into its shaft: the core is in the gear, once. The shaft's mass is that beyond the faces, 40 and 50 mm of it, and so is its
+/// twist; what the core twists is in the reduced gear. No station may lie within the face.
+#[test]
+fn the_core_of_a_pinion_cut_into_its_shaft_counts_once() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cut.toml"), CUT).unwrap();
+    let built = build_in(CUT_SCENE, folder.path()).unwrap();
+    let gear = gearmesh_geometry::GearDefinition::from_document(
+        &gearmesh_geometry::input::InputDocument::new("cut.toml", CUT.to_owned()),
+    )
+    .unwrap();
+    let core = gearmesh_drivetrain::gear_inertia::GearInertia::new(
+        &gear.profile,
+        &gear.blank,
+        0.03,
+        7850.0,
+    )
+    .unwrap();
+    let solid = gearmesh_geometry::Blank::solid(1e-9);
+    let whole =
+        gearmesh_drivetrain::gear_inertia::GearInertia::new(&gear.profile, &solid, 0.03, 7850.0)
+            .unwrap();
+    assert!((core.mass_kg / whole.mass_kg - 1.0).abs() < 1e-12);
+    let bodies = built.system.bodies();
+    let tube = |d: f64, length: f64| 7850.0 * 0.25 * PI * d * d * length;
+    let mass: f64 = bodies.iter().map(|body| body.mass_kg).sum();
+    assert!(
+        (mass - core.mass_kg - tube(0.028, 0.04) - tube(0.032, 0.05)).abs() < 1e-9,
+        "{mass}"
+    );
+    let polar: f64 = bodies.iter().map(|body| body.inertia_kg_m2[(2, 2)]).sum();
+    let of = |d: f64, length: f64| tube(d, length) * d * d / 8.0;
+    assert!((polar - core.polar_kg_m2 - of(0.028, 0.04) - of(0.032, 0.05)).abs() < 1e-12);
+    let mut system = built.system;
+    let start = system.start().clone();
+    let found = equilibrium(&mut system, &start, &StaticParams::default()).unwrap();
+    let turned = (start.orientations[0].inverse() * found.state.orientations[0]).scaled_axis();
+    let twist = 40.0 * 0.05 / (210e9 / 2.6 * PI / 32.0 * 0.032f64.powi(4));
+    assert!((turned[2] / twist - 1.0).abs() < 1e-9, "{turned:?} {twist}");
+    let close = changed(CUT_SCENE, "[-55.0, 0.0, 65.0]", "[-55.0, 0.0, 15.0]");
+    let error = build_in(&close, folder.path()).err().unwrap().to_string();
+    assert!(error.contains("put no station within its face"), "{error}");
+    let error = error.replace('\n', " ");
+    assert!(
+        error.contains("stations_mm") && error.contains("`pinion`"),
+        "{error}"
+    );
+}

@@ -64,7 +64,9 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
 fn left_out(gear: &GearDefinition) -> Vec<&'static str> {
     let solid = gearmesh_geometry::Blank::solid(gear.blank.bore_radius_m());
     let mut left_out = Vec::new();
-    if gear.blank != solid {
+    if gear.blank.cut_into_shaft().is_some() {
+        left_out.push("the shaft that it is cut into");
+    } else if gear.blank != solid {
         left_out.push("web, rim and openings (a disc of the face width)");
     }
     if !gear.microgeometry.is_none() {

@@ -244,6 +244,15 @@ impl SceneMesh<'_> {
     }
 
     fn beams(&self, model: &AnalyticTable, slices: usize) -> Result<BeamTeeth, InputError> {
+        for (gear, key) in self.gears.iter().zip(["gear_1", "gear_2"]) {
+            if gear.definition.blank.cut_into_shaft().is_some() {
+                let problem = format!(
+                    "`{}` is cut into its shaft; model.kind = \"analytic\" takes gears as discs held at a bore: choose \"hybrid\" or give the gear a bore",
+                    gear.definition.name
+                );
+                return Err(self.keys.error(key, problem));
+            }
+        }
         let tooth = |i: usize| {
             let gear = &self.gears[i].definition;
             BeamTooth {

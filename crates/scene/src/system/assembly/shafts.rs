@@ -1,7 +1,8 @@
 //! `[[shaft]]` to bodies, and to the beams or fixed joints that hold them together.
 //!
 //! A beam shaft has a body at each station with half of the sections on either side, so that mass, centre of mass and
-//! polar inertia of the shaft are exact. A body on a seat takes the station's place.
+//! polar inertia of the shaft are exact. A body on a seat takes the station's place. A gear that is cut into the shaft has the
+//! shaft's core in its own mass and stiffness: beams begin at its faces, and nothing of the shaft lies between them.
 
 use gearmesh_dynamics::elements::BeamSection;
 use gearmesh_dynamics::{Body, Joint, JointKind, MarkerPair, SystemBuilder};
@@ -23,7 +24,8 @@ pub(super) struct PlacedShaft {
     axes: UnitQuaternion<f64>,
     /// Places of the stations in the world \[m\].
     points_m: Vec<Vector3<f64>>,
-    lengths_m: Vec<f64>,
+    /// Ends of each section from the station before it \[m\].
+    spans_m: Vec<[f64; 2]>,
     sections: Vec<BeamSection>,
     /// Body of each station; the shaft's one body for a rigid shaft.
     pub stations: Vec<usize>,
@@ -66,7 +68,8 @@ impl PlacedShaft {
                 Some(rpm * std::f64::consts::TAU / 60.0)
             }
         };
-        let lumps = lumps(table, &keys, &z, &radii)?;
+        let spans_m = spans(table, (document, &key), bodies, &z)?;
+        let lumps = lumps(table, &keys, &spans_m, &z, &radii)?;
         let points_m: Vec<Vector3<f64>> = z.iter().map(|z| origin + *z * axis).collect();
         let new_body = |name: String, position_m: Vector3<f64>, lump: Lump| {
             let mut body = Body {
@@ -165,7 +168,7 @@ impl PlacedShaft {
             model: table.model,
             axes,
             points_m,
-            lengths_m: z.windows(2).map(|pair| pair[1] - pair[0]).collect(),
+            spans_m,
             sections: sections(table.model, &keys, &radii)?,
             stations,
             seated,
@@ -182,19 +185,22 @@ impl PlacedShaft {
         parts: &mut Parts,
     ) -> Result<(), InputError> {
         let keys = TableKeys::new(document, &self.key);
-        let frame = |station: usize| Frame {
-            origin_m: self.points_m[station],
+        let frame = |station: usize, along_m: f64| Frame {
+            origin_m: self.points_m[station] + self.axes * Vector3::new(0.0, 0.0, along_m),
             axes: self.axes,
         };
-        for (number, (section, length_m)) in self.sections.iter().zip(&self.lengths_m).enumerate() {
+        for (number, (section, [from_m, to_m])) in
+            self.sections.iter().zip(&self.spans_m).enumerate()
+        {
             let ends = [self.stations[number], self.stations[number + 1]].map(Some);
             let pair = MarkerPair {
-                a: bodies.marker(ends[0], &frame(number)),
-                b: bodies.marker(ends[1], &frame(number + 1)),
+                a: bodies.marker(ends[0], &frame(number, *from_m)),
+                b: bodies.marker(ends[1], &frame(number, *to_m)),
             };
+            let length_m = to_m - from_m;
             let name = format!("{}/{number}-{}", self.name, number + 1);
             let beam = section
-                .between(&name, pair, *length_m)
+                .between(&name, pair, length_m)
                 .map_err(|e| keys.error("", e))?;
             builder.element(beam);
             parts.element(&name, "beam", bodies, ends);
@@ -202,7 +208,7 @@ impl PlacedShaft {
         for &(body, station) in &self.seated {
             let ends = [Some(self.stations[0]), Some(body)];
             let name = format!("seat of {}", bodies.name(Some(body)));
-            let [a, b] = ends.map(|end| bodies.marker(end, &frame(station)));
+            let [a, b] = ends.map(|end| bodies.marker(end, &frame(station, 0.0)));
             builder
                 .joint(Joint::new(&name, JointKind::Fixed, a, b).map_err(|e| keys.error("", e))?);
             parts.joint(&name, "fixed", bodies, ends);
@@ -309,18 +315,65 @@ fn sections(
     Ok(radii.iter().map(round).collect())
 }
 
+/// Ends of each section from the station before it \[m\]: the stations, and the faces of gears that are cut into the shaft.
+fn spans(
+    table: &ShaftTable,
+    (document, key): (&InputDocument, &str),
+    bodies: &Bodies,
+    z: &[f64],
+) -> Result<Vec<[f64; 2]>, InputError> {
+    // Half the face width of such a gear at each station, and its name.
+    let mut faces: Vec<(f64, &str)> = vec![(0.0, ""); z.len()];
+    for (i, seat) in table.seat.iter().enumerate() {
+        let at = format!("{key}.seat.{i}");
+        let index = bodies.find_body(&TableKeys::new(document, &at), "body", &seat.body)?;
+        let gear = bodies.list[index]
+            .gear
+            .as_ref()
+            .map(|gear| &gear.definition);
+        let cut = gear.filter(|gear| gear.blank.cut_into_shaft().is_some());
+        if let (Some(gear), Some(face)) = (cut, faces.get_mut(seat.station)) {
+            *face = (0.5 * gear.tooth.face_width_m, &seat.body);
+        }
+    }
+    let keys = TableKeys::new(document, key);
+    let span = |i: usize| -> Result<[f64; 2], InputError> {
+        let whole = z[i + 1] - z[i];
+        let (from, to) = (faces[i].0, whole - faces[i + 1].0);
+        if to - from < 1e-6 * whole {
+            let (half, name) = if faces[i].0 >= faces[i + 1].0 {
+                faces[i]
+            } else {
+                faces[i + 1]
+            };
+            let problem = format!(
+                "stations {i} and {} are {:.4} mm apart, but the gear `{name}` is cut into the shaft and reaches {:.4} mm to either side of its station: put no \
+                 station within its face",
+                i + 1,
+                whole / MM,
+                half / MM
+            );
+            return Err(keys.error(&format!("stations_mm.{}", i + 1), problem));
+        }
+        Ok([from, to])
+    };
+    (0..z.len() - 1).map(span).collect()
+}
+
 /// What each station carries, from the station, in the shaft's axes.
 fn lumps(
     table: &ShaftTable,
     keys: &TableKeys<'_>,
+    spans_m: &[[f64; 2]],
     z: &[f64],
     radii: &[[f64; 2]],
 ) -> Result<Vec<Lump>, InputError> {
     let mut parts: Vec<Vec<Lump>> = vec![Vec::new(); z.len()];
-    for (i, radii) in radii.iter().enumerate() {
-        let half = 0.5 * (z[i + 1] - z[i]);
-        parts[i].push(Lump::tube(*radii, table.density_kg_per_m3, [0.0, half]));
-        parts[i + 1].push(Lump::tube(*radii, table.density_kg_per_m3, [-half, 0.0]));
+    for (i, (radii, [from, to])) in radii.iter().zip(spans_m).enumerate() {
+        let (middle, whole) = (0.5 * (from + to), z[i + 1] - z[i]);
+        let tube = |ends: [f64; 2]| Lump::tube(*radii, table.density_kg_per_m3, ends);
+        parts[i].push(tube([*from, middle]));
+        parts[i + 1].push(tube([middle - whole, to - whole]));
     }
     for (i, part) in table.part.iter().enumerate() {
         let key = |name: &str| format!("part.{i}.{name}");
