@@ -152,10 +152,11 @@ impl BevelGear {
         let material = file.material.check(document)?;
         let mate = pair.blank.members[1 - member].clone();
         let body = file.blank.check(document, &tooth)?;
+        let reduction = file.reduction.check(document)?;
         let mut gear = Self {
             name: file.name,
-            mesh: file.mesh.check(document, &tooth)?,
-            reduction: file.reduction.check(document)?,
+            mesh: file.mesh.check(document, &tooth, reduction.slices)?,
+            reduction,
             hub: file.hub.check(document, &material, false)?,
             modes: (file.modes)
                 .map(|table| table.check(document, &material, false))

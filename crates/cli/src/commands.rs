@@ -16,6 +16,7 @@ pub mod doctor;
 pub mod export;
 pub mod import;
 pub mod init;
+mod loaded_gauges;
 mod loaded_tca;
 pub mod mesh;
 pub mod mesh_axes;

@@ -29,7 +29,7 @@ fn gear(pair: &str, member: &str, bore_mm: f64, more: &str) -> BevelGear {
 /// Members of the shipped pairs with default lengths, and the pinion of 13 teeth in quadratic elements.
 #[test]
 fn shipped_pairs_are_meshed() {
-    let quadratic = "[mesh]\nelement = \"hex20\"\nalong_mm = 6.0\n";
+    let quadratic = "[mesh]\nelement = \"hex20\"\nalong_mm = 6.0\n[reduction]\nslices = 5\n";
     for (pair, member, bore, more) in [
         ("bevel_20_20.toml", "gear", 20.0, ""),
         ("bevel_20_20.toml", "pinion", 20.0, ""),

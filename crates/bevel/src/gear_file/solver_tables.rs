@@ -20,7 +20,7 @@ pub(super) struct MeshTable {
     fillet_mm: Option<f64>,
     /// Largest element length in the body; 1.2 mean modules where not given.
     body_mm: Option<f64>,
-    /// Element length along the pitch cone; a twelfth of the face where not given.
+    /// Element length along the pitch cone, at most a slice, two of quadratic elements; where not given three quarters of that, at most a twelfth of the face.
     along_mm: Option<f64>,
     /// Smallest scaled Jacobian that is accepted; 0.2 where not given.
     min_scaled_jacobian: Option<f64>,
@@ -31,6 +31,7 @@ impl MeshTable {
         self,
         document: &InputDocument,
         tooth: &Tooth,
+        slices: usize,
     ) -> Result<MeshSettings, InputError> {
         let keys = TableKeys::new(document, "mesh");
         let blank = &tooth.blank;
@@ -50,6 +51,10 @@ impl MeshTable {
             keys.require(key, size_mm, fits, &allowed)?;
             Ok::<f64, InputError>(size_mm * MM)
         };
+        // Longer elements cannot tell the load of one slice from its neighbours': pressure beside edges comes out too high.
+        let per_slice = if element == Element::Hex20 { 2.0 } else { 1.0 };
+        let longest_mm = (per_slice * width_mm / slices as f64).max(least_mm);
+        let along_mm = (0.75 * longest_mm).min(width_mm / 12.0).max(least_mm);
         let quality = self.min_scaled_jacobian.unwrap_or(0.2);
         let fits = quality > 0.0 && quality <= 0.9;
         let allowed = "more than 0, at most 0.9";
@@ -65,7 +70,12 @@ impl MeshTable {
                 0.5 * module_mm,
             )?,
             body_m: size_m("body_mm", self.body_mm, 1.2 * module_mm, 10.0 * module_mm)?,
-            axial_m: size_m("along_mm", self.along_mm, width_mm / 12.0, width_mm)?,
+            axial_m: size_m(
+                "along_mm",
+                self.along_mm,
+                along_mm,
+                longest_mm.min(width_mm),
+            )?,
             min_scaled_jacobian: quality,
             plane_strain: false,
         })

@@ -14,7 +14,7 @@ use serde::Deserialize;
 pub(super) struct LoadTable {
     /// Torques on the gear, one to 20 of them.
     torques_Nm: Vec<f64>,
-    /// Slices along the face. Where not given those of the coarser model, at most twice as many are allowed; 31 without models.
+    /// Slices along the face. Where not given those of the coarser model, more are not allowed; 31 without models.
     slices: Option<usize>,
     /// Positions over a pitch, 24 where not given.
     positions_per_pitch: Option<usize>,

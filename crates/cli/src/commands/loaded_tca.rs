@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use super::loaded_gauges::{self, GaugeStrain};
 use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::pair_file::LoadRequest;
 use gearmesh_bevel::{PairDesign, PairFile};
 use gearmesh_contact::LocalContact;
-use gearmesh_drivetrain::{BevelSlices, LoadedContact, LoadedPair};
+use gearmesh_drivetrain::{BevelSlices, LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
 use gearmesh_geometry::Flank;
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 use gearmesh_report::page::{
@@ -33,6 +34,8 @@ pub struct Loaded {
     pub models: Option<[(ReducedGear, PathBuf); 2]>,
     /// One for each torque.
     pub found: Vec<LoadedContact>,
+    /// At all gauges of the models.
+    strain: Vec<GaugeStrain>,
 }
 
 impl Loaded {
@@ -76,7 +79,18 @@ pub fn analyse(
     let found = pair
         .loaded(&contact, &load.torques_nm)
         .map_err(Failure::work)?;
+    let strain = match &models {
+        Some(models) => {
+            let face_m = flanks.pair().face_widths_m()[0];
+            loaded_gauges::read([&models[0].0, &models[1].0], side, (slices, face_m), &found).map_err(Failure::work)?
+        }
+        None => {
+            warn_of_short_slices(&found);
+            Vec::new()
+        }
+    };
     Ok(Loaded {
+        strain,
         side,
         slices,
         body,
@@ -102,7 +116,7 @@ fn models(load: &LoadRequest, path: &Path) -> Result<Option<[(ReducedGear, PathB
     Ok(Some([read(0)?, read(1)?]))
 }
 
-/// Slices along the face. Those of a model share its stations: more than twice its own say nothing new, and their pressure is wrong.
+/// Slices along the face. A model tells its own apart, shorter ones not: their pressure beside edges would be too high.
 fn slices(
     load: &LoadRequest,
     models: Option<&[(ReducedGear, PathBuf); 2]>,
@@ -111,19 +125,35 @@ fn slices(
         return Ok(load.slices.unwrap_or(SLICES));
     };
     let own = models[0].0.grid.slices.min(models[1].0.grid.slices);
-    let slices = load.slices.unwrap_or(own.max(3));
-    let most = (2 * own).max(3);
+    let most = own.max(3);
+    let slices = load.slices.unwrap_or(most);
     if slices > most {
         return Err(Failure::input(format!(
-            "load.slices: found {slices}, allowed with these models is at most {most}, twice the slices of the coarser one; state fewer, or reduce the members with more `slices`"
+            "load.slices: found {slices}, allowed with these models is at most {most}, the slices of the coarser one; state fewer, or reduce the members with more `slices`"
         )));
     }
     Ok(slices)
 }
 
+/// On half spaces the law of a slice is cut off where it is shorter than the contact's half width (docs/theory/sliced_contact.md).
+fn warn_of_short_slices(found: &[LoadedContact]) {
+    let too_short = |patch: &&LoadedPatch| patch.half_width_m > patch.length_m;
+    let patches = found.iter().flat_map(LoadedContact::patches);
+    let widest = patches
+        .filter(too_short)
+        .max_by(|a, b| a.half_width_m.total_cmp(&b.half_width_m));
+    if let Some(patch) = widest {
+        console::warning(format!(
+            "slices, {:.3} mm long, are shorter than the contact's half width, {:.3} mm: what short slices give way is cut off there; state fewer `slices`",
+            1e3 * patch.length_m,
+            1e3 * patch.half_width_m
+        ));
+    }
+}
+
 /// Figures of one torque, by name.
-fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 10] {
-    let [largest, inside] = of.pressures_pa();
+fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 11] {
+    let [largest, off_tips, inside] = of.pressures_pa();
     let [least, most] = of.load_shares();
     let [along, up] = of.pattern(loaded.slices);
     let range = |[low, high]: [f64; 2]| format!("{:.0} to {:.0}", 100.0 * low, 100.0 * high);
@@ -134,6 +164,7 @@ fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 10] {
         range([least, most]),
         format!("{:.2}", of.mean_pairs()),
         format!("{:.0}", 1e-6 * largest),
+        format!("{:.0}", 1e-6 * off_tips),
         format!("{:.0}", 1e-6 * inside),
         format!("{:.1}", 100.0 * of.tip_share()),
         range(along),
@@ -141,7 +172,7 @@ fn row(loaded: &Loaded, of: &LoadedContact) -> [String; 10] {
     ]
 }
 
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 11] = [
     "torque N m",
     "TE mean urad",
     "TE pk-pk urad",
@@ -149,6 +180,7 @@ const NAMES: [&str; 10] = [
     "pairs",
     "p max MPa",
     "off tips MPa",
+    "inside MPa",
     "on tips %",
     "toe-heel %",
     "root-tip %",
@@ -163,7 +195,7 @@ pub fn table(file: &PairFile, loaded: &Loaded) {
         loaded.body,
         1e6 * loaded.found[0].unloaded_peak_to_peak_rad()
     ));
-    let line = |cells: &[String; 10]| {
+    let line = |cells: &[String; 11]| {
         let cells = cells
             .iter()
             .zip(NAMES)
@@ -174,12 +206,15 @@ pub fn table(file: &PairFile, loaded: &Loaded) {
     for of in &loaded.found {
         console::data(line(&row(loaded, of)));
     }
+    loaded_gauges::lines(&loaded.strain)
+        .into_iter()
+        .for_each(console::data);
 }
 
 /// All of it for other programs.
 pub fn figures(loaded: &Loaded) -> Value {
     let each = loaded.found.iter().map(|of| {
-        let [largest, inside] = of.pressures_pa();
+        let [largest, off_tips, inside] = of.pressures_pa();
         let positions: Vec<Value> = (of.positions.iter())
             .map(|p| {
                 let patches: Vec<Value> = (p.patches.iter())
@@ -212,7 +247,8 @@ pub fn figures(loaded: &Loaded) -> Value {
             "best_pair_share": of.load_shares(),
             "pairs": of.mean_pairs(),
             "pressure_MPa": 1e-6 * largest,
-            "pressure_off_tips_MPa": 1e-6 * inside,
+            "pressure_off_tips_MPa": 1e-6 * off_tips,
+            "pressure_inside_MPa": 1e-6 * inside,
             "tip_share": of.tip_share(),
             "pattern_along_and_up": of.pattern(loaded.slices),
             "positions": positions,
@@ -223,6 +259,7 @@ pub fn figures(loaded: &Loaded) -> Value {
         "gears": loaded.body,
         "unloaded_peak_to_peak_urad": 1e6 * loaded.found[0].unloaded_peak_to_peak_rad(),
         "torques": each.collect::<Vec<_>>(),
+        "strain": loaded_gauges::figures(&loaded.strain),
     })
 }
 
@@ -237,11 +274,14 @@ pub fn section(loaded: &Loaded) -> Section {
         table.push_row(row(loaded, of));
     }
     let mut section = Section::new("Under load").push(Text::paragraph(format!(
-        "{}, {} slices along the face. Best pair: share of the load that the most loaded pair of teeth carries. Toe to heel, root to tip: where the \
-         pattern lies on the gear.",
+        "{}, {} slices along the face. Best pair: share of the load that the most loaded pair of teeth carries. Off tips: pressure where no tip touches; \
+         inside: where the contact's whole width stands clear of the tips. Toe to heel, root to tip: where the pattern lies on the gear.",
         loaded.body, loaded.slices
     )));
     section = section.push(table).push(error(loaded));
+    if let Some(strain) = loaded_gauges::table(&loaded.strain) {
+        section = section.push(strain);
+    }
     for of in &loaded.found {
         section = section.push(pressure(loaded, of));
     }
@@ -249,27 +289,23 @@ pub fn section(loaded: &Loaded) -> Section {
 }
 
 fn error(loaded: &Loaded) -> LineChart {
-    let degrees = |of: &LoadedContact| -> Vec<f64> {
-        of.positions
-            .iter()
-            .map(|p| p.pinion_turn_rad.to_degrees())
-            .collect()
+    // Where the pinion drives clockwise positions follow one another backwards.
+    let values = |of: &LoadedContact, value: fn(&LoadedPosition) -> f64| -> Vec<f64> {
+        let mut positions: Vec<&LoadedPosition> = of.positions.iter().collect();
+        positions.sort_by(|a, b| a.pinion_turn_rad.total_cmp(&b.pinion_turn_rad));
+        positions.into_iter().map(value).collect()
     };
     let first = &loaded.found[0];
-    let unloaded = first
-        .positions
-        .iter()
-        .map(|p| 1e6 * p.unloaded_rad)
-        .collect();
+    let unloaded = values(first, |p| 1e6 * p.unloaded_rad);
     let chart = LineChart::new(
         "Transmission error over a pitch",
         Axis::new("turn of the pinion", "deg"),
         Axis::new("gear ahead of constant ratio", "µrad"),
     )
-    .x_values(degrees(first))
+    .x_values(values(first, |p| p.pinion_turn_rad.to_degrees()))
     .series(LineSeries::new("without load", unloaded));
     loaded.found.iter().fold(chart, |chart, of| {
-        let values = of.positions.iter().map(|p| 1e6 * p.error_rad).collect();
+        let values = values(of, |p| 1e6 * p.error_rad);
         chart.series(LineSeries::new(format!("{} N m", of.torque_nm), values))
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{Desk, argument, gearmesh, refused, succeeds};
 
-fn shipped(name: &str) -> String {
+pub fn shipped(name: &str) -> String {
     format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 

@@ -15,7 +15,9 @@ mod common;
 mod drilled_pair;
 mod export;
 mod first_steps;
+mod hard_bevel;
 mod import;
+mod loaded_bevel;
 mod measured;
 mod moving;
 #[path = "../../../contact/tests/pair_common/mod.rs"]

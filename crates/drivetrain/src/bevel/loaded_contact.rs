@@ -39,6 +39,8 @@ pub struct LoadedPatch {
     pub pressure_pa: f64,
     /// Whether the tip of either gear holds it.
     pub on_tip: bool,
+    /// How far from its middle the nearer tip of both gears is \[m\], up the flank.
+    pub to_tip_m: f64,
 }
 
 /// One position.
@@ -109,14 +111,19 @@ impl LoadedContact {
         self.positions.iter().flat_map(|p| &p.patches)
     }
 
-    /// Largest pressure \[Pa\], of all patches and of those that no tip holds.
+    /// Largest pressure \[Pa\]: of all patches; of those that no tip holds; of those whose whole width is clear of the tips, where Hertz's pressure has the room
+    /// that it asks for.
     #[must_use]
-    pub fn pressures_pa(&self) -> [f64; 2] {
-        let largest = |inside: bool| {
-            let patches = self.patches().filter(|patch| !(inside && patch.on_tip));
+    pub fn pressures_pa(&self) -> [f64; 3] {
+        let largest = |counts: fn(&&LoadedPatch) -> bool| {
+            let patches = self.patches().filter(counts);
             patches.fold(0.0, |most: f64, patch| most.max(patch.pressure_pa))
         };
-        [largest(false), largest(true)]
+        [
+            largest(|_| true),
+            largest(|patch| !patch.on_tip),
+            largest(|patch| !patch.on_tip && patch.to_tip_m >= patch.half_width_m),
+        ]
     }
 
     /// Share of the load that the most loaded pair of teeth carries, least and largest over the positions.
@@ -277,16 +284,23 @@ impl LoadedPair<'_> {
         &self,
         at_rest: &StaticContact<F>,
     ) -> Vec<LoadedPatch> {
-        let widths_m = self.flanks.pair().face_widths_m();
+        let (pair, side) = (self.flanks.pair(), self.side());
+        let widths_m = pair.face_widths_m();
+        let to_tip_m = |gear: usize, [s, v]: [f64; 2]| {
+            let [here, tip] = [v, 1.0].map(|v| pair.flank_point_m(side, gear, [s, v]));
+            (tip - here).norm()
+        };
         let loaded = |(number, patch): (usize, &ContactPatch)| {
             let force_n = at_rest.force_n(patch);
             let (half_width_m, pressure_pa) = at_rest.hertz(number, force_n);
+            let places = [0, 1].map(|gear: usize| {
+                let at = patch.places[gear];
+                [at.v / widths_m[gear] + 0.5, at.u]
+            });
             (force_n > 0.0).then(|| LoadedPatch {
                 teeth: patch.teeth,
-                places: [0, 1].map(|gear: usize| {
-                    let at = patch.places[gear];
-                    [at.v / widths_m[gear] + 0.5, at.u]
-                }),
+                places,
+                to_tip_m: f64::min(to_tip_m(0, places[0]), to_tip_m(1, places[1])),
                 force_n,
                 length_m: patch.length_m,
                 half_width_m,

@@ -137,18 +137,35 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
     assert!(compared > 1000, "{compared}");
 }
 
+/// Reduced bodies are not pressed deeper than this \[m\].
+const MOST_OVERLAP_M: f64 = 60e-6;
+
 /// Two bodies on the flanks of the pair.
 fn bodies(flanks: &BevelSlices) -> [ReducedGear; 2] {
     [0, 1].map(|member| made_up_bevel(flanks, member))
 }
 
-/// Reduced gears feel where slices stand up the flank and along the teeth.
+/// Reduced gears feel where slices stand up the flank and along the teeth; so do members of unequal faces and teeth, of the other hand.
 #[test]
 fn reduced_bevel_slices_conform() {
-    let pair = pair("bevel_20_20.toml");
+    for name in ["bevel_20_20.toml", "bevel_13_35.toml"] {
+        check_reduced(name);
+    }
+}
+
+fn check_reduced(name: &str) {
+    let pair = pair(name);
     let flanks = slices(&pair, ALONG);
     let bodies = bodies(&flanks);
-    let poses = poses(&pair, 12e-6);
+    let mut poses = poses(&pair, 12e-6);
+    // What tangents leave out, the change of the compliance, grows with the force: on these soft bodies it is 0.6 % of them, more where an error of assembly
+    // presses teeth without backlash on both sides.
+    poses.retain(|pose| {
+        Flank::ALL
+            .iter()
+            .all(|side| pair.gap_m(pose, *side) > -MOST_OVERLAP_M)
+    });
+    assert!(poses.len() >= 6, "{}", poses.len());
     for local in LocalContact::ALL {
         let teeth = |side: Flank| {
             let models = [&bodies[0], &bodies[1]];
@@ -165,13 +182,12 @@ fn reduced_bevel_slices_conform() {
             let mesh = GearMesh::of_flanks(Box::new(flanks.clone()), right, model(right)).unwrap();
             mesh.with_side(Flank::Left, model(Flank::Left)).unwrap()
         };
-        let what = format!("reduced bevel, {local:?}");
+        let what = format!("reduced {name}, {local:?}");
         check_energy(&what, &mut mesh(None), &poses);
         let damping = DAMPINGS[0];
         let mut mesh = mesh(Some(damping)).with_friction(friction());
         check_power(("hybrid", damping), &mut mesh, &poses);
         check_reaction(&what, &mut mesh, &poses);
-        // What the tangent leaves out, the change of the compliance, is 0.6 % of it on this soft body.
         check_tangents((&what, 1e-2), &mut mesh, &poses);
         check_turned(&what, &mut mesh, &poses);
     }

@@ -4,6 +4,7 @@
 mod bearing_kinds;
 mod bearings_of_seeds;
 mod bevel_hard_cases;
+mod bevel_hard_slices;
 mod bevel_machines;
 mod bevel_pairs;
 #[path = "../common/mod.rs"]

@@ -36,14 +36,12 @@ impl SceneBevel<'_> {
         model: &HybridTable,
         models: Option<&BevelModels>,
     ) -> Result<usize, InputError> {
-        let own = models.map(|models| models.iter().map(|m| m.grid.slices).max().unwrap_or(SLICES));
-        let count = model.slices.unwrap_or(own.unwrap_or(SLICES).max(3));
-        // Stations along the tooth, two to each of a model's own slices, must tell slices apart.
-        let most = models.map_or(100, |models| {
-            2 * models.iter().map(|m| m.grid.slices).min().unwrap_or(SLICES)
-        });
+        // A model tells its own slices apart, shorter ones not.
+        let own = models.map(|models| models[0].grid.slices.min(models[1].grid.slices).max(3));
+        let count = model.slices.unwrap_or(own.unwrap_or(SLICES));
+        let most = own.unwrap_or(100);
         let allowed = format!("3 to {most}");
-        let ok = (3..=most.max(3)).contains(&count);
+        let ok = (3..=most).contains(&count);
         self.model_keys
             .require("slices", count as f64, ok, &allowed)?;
         Ok(count)
