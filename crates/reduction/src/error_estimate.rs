@@ -92,7 +92,7 @@ fn coarsened(mesh: &MeshSettings, axial: bool) -> MeshSettings {
         axial_m: along * mesh.axial_m,
         // Judged by the fine mesh; the coarse ones only serve to estimate.
         min_scaled_jacobian: 0.05,
-        ..mesh.clone()
+        ..*mesh
     }
 }
 

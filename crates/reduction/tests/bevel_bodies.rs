@@ -14,7 +14,7 @@ use gearmesh_reduction::field::{Field, GridForce, bevel_fields};
 use gearmesh_reduction::flank_loads::dot;
 use gearmesh_reduction::skin::{SkinFace, skin, stress_on_faces};
 use gearmesh_reduction::{GearBody, ReductionOptions, Silent};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Coarse: what is tested holds on every mesh.
@@ -111,8 +111,7 @@ fn fields_are_those_of_the_whole_and_gauges_read_them() {
     assert!((read / stated - 1.0).abs() < 1e-9, "{read} {stated}");
 
     // Faces under the gauge: all their nodes are in its row.
-    let weighed: std::collections::HashSet<u32> =
-        row.iter().map(|(dof, _)| (dof / 3) as u32).collect();
+    let weighed: HashSet<u32> = row.iter().map(|(dof, _)| (dof / 3) as u32).collect();
     let under = |face: &&SkinFace| face.corners.iter().all(|n| weighed.contains(n));
     let own: Vec<SkinFace> = faces.iter().filter(under).cloned().collect();
     assert!(own.len() > 1);
@@ -185,7 +184,7 @@ fn the_field_of_the_other_hand_is_the_mirror_image() {
         };
         let stresses = stress(&body, &faces, &field);
         let places = faces.iter().map(place);
-        places.zip(stresses).collect::<HashMap<[i64; 3], f64>>()
+        places.zip(stresses).collect::<BTreeMap<[i64; 3], f64>>()
     };
     let a = middles(&one, forces(), 1.0);
     let b = middles(&other, images, -1.0);
@@ -373,5 +372,4 @@ fn the_estimate_is_above_the_error() {
             "{loaded:?} {other:?} {gauge:?}"
         );
     }
-    eprintln!("error and estimate: loaded tooth {loaded:?}, others {other:?}, gauge {gauge:?}");
 }

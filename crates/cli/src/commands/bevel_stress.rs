@@ -18,7 +18,7 @@ use gearmesh_reduction::field::Field;
 use gearmesh_reduction::skin::{SkinFace, stress_on_faces};
 use gearmesh_report::page::{FieldPicture, FieldValues, Section, Text};
 use gearmesh_report::short;
-use std::path::PathBuf;
+use std::path::Path;
 
 const MEMBERS: [&str; 2] = ["pinion", "gear"];
 
@@ -146,7 +146,7 @@ fn write_field(
     a: &TcaArguments,
     loaded: &Loaded,
     (member, model, stressed): (usize, &ReducedGear, &StressedGear),
-    output: &PathBuf,
+    output: &Path,
 ) -> Result<(), Failure> {
     let case = case(torque_of(loaded, a.field_torque_Nm)?, a.field_angle_deg)?;
     let field = stressed.field(&forces(loaded, &case, member, model))?;

@@ -18,7 +18,7 @@ fn python(script: &str, arguments: &[&str]) -> Value {
 /// Pair, scene and both members reduced on coarse meshes.
 fn reduced_pair() -> Desk {
     let desk = Desk::new();
-    let pair = desk.file("bevel_20_20.toml", &shipped("bevel_20_20.toml"));
+    let pair = desk.file("bevel_20_20.toml", shipped("bevel_20_20.toml"));
     assert!(pair.exists());
     for member in ["pinion", "gear"] {
         let text = format!(
@@ -95,7 +95,7 @@ fn bevel_bodies_have_stress_at_rest_and_in_motion() {
 fn at_rest(desk: &Desk) {
     let text = shipped("bevel_20_20.toml");
     let load = "\n[load]\ntorques_Nm = [20.0, 100.0]\nmodels = [\"pinion.h5\", \"gear.h5\"]\npositions_per_pitch = 4\n";
-    let pair = desk.file("loaded.toml", &format!("{text}{load}"));
+    let pair = desk.file("loaded.toml", format!("{text}{load}"));
     let (page, field) = (desk.path("page.html"), desk.path("field.vtu"));
     let words = [
         "tca",
@@ -152,7 +152,7 @@ fn at_rest(desk: &Desk) {
     // Rigid gears have no bodies.
     let rigid = desk.file(
         "rigid.toml",
-        &format!("{text}\n[load]\ntorques_Nm = [100.0]\npositions_per_pitch = 4\n"),
+        format!("{text}\n[load]\ntorques_Nm = [100.0]\npositions_per_pitch = 4\n"),
     );
     let words = [
         "tca",
