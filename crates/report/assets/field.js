@@ -95,8 +95,8 @@ function fieldPicture(figure, place, d) {
     const room = drawingWidth(place) - 102;
     width = Math.max(120, Math.round(room * ratio));
     const most = Math.min(620, Math.max(320, room * 0.62));
-    // A flat shape has no empty room above and below.
-    const needed = d.window ? most : Math.max(240, room * 1.2 * box.height / box.width);
+    // A flat shape has no empty room above and below, but for the scale under it.
+    const needed = d.window ? most : Math.max(240, room * box.height / box.width + 90);
     height = Math.round(Math.min(most, needed) * ratio);
     canvas.width = width; canvas.height = height;
     canvas.style.height = `${height / ratio}px`;

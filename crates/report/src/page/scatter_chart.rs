@@ -89,10 +89,9 @@ impl Scale {
             span => span.max(least),
         };
         let step = round_step(span);
-        let ends = [
-            (low / step).floor() * step,
-            ((high / step).ceil() * step).max(low + step),
-        ];
+        let first = (low / step).floor();
+        let last = (high / step).ceil().max(first + 1.0);
+        let ends = [first * step, last * step];
         Self {
             ends,
             step,
@@ -299,6 +298,19 @@ mod tests {
         let log = chart(vec![[0.1, 1.0], [10.0, 100.0]]).logarithmic(true, true);
         log.render(&mut html).unwrap();
         assert!(html.contains(&corner) && html.contains(">0.1<"), "{html}");
+    }
+
+    /// Points that hardly differ are not drawn so far apart that all numbers beside the axes read the same.
+    #[test]
+    fn numbers_beside_an_axis_differ() {
+        for points in [[3.61526, 3.61527], [3.61526, 3.61526], [0.0, 0.0]] {
+            let scale = Scale::of(points.into_iter(), false);
+            let ticks: Vec<String> = scale.ticks().into_iter().map(|tick| tick.1).collect();
+            assert!(ticks.len() > 1 && ticks.windows(2).all(|pair| pair[0] != pair[1]));
+            assert!(scale.share(points[0]) >= 0.0 && scale.share(points[1]) <= 1.0);
+            let (value, _) = scale.ticks()[1];
+            assert!((scale.share(value) - 1.0 / (ticks.len() as f64 - 1.0)).abs() < 1e-6);
+        }
     }
 
     #[test]
