@@ -170,7 +170,7 @@ impl<M: RepeatedMesh> GearBody<M> {
 
     /// The part of aᵀ K⁻¹ b that stays inside a tooth cell, its shared nodes held \[m/N\], for vectors given on tooth 0; none where the
     /// gear was factorised as a whole.
-    pub(crate) fn inside_tooth(&self, vectors: &[&SparseVector]) -> Option<Mat<f64>> {
+    pub fn inside_tooth(&self, vectors: &[&SparseVector]) -> Option<Mat<f64>> {
         match &self.solver {
             Solver::Whole(_) => None,
             Solver::Cyclic(body) => {

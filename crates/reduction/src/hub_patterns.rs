@@ -25,7 +25,7 @@ const SAMPLED_TEETH: usize = 8;
 
 /// Patterns of C_hub, given as `[loaded tooth][load][tooth][response]` over all teeth, and the largest entry that they leave out, over the largest
 /// of all; none where that takes more patterns than there are loads. `inside`: T, loads × loads (m/N).
-pub(crate) fn by_patterns(rows: &[f64], inside: &Mat<f64>) -> Option<(HubPatterns, f64)> {
+pub fn by_patterns(rows: &[f64], inside: &Mat<f64>) -> Option<(HubPatterns, f64)> {
     let n = inside.nrows();
     let teeth = (rows.len() / (n * n)).isqrt();
     let body = |a: usize, b: usize| {

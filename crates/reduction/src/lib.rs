@@ -13,6 +13,7 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges' rows | `flank_compliance.rs` |
+//! | C_hub of a body that does not repeat, by patterns | `hub_patterns.rs` |
 //! | the reduction | `reduce.rs`; of a bevel gear `bevel/` |
 //! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
 //! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
@@ -44,7 +45,7 @@ pub mod gauge_row;
 pub mod gear_body;
 pub mod gear_modes;
 mod harmonic_problem;
-mod hub_patterns;
+pub mod hub_patterns;
 pub mod import;
 mod imported_check;
 pub mod imported_error;

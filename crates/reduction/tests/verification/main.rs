@@ -6,6 +6,7 @@ mod cut_into_shaft;
 mod cut_with_stubs;
 mod cyclic_symmetry;
 mod helical;
+mod hub_patterns;
 mod imported_mesh;
 mod natural_modes;
 mod near_field;
