@@ -5,6 +5,8 @@
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::{RelativeCurvature, SliceLayout};
@@ -14,7 +16,7 @@ use nalgebra::Vector3;
 use super::hertz_stiffness::{local_stiffness, principal, stiffness_per_pa};
 use super::nearest_points::{Nearest, nearest_within};
 use super::nominal_contacts::Guess;
-use super::pose_derivatives::{PoseDerivatives, gradient};
+use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
 use super::tooth_pairing::MOST_PAIRS;
 use super::tooth_side::{FAR, Side, about_z, nominal_rotation, placed, searched};
 use super::touch::Touch;
@@ -42,20 +44,14 @@ pub struct BevelMesh {
     /// Right and left.
     pub(super) sides: [Side; 2],
     at: Option<Pose>,
-    found: [Vec<Found>; 2],
+    found: [MovingContacts; 2],
+    touches: [Vec<Touch>; 2],
     /// Whether any flanks were near enough for their spheres to meet.
     is_apart: [bool; 2],
-    /// Points of flanks that were computed.
-    pub(super) points: Cell<u64>,
+    /// Points of flanks that were computed, by this mesh and all copies of it.
+    pub(super) points: Arc<AtomicU64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
-}
-
-/// What is known of a contact beyond its gap.
-#[derive(Debug, Clone, Copy)]
-struct Found {
-    motion: PoseDerivatives,
-    touch: Touch,
 }
 
 impl BevelMesh {
@@ -69,20 +65,19 @@ impl BevelMesh {
             Side::new(blank, design, Flank::Right)?,
             Side::new(blank, design, Flank::Left)?,
         ];
-        let mut mesh = Self {
+        let mesh = Self {
             teeth: blank.data.teeth,
             shaft_angle_rad: blank.data.shaft_angle_rad,
             mean_cone_m: blank.mean_cone_m,
             layout: SliceLayout::new(blank.data.face_width_m, 0.0, 1),
             sides,
             at: None,
-            found: [Vec::new(), Vec::new()],
+            found: [0, 1].map(|_| MovingContacts::with_capacity(MOST_PAIRS)),
+            touches: [0, 1].map(|_| Vec::with_capacity(MOST_PAIRS)),
             is_apart: [false; 2],
-            points: Cell::new(0),
+            points: Arc::default(),
             hertz: None,
         };
-        let capacity = mesh.capacity();
-        mesh.found = [0, 1].map(|_| Vec::with_capacity(capacity));
         for flank in Flank::ALL {
             let [least, largest] = mesh.mean_curvature(flank).principal_per_m;
             if least < LINE_CONTACT * largest {
@@ -130,10 +125,10 @@ impl BevelMesh {
         contact_modulus_pa * stiffness_per_pa(&self.mean_curvature(side))
     }
 
-    /// Points of flanks that were computed so far at all poses: the effort of the search.
+    /// Points of flanks that were computed so far at all poses, by this mesh and all copies of it: the effort of the search.
     #[must_use]
     pub fn computed_points(&self) -> u64 {
-        self.points.get()
+        self.points.load(Ordering::Relaxed)
     }
 
     /// Cone distance and height above the pitch cone \[m\] of a place on a flank of gear 0 or 1, at shares along the face and up the flank.
@@ -191,11 +186,12 @@ impl BevelMesh {
         &self,
         pose: &Pose,
         flank: Flank,
-        list: &mut Vec<Found>,
+        (list, touches): (&mut Vec<PoseDerivatives>, &mut Vec<Touch>),
         found: &mut FlankContacts,
     ) -> bool {
         found.clear();
         list.clear();
+        touches.clear();
         let side = &self.sides[flank as usize];
         found.action_m_per_u = [0.0; 2];
         let mut guesses: [Option<Guess>; MOST_PAIRS] = [None; MOST_PAIRS];
@@ -216,16 +212,14 @@ impl BevelMesh {
         let least_m = gaps.fold(f64::INFINITY, f64::min).max(0.0);
         let far_m = FAR * self.pitch_m();
         let looked_m = far_m.min(least_m + NEAR * self.pitch_m()) + 2.0 * moved_m;
+        let points = Cell::new(0);
         for (candidate, number) in candidates() {
             let guess = &guesses[number];
             if guess.is_some_and(|guess| guess.gap_m > looked_m) {
                 continue;
             }
-            let rotations = [
-                about_z(candidate.turns_rad[0]),
-                pose.rotation * about_z(candidate.turns_rad[1]),
-            ];
-            let bodies = placed(&side.patches, rotations, pose.displacement_m, &self.points);
+            let stands = (pose.rotation, pose.displacement_m);
+            let bodies = placed(&side.patches, candidate.turns_rad, stands, &points);
             let guessed = guess.as_ref().and_then(|guess| {
                 let mut limits = side.nominal.limits(guess);
                 limits.find_map(|limits| nearest_within(&bodies, limits, guess.at))
@@ -242,8 +236,10 @@ impl BevelMesh {
                 found.sections[last].stiffness = local / mean[flank as usize];
                 found.sections[last].share_gradient = gradient;
             }
-            list.push(Found { motion, touch });
+            list.push(motion);
+            touches.push(touch);
         }
+        self.points.fetch_add(points.get(), Ordering::Relaxed);
         // The nearest pair first: the transmission error is its gap.
         let gap_m = |line: usize| found.lines[line].ideal_gap_m;
         if let Some(first) = (0..list.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b))) {
@@ -251,6 +247,7 @@ impl BevelMesh {
             found.contacts.swap(0, first);
             found.sections.swap(0, first);
             list.swap(0, first);
+            touches.swap(0, first);
             for number in [0, first] {
                 found.lines[number].section = number;
                 found.lines[number].contacts = (number, 1);
@@ -374,9 +371,11 @@ impl FlankKinematics for BevelMesh {
     }
 
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
-        let mut list = std::mem::take(&mut self.found[side as usize]);
-        self.is_apart[side as usize] = self.find(pose, side, &mut list, found);
-        self.found[side as usize] = list;
+        let mut list = std::mem::take(&mut self.found[side as usize].0);
+        let mut touches = std::mem::take(&mut self.touches[side as usize]);
+        self.is_apart[side as usize] = self.find(pose, side, (&mut list, &mut touches), found);
+        self.found[side as usize].0 = list;
+        self.touches[side as usize] = touches;
     }
 
     fn contacts_at(
@@ -386,23 +385,20 @@ impl FlankKinematics for BevelMesh {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         self.check_axes(pose)?;
-        self.find(pose, side, &mut Vec::new(), found);
+        self.find(pose, side, (&mut Vec::new(), &mut Vec::new()), found);
         Ok(())
     }
 
     fn gap_curvature(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.gap_curvature())
+        self.found[side as usize].gap_curvature(contact)
     }
 
     fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Vector6::zeros, |motion| motion.sliding()[0].0)
+        self.found[side as usize].sliding(contact, 0).0
     }
 
     fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.sliding()[0].1)
+        self.found[side as usize].sliding(contact, 0).1
     }
 
     fn second_sliding(
@@ -411,8 +407,7 @@ impl FlankKinematics for BevelMesh {
         contact: usize,
         side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
-        self.derivatives(contact, side)
-            .map(|motion| motion.sliding()[1])
+        Some(self.found[side as usize].sliding(contact, 1))
     }
 
     fn contact_patch(
@@ -421,8 +416,8 @@ impl FlankKinematics for BevelMesh {
         side: Flank,
         force_and_modulus: (f64, f64),
     ) -> Option<ContactPatch> {
-        let found = self.found[side as usize].get(contact)?;
-        Some(found.touch.patch(force_and_modulus))
+        let touch = self.touches[side as usize].get(contact)?;
+        Some(touch.patch(force_and_modulus))
     }
 
     /// The gap of the mean points, between the pairs that are nearest.
@@ -458,10 +453,5 @@ impl BevelMesh {
             });
         }
         Ok(())
-    }
-
-    fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
-        let found = self.found[side as usize].get(contact);
-        found.map(|found| &found.motion)
     }
 }
