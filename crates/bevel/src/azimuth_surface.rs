@@ -111,8 +111,14 @@ pub(crate) struct AzimuthSurface {
 impl AzimuthSurface {
     /// The point at a place.
     pub(crate) fn point(&self, at: [f64; 2]) -> PatchPoint {
+        let [x, y] = scaled(&self.domain, at);
+        self.point_of(at, &self.azimuth.jet(x, y))
+    }
+
+    /// The point at a place whose azimuth is known with its derivatives by x and y of the polynomials.
+    pub(crate) fn point_of(&self, at: [f64; 2], azimuth: &Jet) -> PatchPoint {
         let [radius, z] = radius_and_height(self.pitch, self.frame.jets(at));
-        let (sine, cosine) = self.azimuth_jet(at).sin_cos();
+        let (sine, cosine) = self.by_place(azimuth).sin_cos();
         let r = JetVector([radius * cosine, radius * sine, z]);
         let (dr, ddr) = (r.first(), r.second());
         let across = dr[0].cross(&dr[1]);
@@ -133,23 +139,24 @@ impl AzimuthSurface {
         }
     }
 
-    /// χ with its derivatives by s and v.
-    fn azimuth_jet(&self, at: [f64; 2]) -> Jet {
-        let [x, y] = scaled(&self.domain, at);
-        let mut azimuth = self.azimuth.jet(x, y);
+    /// χ with its derivatives by s and v from those by x and y.
+    pub(crate) fn by_place(&self, azimuth: &Jet) -> Jet {
         let [by_s, by_v] = scale(&self.domain);
-        azimuth.d = [azimuth.d[0] * by_s, azimuth.d[1] * by_v];
-        azimuth.dd = [
-            azimuth.dd[0] * by_s * by_s,
-            azimuth.dd[1] * by_s * by_v,
-            azimuth.dd[2] * by_v * by_v,
-        ];
-        azimuth
+        Jet {
+            v: azimuth.v,
+            d: [azimuth.d[0] * by_s, azimuth.d[1] * by_v],
+            dd: [
+                azimuth.dd[0] * by_s * by_s,
+                azimuth.dd[1] * by_s * by_v,
+                azimuth.dd[2] * by_v * by_v,
+            ],
+        }
     }
 
     /// ∂χ/∂s and ∂χ/∂v \[rad\].
     pub(crate) fn azimuth_slopes(&self, at: [f64; 2]) -> [f64; 2] {
-        self.azimuth_jet(at).d
+        let [x, y] = scaled(&self.domain, at);
+        self.by_place(&self.azimuth.jet(x, y)).d
     }
 
     /// χ \[rad\].

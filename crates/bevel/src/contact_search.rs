@@ -147,7 +147,7 @@ impl<'a> ContactSearch<'a> {
         }
         // Anything, from the place of the largest lead.
         let best = self.zoomed(turn, best, self.points[point].at);
-        let start = self.exact(turn, &best, &start)?;
+        let start = self.exact(turn, &best, &start);
         let any = self.polished(turn, &start, |_, _| true);
         let lead = self.mesh.lead_rad(&start);
         let found = any.filter(|(_, touch)| self.mesh.lead_rad(touch) >= lead - BEHIND);
@@ -311,18 +311,24 @@ impl<'a> ContactSearch<'a> {
         best
     }
 
-    /// The gear's exact flank through a point of the pinion's exact flank.
-    fn exact(&self, turn: f64, best: &Candidate, near: &Touch) -> Option<Touch> {
+    /// The gear's exact flank through a point of the pinion's exact flank. Where Newton's method finds none, what the search has found: the same but for
+    /// the rounding of the gear's patch, and the pair is not lost.
+    fn exact(&self, turn: f64, best: &Candidate, near: &Touch) -> Touch {
         let [pinion, gear] = self.mesh.flanks;
         let place = self.frames[0].place_m(best.places[0]);
         let there = self.frames[1].place_m(best.places[1]);
         let at = [
-            pinion.locate(place[0], place[1]).ok()?.at,
-            gear.locate(there[0], there[1]).ok()?.at,
+            pinion
+                .locate(place[0], place[1])
+                .map_or(near.at[0], |found| found.at),
+            gear.locate(there[0], there[1])
+                .map_or(near.at[1], |found| found.at),
         ];
         let start = self.placed(turn, best.gear_turn_rad, at).unwrap_or(*near);
-        self.mesh
-            .lines_touch(turn, EdgeLine::through(0, place), &start)
+        let found = self
+            .mesh
+            .lines_touch(turn, EdgeLine::through(0, place), &start);
+        found.unwrap_or(start)
     }
 
     /// What a place on both flanks is, where no contact of Newton's is as far ahead.

@@ -4,12 +4,13 @@
 //! A place is s along the face, 0 at the toe and 1 at the heel, and v up the flank, 0 at the lower line and 1 at the
 //! tip. Its azimuth is interpolated from the exact surface (`azimuth_surface.rs`).
 
-use crate::azimuth_surface::{AzimuthSurface, SectionFrame, unscaled};
+use crate::azimuth_surface::{AzimuthSurface, SectionFrame, scaled, unscaled};
 use crate::blank::MemberBlank;
 use crate::chebyshev::Chebyshev2;
 use crate::error::BevelError;
 use crate::flank::Flank;
 use crate::hand::FlankSide;
+use crate::piecewise::Piecewise2;
 use crate::tooth::Tooth;
 
 pub use crate::azimuth_surface::PatchPoint;
@@ -40,6 +41,8 @@ pub struct FlankPatch {
     /// Place of the mean point, on the pitch cone.
     pub mean: [f64; 2],
     surface: AzimuthSurface,
+    /// The surface's azimuth, quick to evaluate.
+    azimuth: Piecewise2,
 }
 
 impl FlankPatch {
@@ -61,6 +64,7 @@ impl FlankPatch {
             cones_m: frame.cones_m,
             facing: surface.facing,
             mean: frame.at([blank.mean_cone_m, 0.0]),
+            azimuth: Piecewise2::of(&surface.azimuth),
             surface,
         })
     }
@@ -78,7 +82,26 @@ impl FlankPatch {
 
     /// The point at a place.
     pub fn point(&self, at: [f64; 2]) -> PatchPoint {
-        self.surface.point(at)
+        self.point_turned(at, 0.0)
+    }
+
+    /// The point at a place of the flank that has turned about the member's axis \[rad\].
+    pub fn point_turned(&self, at: [f64; 2], turn_rad: f64) -> PatchPoint {
+        let [x, y] = scaled(&self.surface.domain, at);
+        let mut azimuth = self.azimuth.jet(x, y);
+        azimuth.v += turn_rad;
+        self.surface.point_of(at, &azimuth)
+    }
+
+    /// How far the polynomials of cells, which [`Self::point`] takes, lie from the series that they stand for at a place: azimuth \[rad\], and its
+    /// first and second derivatives by the place.
+    pub fn azimuth_misfit(&self, at: [f64; 2]) -> [f64; 3] {
+        let [x, y] = scaled(&self.surface.domain, at);
+        let off = self
+            .surface
+            .by_place(&(self.azimuth.jet(x, y) - self.surface.azimuth.jet(x, y)));
+        let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        [off.v.abs(), most(&off.d), most(&off.dd)]
     }
 
     /// Azimuth of a place in the member's frame \[rad\].

@@ -8,7 +8,7 @@
 //! | the surface that the tool leaves, exact to second derivatives | [`CutSurface`] | `cut_surface.rs`, `jet.rs` |
 //! | a flank on its blank, a tooth and its checks | [`Flank`], [`Tooth`] | `flank.rs`, `tooth.rs` |
 //! | a flank through measured or published points | [`GridSurface`] | `point_grid.rs`, `grid_surface.rs` |
-//! | a flank as a smooth patch, for contact in motion | [`FlankPatch`] | `flank_patch.rs`, `azimuth_surface.rs`, `chebyshev.rs` |
+//! | a flank as a smooth patch, for contact in motion | [`FlankPatch`] | `flank_patch.rs`, `azimuth_surface.rs`, `chebyshev.rs`, `piecewise.rs` |
 //! | both members in space, with errors | [`Assembly`] | `assembly.rs` |
 //! | contact of flanks and edges | [`Mesh`] | `contact_point.rs`, `ease_off.rs` |
 //! | path of contact, transmission error, ellipses | [`tooth_contact`] | `tca.rs`, `contact_path.rs`, `contact_search.rs`, `contact_ellipse.rs` |
@@ -42,6 +42,7 @@ pub mod jet;
 pub mod local_synthesis;
 pub mod pair_design;
 pub mod pair_file;
+mod piecewise;
 mod point_grid;
 pub mod settings;
 pub mod settings_search;

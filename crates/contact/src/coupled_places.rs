@@ -3,7 +3,7 @@
 use crate::crack_rows::CrackRows;
 use crate::placed_slice::ToothPlace;
 use crate::station_blocks::{CombinedBlocks, Coupling};
-use crate::walked_slice::WalkedSlice;
+use crate::walked_slice::{SLICES, WalkedSlice};
 
 /// Two places on one gear and what their slices deflect each other by.
 #[derive(Debug, Clone, Copy)]
@@ -23,12 +23,20 @@ impl CoupledPlaces<'_> {
     #[inline]
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
-        if let [Some(a), Some(b)] = self.walked() {
-            return combined(&a.shares, &b.shares, [a, b], |slices| {
-                self.at_middles(slices)
-            });
+        let [Some(a), Some(b)] = self.walked() else {
+            let whole = self.blocks.between(slices);
+            return if self.has_more {
+                whole + self.more(slices).value
+            } else {
+                whole
+            };
+        };
+        let whole = self.blocks.around([a, b]);
+        if self.has_more {
+            whole + self.more_around((&a.shares, &b.shares), [a, b]).value
+        } else {
+            whole
         }
-        self.at_middles(slices)
     }
 
     /// Where both stand along the tooth.
@@ -37,52 +45,23 @@ impl CoupledPlaces<'_> {
         self.places.map(|place| place.walked.as_ref())
     }
 
-    /// Of slices where they were laid.
-    #[inline]
-    fn at_middles(&self, slices: [usize; 2]) -> f64 {
-        let whole = self.blocks.between(slices);
-        if self.has_more {
-            whole + self.more(slices).value
-        } else {
-            whole
-        }
-    }
-
-    /// The same with its derivatives by both places.
+    /// The same with its derivatives by both places up the flank, and by those along the teeth \[m/N per m\], which are zero where slices do
+    /// not walk that way. Of a slice with itself half of what its compliance changes by.
     #[inline]
     #[must_use]
-    pub fn coupling(&self, slices: [usize; 2]) -> Coupling {
-        if let [Some(a), Some(b)] = self.walked() {
-            let mut sum = Coupling::default();
-            for (share_a, i) in a.shares.iter().zip(a.first..) {
-                for (share_b, j) in b.shares.iter().zip(b.first..) {
-                    let share = share_a * share_b;
-                    let one = self.coupling_at_middles([i, j]);
-                    sum += Coupling {
-                        value: share * one.value,
-                        by_a: share * one.by_a,
-                        by_b: share * one.by_b,
-                    };
-                }
-            }
-            return sum;
-        }
-        self.coupling_at_middles(slices)
-    }
-
-    /// Derivatives by the places of both along the teeth \[m/N per m\]; zero where slices do not walk that way. Of a slice with
-    /// itself half of what its compliance changes by.
-    #[inline]
-    #[must_use]
-    pub fn along_teeth(&self) -> [f64; 2] {
+    pub fn coupling(&self, slices: [usize; 2]) -> (Coupling, [f64; 2]) {
         let [Some(a), Some(b)] = self.walked() else {
-            return [0.0; 2];
+            return (self.coupling_at_middles(slices), [0.0; 2]);
         };
-        let at = |slices| self.at_middles(slices);
-        [
-            combined(&a.rates, &b.shares, [a, b], at),
-            combined(&a.shares, &b.rates, [a, b], at),
-        ]
+        let (mut whole, mut along) = self.blocks.around_with_rates([a, b]);
+        if self.has_more {
+            whole += self.more_around((&a.shares, &b.shares), [a, b]);
+            let [by_a, by_b] = [(&a.rates, &b.shares), (&a.shares, &b.rates)]
+                .map(|weights| self.more_around(weights, [a, b]).value);
+            along[0] += by_a;
+            along[1] += by_b;
+        }
+        (whole, along)
     }
 
     #[inline]
@@ -123,21 +102,28 @@ impl CoupledPlaces<'_> {
             by_b: each * at_b.1,
         }
     }
-}
 
-/// Σ_i Σ_j w_i w_j C_ij over the slices around two places.
-#[inline]
-fn combined(
-    weights_a: &[f64; 3],
-    weights_b: &[f64; 3],
-    [a, b]: [&WalkedSlice; 2],
-    at: impl Fn([usize; 2]) -> f64,
-) -> f64 {
-    let mut sum = 0.0;
-    for (weight_a, i) in weights_a.iter().zip(a.first..) {
-        for (weight_b, j) in weights_b.iter().zip(b.first..) {
-            sum += weight_a * weight_b * at([i, j]);
+    /// Σ_i Σ_j w_i w_j of [`Self::more`] over the slices around two places.
+    fn more_around(
+        &self,
+        (weights_a, weights_b): (&[f64; SLICES], &[f64; SLICES]),
+        [a, b]: [&WalkedSlice; 2],
+    ) -> Coupling {
+        let mut sum = Coupling::default();
+        // Of slices farther apart none are neighbours.
+        if self.crack.is_none() && a.first.abs_diff(b.first) > SLICES {
+            return sum;
         }
+        for (weight_a, i) in weights_a.iter().zip(a.first..) {
+            for (weight_b, j) in weights_b.iter().zip(b.first..) {
+                let (weight, one) = (weight_a * weight_b, self.more([i, j]));
+                sum += Coupling {
+                    value: weight * one.value,
+                    by_a: weight * one.by_a,
+                    by_b: weight * one.by_b,
+                };
+            }
+        }
+        sum
     }
-    sum
 }

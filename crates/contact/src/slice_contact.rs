@@ -62,7 +62,8 @@ pub struct SliceContact {
     run: Vec<usize>,
     shares: Vec<f64>,
     c: Vec<f64>,
-    /// ∂C_ij/∂u_i of each gear, `[i][j]`; of a patch with itself half of what its compliance changes by.
+    /// ∂C_ij/∂u_i of each gear, `[i][j]`, between patches that carried at the last solve; of a patch with itself half of what its compliance changes
+    /// by.
     rates: [Vec<f64>; 2],
     /// The same along the teeth, of gears on which slices walk that way; else empty.
     along: [Vec<f64>; 2],
@@ -73,6 +74,8 @@ pub struct SliceContact {
     closing: Vec<f64>,
     lever_m: Vec<f64>,
     work: Workspace,
+    /// Whether the last [`Self::prepare`] asked for what energies change by.
+    with_rates: bool,
 }
 
 impl SliceContact {
@@ -156,6 +159,7 @@ impl SliceContact {
             closing: empty(),
             lever_m: empty(),
             work: Workspace::new(capacity),
+            with_rates: false,
         }
     }
 
@@ -239,7 +243,8 @@ impl SliceContact {
             });
         }
         self.take(patches, floor_n, with_rates)?;
-        self.fill(with_rates);
+        self.fill();
+        self.with_rates = with_rates;
         self.divide_by_shares();
         Ok(())
     }
@@ -366,7 +371,11 @@ impl SliceContact {
                 solve_position(&problem, -te_m, &self.params, &mut self.work)
             }
         }?;
-        Ok((problem.first_contact(), info))
+        let first_contact = problem.first_contact();
+        if self.with_rates {
+            self.fill_rates();
+        }
+        Ok((first_contact, info))
     }
 
     /// Elastic energy \[J\] of the last solve: ½ FᵀCF and that of the local laws.

@@ -9,6 +9,7 @@
 //! contact.
 
 use crate::profile_shares::{ProfilePlace, SHARES};
+use crate::walked_slice::WalkedSlice;
 
 /// C of two slices, and how it changes with the place of each \[m/N, m/N per u\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -126,6 +127,62 @@ impl CombinedBlocks<'_> {
             by_a: dot(&changes, b.all_shares()),
             by_b: dot(&along, b.all_rates()),
         }
+    }
+}
+
+/// Slices that stand beside their own middles along the tooth: Σ_i Σ_j w_i w_j C_ij over those around both places.
+impl CombinedBlocks<'_> {
+    /// C.
+    #[inline]
+    #[must_use]
+    pub(crate) fn around(&self, [a, b]: [&WalkedSlice; 2]) -> f64 {
+        let own = self.places[0].all_shares();
+        let mut sum = [0.0; SHARES];
+        for (share_a, i) in a.shares.iter().zip(a.first..) {
+            for (share_b, j) in b.shares.iter().zip(b.first..) {
+                add(
+                    &mut sum,
+                    share_a * share_b,
+                    &weighted(&self.rows([i, j]), own),
+                );
+            }
+        }
+        dot(&sum, self.places[1].all_shares())
+    }
+
+    /// The same with its changes by u, and by the places of both along the teeth \[m/N per m\].
+    #[inline]
+    #[must_use]
+    pub(crate) fn around_with_rates(&self, [a, b]: [&WalkedSlice; 2]) -> (Coupling, [f64; 2]) {
+        let [own, turned] = [self.places[0].all_shares(), self.places[0].all_rates()];
+        let (mut here, mut by_a) = ([0.0; SHARES], [0.0; SHARES]);
+        let mut along = [[0.0; SHARES]; 2];
+        for (k, i) in (a.first..).take(a.shares.len()).enumerate() {
+            for (l, j) in (b.first..).take(b.shares.len()).enumerate() {
+                let rows = self.rows([i, j]);
+                let row = weighted(&rows, own);
+                let share = a.shares[k] * b.shares[l];
+                add(&mut here, share, &row);
+                add(&mut along[0], a.rates[k] * b.shares[l], &row);
+                add(&mut along[1], a.shares[k] * b.rates[l], &row);
+                add(&mut by_a, share, &weighted(&rows, turned));
+            }
+        }
+        let [shares, rates] = [self.places[1].all_shares(), self.places[1].all_rates()];
+        let coupling = Coupling {
+            value: dot(&here, shares),
+            by_a: dot(&by_a, shares),
+            by_b: dot(&here, rates),
+        };
+        (coupling, along.map(|row| dot(&row, shares)))
+    }
+}
+
+/// Adds a multiple of a row.
+#[inline]
+fn add(sum: &mut [f64; SHARES], weight: f64, row: &[f64; SHARES]) {
+    for (place, value) in sum.iter_mut().zip(row) {
+        *place += weight * value;
     }
 }
 

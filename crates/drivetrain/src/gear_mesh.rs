@@ -19,34 +19,10 @@ use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::Friction;
 use crate::involute_mesh::InvoluteMesh;
 use crate::mesh_kinematics::MeshKinematics;
+pub use crate::mesh_load::MeshLoad;
 use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
 use crate::pose::{Pose, Vector6};
-use crate::slice_plane::Matrix6;
 use crate::teeth_model::{TeethLoads, TeethModel};
-
-/// What a mesh does at a pose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshLoad {
-    /// Force \[N\] and moment \[N·m\] on gear 2 in its origin, gear 1 axes.
-    pub load: Vector6,
-    /// ∂load/∂(increments of the pose); zero unless asked for.
-    pub by_position: Matrix6,
-    /// ∂load/∂(rates of the pose); zero unless asked for.
-    pub by_velocity: Matrix6,
-    /// Energy and power.
-    pub power: Power,
-}
-
-impl Default for MeshLoad {
-    fn default() -> Self {
-        Self {
-            load: Vector6::zeros(),
-            by_position: Matrix6::zeros(),
-            by_velocity: Matrix6::zeros(),
-            power: Power::default(),
-        }
-    }
-}
 
 /// How often each part of a mesh was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,6 +42,8 @@ struct Side {
     loads: TeethLoads,
     /// μ of each contact, zero where none was computed.
     friction: Vec<f64>,
+    /// How the gap rate of each contact changes with the pose, for the tangents of damping.
+    rate_by_pose: Vec<Vector6>,
     modes: [Option<FlankModes>; 2],
 }
 
@@ -142,6 +120,7 @@ impl GearMesh {
             found: FlankContacts::with_capacity(capacity),
             loads: TeethLoads::with_capacity(capacity),
             friction: Vec::with_capacity(capacity),
+            rate_by_pose: Vec::with_capacity(capacity),
             modes: [None, None],
         });
         Ok(self)
@@ -340,8 +319,22 @@ impl GearMesh {
             (side.model).evaluate(&side.found, tangents, &mut side.loads)?;
             result.power.stored_j += side.loads.stored_j;
             result.power.dissipated_w += side.loads.dissipated_w;
+            side.rate_by_pose.clear();
+            if tangents {
+                // Once for each contact: all others may feel its gap rate.
+                let (found, damping) = (&side.found, &side.loads.damping_n_s_per_m);
+                side.rate_by_pose.extend((0..contacts).map(|contact| {
+                    let column = damping[contact..].iter().step_by(contacts);
+                    let is_felt = column.into_iter().any(|d| *d != 0.0);
+                    let curvature = || self.kinematics.gap_curvature(found, contact, side.flank);
+                    is_felt
+                        .then(curvature)
+                        .map_or_else(Vector6::zeros, |c| c.tr_mul(&rates))
+                }));
+            }
             let assembly = Assembly {
                 rates,
+                rate_by_pose: &side.rate_by_pose,
                 found: &side.found,
                 loads: &side.loads,
                 flank: side.flank,
@@ -372,6 +365,8 @@ struct Parts<'a> {
 /// One side at one pose, put together.
 struct Assembly<'a> {
     rates: Vector6,
+    /// See [`Side`]; empty without tangents.
+    rate_by_pose: &'a [Vector6],
     found: &'a FlankContacts,
     loads: &'a TeethLoads,
     flank: Flank,
@@ -487,8 +482,7 @@ impl Assembly<'_> {
             let damping = loads.damping_n_s_per_m[i * n + j];
             if damping != 0.0 {
                 by_rates -= damping * contact.gradient;
-                let curvature = self.kinematics.gap_curvature(found, j, self.flank);
-                by_pose -= damping * (curvature.tr_mul(&self.rates));
+                by_pose -= damping * self.rate_by_pose[j];
             }
         }
         (by_pose, by_rates)

@@ -38,6 +38,7 @@ mod mesh_channels;
 pub mod mesh_element;
 mod mesh_frame;
 pub mod mesh_kinematics;
+mod mesh_load;
 pub mod modal_loads;
 pub mod models;
 mod nearest_flanks;

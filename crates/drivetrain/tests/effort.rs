@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod mesh_common;
+#[path = "mesh_common/running_bevel.rs"]
+mod running_bevel;
 
 use std::ops::ControlFlow;
 
@@ -51,6 +53,51 @@ fn steps_take_few_evaluations() {
         let (after, tangents_after) = calls_of_mesh(run.system());
         assert_eq!(after - calls, info.iterations, "{name}");
         assert_eq!(tangents_after - tangents, info.factorisations, "{name}");
+        assert_eq!((info.rejected, info.unconverged), (0, 0), "{name}");
+    }
+}
+
+/// The bevel pair of seed 001 in 15 slices: corrections a step, factorisations, and points of flanks that a call of the mesh computes.
+#[test]
+fn bevel_steps_take_few_evaluations() {
+    for (name, kind, most) in [
+        ("half spaces", running_bevel::Teeth::HalfSpaces, 3.3),
+        ("reduced", running_bevel::Teeth::Reduced, 3.3),
+    ] {
+        let flanks = running_bevel::flanks(15);
+        let mesh = running_bevel::bevel_mesh(kind, &flanks);
+        let system = running_bevel::running_bevel(&flanks, mesh);
+        let params = running_bevel::params();
+        let mut run = Simulation::new(system.build().unwrap(), params).unwrap();
+        // The torque has its full size after the first two mesh periods.
+        let end = |periods: usize| {
+            (periods * running_bevel::STEPS_A_PERIOD) as f64 * running_bevel::STEP_S
+        };
+        run.run(end(3), |_| ControlFlow::Continue(())).unwrap();
+        let calls = |run: &Simulation| {
+            let calls = run.system().calls();
+            calls
+                .iter()
+                .find(|calls| calls.element == "mesh")
+                .unwrap()
+                .force
+        };
+        let (before, calls_before) = (*run.info(), calls(&run));
+        let points_before = flanks.pair().computed_points();
+        run.run(end(6), |_| ControlFlow::Continue(())).unwrap();
+        let info = *run.info();
+        let steps = (info.steps - before.steps) as f64;
+        let corrections = (info.iterations - before.iterations) as f64 / steps;
+        let factorisations = (info.factorisations - before.factorisations) as f64 / steps;
+        let points = (flanks.pair().computed_points() - points_before) as f64;
+        let points = points / (calls(&run) - calls_before) as f64;
+        println!(
+            "{name}: {corrections} corrections, {factorisations} factorisations, {points} points"
+        );
+        // Five and more by old factors.
+        assert!(corrections < most, "{name}: {corrections}");
+        assert!(factorisations < 1.05, "{name}: {factorisations}");
+        assert!(points < 220.0, "{name}: {points}");
         assert_eq!((info.rejected, info.unconverged), (0, 0), "{name}");
     }
 }

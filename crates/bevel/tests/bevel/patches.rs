@@ -37,6 +37,7 @@ fn patches_are_the_flanks() {
                 // Worst at the lower end of concave flanks, close to which the envelope turns back; convex ones 1e-13 m.
                 assert!(worst[0] < 1e-9, "{name} {m} {side:?}: {:e} m", worst[0]);
                 assert!(worst[1] < 1e-4, "{name} {m} {side:?}: {:e}", worst[1]);
+                check_cells(&patch);
                 let (at, h) = ([0.37, 0.61], 1e-5);
                 let here = patch.point(at);
                 for k in 0..2 {
@@ -61,4 +62,23 @@ fn patches_are_the_flanks() {
             }
         }
     }
+}
+
+/// The polynomials of cells are the series of the whole patch: places to far below a picometre, with the derivatives that tangents need.
+fn check_cells(patch: &FlankPatch) {
+    let [[s_low, s_high], [v_low, v_high]] = FlankPatch::domain();
+    let mut worst = [0.0f64; 3];
+    for i in 0..=100 {
+        for k in 0..=200 {
+            let at = [
+                s_low + (s_high - s_low) * f64::from(i) / 100.0,
+                v_low + (v_high - v_low) * f64::from(k) / 200.0,
+            ];
+            for (worst, off) in worst.iter_mut().zip(patch.azimuth_misfit(at)) {
+                *worst = worst.max(off);
+            }
+        }
+    }
+    assert!(worst[0] < 1e-13, "{worst:?} rad, and per s and v");
+    assert!(worst[1] < 1e-10 && worst[2] < 1e-7, "{worst:?}");
 }

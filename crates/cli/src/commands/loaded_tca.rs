@@ -82,7 +82,8 @@ pub fn analyse(
     let strain = match &models {
         Some(models) => {
             let face_m = flanks.pair().face_widths_m()[0];
-            loaded_gauges::read([&models[0].0, &models[1].0], side, (slices, face_m), &found).map_err(Failure::work)?
+            loaded_gauges::read([&models[0].0, &models[1].0], side, (slices, face_m), &found)
+                .map_err(Failure::work)?
         }
         None => {
             warn_of_short_slices(&found);

@@ -52,12 +52,11 @@ impl SliceContact {
         }
     }
 
-    /// Fills C, and with rates its changes with the places.
-    pub(super) fn fill(&mut self, with_rates: bool) {
-        match (&self.elastic, with_rates) {
-            (Elastic::HalfSpaces(_), _) => self.fill_half_spaces(),
-            (Elastic::Reduced(_), false) => self.fill_compliance(),
-            (Elastic::Reduced(_), true) => self.fill_compliance_with_rates(),
+    /// Fills C.
+    pub(super) fn fill(&mut self) {
+        match &self.elastic {
+            Elastic::HalfSpaces(_) => self.fill_half_spaces(),
+            Elastic::Reduced(_) => self.fill_compliance(),
         }
     }
 
@@ -110,36 +109,53 @@ impl SliceContact {
         }
     }
 
-    fn fill_compliance_with_rates(&mut self) {
+    /// Fills the changes of C with the places between the patches that carry: of the others nobody feels them. Those of half spaces are known
+    /// with C.
+    pub(super) fn fill_rates(&mut self) {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };
         let [flank_1, flank_2] = &**flanks;
         let n = self.slice.len();
+        let forces = self.work.forces();
         let [rates_1, rates_2] = &mut self.rates;
+        let carry = |run: &Run| {
+            forces[run.patches[0]..run.patches[1]]
+                .iter()
+                .any(|f| *f > 0.0)
+        };
         for (number, a) in self.runs.iter().enumerate() {
-            for b in &self.runs[number..] {
+            if !carry(a) {
+                continue;
+            }
+            for b in self.runs[number..].iter().filter(|run| carry(run)) {
                 let on_1 = flank_1.between(&a.places[0], &b.places[0]);
                 let on_2 = flank_2.between(&a.places[1], &b.places[1]);
-                for i in a.patches[0]..a.patches[1] {
-                    for j in b.patches[0].max(i)..b.patches[1] {
+                for i in (a.patches[0]..a.patches[1]).filter(|i| forces[*i] > 0.0) {
+                    for j in (b.patches[0].max(i)..b.patches[1]).filter(|j| forces[*j] > 0.0) {
                         let slices = [self.slice[i], self.slice[j]];
-                        let (of_1, of_2) = (on_1.coupling(slices), on_2.coupling(slices));
-                        let value = of_1.value + of_2.value;
                         let (here, across) = (i * n + j, j * n + i);
-                        self.c[across] = value;
-                        self.c[here] = value;
+                        let (of_1, along_1) = on_1.coupling(slices);
+                        let (of_2, along_2) = on_2.coupling(slices);
                         rates_1[across] = of_1.by_b;
                         rates_1[here] = of_1.by_a;
                         rates_2[across] = of_2.by_b;
                         rates_2[here] = of_2.by_a;
-                        for (along, on) in self.along.iter_mut().zip([&on_1, &on_2]) {
+                        for (along, [by_a, by_b]) in self.along.iter_mut().zip([along_1, along_2]) {
                             if !along.is_empty() {
-                                let [by_a, by_b] = on.along_teeth();
                                 along[across] = by_b;
                                 along[here] = by_a;
                             }
                         }
+                    }
+                }
+            }
+        }
+        if self.local_contact == LocalContact::None {
+            for (i, share) in self.shares.iter().enumerate() {
+                for rates in self.rates.iter_mut().chain(&mut self.along) {
+                    if let Some(rate) = rates.get_mut(i * n + i) {
+                        *rate /= share;
                     }
                 }
             }
@@ -157,11 +173,6 @@ impl SliceContact {
             let own = i * n + i;
             self.own_compliance.push(self.c[own]);
             self.c[own] /= share;
-            for rates in self.rates.iter_mut().chain(&mut self.along) {
-                if let Some(rate) = rates.get_mut(own) {
-                    *rate /= share;
-                }
-            }
         }
     }
 }

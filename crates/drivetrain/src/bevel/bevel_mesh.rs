@@ -5,17 +5,19 @@
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::{RelativeCurvature, SliceLayout};
 use gearmesh_geometry::Flank;
 use nalgebra::Vector3;
 
-use super::facets::{FacetSize, Facets, Sunk};
+use super::facets::{FacetSize, Facets};
 use super::hertz_stiffness::{local_measure, principal, stiffness_per_pa};
-use super::nearest_points::{Nearest, nearest_within};
+use super::nearest_points::nearest_within;
 use super::nominal_contacts::Guess;
-use super::pose_derivatives::{PoseDerivatives, gradient};
+use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
 use super::tooth_pairing::MOST_PAIRS;
 use super::tooth_side::{FAR, Side, about_z, nominal_rotation, placed, searched};
 use super::touch::Touch;
@@ -43,24 +45,31 @@ pub struct BevelMesh {
     /// Right and left.
     pub(super) sides: [Side; 2],
     at: Option<Pose>,
-    found: [Vec<Found>; 2],
+    found: [MovingContacts; 2],
+    touches: [Vec<Touch>; 2],
     /// Whether any flanks were near enough for their spheres to meet.
     is_apart: [bool; 2],
-    /// Points of flanks that were computed.
-    pub(super) points: Cell<u64>,
+    /// Points of flanks that were computed, by this mesh and all copies of it.
+    pub(super) points: Arc<AtomicU64>,
     /// Whether the stiffness of contacts follows their curvature; that at the mean points of right and left flanks over E*.
     hertz: Option<[f64; 2]>,
     /// Right and left flanks of gear 1 as facets.
     facets: Option<[Facets; 2]>,
 }
 
-/// What is known of a contact beyond its gap.
-#[derive(Debug, Clone, Copy)]
-struct Found {
-    motion: PoseDerivatives,
-    touch: Touch,
-    /// Of flanks as facets that stand in each other.
-    sunk: Option<Sunk>,
+/// A pair of teeth as its contact is told.
+struct NearFlanks {
+    teeth: [usize; 2],
+    /// Place up the flanks of gear 1 and gear 2, and its derivatives by the increments of the pose.
+    up: [f64; 2],
+    up_gradient: [Vector6; 2],
+    /// Place along the faces from their middles \[m\].
+    heights_m: [f64; 2],
+    radius_m: f64,
+    /// Of smooth flanks \[m\].
+    ideal_gap_m: f64,
+    gap_m: f64,
+    gradient: Vector6,
 }
 
 impl BevelMesh {
@@ -74,21 +83,20 @@ impl BevelMesh {
             Side::new(blank, design, Flank::Right)?,
             Side::new(blank, design, Flank::Left)?,
         ];
-        let mut mesh = Self {
+        let mesh = Self {
             teeth: blank.data.teeth,
             shaft_angle_rad: blank.data.shaft_angle_rad,
             mean_cone_m: blank.mean_cone_m,
             layout: SliceLayout::new(blank.data.face_width_m, 0.0, 1),
             sides,
             at: None,
-            found: [Vec::new(), Vec::new()],
+            found: [0, 1].map(|_| MovingContacts::with_capacity(MOST_PAIRS)),
+            touches: [0, 1].map(|_| Vec::with_capacity(MOST_PAIRS)),
             is_apart: [false; 2],
-            points: Cell::new(0),
+            points: Arc::default(),
             hertz: None,
             facets: None,
         };
-        let capacity = mesh.capacity();
-        mesh.found = [0, 1].map(|_| Vec::with_capacity(capacity));
         for flank in Flank::ALL {
             let [least, largest] = mesh.mean_curvature(flank).principal_per_m;
             if least < LINE_CONTACT * largest {
@@ -150,10 +158,10 @@ impl BevelMesh {
         contact_modulus_pa * stiffness_per_pa(&self.mean_curvature(side))
     }
 
-    /// Points of flanks that were computed so far at all poses: the effort of the search.
+    /// Points of flanks that were computed so far at all poses, by this mesh and all copies of it: the effort of the search.
     #[must_use]
     pub fn computed_points(&self) -> u64 {
-        self.points.get()
+        self.points.load(Ordering::Relaxed)
     }
 
     /// Cone distance and height above the pitch cone \[m\] of a place on a flank of gear 0 or 1, at shares along the face and up the flank.
@@ -211,11 +219,12 @@ impl BevelMesh {
         &self,
         pose: &Pose,
         flank: Flank,
-        list: &mut Vec<Found>,
+        (list, touches): (&mut Vec<PoseDerivatives>, &mut Vec<Touch>),
         found: &mut FlankContacts,
     ) -> bool {
         found.clear();
         list.clear();
+        touches.clear();
         let side = &self.sides[flank as usize];
         found.action_m_per_u = [0.0; 2];
         let mut guesses: [Option<Guess>; MOST_PAIRS] = [None; MOST_PAIRS];
@@ -236,16 +245,14 @@ impl BevelMesh {
         let least_m = gaps.fold(f64::INFINITY, f64::min).max(0.0);
         let far_m = FAR * self.pitch_m();
         let looked_m = far_m.min(least_m + NEAR * self.pitch_m()) + 2.0 * moved_m;
+        let points = Cell::new(0);
         for (candidate, number) in candidates() {
             let guess = &guesses[number];
             if guess.is_some_and(|guess| guess.gap_m > looked_m) {
                 continue;
             }
-            let rotations = [
-                about_z(candidate.turns_rad[0]),
-                pose.rotation * about_z(candidate.turns_rad[1]),
-            ];
-            let bodies = placed(&side.patches, rotations, pose.displacement_m, &self.points);
+            let stands = (pose.rotation, pose.displacement_m);
+            let bodies = placed(&side.patches, candidate.turns_rad, stands, &points);
             let guessed = guess.as_ref().and_then(|guess| {
                 let mut limits = side.nominal.limits(guess);
                 limits.find_map(|limits| nearest_within(&bodies, limits, guess.at))
@@ -254,32 +261,36 @@ impl BevelMesh {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
-            let touch = Touch::new(&point);
-            let facets = self.facets.as_ref().filter(|_| point.gap_m < 0.0);
-            let sunk =
-                facets.and_then(|sides| sides[flank as usize].sunk(&bodies, &point, &motion));
-            self.push(pose, candidate.teeth, (&point, &motion, &touch), found);
-            if facets.is_some() {
-                let last = found.contacts.len() - 1;
-                let contact = &mut found.contacts[last];
+            let mut touch = Touch::new(&point);
+            let up = |m: usize| motion.places.row(2 * m + 1).transpose();
+            let mut contact = NearFlanks {
+                teeth: candidate.teeth,
+                up: point.at.map(|at| at[1]),
+                up_gradient: [up(0), up(1)],
+                heights_m: [0, 1]
+                    .map(|m: usize| (point.at[m][0] - 0.5) * self.layout.face_widths_m[m]),
+                radius_m: 1.0 / touch.relative.principal_per_m[1],
+                ideal_gap_m: point.gap_m,
+                gap_m: point.gap_m,
+                gradient: gradient(&point, &pose.displacement_m),
+            };
+            if let (Some(facets), true) = (&self.facets, point.gap_m < 0.0) {
+                let sunk = facets[flank as usize].sunk(&bodies, &point, &motion);
                 contact.gap_m = sunk.map_or(0.0, |sunk| sunk.gap_m);
-                if let Some(sunk) = sunk {
-                    contact.gradient = sunk.gradient;
-                    contact.gap_rate_m_per_s = sunk.gradient.dot(&pose.rates());
-                }
+                contact.gradient = sunk.map_or(contact.gradient, |sunk| sunk.gradient);
+                touch.gap_curvature = sunk.map(|sunk| sunk.curvature);
             }
+            self.push(pose, &contact, found);
             if let (Some(mean), true) = (&self.hertz, point.gap_m < 0.0) {
                 let (local, gradient) = local_measure(&bodies, &point, &motion, stiffness_per_pa);
                 let last = found.sections.len() - 1;
                 found.sections[last].stiffness = local / mean[flank as usize];
                 found.sections[last].share_gradient = gradient;
             }
-            list.push(Found {
-                motion,
-                touch,
-                sunk,
-            });
+            list.push(motion);
+            touches.push(touch);
         }
+        self.points.fetch_add(points.get(), Ordering::Relaxed);
         // The nearest pair first: the transmission error is its gap.
         let gap_m = |line: usize| found.lines[line].ideal_gap_m;
         if let Some(first) = (0..list.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b))) {
@@ -287,6 +298,7 @@ impl BevelMesh {
             found.contacts.swap(0, first);
             found.sections.swap(0, first);
             list.swap(0, first);
+            touches.swap(0, first);
             for number in [0, first] {
                 found.lines[number].section = number;
                 found.lines[number].contacts = (number, 1);
@@ -308,65 +320,36 @@ impl BevelMesh {
             return;
         };
         let lever = flank.mirror() * side.levers_m[1];
-        let gradient = on_turn(lever * pose.axis_2());
-        let up = [0, 1].map(|m: usize| side.patches[m].mean[1]);
-        found.lines.push(TeethLine {
+        let apart = NearFlanks {
             teeth: nearest.teeth,
-            section: 0,
-            ideal_gap_m: nearest.mean_gap_m,
-            contacts: (0, 1),
-        });
-        found.sections.push(Section {
-            roll_rad: up,
-            touching_roll_rad: up,
-            roll_gradient: [Vector6::zeros(); 2],
-            share: 1.0,
-            share_gradient: Vector6::zeros(),
-            stiffness: 1.0,
-            length_m: self.layout.width_m(),
-            radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
-            radius_growth: [0.0; 2],
-            length_growth: [0.0; 2],
-            along_gradient: [Vector6::zeros(); 2],
-            contacts: (0, 1),
-        });
-        found.contacts.push(ToothContact {
-            line: 0,
-            slice: 0,
-            section: 0,
+            up: [0, 1].map(|m: usize| side.patches[m].mean[1]),
+            up_gradient: [Vector6::zeros(); 2],
             heights_m: [0.0; 2],
+            radius_m: 1.0 / self.mean_curvature(flank).principal_per_m[1],
+            ideal_gap_m: nearest.mean_gap_m,
             gap_m: nearest.mean_gap_m,
-            gap_rate_m_per_s: gradient.dot(&pose.rates()),
-            gradient,
-        });
+            gradient: on_turn(lever * pose.axis_2()),
+        };
+        self.push(pose, &apart, found);
     }
 
-    fn push(
-        &self,
-        pose: &Pose,
-        teeth: [usize; 2],
-        (point, motion, touch): (&Nearest, &PoseDerivatives, &Touch),
-        found: &mut FlankContacts,
-    ) {
+    fn push(&self, pose: &Pose, near: &NearFlanks, found: &mut FlankContacts) {
         let number = found.contacts.len();
-        let gradient = gradient(point, &pose.displacement_m);
-        let up = point.at.map(|at| at[1]);
-        let row = |i: usize| motion.places.row(i).transpose();
         found.lines.push(TeethLine {
-            teeth,
+            teeth: near.teeth,
             section: number,
-            ideal_gap_m: point.gap_m,
+            ideal_gap_m: near.ideal_gap_m,
             contacts: (number, 1),
         });
         found.sections.push(Section {
-            roll_rad: up,
-            touching_roll_rad: up,
-            roll_gradient: [row(1), row(3)],
+            roll_rad: near.up,
+            touching_roll_rad: near.up,
+            roll_gradient: near.up_gradient,
             share: 1.0,
             share_gradient: Vector6::zeros(),
             stiffness: 1.0,
             length_m: self.layout.width_m(),
-            radius_m: 1.0 / touch.relative.principal_per_m[1],
+            radius_m: near.radius_m,
             radius_growth: [0.0; 2],
             length_growth: [0.0; 2],
             along_gradient: [Vector6::zeros(); 2],
@@ -376,10 +359,10 @@ impl BevelMesh {
             line: number,
             slice: 0,
             section: number,
-            heights_m: [0, 1].map(|m: usize| (point.at[m][0] - 0.5) * self.layout.face_widths_m[m]),
-            gap_m: point.gap_m,
-            gap_rate_m_per_s: gradient.dot(&pose.rates()),
-            gradient,
+            heights_m: near.heights_m,
+            gap_m: near.gap_m,
+            gap_rate_m_per_s: near.gradient.dot(&pose.rates()),
+            gradient: near.gradient,
         });
     }
 }
@@ -410,9 +393,11 @@ impl FlankKinematics for BevelMesh {
     }
 
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
-        let mut list = std::mem::take(&mut self.found[side as usize]);
-        self.is_apart[side as usize] = self.find(pose, side, &mut list, found);
-        self.found[side as usize] = list;
+        let mut list = std::mem::take(&mut self.found[side as usize].0);
+        let mut touches = std::mem::take(&mut self.touches[side as usize]);
+        self.is_apart[side as usize] = self.find(pose, side, (&mut list, &mut touches), found);
+        self.found[side as usize].0 = list;
+        self.touches[side as usize] = touches;
     }
 
     fn contacts_at(
@@ -422,26 +407,22 @@ impl FlankKinematics for BevelMesh {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         self.check_axes(pose)?;
-        self.find(pose, side, &mut Vec::new(), found);
+        self.find(pose, side, (&mut Vec::new(), &mut Vec::new()), found);
         Ok(())
     }
 
     fn gap_curvature(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let found = self.found[side as usize].get(contact);
-        found.map_or_else(Matrix6::zeros, |found| match &found.sunk {
-            Some(sunk) => sunk.curvature,
-            None => found.motion.gap_curvature(),
-        })
+        let of_facets = self.touches[side as usize].get(contact);
+        let of_facets = of_facets.and_then(|touch| touch.gap_curvature);
+        of_facets.unwrap_or_else(|| self.found[side as usize].gap_curvature(contact))
     }
 
     fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Vector6::zeros, |motion| motion.sliding()[0].0)
+        self.found[side as usize].sliding(contact, 0).0
     }
 
     fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.sliding()[0].1)
+        self.found[side as usize].sliding(contact, 0).1
     }
 
     fn second_sliding(
@@ -450,8 +431,7 @@ impl FlankKinematics for BevelMesh {
         contact: usize,
         side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
-        self.derivatives(contact, side)
-            .map(|motion| motion.sliding()[1])
+        Some(self.found[side as usize].sliding(contact, 1))
     }
 
     fn contact_patch(
@@ -460,8 +440,8 @@ impl FlankKinematics for BevelMesh {
         side: Flank,
         force_and_modulus: (f64, f64),
     ) -> Option<ContactPatch> {
-        let found = self.found[side as usize].get(contact)?;
-        Some(found.touch.patch(force_and_modulus))
+        let touch = self.touches[side as usize].get(contact)?;
+        Some(touch.patch(force_and_modulus))
     }
 
     /// The gap of the mean points, between the pairs that are nearest.
@@ -497,10 +477,5 @@ impl BevelMesh {
             });
         }
         Ok(())
-    }
-
-    fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
-        let found = self.found[side as usize].get(contact);
-        found.map(|found| &found.motion)
     }
 }

@@ -15,7 +15,7 @@
 use std::f64::consts::PI;
 
 use gearmesh_bevel::{FlankPatch, PatchPoint};
-use nalgebra::{Matrix2, Matrix2x6, Matrix3x6, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x6, Vector2, Vector3};
 
 use super::hertz_stiffness::{bounded, local_measure};
 use super::nearest_points::{Nearest, Placed};
@@ -88,6 +88,8 @@ pub(super) struct Sunk {
 
 /// Integrals over what is covered.
 struct Stored {
+    /// Axes of space from those of the facets.
+    axes: Matrix3<f64>,
     energy: f64,
     by_pose: Vector6,
     by_both: Matrix6,
@@ -207,6 +209,7 @@ impl Facets {
     /// Integrals over the cells around the nearest point: a rectangle of them grows until its borders are covered nowhere.
     fn stored(&self, bodies: &[Placed<'_>; 2], point: &Nearest) -> Stored {
         let mut sum = Stored {
+            axes: bodies[0].rotation(),
             energy: 0.0,
             by_pose: Vector6::zeros(),
             by_both: Matrix6::zeros(),
@@ -269,7 +272,7 @@ impl Facets {
         start: &mut [f64; 2],
         sum: &mut Stored,
     ) -> bool {
-        let x = bodies[0].rotation * place.r;
+        let x = sum.axes * place.r;
         let Some((at, foot)) = foot_of(&bodies[1], &x, *start) else {
             return false;
         };

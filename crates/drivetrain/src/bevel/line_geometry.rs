@@ -40,17 +40,22 @@ pub(super) struct LineGeometry {
 
 /// The products of powers of s and v, and their derivatives by v; both from −½ to ½.
 fn terms([s, v]: [f64; 2]) -> ([f64; TERMS], [f64; TERMS]) {
-    let (x, y) = (s - 0.5, v - 0.5);
+    let powers = |x: f64| {
+        let mut powers = [1.0; DEGREE + 1];
+        for k in 1..=DEGREE {
+            powers[k] = powers[k - 1] * x;
+        }
+        powers
+    };
+    let (of_s, of_v) = (powers(s - 0.5), powers(v - 0.5));
     let (mut values, mut slopes) = ([0.0; TERMS], [0.0; TERMS]);
     let mut number = 0;
     for total in 0..=DEGREE {
-        for of_v in 0..=total {
-            let of_s = x.powi((total - of_v) as i32);
-            values[number] = of_s * y.powi(of_v as i32);
-            slopes[number] = match of_v {
-                0 => 0.0,
-                _ => of_s * of_v as f64 * y.powi(of_v as i32 - 1),
-            };
+        values[number] = of_s[total];
+        number += 1;
+        for k in 1..=total {
+            values[number] = of_s[total - k] * of_v[k];
+            slopes[number] = k as f64 * of_s[total - k] * of_v[k - 1];
             number += 1;
         }
     }

@@ -19,6 +19,8 @@ use std::cell::Cell;
 use gearmesh_bevel::{FlankPatch, PatchPoint};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
+use super::tooth_side::about_z;
+
 /// Newton steps at most.
 const MOST_STEPS: usize = 15;
 /// Longest step of a coordinate, flanks being 1 long.
@@ -27,11 +29,13 @@ const LONGEST: f64 = 0.3;
 /// its start by their derivatives.
 const CLOSE: f64 = 1e-7;
 
-/// A patch in space: r = R r_own + origin.
+/// A patch in space: turned about its own axis, then r = A r_own + origin.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub patch: &'a FlankPatch,
-    pub rotation: Matrix3<f64>,
+    pub turn_rad: f64,
+    /// A; none where the axes are those of space.
+    pub axes: Option<Matrix3<f64>>,
     pub origin_m: Vector3<f64>,
     /// Counts the points that are computed.
     pub points: &'a Cell<u64>,
@@ -40,15 +44,22 @@ pub(crate) struct Placed<'a> {
 impl Placed<'_> {
     pub(crate) fn point(&self, at: [f64; 2]) -> PatchPoint {
         self.points.set(self.points.get() + 1);
-        let own = self.patch.point(at);
-        let m = &self.rotation;
-        PatchPoint {
-            r: m * own.r + self.origin_m,
-            dr: own.dr.map(|v| m * v),
-            ddr: own.ddr.map(|v| m * v),
-            n: m * own.n,
-            dn: own.dn.map(|v| m * v),
+        let mut point = self.patch.point_turned(at, self.turn_rad);
+        if let Some(axes) = &self.axes {
+            point.r = axes * point.r + self.origin_m;
+            point.n = axes * point.n;
+            let directions = point.dr.iter_mut().chain(&mut point.ddr);
+            for direction in directions.chain(&mut point.dn) {
+                *direction = axes * *direction;
+            }
         }
+        point
+    }
+
+    /// Axes of space from those of the flank.
+    pub(crate) fn rotation(&self) -> Matrix3<f64> {
+        let turn = about_z(self.turn_rad);
+        self.axes.map_or(turn, |axes| axes * turn)
     }
 }
 
@@ -181,17 +192,14 @@ pub(crate) fn equations(
     (residual, slopes)
 }
 
-/// A point a tiny step along its patch, to the square of the step.
-fn shifted(p: &PatchPoint, by: [f64; 2]) -> PatchPoint {
-    let [x, y] = by;
-    PatchPoint {
-        r: p.r
-            + (p.dr[0] + 0.5 * (p.ddr[0] * x + p.ddr[1] * y)) * x
-            + (p.dr[1] + 0.5 * (p.ddr[1] * x + p.ddr[2] * y)) * y,
-        dr: [0, 1].map(|k: usize| p.dr[k] + p.ddr[k] * x + p.ddr[k + 1] * y),
-        n: (p.n + p.dn[0] * x + p.dn[1] * y).normalize(),
-        ..*p
+/// Moves a point a tiny step along its patch, to the square of the step.
+fn shift(p: &mut PatchPoint, [x, y]: [f64; 2]) {
+    p.r += (p.dr[0] + 0.5 * (p.ddr[0] * x + p.ddr[1] * y)) * x
+        + (p.dr[1] + 0.5 * (p.ddr[1] * x + p.ddr[2] * y)) * y;
+    for k in 0..2 {
+        p.dr[k] += p.ddr[k] * x + p.ddr[k + 1] * y;
     }
+    p.n = (p.n + p.dn[0] * x + p.dn[1] * y).normalize();
 }
 
 /// Newton's method for one set of held coordinates.
@@ -205,9 +213,8 @@ pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) 
             }
         }
     }
-    let place = |at: &[[f64; 2]; 2]| [0, 1].map(|m: usize| bodies[m].point(at[m]));
     for _ in 0..MOST_STEPS {
-        let points = place(&at);
+        let mut points = [bodies[0].point(at[0]), bodies[1].point(at[1])];
         let (residual, slopes) = equations(&held, &at, &points);
         let mut step = slopes.lu().solve(&residual)?;
         let most = step.amax();
@@ -227,8 +234,9 @@ pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) 
             }
         }
         if most < CLOSE {
-            let points =
-                [0, 1].map(|m: usize| shifted(&points[m], [-step[2 * m], -step[2 * m + 1]]));
+            for (m, point) in points.iter_mut().enumerate() {
+                shift(point, [-step[2 * m], -step[2 * m + 1]]);
+            }
             let facing = points[0].n.dot(&points[1].n) < 0.0;
             return facing.then(|| Nearest::new(held, at, points));
         }

@@ -144,18 +144,22 @@ impl NominalContacts {
 
     /// What may hold the contact of a guess, the likeliest first: that of the nominal contact, then those of the next ones
     /// that differ, on either side.
-    pub(crate) fn limits(&self, guess: &Guess) -> impl Iterator<Item = Limits> {
+    pub(crate) fn limits(&self, guess: &Guess) -> impl Iterator<Item = Limits> + use<'_> {
         let own = guess.number;
-        let of = |number: usize| self.entries[number].as_ref().map(|entry| entry.limits);
+        let of = move |number: usize| self.entries[number].as_ref().map(|entry| entry.limits);
         let here = of(own);
         let differs = move |limits: &Option<Limits>| limits.is_some() && *limits != here;
         let reach = PER_PITCH / 2;
-        let after = (own + 1..self.entries.len().min(own + reach))
-            .map(of)
-            .find(differs);
-        let before = (own.saturating_sub(reach)..own).rev().map(of).find(differs);
-        [here, after.flatten(), before.flatten()]
-            .into_iter()
-            .flatten()
+        let after = move || {
+            let mut entries = (own + 1..self.entries.len().min(own + reach)).map(of);
+            entries.find(differs).flatten()
+        };
+        let before = move || {
+            let mut entries = (own.saturating_sub(reach)..own).rev().map(of);
+            entries.find(differs).flatten()
+        };
+        // The neighbours are looked at only where the likeliest does not hold.
+        let others = std::iter::once_with(after).chain(std::iter::once_with(before));
+        std::iter::once(here).chain(others).flatten()
     }
 }

@@ -64,10 +64,9 @@ impl Moving {
 /// A contact with what moves it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PoseDerivatives {
-    normal: Moving,
-    arm: Moving,
-    /// A tangent of the face.
-    tangent: Moving,
+    found: Nearest,
+    /// Of gear 2's point from its origin \[m\].
+    arm: Vector3<f64>,
     /// ∂(s, v of gear 1, s, v of gear 2)/∂pose.
     pub places: Matrix4x6<f64>,
 }
@@ -81,62 +80,92 @@ pub(crate) fn gradient(found: &Nearest, displacement_m: &Vector3<f64>) -> Vector
 impl PoseDerivatives {
     /// At a contact; gear 2's origin seen in gear 1.
     pub(crate) fn new(found: &Nearest, displacement_m: &Vector3<f64>) -> Self {
-        let [p, q] = &found.points;
-        let arm = q.r - displacement_m;
-        let places = places(found, &arm);
-        let turns = |v: &Vector3<f64>| {
-            let mut by_pose = Matrix3x6::zeros();
-            by_pose
-                .fixed_columns_mut::<3>(3)
-                .copy_from(&-v.cross_matrix());
-            by_pose
-        };
-        // How a vector of a member with these derivatives by s and v moves.
-        let moving = |member: usize, value: Vector3<f64>, by: [Vector3<f64>; 2]| {
-            let mut by_pose = if member == 1 {
-                turns(&value)
-            } else {
-                Matrix3x6::zeros()
-            };
-            for (l, d) in by.iter().enumerate() {
-                by_pose += d * places.row(2 * member + l);
-            }
-            Moving { value, by_pose }
-        };
-        let points = &found.points;
+        let arm = found.points[1].r - displacement_m;
+        Self {
+            found: *found,
+            arm,
+            places: places(found, &arm),
+        }
+    }
+
+    /// A vector of a member with these derivatives by s and v, and how it moves.
+    fn moving(&self, member: usize, value: Vector3<f64>, by: [Vector3<f64>; 2]) -> Moving {
+        let mut by_pose = Matrix3x6::zeros();
+        if member == 1 {
+            let turns = -value.cross_matrix();
+            by_pose.fixed_columns_mut::<3>(3).copy_from(&turns);
+        }
+        for (l, d) in by.iter().enumerate() {
+            by_pose += d * self.places.row(2 * member + l);
+        }
+        Moving { value, by_pose }
+    }
+
+    fn arm(&self) -> Moving {
+        self.moving(1, self.arm, self.found.points[1].dr)
+    }
+
+    /// The normal and a tangent of the face.
+    fn normal_and_tangent(&self) -> [Moving; 2] {
+        let points = &self.found.points;
+        let [p, q] = points;
         let tangent_of = |m: usize, k: usize| {
-            moving(m, points[m].dr[k], [points[m].ddr[k], points[m].ddr[k + 1]])
+            let by = [points[m].ddr[k], points[m].ddr[k + 1]];
+            self.moving(m, points[m].dr[k], by)
         };
-        let (normal, tangent) = match kind(&found.held) {
-            Kind::Face(1) => (moving(1, q.n, q.dn), tangent_of(1, 0)),
-            Kind::Face(_) => (moving(0, -p.n, p.dn.map(|d| -d)), tangent_of(0, 0)),
+        match kind(&self.found.held) {
+            Kind::Face(1) => [self.moving(1, q.n, q.dn), tangent_of(1, 0)],
+            Kind::Face(_) => [self.moving(0, -p.n, p.dn.map(|d| -d)), tangent_of(0, 0)],
             Kind::Edges([i, j]) => {
                 let mut normal = tangent_of(0, i).cross(&tangent_of(1, j)).unit();
-                if normal.value.dot(&found.normal) < 0.0 {
+                if normal.value.dot(&self.found.normal) < 0.0 {
                     normal.value.neg_mut();
                     normal.by_pose.neg_mut();
                 }
-                (normal, tangent_of(1, j))
+                [normal, tangent_of(1, j)]
             }
-        };
-        Self {
-            normal,
-            arm: moving(1, arm, q.dr),
-            tangent,
-            places,
         }
     }
 
     /// ∂(gradient of the gap)/∂pose.
-    pub(crate) fn gap_curvature(&self) -> Matrix6<f64> {
-        self.normal.load(&self.arm).1
+    fn gap_curvature(&self) -> Matrix6<f64> {
+        let [normal, _] = self.normal_and_tangent();
+        normal.load(&self.arm()).1
     }
 
     /// Loads on gear 2 of unit friction forces along two tangents at right angles, and their derivatives by the pose.
-    pub(crate) fn sliding(&self) -> [(Vector6, Matrix6<f64>); 2] {
-        let first = self.tangent.across(&self.normal);
-        let second = self.normal.cross(&first);
-        [first.load(&self.arm), second.load(&self.arm)]
+    fn sliding(&self) -> [(Vector6, Matrix6<f64>); 2] {
+        let [normal, tangent] = self.normal_and_tangent();
+        let first = tangent.across(&normal);
+        let second = normal.cross(&first);
+        let arm = self.arm();
+        [first.load(&arm), second.load(&arm)]
+    }
+}
+
+/// The contacts of one side that were found last, in the order of its patches: what a mesh is asked of them beyond their gaps. Zero for patches that
+/// were not found.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct MovingContacts(pub Vec<PoseDerivatives>);
+
+impl MovingContacts {
+    pub(crate) fn with_capacity(contacts: usize) -> Self {
+        Self(Vec::with_capacity(contacts))
+    }
+
+    /// As [`crate::FlankKinematics::gap_curvature`].
+    pub(crate) fn gap_curvature(&self, contact: usize) -> Matrix6<f64> {
+        let motion = self.0.get(contact);
+        motion.map_or_else(Matrix6::zeros, PoseDerivatives::gap_curvature)
+    }
+
+    /// k along one of the two tangents, and ∂k, as [`crate::FlankKinematics::sliding`].
+    pub(crate) fn sliding(&self, contact: usize, tangent: usize) -> (Vector6, Matrix6<f64>) {
+        let motion = self.0.get(contact);
+        motion.map_or_else(
+            || (Vector6::zeros(), Matrix6::zeros()),
+            |motion| motion.sliding()[tangent],
+        )
     }
 }
 

@@ -41,15 +41,20 @@ pub(crate) fn nearest_on_section(
     tips: impl IntoIterator<Item = TipHeld>,
     start: [[f64; 2]; 2],
 ) -> Option<Nearest> {
-    tips.into_iter().find_map(|tip| {
-        let found = solve(bodies, held(s, tip), start)?;
-        let holds = (0..2).all(|m| match tip == Some(m) {
+    let holds = |found: &Nearest, tip: TipHeld| {
+        (0..2).all(|m| match tip == Some(m) {
             // Beyond the tip the gap would shrink further.
             true => found.slope(m, 1) <= 1e-12,
             false => found.at[m][1] <= 1.0 + SLACK,
-        });
-        holds.then_some(found)
-    })
+        })
+    };
+    for tip in tips {
+        let found = solve(bodies, held(s, tip), start);
+        if found.as_ref().is_some_and(|found| holds(found, tip)) {
+            return found;
+        }
+    }
+    None
 }
 
 /// Tangent of the line of nearest points on gear 1 per unit of s \[m\], where no tip holds it.

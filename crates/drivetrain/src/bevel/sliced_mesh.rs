@@ -5,15 +5,18 @@
 //! 2's face ends within a slice, the slice touches over a share of its length. Only sections near enough to touch are
 //! computed: a guess from the pair as designed tells them.
 
+use std::cell::Cell;
+use std::sync::atomic::Ordering;
+
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::SliceLayout;
 use gearmesh_geometry::Flank;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::bevel_mesh::{BevelMesh, angle_of};
 use super::nearest_points::Nearest;
 use super::nominal_contacts::Guess;
-use super::pose_derivatives::{PoseDerivatives, gradient};
+use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
 use super::section_points::nearest_on_section;
 use super::sliced_side::{SlicedSide, TIPS, middle};
 use super::tooth_pairing::{Candidate, MOST_PAIRS};
@@ -37,13 +40,22 @@ const MISFIT: f64 = 0.05;
 /// Slices along the teeth.
 const SLICES: std::ops::RangeInclusive<usize> = 3..=100;
 
+/// A pair of teeth that may touch.
+struct Looked {
+    candidate: Candidate,
+    /// Displacement \[m\] and axes of gear 2 in the frame of gear 1's tooth.
+    seen: (Vector3<f64>, Matrix3<f64>),
+    /// What its one contact would have, if it is near at all.
+    gap_m: Option<f64>,
+}
+
 /// Flanks of a bevel pair in slices, gear 1 the pinion.
 #[derive(Debug, Clone)]
 pub struct BevelSlices {
     pair: BevelMesh,
     layout: SliceLayout,
     sides: [SlicedSide; 2],
-    found: [Vec<PoseDerivatives>; 2],
+    found: [MovingContacts; 2],
     guesses: Vec<Option<Guess>>,
     is_apart: [bool; 2],
     /// Sections that stand open by less are looked at in any case \[m\].
@@ -80,7 +92,7 @@ impl BevelSlices {
         Ok(Self {
             sides: [side(Flank::Right)?, side(Flank::Left)?],
             layout: SliceLayout::new([pair.layout.face_widths_m[0]; 2], 0.0, slices),
-            found: [0, 1].map(|_| Vec::with_capacity(capacity)),
+            found: [0, 1].map(|_| MovingContacts::with_capacity(capacity)),
             guesses: Vec::with_capacity(capacity),
             is_apart: [false; 2],
             reach_m: 0.0,
@@ -126,35 +138,35 @@ impl BevelSlices {
             least_m.max(self.reach_m) + margin_m + REACH * overlap_m
         };
         // Pairs of teeth first, by the one contact that each of them would have.
-        let seen = |candidate: &Candidate| {
+        let of_pairs = &self.pair.sides[flank as usize].nominal;
+        let mut pairs: [Option<Looked>; MOST_PAIRS] = [const { None }; MOST_PAIRS];
+        for (pair, candidate) in pairs.iter_mut().zip(self.pair.candidates(pose, flank)) {
             let back = about_z(-candidate.turns_rad[0]);
             let rotation = back * pose.rotation * about_z(candidate.turns_rad[1]);
-            (back * pose.displacement_m, rotation)
-        };
-        let of_pairs = &self.pair.sides[flank as usize].nominal;
-        let mut pairs = [None; MOST_PAIRS];
-        for (pair, candidate) in pairs.iter_mut().zip(self.pair.candidates(pose, flank)) {
-            let (moved, rotation) = seen(&candidate);
-            *pair = of_pairs.guess(candidate.angle_1_rad, &moved, &rotation);
+            let moved_m = back * pose.displacement_m;
+            let guess = of_pairs.guess(candidate.angle_1_rad, &moved_m, &rotation);
+            *pair = Some(Looked {
+                candidate,
+                seen: (moved_m, rotation),
+                gap_m: guess.map(|guess| guess.gap_m),
+            });
         }
-        let gaps = pairs.iter().flatten().map(|guess| guess.gap_m);
+        let pairs = || pairs.iter().flatten();
+        let gaps = pairs().filter_map(|pair| pair.gap_m);
         let far_m = reach_m(gaps.fold(f64::INFINITY, f64::min) - margin_m) + margin_m;
-        for (pair, candidate) in pairs.iter().zip(self.pair.candidates(pose, flank)) {
-            let far = pair.is_some_and(|guess| guess.gap_m > far_m);
-            let (moved, rotation) = seen(&candidate);
+        for pair in pairs() {
+            let far = pair.gap_m.is_some_and(|gap_m| gap_m > far_m);
+            let (moved_m, rotation) = &pair.seen;
             guesses.extend(sliced.nominal.iter().map(|slice| {
-                let near = !far;
-                let guess = || slice.guess_nearby(candidate.angle_1_rad, &moved, &rotation);
-                near.then(guess).flatten()
+                let guess = || slice.guess_nearby(pair.candidate.angle_1_rad, moved_m, rotation);
+                (!far).then(guess).flatten()
             }));
         }
         let gaps = guesses.iter().flatten().map(|guess| guess.gap_m);
         let reach_m = reach_m(gaps.fold(f64::INFINITY, f64::min));
-        let slices = self.layout.slices;
-        for (number, candidate) in self.pair.candidates(pose, flank).enumerate() {
-            let own = &guesses[number * slices..][..slices];
+        for (pair, own) in pairs().zip(guesses.chunks_exact(self.layout.slices)) {
             if own.iter().flatten().any(|guess| guess.gap_m <= reach_m) {
-                self.find_line(pose, flank, &candidate, (own, reach_m), list, found);
+                self.find_line(pose, flank, &pair.candidate, (own, reach_m), list, found);
             }
         }
         // The nearest pair first: the transmission error is its gap.
@@ -194,16 +206,9 @@ impl BevelSlices {
     ) {
         let side = &self.pair.sides[flank as usize];
         let sliced = &self.sides[flank as usize];
-        let rotations = [
-            about_z(candidate.turns_rad[0]),
-            pose.rotation * about_z(candidate.turns_rad[1]),
-        ];
-        let bodies = placed(
-            &side.patches,
-            rotations,
-            pose.displacement_m,
-            &self.pair.points,
-        );
+        let stands = (pose.rotation, pose.displacement_m);
+        let points = Cell::new(0);
+        let bodies = placed(&side.patches, candidate.turns_rad, stands, &points);
         let (line, first) = (found.lines.len(), found.contacts.len());
         let mut least_m = f64::INFINITY;
         for (slice, guess) in guesses.iter().enumerate() {
@@ -225,6 +230,7 @@ impl BevelSlices {
                 list.push(motion);
             }
         }
+        self.pair.points.fetch_add(points.get(), Ordering::Relaxed);
         let count = found.contacts.len() - first;
         if count > 0 {
             found.lines.push(TeethLine {
@@ -281,10 +287,6 @@ impl BevelSlices {
         });
         true
     }
-
-    fn derivatives(&self, contact: usize, side: Flank) -> Option<&PoseDerivatives> {
-        self.found[side as usize].get(contact)
-    }
 }
 
 /// Share of a slice that stands on gear 2's face, its middle at s there and `covered` of the face long, and its derivative by s.
@@ -317,10 +319,10 @@ impl FlankKinematics for BevelSlices {
     }
 
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
-        let mut list = std::mem::take(&mut self.found[side as usize]);
+        let mut list = std::mem::take(&mut self.found[side as usize].0);
         let mut guesses = std::mem::take(&mut self.guesses);
         self.is_apart[side as usize] = self.find(pose, side, (&mut list, &mut guesses), found);
-        self.found[side as usize] = list;
+        self.found[side as usize].0 = list;
         self.guesses = guesses;
     }
 
@@ -336,18 +338,15 @@ impl FlankKinematics for BevelSlices {
     }
 
     fn gap_curvature(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.gap_curvature())
+        self.found[side as usize].gap_curvature(contact)
     }
 
     fn sliding(&self, _: &FlankContacts, contact: usize, side: Flank) -> Vector6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Vector6::zeros, |motion| motion.sliding()[0].0)
+        self.found[side as usize].sliding(contact, 0).0
     }
 
     fn sliding_gradient(&self, _: &FlankContacts, contact: usize, side: Flank) -> Matrix6 {
-        let motion = self.derivatives(contact, side);
-        motion.map_or_else(Matrix6::zeros, |motion| motion.sliding()[0].1)
+        self.found[side as usize].sliding(contact, 0).1
     }
 
     fn second_sliding(
@@ -356,8 +355,7 @@ impl FlankKinematics for BevelSlices {
         contact: usize,
         side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
-        self.derivatives(contact, side)
-            .map(|motion| motion.sliding()[1])
+        Some(self.found[side as usize].sliding(contact, 1))
     }
 
     fn nearest_gap_m(&self, side: Flank) -> Option<f64> {

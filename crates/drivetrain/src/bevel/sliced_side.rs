@@ -75,8 +75,8 @@ impl SlicedSide {
             let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
             let turns = [0, 1].map(|m: usize| angles[m] - side.azimuths_rad[m]);
             let rotation = nominal_rotation(shaft_angle_rad, turns);
-            let rotations = [Matrix3::identity(), rotation];
-            let bodies = placed(&side.patches, rotations, Vector3::zeros(), &count);
+            let stands = (rotation, Vector3::zeros());
+            let bodies = placed(&side.patches, [0.0; 2], stands, &count);
             let far_m = FAR * pitch_2 * side.levers_m[1];
             let whole = searched(&bodies, &side.spheres, far_m);
             let here = whole.map_or(vec![None; slices], |whole| {

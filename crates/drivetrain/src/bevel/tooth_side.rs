@@ -59,12 +59,7 @@ impl Side {
             let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
             let turns = [0, 1].map(|m: usize| angles[m] - azimuths_rad[m]);
             let rotation = nominal_rotation(blank.data.shaft_angle_rad, turns);
-            let bodies = placed(
-                &patches,
-                [Matrix3::identity(), rotation],
-                Vector3::zeros(),
-                &count,
-            );
+            let bodies = placed(&patches, [0.0; 2], (rotation, Vector3::zeros()), &count);
             (
                 rotation,
                 searched(&bodies, &spheres, FAR * pitch_2 * levers_m[1]),
@@ -80,18 +75,19 @@ impl Side {
     }
 }
 
-/// Both flanks of a side in the frame of gear 1.
+/// Both flanks of a side in the frame of gear 1, turned about their own axes; gear 2 with its axes and its origin \[m\] there.
 pub(super) fn placed<'a>(
     patches: &'a [FlankPatch; 2],
-    rotations: [Matrix3<f64>; 2],
-    displacement_m: Vector3<f64>,
+    turns_rad: [f64; 2],
+    (axes, displacement_m): (Matrix3<f64>, Vector3<f64>),
     points: &'a Cell<u64>,
 ) -> [Placed<'a>; 2] {
-    let origins_m = [Vector3::zeros(), displacement_m];
+    let stands = [(None, Vector3::zeros()), (Some(axes), displacement_m)];
     [0, 1].map(|m: usize| Placed {
         patch: &patches[m],
-        rotation: rotations[m],
-        origin_m: origins_m[m],
+        turn_rad: turns_rad[m],
+        axes: stands[m].0,
+        origin_m: stands[m].1,
         points,
     })
 }
@@ -105,7 +101,7 @@ pub(super) fn searched(
     let [first, second] = bodies;
     let guess = BoundingSpheres::meet(
         [&spheres[0], &spheres[1]],
-        [&first.rotation, &second.rotation],
+        [&first.rotation(), &second.rotation()],
         second.origin_m,
     )?;
     nearest(bodies, guess, far_m)

@@ -7,11 +7,14 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use super::hertz_stiffness::{bounded, curvature};
 use super::nearest_points::Nearest;
 use crate::flank_kinematics::{ContactPatch, PatchAxes};
+use crate::slice_plane::Matrix6;
 
 /// A contact of two flanks, in the frame of gear 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub relative: RelativeCurvature,
+    /// Second derivative of the gap by the pose where flanks as facets tell it.
+    pub gap_curvature: Option<Matrix6>,
     normal: Vector3<f64>,
     /// s, v on both members.
     at: [[f64; 2]; 2],
@@ -23,6 +26,7 @@ impl Touch {
     pub(super) fn new(point: &Nearest) -> Self {
         Self {
             relative: curvature(point),
+            gap_curvature: None,
             normal: point.normal,
             at: point.at,
             tangents: [0, 1].map(|m: usize| point.points[m].dr),
