@@ -11,6 +11,9 @@
 
 use crate::file_error::FileError;
 use crate::record::{Fields, OPEN};
+use crate::reduced_gear::ReducedGear;
+use crate::reduced_gear_check::{check_array, out_of_range};
+use crate::reduced_gear_error::ReducedGearError;
 
 /// C_hub by patterns.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -27,10 +30,29 @@ pub struct HubPatterns {
 
 impl HubPatterns {
     /// Lengths of T, V and B for a number of loads of a tooth and of teeth.
-    pub(crate) fn lengths(&self, loads: usize, teeth: usize) -> [usize; 3] {
+    fn lengths(&self, loads: usize, teeth: usize) -> [usize; 3] {
         let all = teeth.saturating_mul(self.count);
         let body = all.saturating_mul(all.saturating_add(1)) / 2;
         [loads * loads, loads.saturating_mul(self.count), body]
+    }
+
+    /// Whether the arrays are as long as a gear's teeth and loads want them.
+    ///
+    /// # Errors
+    /// [`ReducedGearError::OutOfRange`] for a body that repeats, [`ReducedGearError::WrongLength`], [`ReducedGearError::NotFinite`].
+    pub(crate) fn check(&self, gear: &ReducedGear) -> Result<(), ReducedGearError> {
+        if gear.sectors != 1 {
+            let item = "the sectors of a body whose C_hub is kept by patterns";
+            return Err(out_of_range(item, gear.sectors, "1"));
+        }
+        let loads = gear.flanks.len() * gear.grid.len();
+        let [own_tooth, shares, body] = self.lengths(loads, gear.teeth);
+        let square = "(flanks * loads) squared";
+        check_array("own_tooth of C_hub", &self.own_tooth, own_tooth, square)?;
+        let product = "flanks * loads * patterns";
+        check_array("shares of C_hub", &self.shares, shares, product)?;
+        let triangle = "a lower triangle over teeth * patterns";
+        check_array("body of C_hub", &self.body, body, triangle)
     }
 
     /// B between two teeth: load pattern p, response pattern q.

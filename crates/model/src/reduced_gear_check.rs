@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::hub_patterns::HubPatterns;
 use crate::near_field::NearField;
 use crate::reduced_gear::ReducedGear;
 use crate::reduced_gear_error::ReducedGearError;
@@ -21,7 +20,7 @@ impl ReducedGear {
         let expected = match &self.hub_patterns {
             None => own * flanks * teeth * flanks * loads * loads,
             Some(patterns) => {
-                self.check_patterns(patterns)?;
+                patterns.check(self)?;
                 0
             }
         };
@@ -110,25 +109,6 @@ impl ReducedGear {
             f64::is_finite,
             "finite",
         )
-    }
-
-    fn check_patterns(&self, patterns: &HubPatterns) -> Result<(), ReducedGearError> {
-        if self.sectors != 1 {
-            let item = "the sectors of a body whose C_hub is kept by patterns";
-            return Err(out_of_range(item, self.sectors, "1"));
-        }
-        let loads = self.flanks.len() * self.grid.len();
-        let [own_tooth, shares, body] = patterns.lengths(loads, self.teeth);
-        let square = "(flanks * loads) squared";
-        check_array("own_tooth of C_hub", &patterns.own_tooth, own_tooth, square)?;
-        check_array(
-            "shares of C_hub",
-            &patterns.shares,
-            shares,
-            "flanks * loads * patterns",
-        )?;
-        let triangle = "a lower triangle over teeth * patterns";
-        check_array("body of C_hub", &patterns.body, body, triangle)
     }
 
     /// The gear's definition, where it is known, is that of this body and holds quantities that there can be.
