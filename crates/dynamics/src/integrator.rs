@@ -42,7 +42,7 @@ const MANY: usize = 5;
 /// So many steps then begin with new factors, before old ones are tried again.
 const FRESH_STEPS: u64 = 16;
 
-/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a mesh of reduced gears, takes longer than factors
+/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a contact of elastic bodies, takes longer than factors
 /// of as many.
 const SMALL: usize = 60;
 
