@@ -2,7 +2,8 @@
 //! period of many.
 //!
 //! `cargo bench -p gearmesh-drivetrain --bench bevel_step --profile dev`; on a busy machine only the fastest period says something. With
-//! `-- NAME` only the cases of that name.
+//! `-- NAME` only the cases of that name; with `-- PINION.h5 GEAR.h5` reduced members of the pair, as dynamics_bevel_20_20_hybrid.toml has them, in
+//! place of made-up ones.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 #[path = "../tests/mesh_common/mod.rs"]
@@ -13,6 +14,7 @@ mod running_bevel;
 use std::time::Instant;
 
 use gearmesh_dynamics::Simulation;
+use gearmesh_model::ReducedGear;
 use running_bevel::*;
 
 const PERIODS: usize = 40;
@@ -66,9 +68,13 @@ struct Case {
 }
 
 impl Case {
-    fn new(kind: &Kind) -> Self {
+    fn new(kind: &Kind, models: &[ReducedGear]) -> Self {
         let flanks = flanks(kind.slices);
-        let system = running_bevel(&flanks, bevel_mesh(kind.teeth, &flanks));
+        let mesh = match (kind.teeth, models) {
+            (Teeth::Reduced, [pinion, gear]) => reduced_bevel_mesh([pinion, gear], &flanks),
+            (teeth, _) => bevel_mesh(teeth, &flanks),
+        };
+        let system = running_bevel(&flanks, mesh);
         let run = Simulation::new(system.build().unwrap(), params()).unwrap();
         let names = run.system().channels();
         let of = |name: &str| names.iter().filter(|(element, _)| element == name).count();
@@ -99,12 +105,13 @@ fn main() {
         "{:28} {:>10} {:>10} {:>9} {:>11} {:>8}",
         "teeth", "fastest µs", "middle µs", "real time", "iterations", "factors"
     );
-    let wanted: Vec<String> = (std::env::args().skip(1))
-        .filter(|one| !one.starts_with('-'))
-        .collect();
+    let words = || std::env::args().skip(1).filter(|one| !one.starts_with('-'));
+    let (files, wanted): (Vec<String>, Vec<String>) = words().partition(|one| one.ends_with(".h5"));
+    let read = |file: &String| gearmesh_model::read_reduced_gear(file.as_ref()).unwrap();
+    let models: Vec<ReducedGear> = files.iter().map(read).collect();
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|one| one == name);
     for kind in KINDS.iter().filter(|kind| is_wanted(kind.name)) {
-        let mut case = Case::new(kind);
+        let mut case = Case::new(kind, &models);
         (0..4).for_each(|_| case.period());
         let mut times: Vec<f64> = (0..PERIODS)
             .map(|_| {

@@ -15,8 +15,7 @@ use crate::system::System;
 pub struct Checkpoint {
     /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (13).
     pub scalars: Vec<f64>,
-    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length, steps to come that begin with new
-    /// factors.
+    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length.
     pub counts: Vec<u64>,
     /// x, y, z of every body \[m\].
     pub positions_m: Vec<f64>,
@@ -79,7 +78,6 @@ impl Simulation {
                 info.pivotings,
                 info.evaluations,
                 self.steps_alike,
-                self.integrator.fresh_steps,
             ],
             positions_m: point
                 .state
@@ -130,7 +128,7 @@ impl Simulation {
         let c = checkpoint;
         for (what, found, expected) in [
             ("scalars", c.scalars.len(), 20),
-            ("counts", c.counts.len(), 9),
+            ("counts", c.counts.len(), 8),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
             ("modal", c.modal.len(), start.modal.len()),
@@ -152,7 +150,6 @@ impl Simulation {
         integrator.saddle.restore(matrix);
         integrator.equations.gradient.set(gradient);
         integrator.factored_step_s = c.scalars[2];
-        integrator.fresh_steps = c.counts[8];
         integrator.effort = Effort::default();
         restore_internal(&mut system, &c.internal);
         let vector = |k: usize| c.velocities[k * n..(k + 1) * n].to_vec();

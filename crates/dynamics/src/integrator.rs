@@ -10,8 +10,7 @@
 //!
 //! The factors are kept from step to step, what a step's own corrections tell about their error is used within it (`secants.rs`), and they
 //! are made anew, at the present iterate, when the step length has changed or corrections shrink
-//! too slowly. In small systems, where factors cost less than an evaluation, they are made anew at the start of every step for a while
-//! once a step by old ones has taken many corrections.
+//! too slowly.
 //!
 //! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
 
@@ -35,16 +34,6 @@ use crate::unknown::UnknownKind;
 
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
-
-/// So many corrections by old factors are many: new ones take about three.
-const MANY: usize = 5;
-
-/// So many steps then begin with new factors, before old ones are tried again.
-const FRESH_STEPS: u64 = 16;
-
-/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a contact of elastic bodies, takes longer than factors
-/// of as many.
-const SMALL: usize = 60;
 
 /// Where corrections no longer shrink, they are accepted up to this multiple of the floor of rounding.
 pub(crate) const STALLED: f64 = 100.0;
@@ -90,8 +79,6 @@ pub(crate) struct Integrator {
     pub saddle: Saddle,
     /// Step length that the factors are for; not a number before the first.
     pub factored_step_s: f64,
-    /// Steps to come that begin with new factors.
-    pub fresh_steps: u64,
     /// For the changes of step length, on the mass matrix itself.
     projector: Saddle,
     pub convergence: Convergence,
@@ -123,7 +110,6 @@ impl Integrator {
             equations: Equations::new(system),
             saddle: Saddle::new(&diagonal, system.layout.massless(), &form),
             factored_step_s: f64::NAN,
-            fresh_steps: 0,
             projector: Saddle::new(&diagonal, system.layout.massless(), &form),
             convergence: Convergence::new(system, &scheme),
             masses: system.masses(),
@@ -159,8 +145,7 @@ impl Integrator {
         let h = step_s;
         let square = self.scheme.beta * h * h;
         self.begin(system, from, to, h);
-        let begins_fresh = self.fresh_steps > 0;
-        let mut stale = begins_fresh || self.factored_step_s.to_bits() != h.to_bits();
+        let mut stale = self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut last_above_floor, mut place) = (f64::INFINITY, f64::INFINITY, 0);
         self.secants.reset();
         for iteration in 1..=params.most_iterations {
@@ -214,7 +199,6 @@ impl Integrator {
                     1.0
                 };
             if rest <= 1.0 || (!shrinks && above_floor <= STALLED) {
-                self.pace(begins_fresh, iteration);
                 self.finish(from, to, h);
                 return Ok(());
             }
@@ -232,17 +216,6 @@ impl Integrator {
             }
         }
         Err(StepFailure::Singular)
-    }
-
-    /// Says how many steps to come begin with new factors, after one that did or did not and took so many corrections. Where new factors take as
-    /// many, they are no help.
-    fn pace(&mut self, began_fresh: bool, corrections: usize) {
-        let is_small = self.delta.len() + self.mu.len() <= SMALL;
-        self.fresh_steps = match (began_fresh, corrections >= MANY) {
-            (true, false) => self.fresh_steps - 1,
-            (false, true) if is_small => FRESH_STEPS,
-            _ => 0,
-        };
     }
 
     /// First guess of a step, and what corrections are measured against.

@@ -135,7 +135,7 @@ pub fn running_bevel(flanks: &BevelSlices, mesh: GearMesh) -> SystemBuilder {
     ] {
         builder.joint(Joint::new(name, kind, grounds[member], markers[member]).unwrap());
     }
-    let brake = TimeFunction::step(0.0, 0.0, 0.01, -forwards * TORQUE_NM).unwrap();
+    let brake = TimeFunction::Constant(-forwards * TORQUE_NM);
     let along = (Axes::World, axis.into());
     builder.element(AppliedLoad::new("brake", gear, LoadKind::Torque, along, brake).unwrap());
     builder.element(MeshElement::new("mesh", markers, mesh));
