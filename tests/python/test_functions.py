@@ -1,6 +1,5 @@
 """Python functions as loads, motions and force elements: beside the same scenes with closed forms."""
 
-import threading
 import time
 import traceback
 
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 import gearmesh as gm
-from interruption import interrupt_once
+from interruption import interruption
 
 WHEEL = {
     "title": "wheel",
@@ -121,18 +120,18 @@ def test_functions_and_scenes_must_fit(tmp_path):
 def test_a_run_is_not_resumed_with_other_functions(tmp_path):
     output = tmp_path / "run.h5"
 
-    half_way = threading.Event()
+    with interruption() as interrupt:
 
-    def slow(time_s):
-        if time_s > 0.05:
-            half_way.set()
-            time.sleep(1e-3)
-        return 1.0
+        def slow(time_s):
+            if time_s > 0.05:
+                interrupt()
+                # Time for the run to be told.
+                time.sleep(1e-3)
+            return 1.0
 
-    scene = gm.Scene(loaded({"python": "fan"}), functions={"fan": slow})
-    interrupt_once(half_way.is_set)
-    with pytest.raises(KeyboardInterrupt):
-        scene.run(output, progress=False)
+        scene = gm.Scene(loaded({"python": "fan"}), functions={"fan": slow})
+        with pytest.raises(KeyboardInterrupt):
+            scene.run(output, progress=False)
     assert (tmp_path / "run.h5.part").exists() and not output.exists()
     with pytest.raises(gm.InputError, match="unfinished run"):
         gm.run(loaded({"python": "fan"}), output, functions={"fan": sine}, progress=False)
