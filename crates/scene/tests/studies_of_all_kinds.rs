@@ -71,6 +71,12 @@ fn a_bevel_pair_is_analysed_in_each_assembly() {
     let slip = text.replace("offset_um", "ofset_um");
     let told = studied(&fe_models(), &slip).unwrap_err();
     assert!(told.contains("offset_um"), "{told}");
+    // Of two new keys the one that is wrong is blamed.
+    let second = "[[parameter]]\nname = \"angle\"\nkeys = [\"tca.shaft_angle_mrad\"]\nuniform = { from = -0.1, to = 0.1 }\n";
+    let sampled = "design = \"random\"\nsamples = 2\n";
+    let slip = format!("{sampled}{slip}{second}");
+    let told = studied(&fe_models(), &slip).unwrap_err();
+    assert!(told.contains("parameter.0.keys: `tca.ofset_um`"), "{told}");
 }
 
 const BEARING: &str = "scene = \"bearing_pair_500_N.toml\"\noperation = { load_N = [0.0, -1000.0, 300.0], speed_rpm = 6000.0 }\n";
@@ -112,6 +118,15 @@ fn a_bearing_is_loaded_as_the_study_says() {
     let wrong = text.replace("[\"operation.speed_rpm\"]", "[\"operation.sped_rpm\"]");
     let told = studied(&fe_models(), &wrong).unwrap_err();
     assert!(told.contains("sped_rpm"), "{told}");
+    // A list of which nothing is stated.
+    let operation = "operation = { load_N = [0.0, -1000.0, 300.0], speed_rpm = 6000.0 }\n";
+    let none = text.replace(operation, "");
+    let none = none.replace("operation.speed_rpm", "operation.load_N.2");
+    let told = studied(&fe_models(), &none).unwrap_err();
+    assert!(
+        told.contains("it states no `operation.load_N`; state the whole list"),
+        "{told}"
+    );
     let pair = text.replace("bearing_pair_500_N.toml", "bevel_20_20.toml");
     let told = studied(&fe_models(), &pair).unwrap_err();
     assert!(told.contains("`operation` belongs to bearings"), "{told}");
