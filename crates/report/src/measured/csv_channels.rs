@@ -51,11 +51,14 @@ pub fn csv_channels(text: &str, axis: Option<&str>) -> Result<Vec<Channel>, Meas
     }
     let (mut heads, first) = heads_of(&rows, delimiter)?;
     // Spreadsheets leave columns of nothing at the end.
-    let is_empty = |at: usize| {
+    let is_bare = |at: usize| {
         let below = rows[first..].iter().map(|(_, row)| row.get(at));
-        heads[at].0.is_empty() && below.flatten().all(String::is_empty)
+        below.flatten().all(String::is_empty)
     };
-    while heads.len() > 1 && is_empty(heads.len() - 1) {
+    while heads.len() > 1
+        && heads.last().is_some_and(|(name, _)| name.is_empty())
+        && is_bare(heads.len() - 1)
+    {
         heads.pop();
     }
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); heads.len()];
