@@ -55,7 +55,7 @@ fn the_pendulum_swings_with_its_period() {
 fn a_body_that_a_spring_will_jerk_is_told() {
     let scene = |speed: &str| {
         let mut text =
-            "title = \"t\"\n[run]\nkind = \"transient\"\nend_s = 0.01\n[solver]\nstep_s = 1e-4\n"
+            "title = \"t\"\n[run]\nkind = \"transient\"\nend_s = 0.01\n[solver]\nstep_s = 1e-4\n[output]\ninterval_s = 1e-3\n"
                 .to_owned();
         for (name, speed) in [("motor", ""), ("wheel", speed)] {
             text += &format!(
@@ -67,7 +67,7 @@ fn a_body_that_a_spring_will_jerk_is_told() {
             [[torsion_spring]]\nname = \"coupling\"\nbody_1 = \"motor\"\nbody_2 = \"wheel\"\nstiffness_Nm_per_rad = 100.0\n"
     };
     let told = |speed: &str| {
-        let built = build(&scene(speed)).unwrap();
+        let built = build(&scene(speed)).unwrap_or_else(|e| panic!("{e:?}"));
         let words = "body `wheel` starts at rest, and torsion spring `coupling` joins it to `motor`, which starts with 600.000000 rpm";
         built.notes.iter().any(|note| note.starts_with(words))
     };
