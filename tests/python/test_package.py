@@ -3,6 +3,7 @@
 import json
 import pickle
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -170,7 +171,9 @@ def test_what_is_no_model_and_no_number_is_told(pinion, models):
         gm.Pair(models[0], pinion, centre_distance_mm=94.6, torques_Nm=[50])
     with pytest.raises(gm.InputError, match="tooth.profile_shift: found nan"):
         pinion.but(profile_shift=float("nan"))
-    one = gm.Pair(*models, centre_distance_mm=np.float32(94.6), torques_Nm=np.int64(50))
+    distance_mm: Any = np.float32(94.6)
+    torque_Nm: Any = np.int64(50)
+    one = gm.Pair(*models, centre_distance_mm=distance_mm, torques_Nm=torque_Nm)
     assert one.tables["run"]["torques_Nm"] == [50.0]
 
 
