@@ -1,7 +1,9 @@
 """The package gearmesh: from the definition of a gear to curves, in one process. Coarse gears."""
 
 import json
+import pickle
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -132,8 +134,18 @@ def test_data_sets_say_what_they_are(result):
     base_radius_m = 0.5 * 3e-3 * 40 * np.cos(np.radians(20.0))
     balance = result["force_N"].sum(axis=(2, 3)) * base_radius_m / result["torque_Nm"][:, None]
     assert balance == pytest.approx(1.0, abs=2e-3)
-    with pytest.raises(KeyError, match="it has .*te_m"):
+    with pytest.raises(KeyError, match="did you mean te_m.*it has .*te_m"):
         result["te_mm"]
+    with pytest.raises(gm.InputError, match="signal is for runs in time"):
+        result.signal("spectrum", "te_m")
+
+
+def test_a_result_goes_to_other_processes(result):
+    other = pickle.loads(pickle.dumps(result))
+    assert np.array_equal(other["te_m"], result["te_m"]) and repr(other) == repr(result)
+    # It stands in a file of its own, and goes on from there.
+    again = pickle.loads(pickle.dumps(other))
+    assert np.array_equal(again["force_N"], result["force_N"])
 
 
 def test_what_is_read_is_what_was_saved(result, tmp_path):
@@ -152,6 +164,17 @@ def test_a_relief_needs_no_further_reduction(models, result):
     # Removed material lets the wheel fall behind somewhere, nowhere ahead.
     assert te.min() < result["te_m"][1].min() - 1e-7
     assert (te <= result["te_m"][1] + 1e-9).all()
+
+
+def test_what_is_no_model_and_no_number_is_told(pinion, models):
+    with pytest.raises(TypeError, match="gear_2: a Gear is not reduced yet"):
+        gm.Pair(models[0], pinion, centre_distance_mm=94.6, torques_Nm=[50])
+    with pytest.raises(gm.InputError, match="tooth.profile_shift: found nan"):
+        pinion.but(profile_shift=float("nan"))
+    distance_mm: Any = np.float32(94.6)
+    torque_Nm: Any = np.int64(50)
+    one = gm.Pair(*models, centre_distance_mm=distance_mm, torques_Nm=torque_Nm)
+    assert one.tables["run"]["torques_Nm"] == [50.0]
 
 
 def test_a_scene_is_changed_by_its_keys(pair):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import html
 import os
 import tempfile
@@ -90,7 +91,9 @@ class Result:
     def _set(self, name: str) -> tuple[NDArray[Any], list[str], str, str]:
         if name not in self._sets:
             if name not in self.keys():
-                raise KeyError(f"the result has no `{name}`; it has {', '.join(self.keys())}")
+                near = difflib.get_close_matches(name, self.keys(), n=3)
+                hint = f"did you mean {' or '.join(near)}? " if near else ""
+                raise KeyError(f"the result has no `{name}`; {hint}it has {', '.join(self.keys())}")
             self._sets[name] = self._native.column(name)
         return self._sets[name]
 
@@ -199,6 +202,12 @@ class Result:
         self._native.write(path)
         return path
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as the bytes of its file, so that processes can hand it on."""
+        with tempfile.TemporaryDirectory() as folder:
+            content = self._file(folder).read_bytes()
+        return _unpickled, (content, self.notes, self.calls)
+
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the report page (HTML)."""
         with tempfile.TemporaryDirectory() as folder:
@@ -226,6 +235,9 @@ class Result:
         analysis: "spectrum", "sidebands", "envelope", "average", "map", "statistics" or "columns" (without a column).
         result.signal("spectrum", "gear_mesh/force_N", shaft="pinion", output="orders.csv")
         """
+        if self.kind == "pair":
+            told = "a pair at rest has positions, no rows in time; signal is for runs in time, te_m over angle_rad for NumPy's Fourier transform"
+            raise _native.InputError(told)
         with tempfile.TemporaryDirectory() as folder:
             words = [] if column is None else [column]
             return program("signal", analysis, self._file(folder), *words, *options(given))
@@ -259,6 +271,14 @@ class Result:
         if len(lines) > 7:
             lines[6:] = [f"  ... {len(lines) - 6} torques more"]
         return "\n".join(lines) + ">"
+
+
+def _unpickled(content: bytes, notes: list[str], calls: dict[str, int]) -> Result:
+    """A result from the bytes of its file, in a folder that lasts as long as it does."""
+    folder = tempfile.TemporaryDirectory(prefix="gearmesh-")
+    path = Path(folder.name) / "result.h5"
+    path.write_bytes(content)
+    return Result(_native.open_result(path), path, notes, folder, calls)
 
 
 def compare(result: Result | str | os.PathLike[str], record: str | os.PathLike[str], **given: Any) -> dict[str, Any]:

@@ -10,6 +10,8 @@ import uuid
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, Sequence, Union
 
+import numpy as np
+
 from . import _native
 from .progress import Bar, Progress
 from .reduced import ReducedGear
@@ -185,8 +187,11 @@ class Pair(Scene):
         gear_2_flanks: Tables | None = None,
         **tables: Any,
     ) -> None:
+        for place, gear in enumerate((gear_1, gear_2), 1):
+            if callable(getattr(gear, "reduce", None)):
+                raise TypeError(f"gear_{place}: a Gear is not reduced yet; give its model, gear_{place}.reduce()")
         models = [gear if isinstance(gear, ReducedGear) else ReducedGear(gear) for gear in (gear_1, gear_2)]
-        torques = [torques_Nm] if isinstance(torques_Nm, (int, float)) else torques_Nm
+        torques = np.atleast_1d(torques_Nm)
         scene: Tables = {
             "title": title or f"{models[0].name} and {models[1].name}",
             "pair": {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
 from pathlib import Path
 from typing import Any
@@ -23,16 +24,19 @@ def from_toml(text: str, file: str) -> Tables:
     return json.loads(_native.json_from_toml(text, file))
 
 
-def _plain(value: Any) -> Any:
-    """What JSON knows: paths become texts, NumPy's numbers and arrays Python's."""
+def _plain(value: Any, path: str = "") -> Any:
+    """What JSON knows: paths become texts, NumPy's numbers and arrays Python's. InputError for numbers that are not finite."""
     if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items() if item is not None}
+        below = {str(key): item for key, item in value.items() if item is not None}
+        return {key: _plain(item, f"{path}.{key}" if path else key) for key, item in below.items()}
     if isinstance(value, os.PathLike):
         return str(Path(value).absolute())
     if hasattr(value, "tolist"):
-        return value.tolist()
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [_plain(item, f"{path}.{place}") for place, item in enumerate(value)]
+    if isinstance(value, float) and not math.isfinite(value):
+        raise _native.InputError(f"{path}: found {value}, allowed is a finite number")
     return value
 
 

@@ -30,6 +30,7 @@ fn study_error(error: StudyError) -> PyErr {
         StudyError::Folder { .. } => PyOSError::new_err(error.to_string()),
         StudyError::Stopped => PyKeyboardInterrupt::new_err(""),
         StudyError::Bevel(_)
+        | StudyError::BevelLoad(_)
         | StudyError::Bearing(_)
         | StudyError::Column(_)
         | StudyError::Reduction { .. }

@@ -11,7 +11,7 @@ mod csv_channels;
 mod record_files;
 mod unit;
 
-pub use csv_channels::csv_channels;
+pub use csv_channels::{csv_channels, decoded};
 pub use record_files::{RecordFiles, RecordRequest, record_files};
 
 use crate::export::Function;

@@ -54,12 +54,30 @@ pub struct Bearing {
     pub file: Option<(String, String)>,
 }
 
+impl Bearing {
+    /// A place where a shaft is held, `u_mm` along that of the first side.
+    pub fn rigid(id: i64, name: String, sides: [i64; 2], u_mm: f64, axial: AxialSupport) -> Self {
+        Self {
+            id,
+            name,
+            sides,
+            u_mm: [Some(u_mm), None],
+            radial_n_per_mm: RIGID,
+            axial_n_per_mm: RIGID,
+            tilt_nm_per_rad: 0.0,
+            axial,
+            bore_mm: None,
+            file: None,
+        }
+    }
+}
+
 /// Radial stiffness where none is given \[N/mm\]: that of a loaded bearing of medium size.
 const RADIAL: f64 = 5e5;
 /// Axial stiffness where none is given \[N/mm\].
 const AXIAL: f64 = 2e5;
 /// What rigid bearings get \[N/mm\]: far stiffer than shafts, and harmless to equations.
-const RIGID: f64 = 1e7;
+pub const RIGID: f64 = 1e7;
 /// Larger stiffness stands for rigid \[N/mm\].
 const RIGID_FROM: f64 = 1e8;
 /// The same of tilting \[N m/rad\].
@@ -134,10 +152,12 @@ pub fn read(
                 AxialSupport::None
             };
             let found = other.map_or("not given".to_owned(), |o| format!("`{o}` is not known"));
-            source.assume(
-                component,
-                format!("axial_force_absorption {found}: {support:?}"),
-            );
+            let words = match support {
+                AxialSupport::None => "no axial support",
+                _ => "axial support both ways",
+            };
+            let text = format!("axial_force_absorption {found}: {words}");
+            source.assume(component, text);
             support
         }
     };

@@ -20,6 +20,8 @@ pub const JOINTS: [&str; 4] = [
 /// A coupling between two parts.
 #[derive(Debug, Clone)]
 pub struct Coupling {
+    /// Component.
+    pub id: i64,
     /// Name in the scene.
     pub name: String,
     /// Its two parts: components.
@@ -28,7 +30,12 @@ pub struct Coupling {
     pub u_mm: [Option<f64>; 2],
     /// Stiffness along the axis, across it \[N/mm\], about it, of tilting \[N m/rad\].
     pub stiffness: [f64; 4],
+    /// Whether the file gives none of them.
+    pub is_bare: bool,
 }
+
+/// Stiffness of a coupling that is rigid in all directions.
+pub const RIGID: [f64; 4] = [1e7, 1e7, RIGID_NM_PER_RAD, RIGID_NM_PER_RAD];
 
 /// What a coupling gets about its axis where no stiffness is given, or one that stands for rigid \[N m/rad\].
 const RIGID_NM_PER_RAD: f64 = 1e7;
@@ -71,7 +78,8 @@ pub fn read(
     let radial = number("radial_stiffness", N_PER_M, 1e7)?;
     let tilt = number("bending_stiffness", NMM_PER_RAD, RIGID_NM_PER_RAD)?;
     let mut torsion = number("rotational_stiffness", NMM_PER_RAD, RIGID_NM_PER_RAD)?;
-    if torsion == 0.0 {
+    let is_open = torsion == 0.0;
+    if is_open {
         source.assume(
             component,
             format!("no rotational_stiffness given: {RIGID_NM_PER_RAD:e} N m/rad"),
@@ -79,6 +87,8 @@ pub fn read(
         torsion = RIGID_NM_PER_RAD;
     }
     Ok(Some(Coupling {
+        id: component.id,
+        is_bare: [axial, radial, tilt].iter().all(|k| *k == 0.0) && is_open,
         name,
         sides,
         u_mm,

@@ -9,6 +9,8 @@ pub struct Entry {
     pub subject: String,
     /// What about it.
     pub text: String,
+    /// Whether it is a single value that no part of the import asked for, rather than a component, a relation or a judgement.
+    pub is_value: bool,
 }
 
 /// What became of a model.
@@ -24,10 +26,11 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    fn add(&mut self, list: u8, subject: &str, text: String) {
+    fn add(&mut self, list: u8, subject: &str, text: String, is_value: bool) {
         let entry = Entry {
             subject: subject.to_owned(),
             text,
+            is_value,
         };
         // Load cases read the same components again.
         if self.known.insert((list, entry.clone())) {
@@ -41,17 +44,22 @@ impl Ledger {
 
     /// A value was taken.
     pub fn take(&mut self, subject: &str, text: impl Into<String>) {
-        self.add(0, subject, text.into());
+        self.add(0, subject, text.into(), false);
     }
 
     /// Something was assumed.
     pub fn assume(&mut self, subject: &str, text: impl Into<String>) {
-        self.add(1, subject, text.into());
+        self.add(1, subject, text.into(), false);
     }
 
     /// Something is not represented.
     pub fn leave_out(&mut self, subject: &str, text: impl Into<String>) {
-        self.add(2, subject, text.into());
+        self.add(2, subject, text.into(), false);
+    }
+
+    /// A value that no part of the import asked for.
+    pub fn leave_out_value(&mut self, subject: &str, text: impl Into<String>) {
+        self.add(2, subject, text.into(), true);
     }
 
     /// The list as a page (Markdown).

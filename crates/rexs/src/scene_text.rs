@@ -6,7 +6,7 @@ use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
 use crate::text::{comment, number, numbers, quoted};
-use crate::train::Train;
+use crate::train::{SeatedGear, Train};
 use std::collections::BTreeMap;
 
 /// What the gear meshes of a scene are computed with.
@@ -86,7 +86,7 @@ pub fn scene(
     text
 }
 
-/// Trains that are joined by meshes and couplings: the number of each shaft's train.
+/// Trains that are joined by meshes of the scene and couplings: the number of each shaft's train.
 fn groups(train: &Train) -> BTreeMap<i64, usize> {
     let mut group: BTreeMap<i64, usize> = train
         .shafts
@@ -94,12 +94,12 @@ fn groups(train: &Train) -> BTreeMap<i64, usize> {
         .enumerate()
         .map(|(i, s)| (s.id, i))
         .collect();
-    let bevel: Vec<usize> = train.bevels.iter().map(|b| b.link.0).collect();
+    let apart: Vec<usize> = train.torque_seats().map(|t| t.link.0).collect();
     for (_, link) in train
         .links
         .iter()
         .enumerate()
-        .filter(|(i, _)| !bevel.contains(i))
+        .filter(|(i, _)| !apart.contains(i))
     {
         let [Some(&a), Some(&b)] = link.shafts.map(|s| group.get(&s)) else {
             continue;
@@ -142,10 +142,10 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
     {
         text.push_str(&format!("speed_rpm = {}\n", number(speed)));
     }
-    let seats: Vec<String> = train
-        .gears
-        .iter()
-        .filter(|g| g.shaft == shaft.id)
+    let mine = || train.gears.iter().filter(|g| g.shaft == shaft.id);
+    let first = |g: &&SeatedGear| shaft.seated(shaft.station(g.mid_mm)) == Some(&g.gear.name);
+    let seats: Vec<String> = mine()
+        .filter(first)
         .map(|g| {
             format!(
                 "{{ station = {}, body = {} }}",
@@ -334,14 +334,14 @@ fn drive(text: &mut String, source: &Source<'_>, train: &Train, groups: &BTreeMa
             name: load.name.clone(),
         })
         .collect();
-    for bevel in &train.bevels {
+    for seat in train.torque_seats() {
         // What the shaft brings to the link, the link takes from the shaft.
-        if let Some(link) = train.flow.link_nm.get(bevel.link.0).copied().flatten() {
+        if let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() {
             torques.push(Torque {
-                shaft: bevel.shaft,
-                u_mm: bevel.u_mm,
-                nm: -link[bevel.link.1],
-                name: format!("torque at {}", bevel.name),
+                shaft: seat.shaft,
+                u_mm: seat.u_mm,
+                nm: -link[seat.link.1],
+                name: format!("torque at {}", seat.name),
             });
         }
     }
@@ -369,7 +369,7 @@ fn drive(text: &mut String, source: &Source<'_>, train: &Train, groups: &BTreeMa
                         "no torque acts on its train: held at its first station",
                     );
                 }
-                (Some(format!("{}/0", shaft.name)), shaft.name.clone())
+                (Some(shaft.station_body(0)), shaft.name.clone())
             }
         };
         let Some(body) = body else { continue };

@@ -40,6 +40,8 @@ pub struct Shaft {
     pub speed_rpm: Option<f64>,
     /// Places of stations along u \[mm\].
     points_mm: Vec<f64>,
+    /// Bodies that take the place of a station, and where along u \[mm\].
+    seated: Vec<(f64, String)>,
     /// Faces along u of gears that are cut into the shaft, from the lower to the higher one \[mm\].
     faces_mm: Vec<[f64; 2]>,
 }
@@ -124,9 +126,36 @@ impl Shaft {
             .unwrap_or(0)
     }
 
-    /// Body of the station at a place along u.
+    /// Seats a body, which takes the place of the station's own.
+    pub fn seat(&mut self, u_mm: f64, body: &str) {
+        self.seated.push((u_mm, body.to_owned()));
+    }
+
+    /// The body that is seated first at a station.
+    pub fn seated(&self, station: usize) -> Option<&str> {
+        let mut here = self.seated.iter();
+        here.find(|(u, _)| self.station(*u) == station)
+            .map(|(_, body)| body.as_str())
+    }
+
+    /// Body at a place along u: what is seated there, else the station's own.
     pub fn body(&self, u_mm: f64) -> String {
-        format!("{}/{}", self.name, self.station(u_mm))
+        self.station_body(self.station(u_mm))
+    }
+
+    /// Body of a station: what is seated there, else its own.
+    pub fn station_body(&self, station: usize) -> String {
+        let own = || format!("{}/{station}", self.name);
+        self.seated(station).map_or_else(own, str::to_owned)
+    }
+
+    /// Both ends along u \[mm\].
+    pub fn ends_mm(&self) -> [f64; 2] {
+        let of = |pick: fn(&Section) -> f64| self.sections.iter().map(pick);
+        [
+            of(|s| s.start_mm).fold(f64::MAX, f64::min),
+            of(|s| s.end_mm).fold(f64::MIN, f64::max),
+        ]
     }
 
     /// Outer and inner diameter at a place along u \[mm\]; beyond the ends those of the last piece.
@@ -225,6 +254,7 @@ pub fn read(
         material: material(source, structure, component)?,
         speed_rpm: speed.filter(|n| *n != 0.0 && defines != Some(false)),
         points_mm: Vec::new(),
+        seated: Vec::new(),
         faces_mm: Vec::new(),
     })
 }

@@ -314,10 +314,9 @@ impl<'a> Source<'a> {
                     Value::List(items) => format!("{} values", items.len()),
                     Value::Rows(rows) => format!("{} rows", rows.len()),
                 };
-                self.leave_out(
-                    component,
-                    format!("{} {value} {}", a.id, a.unit).trim().to_owned(),
-                );
+                let text = format!("{} {value} {}", a.id, a.unit);
+                let mut ledger = self.ledger.borrow_mut();
+                ledger.leave_out_value(&component.words(), text.trim());
             }
         }
     }

@@ -177,6 +177,13 @@ impl Structure {
         fitting.find_map(|r| r.role(&["stage_gear_data"]))
     }
 
+    /// Shafts of a planetary stage in relations of a kind: `planet_carrier_shaft` and so on.
+    pub fn planetary_shafts(&self, stage: i64, kind: &str) -> Vec<i64> {
+        let of_kind = self.relations.iter().filter(|r| r.kind == kind);
+        let own = of_kind.filter(|r| r.role(&["planetary_stage", "stage"]) == Some(stage));
+        own.filter_map(|r| r.role(&["shaft"])).collect()
+    }
+
     /// Relations in which some roles of planetary stages are given, by component.
     pub fn planetary_role(&self, id: i64) -> Option<&str> {
         let roles = ["planet_shaft", "planet_pin", "planet_carrier_shaft"];

@@ -8,10 +8,12 @@ use crate::gear::{self, Gear};
 use crate::loads::{self, AddedMass, Load};
 use crate::model::Component;
 use crate::placement::frame;
+use crate::planetary;
 use crate::power_flow::{Flow, Link};
 use crate::shaft::{self, Shaft};
 use crate::source::Source;
 use crate::structure::{Stage, Structure};
+use crate::supports::{hold, leave_out_bare};
 use crate::text::{Names, file_stem};
 use crate::train_finish::{finish_gears, finish_shafts, power};
 use crate::train_places::{place_shafts, settle_middles};
@@ -31,6 +33,8 @@ pub struct SeatedGear {
 /// A cylindrical stage.
 #[derive(Debug, Clone)]
 pub struct Mesh {
+    /// The stage: component.
+    pub stage: i64,
     /// Name in the scene.
     pub name: String,
     /// Places of the two gears in [`Train::gears`].
@@ -56,6 +60,19 @@ pub struct BevelSeat {
     pub stage: Option<BevelStage>,
 }
 
+/// Where a torque passes from a shaft to a link that the scene has no mesh of.
+#[derive(Debug, Clone)]
+pub struct TorqueSeat {
+    /// Shaft: component.
+    pub shaft: i64,
+    /// Place along u \[mm\].
+    pub u_mm: f64,
+    /// Its link, and which side of it.
+    pub link: (usize, usize),
+    /// Name.
+    pub name: String,
+}
+
 /// A gearbox in one load case.
 #[derive(Debug)]
 pub struct Train {
@@ -67,6 +84,8 @@ pub struct Train {
     pub meshes: Vec<Mesh>,
     /// Bevel gears.
     pub bevels: Vec<BevelSeat>,
+    /// Members of planetary stages.
+    pub planetary: Vec<TorqueSeat>,
     /// Bearings.
     pub bearings: Vec<Bearing>,
     /// Couplings.
@@ -87,6 +106,17 @@ impl Train {
         self.shafts.iter().find(|s| s.id == id)
     }
 
+    /// Members of bevel and planetary stages, which pass torques on without a mesh of the scene.
+    pub fn torque_seats(&self) -> impl Iterator<Item = TorqueSeat> + '_ {
+        let bevels = self.bevels.iter().map(|b| TorqueSeat {
+            shaft: b.shaft,
+            u_mm: b.u_mm,
+            link: b.link,
+            name: b.name.clone(),
+        });
+        bevels.chain(self.planetary.iter().cloned())
+    }
+
     /// A shaft, to be changed.
     pub fn shaft_mut(&mut self, id: i64) -> Option<&mut Shaft> {
         self.shafts.iter_mut().find(|s| s.id == id)
@@ -105,6 +135,7 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
         gears: Vec::new(),
         meshes: Vec::new(),
         bevels: Vec::new(),
+        planetary: Vec::new(),
         bearings: Vec::new(),
         couplings: Vec::new(),
         loads: Vec::new(),
@@ -135,6 +166,9 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
     settle_middles(source, &mut train)?;
     bearings_and_couplings(source, structure, &mut train, &mut names, &mut files)?;
     on_shafts(source, structure, &mut train, &mut names)?;
+    leave_out_bare(source, &mut train);
+    planetary::join(source, structure, &mut train);
+    hold(source, &mut train);
     finish_shafts(source, &mut train);
     finish_gears(source, &mut train);
     train.flow = power(source, &train);
@@ -157,9 +191,6 @@ fn seat_gears(
             component,
             format!("{}s have no model", component.kind.replace('_', " ")),
         );
-    }
-    for component in source.model.of_kind(&["planetary_stage"]) {
-        source.leave_out(component, "planetary stages have no model in scenes");
     }
     for component in source.model.of_kind(&["cylindrical_gear"]) {
         let name = names.unique(&component.name, component.id);
@@ -226,6 +257,7 @@ fn join_stages(
                     ratio: -f64::from(first.gear.teeth) / f64::from(second.gear.teeth),
                 });
                 train.meshes.push(Mesh {
+                    stage: stage.id,
                     name: names.unique(
                         if stage.name.is_empty() {
                             "stage"
@@ -241,7 +273,7 @@ fn join_stages(
             "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
             _ => source.leave_out(
                 stage,
-                format!("{}s have no model in scenes", stage.kind.replace('_', " ")),
+                format!("{}s have no model in scenes: speeds and torques do not pass", stage.kind.replace('_', " ")),
             ),
         }
     }

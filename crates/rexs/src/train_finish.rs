@@ -6,7 +6,8 @@ use crate::placement::{add, dot};
 use crate::power_flow::{ASSUMED_RPM, Flow, TorqueOn, flow};
 use crate::shaft::{self, Shaft};
 use crate::source::Source;
-use crate::train::Train;
+use crate::train::{Mesh, Train};
+use crate::units::MM;
 use std::collections::BTreeMap;
 
 /// Stations where something stands; one direction for all shafts of parallel axes.
@@ -16,7 +17,7 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
     marks.extend(train.gears.iter().map(|g| (g.shaft, g.mid_mm)));
     marks.extend(train.loads.iter().map(|l| (l.shaft, l.u_mm)));
     marks.extend(train.masses.iter().map(|m| (m.shaft, m.u_mm)));
-    marks.extend(train.bevels.iter().map(|b| (b.shaft, b.u_mm)));
+    marks.extend(train.torque_seats().map(|t| (t.shaft, t.u_mm)));
     for (sides, places) in train
         .bearings
         .iter()
@@ -49,6 +50,9 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         let id = shaft.id;
         for &(_, u) in marks.iter().filter(|(on, _)| *on == id) {
             shaft.mark(u);
+        }
+        for seated in train.gears.iter().filter(|g| g.shaft == id) {
+            shaft.seat(seated.mid_mm, &seated.gear.name);
         }
         if let Some(component) = source.model.component(shaft.id) {
             let mine: Vec<f64> = bores
@@ -125,6 +129,7 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
         let between = add(fb.origin_mm, fa.origin_mm, -1.0);
         let along = dot(between, fa.axes[0]);
         let distance = (dot(between, between) - along * along).max(0.0).sqrt();
+        told_distance(source, mesh, distance);
         let [ga, gb] = [&train.gears[a].gear, &train.gears[b].gear];
         let reference = 0.5 * (ga.reference_diameter_mm() + gb.reference_diameter_mm());
         let module = ga.module_mm;
@@ -154,14 +159,32 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
             let Some(component) = source.model.component(gear.id) else {
                 continue;
             };
-            let k = k.clamp(-0.5, 0.0);
+            // Adding 0 makes 0 of -0, and rounding is no shortening.
+            let k = if k.abs() < 1e-6 {
+                0.0
+            } else {
+                k.clamp(-0.5, 0.0)
+            };
             let tip = gear.reference_diameter_mm()
                 + 2.0 * module * (gear.addendum + gear.profile_shift + k);
-            source.assume(component, format!("tip diameter not given or not possible: {tip:.4} mm, addendum {} modules, shortened by {:.4} modules for the clearance at this centre distance", gear.addendum, -k));
+            source.assume(component, format!("tip diameter not given or not possible: {tip:.4} mm, addendum {} modules, shortened by {:.4} modules for the clearance at this centre distance", gear.addendum, k.abs()));
             gear.tip_diameter_mm = Some(tip);
         }
     }
     bores(source, train);
+}
+
+/// Says so where the stage states another centre distance than its shafts have.
+fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
+    let Some(stage) = source.model.component(mesh.stage) else {
+        return;
+    };
+    let Ok(Some(stated)) = source.number(stage, "center_distance", MM) else {
+        return;
+    };
+    if (stated.abs() - distance_mm).abs() > 1e-4 * distance_mm {
+        source.assume(stage, format!("center_distance is {stated} mm, but the shafts stand {distance_mm:.4} mm apart: as the shafts stand"));
+    }
 }
 
 /// Thinnest shaft that holds a gear cut into it, over the gear's root: what gear files allow.
@@ -222,6 +245,14 @@ fn bores(source: &Source<'_>, train: &mut Train) {
             }
         }
         let bore = 0.5 * root;
+        if shaft.is_none() {
+            let what = format!(
+                "on no shaft of the scene: a ring from a bore of {bore:.3} mm, half its root diameter, on"
+            );
+            source.assume(component, what);
+            gear.bore_mm = Some(bore);
+            continue;
+        }
         source.assume(
             component,
             format!("cut into its shaft ({outer} mm thick, root {root:.3} mm), where other things stand within its face, or no shaft goes on: a ring from a bore of {bore:.3} mm on, held there; the shaft's own mass under the teeth counts besides"),
@@ -238,7 +269,7 @@ fn torque_sides(train: &Train, gear: usize) -> [bool; 2] {
     let gears = gears
         .filter(|(i, _)| *i != gear)
         .map(|(_, g)| (g.shaft, g.mid_mm));
-    let bevels = train.bevels.iter().map(|b| (b.shaft, b.u_mm));
+    let others = train.torque_seats().map(|t| (t.shaft, t.u_mm));
     let loads = train
         .loads
         .iter()
@@ -248,7 +279,7 @@ fn torque_sides(train: &Train, gear: usize) -> [bool; 2] {
         let places = c.sides.into_iter().zip(c.u_mm);
         places.filter_map(|(shaft, u)| Some((shaft, u?)))
     });
-    let all = gears.chain(bevels).chain(loads).chain(couplings);
+    let all = gears.chain(others).chain(loads).chain(couplings);
     let mut sides = [false; 2];
     for (_, u) in all.filter(|(shaft, _)| *shaft == own.shaft) {
         sides[usize::from(sign * (u - own.mid_mm) > 0.0)] = true;
@@ -290,7 +321,7 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
                 load_component,
                 format!(
                     "torque {:.6} N m about u, from the balance of power",
-                    sign(load.shaft) * found.torque_nm[i]
+                    sign(load.shaft) * found.torque_nm[i] + 0.0
                 ),
             );
         }

@@ -94,7 +94,8 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
         .iter()
         .filter_map(|s| Some((s.id, s.frame?)))
         .collect();
-    for seated in &mut train.gears {
+    let mut open = Vec::new();
+    for (i, seated) in train.gears.iter_mut().enumerate() {
         let Some(component) = source.model.component(seated.gear.id) else {
             continue;
         };
@@ -119,9 +120,40 @@ pub fn settle_middles(source: &Source<'_>, train: &mut Train) -> Result<(), Rexs
             _ => {}
         }
         if !seated.mid_mm.is_finite() {
-            source.assume(component, "no place on the shaft given: u = 0");
-            seated.mid_mm = 0.0;
+            open.push(i);
+        }
+    }
+    for i in open {
+        let (mid_mm, words) = free_place(train, &frames, i);
+        train.gears[i].mid_mm = mid_mm;
+        if let Some(component) = source.model.component(train.gears[i].gear.id) {
+            let what = format!(
+                "no place on the shaft given: {words}, the middle of the face at u = {mid_mm:.4} mm"
+            );
+            source.assume(component, what);
         }
     }
     Ok(())
+}
+
+/// A place for a gear that has none: beside its mate, else behind the other gears of its shaft, from u = 0 on.
+fn free_place(train: &Train, frames: &BTreeMap<i64, Frame>, i: usize) -> (f64, &'static str) {
+    let own = &train.gears[i];
+    let mates = train.meshes.iter().filter(|m| m.gears.contains(&i));
+    let mut known = mates.filter_map(|m| {
+        let mate = &train.gears[m.gears[usize::from(m.gears[0] == i)]];
+        let (there, here) = (frames.get(&mate.shaft)?, frames.get(&own.shaft)?);
+        let point = there.point([mate.mid_mm, 0.0, 0.0]);
+        mate.mid_mm.is_finite().then(|| here.u_of(point))
+    });
+    if let Some(u) = known.next() {
+        return (u, "its face in the middle of its mate's");
+    }
+    let beside = train.gears.iter().filter(|g| g.shaft == own.shaft);
+    let placed = beside.filter(|g| g.mid_mm.is_finite());
+    let start = placed
+        .map(|g| g.mid_mm + 0.5 * g.gear.face_width_mm)
+        .fold(0.0, f64::max);
+    let words = "its face behind those of the other gears there, or from u = 0 on";
+    (start + 0.5 * own.gear.face_width_mm, words)
 }

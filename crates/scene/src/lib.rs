@@ -8,9 +8,10 @@
 //! [`periods`] says how much of what repeats a run has seen, [`rating`] judges what both have given. [`SceneFile`]
 //! tells them apart, [`ResultFile`] their results, [`schema`] writes down what may stand in them. [`system_run`] runs
 //! multibody systems, [`study`] computes a scene again and again with keys that vary, [`optimise`] seeks the best of
-//! them, [`accuracy`] says what exactness costs in time.
+//! them, [`accuracy`] says what exactness costs in time. [`bevel_load`] puts torques on bevel pairs.
 
 pub mod accuracy;
+pub mod bevel_load;
 mod former_forms;
 mod microgeometry_words;
 mod named_files;

@@ -274,6 +274,37 @@ fn the_reference_is_refined_until_its_last_step_is_small() {
     assert!(single(last - 2).error() > 0.01, "{found:?}");
 }
 
+/// Under load positions and slices of the loaded contact are knobs of their own; those of the rigid flanks change nothing there.
+#[test]
+fn a_loaded_bevel_pair_has_knobs_of_its_load() {
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models");
+    let text = std::fs::read_to_string(shipped.join("bevel_20_20_loaded.toml")).unwrap();
+    let text = text.replace("[50.0, 100.0, 200.0]", "[100.0]");
+    let text = text.replace("slices = 31", "slices = 12");
+    let text = text.replace("positions_per_pitch = 16", "positions_per_pitch = 8");
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let found = found_in(folder.path(), &["loaded_te_peak_to_peak_urad"]).unwrap();
+    let names: Vec<&str> = found.knobs.iter().map(|knob| &knob.name[..]).collect();
+    assert_eq!(
+        names,
+        [
+            "tca.positions_per_pitch",
+            "load.positions_per_pitch",
+            "load.slices"
+        ]
+    );
+    let largest = |name: &str| {
+        let begins = |words: &String| words.starts_with(name) && !words.contains(", ");
+        let alone = found.tried.iter();
+        let alone = alone.filter(|one| begins(&words(&found.knobs, &one.rungs)));
+        alone.map(|one| one.error()).fold(0.0, f64::max)
+    };
+    assert_eq!(largest("tca."), 0.0);
+    assert!(largest("load.slices") > 1e-3, "{found:?}");
+    assert!(largest("load.positions") > 1e-3, "{found:?}");
+}
+
 /// A disc on a damped torsion spring behind a shaft whose speed is stepped: what is left of the swing decays with the time that is given to it.
 #[test]
 fn a_sweep_is_worth_its_settling_time() {

@@ -272,7 +272,12 @@ fn what_is_wrong_is_told_before_anything_is_computed() {
         (
             HEAD,
             key("pair.centre_distance_mm:x", "20.0"),
-            "`pair.centre_distance_mm`, which names no file in the scene",
+            "begins with `pair.centre_distance_mm`: there is no key that names a file `pair.centre_distance_mm`",
+        ),
+        (
+            HEAD,
+            key("pair.gear1:blank.bore_diameter_mm", "20.0"),
+            "did you mean `pair.gear_1`? the scene has `pair.gear_1`, `pair.gear_2`",
         ),
         (
             "from_s = 1.0\ncolumns = [\"k_h_beta\"]",

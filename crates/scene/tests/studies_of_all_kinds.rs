@@ -12,6 +12,7 @@ use gearmesh_bearings::{
 };
 use gearmesh_bevel::{PairFile, tooth_contact};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::bevel_load::load_bevel;
 use gearmesh_scene::optimise::{Optimisation, optimise};
 use gearmesh_scene::study::{SelectedValue, Study, StudyOptions, StudyOutcome, run_study};
 
@@ -71,6 +72,43 @@ fn a_bevel_pair_is_analysed_in_each_assembly() {
     let slip = text.replace("offset_um", "ofset_um");
     let told = studied(&fe_models(), &slip).unwrap_err();
     assert!(told.contains("offset_um"), "{told}");
+    // Of two new keys the one that is wrong is blamed.
+    let second = "[[parameter]]\nname = \"angle\"\nkeys = [\"tca.shaft_angle_mrad\"]\nuniform = { from = -0.1, to = 0.1 }\n";
+    let sampled = "design = \"random\"\nsamples = 2\n";
+    let slip = format!("{sampled}{slip}{second}");
+    let told = studied(&fe_models(), &slip).unwrap_err();
+    assert!(told.contains("parameter.0.keys: `tca.ofset_um`"), "{told}");
+}
+
+/// Under the torques of its `[load]` a bevel pair has a line for each, with the figures that this assembly has by itself.
+#[test]
+fn a_bevel_pair_is_loaded_in_each_assembly() {
+    let columns =
+        "columns = [\"loaded_te_mean_urad\", \"pressure_largest_MPa\", \"contact_ratio\"]\n";
+    let offset = "[[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0]\n";
+    let torques =
+        "[[parameter]]\nname = \"torque\"\nkeys = [\"load.torques_Nm.1\"]\nvalues = [80.0]\n";
+    let text = format!("scene = \"bevel_20_20_loaded.toml\"\n{columns}{offset}{torques}");
+    let (outcome, table) = studied(&fe_models(), &text).unwrap();
+    assert!(table.starts_with("offset,torque,torque_Nm,loaded_te_mean_urad,pressure_largest_MPa,contact_ratio,file,failure\n"));
+    for (case, offset_m, second_nm) in [(0, 0.0, 100.0), (1, 20e-6, 100.0), (2, 0.0, 80.0)] {
+        let mut file = PairFile::read(&fe_models().join("bevel_20_20_loaded.toml")).unwrap();
+        file.tca.error.offset_m = offset_m;
+        let mut load = file.load.clone().unwrap();
+        load.torques_nm[1] = second_nm;
+        let design = file.design().unwrap();
+        let expected = load_bevel((&file, &design), &load, None).unwrap().found;
+        let found = numbers(&outcome, case);
+        assert_eq!(found.len(), 3 * load.torques_nm.len());
+        for (row, of) in found.chunks(3).zip(&expected) {
+            let own = [1e6 * of.mean_rad(), 1e-6 * of.pressures_pa()[0]];
+            for (one, expected) in row.iter().zip(own) {
+                assert!((one / expected - 1.0).abs() < 1e-9, "{one} {expected}");
+            }
+        }
+        // More torque, more deflection.
+        assert!(found[3] < found[0] && found[6] < found[3], "{found:?}");
+    }
 }
 
 const BEARING: &str = "scene = \"bearing_pair_500_N.toml\"\noperation = { load_N = [0.0, -1000.0, 300.0], speed_rpm = 6000.0 }\n";
@@ -112,6 +150,15 @@ fn a_bearing_is_loaded_as_the_study_says() {
     let wrong = text.replace("[\"operation.speed_rpm\"]", "[\"operation.sped_rpm\"]");
     let told = studied(&fe_models(), &wrong).unwrap_err();
     assert!(told.contains("sped_rpm"), "{told}");
+    // A list of which nothing is stated.
+    let operation = "operation = { load_N = [0.0, -1000.0, 300.0], speed_rpm = 6000.0 }\n";
+    let none = text.replace(operation, "");
+    let none = none.replace("operation.speed_rpm", "operation.load_N.2");
+    let told = studied(&fe_models(), &none).unwrap_err();
+    assert!(
+        told.contains("it states no `operation.load_N`; state the whole list"),
+        "{told}"
+    );
     let pair = text.replace("bearing_pair_500_N.toml", "bevel_20_20.toml");
     let told = studied(&fe_models(), &pair).unwrap_err();
     assert!(told.contains("`operation` belongs to bearings"), "{told}");

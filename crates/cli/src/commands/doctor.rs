@@ -150,7 +150,7 @@ fn python() -> Vec<Finding> {
             name: name.to_owned(),
             text,
             is_sound: problem.is_none(),
-            advice,
+            advice: problem.map_or_else(String::new, |_| advice),
             is_needed: used != UNIVERSAL_FILES,
         });
     }

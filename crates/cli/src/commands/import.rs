@@ -65,6 +65,13 @@ fn table(made: &Import, a: &ImportArguments) {
     for file in &made.files {
         console::data(folder.join(&file.name).display());
     }
+    let parts = ledger.not_represented.iter().filter(|e| !e.is_value);
+    for entry in parts {
+        console::note(format!(
+            "not represented: {}: {}",
+            entry.subject, entry.text
+        ));
+    }
     for entry in &ledger.assumed {
         console::note(format!("assumed: {}: {}", entry.subject, entry.text));
     }

@@ -7,17 +7,14 @@ use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::pair_file::LoadRequest;
 use gearmesh_bevel::{PairDesign, PairFile};
-use gearmesh_contact::LocalContact;
-use gearmesh_drivetrain::{BevelSlices, LoadedContact, LoadedPair, LoadedPatch, LoadedPosition};
+use gearmesh_drivetrain::{BevelSlices, LoadedContact, LoadedPatch, LoadedPosition};
 use gearmesh_geometry::Flank;
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 use gearmesh_report::page::{
     Align, Axis, FieldPicture, FieldValues, LineChart, LineSeries, Section, Table, Text,
 };
+use gearmesh_scene::bevel_load::{BevelLoadError, LoadedBevel, load_bevel};
 use serde_json::{Value, json};
-
-/// Slices of rigid gears where the file says nothing.
-const SLICES: usize = 31;
 
 /// Rows of the pressure's picture up the flank.
 const ROWS: usize = 16;
@@ -55,35 +52,21 @@ pub fn analyse(
     path: &Path,
 ) -> Result<Loaded, Failure> {
     let models = models(load, path)?;
-    let slices = slices(load, models.as_ref())?;
-    let flanks = BevelSlices::new(&file.blank, design, slices).map_err(Failure::work)?;
-    let pair = LoadedPair {
-        blank: &file.blank,
-        flanks: &flanks,
-        pinion_flank: file.pinion_flank,
-        error: file.tca.error,
-        positions: load.positions,
-    };
-    let side = pair.side();
-    let (contact, body) = match &models {
-        Some(models) => {
-            let local = LocalContact::Calibrated;
-            let contact = flanks.reduced_contact(side, [&models[0].0, &models[1].0], local);
-            (contact.map_err(Failure::work)?, "reduced gears")
-        }
-        None => {
-            let contact = flanks.surface_contact([load.material; 2]);
-            (contact, "rigid gears, their surfaces give way")
-        }
-    };
-    let found = pair
-        .loaded(&contact, &load.torques_nm)
-        .map_err(Failure::work)?;
-    let strain = match &models {
-        Some(models) => {
+    let members = models.as_ref().map(|[a, b]| [&a.0, &b.0]);
+    let loaded = load_bevel((file, design), load, members).map_err(|error| match error {
+        BevelLoadError::Slices { .. } => Failure::input(error),
+        BevelLoadError::Contact(_) => Failure::work(error),
+    })?;
+    let LoadedBevel {
+        flanks,
+        side,
+        slices,
+        found,
+    } = loaded;
+    let strain = match members {
+        Some(members) => {
             let face_m = flanks.pair().face_widths_m()[0];
-            loaded_gauges::read([&models[0].0, &models[1].0], side, (slices, face_m), &found)
-                .map_err(Failure::work)?
+            loaded_gauges::read(members, side, (slices, face_m), &found).map_err(Failure::work)?
         }
         None => {
             warn_of_short_slices(&found);
@@ -94,7 +77,10 @@ pub fn analyse(
         strain,
         side,
         slices,
-        body,
+        body: match models {
+            Some(_) => "reduced gears",
+            None => "rigid gears, their surfaces give way",
+        },
         found,
         flanks,
         models,
@@ -115,25 +101,6 @@ fn models(load: &LoadRequest, path: &Path) -> Result<Option<[(ReducedGear, PathB
         }
     };
     Ok(Some([read(0)?, read(1)?]))
-}
-
-/// Slices along the face. A model tells its own apart, shorter ones not: their pressure beside edges would be too high.
-fn slices(
-    load: &LoadRequest,
-    models: Option<&[(ReducedGear, PathBuf); 2]>,
-) -> Result<usize, Failure> {
-    let Some(models) = models else {
-        return Ok(load.slices.unwrap_or(SLICES));
-    };
-    let own = models[0].0.grid.slices.min(models[1].0.grid.slices);
-    let most = own.max(3);
-    let slices = load.slices.unwrap_or(most);
-    if slices > most {
-        return Err(Failure::input(format!(
-            "load.slices: found {slices}, allowed with these models is at most {most}, the slices of the coarser one; state fewer, or reduce the members with more `slices`"
-        )));
-    }
-    Ok(slices)
 }
 
 /// On half spaces the law of a slice is cut off where it is shorter than the contact's half width (docs/theory/sliced_contact.md).

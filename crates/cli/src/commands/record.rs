@@ -3,11 +3,11 @@
 use crate::arguments::RecordArguments;
 use crate::failure::Failure;
 use crate::{console, output_name, uff};
-use gearmesh_geometry::input::InputDocument;
+use gearmesh_geometry::input::{MOST_TEXT_BYTES, read_bytes};
 use gearmesh_model::write_text;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::measured::{
-    Channel, MeasuredError, RecordFiles, RecordRequest, csv_channels, record_files,
+    Channel, MeasuredError, RecordFiles, RecordRequest, csv_channels, decoded, record_files,
 };
 use serde_json::json;
 use std::path::Path;
@@ -73,12 +73,24 @@ fn checked(files: &RecordFiles) -> Result<ReferenceRecord, Failure> {
 
 fn channels_of(a: &RecordArguments) -> Result<Vec<Channel>, Failure> {
     if output_name::measured_ending(&a.measured)? == output_name::Measured::Table {
-        let text = InputDocument::read(&a.measured)?.text;
+        let shown = a.measured.display();
+        let bytes = read_bytes(&a.measured, MOST_TEXT_BYTES)
+            .map_err(|cause| Failure::input(format!("{shown}: {cause}")))?;
+        let (text, written_in) = decoded(bytes);
+        if let Some(words) = written_in {
+            console::note(format!("{shown}: no UTF-8, read as {words}"));
+        }
         return csv_channels(&text, a.angle.as_deref()).map_err(|error| blame(&a.measured, &error));
     }
-    let mut channels: Vec<Channel> = (uff::read(&a.measured)?.into_iter())
-        .map(Channel::from)
-        .collect();
+    let mut functions = uff::read(&a.measured)?;
+    let names: Vec<String> = functions.iter().map(|f| f.name.clone()).collect();
+    for function in &mut functions {
+        // Only what tells it from others belongs to its name.
+        if names.iter().filter(|name| **name == function.name).count() == 1 {
+            function.condition.clear();
+        }
+    }
+    let mut channels: Vec<Channel> = functions.into_iter().map(Channel::from).collect();
     let Some(angle) = &a.angle else {
         return Ok(channels);
     };

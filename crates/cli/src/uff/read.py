@@ -1,7 +1,12 @@
 """The functions (data set 58, text or binary) of a universal file by pyuff, as JSON on standard output. Argument: the file."""
 
+import atexit
 import json
+import os
+import re
+import shutil
 import sys
+import tempfile
 
 try:
     import numpy as np
@@ -18,8 +23,23 @@ def refuse(problem):
     sys.exit(2)
 
 
+
+
+def plain(name):
+    """The file's name; where a Fortran program has written exponents with D, that of a copy with E."""
+    with open(name, "rb") as given:
+        content = given.read()
+    if b"    58b" in content[:400] or not re.search(rb"\d[Dd][+-]\d", content):
+        return name
+    copy = os.path.join(tempfile.mkdtemp(), "copy.uff")
+    atexit.register(shutil.rmtree, os.path.dirname(copy), True)
+    with open(copy, "wb") as changed:
+        changed.write(re.sub(rb"(\d)[Dd]([+-]\d)", rb"\1E\2", content))
+    return copy
+
+
 try:
-    file = pyuff.UFF(sys.argv[1])
+    file = pyuff.UFF(plain(sys.argv[1]))
     kinds = list(file.get_set_types())
     places = [place for place, kind in enumerate(kinds) if kind == 58]
     units = [file.read_sets(place) for place, kind in enumerate(kinds) if kind == 164]
@@ -43,6 +63,7 @@ def unit(found, axis):
 
 
 functions = []
+complex_ones = []
 for place in places:
     try:
         found = file.read_sets(place)
@@ -50,6 +71,7 @@ for place in places:
         refuse(f"data set {place + 1}: pyuff cannot read it: {problem}")
     data = np.asarray(found["data"])
     if np.iscomplexobj(data):
+        complex_ones.append(stated(found["id1"]) or f"set {place + 1}")
         continue
     count = int(found["num_pts"])
     if count < 1:
@@ -68,4 +90,6 @@ for place in places:
         "axis_unit": unit(found, "abscissa"),
         "x": x.tolist(), "y": data.tolist(),
     })
+if not functions:
+    refuse(f"all its functions are complex ({', '.join(complex_ones)}); curves over an angle or a time are real")
 json.dump(functions, sys.stdout)

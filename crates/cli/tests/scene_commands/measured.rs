@@ -84,6 +84,19 @@ fn curves_of_a_pair_go_out_as_a_universal_file_and_come_back_as_a_record() {
     // Back again: channels listed, and a record that shows no difference.
     let listed = succeeds(&["record", argument(&output), "--json"]).json();
     assert_eq!(listed["channels"].as_array().unwrap().len(), found.len());
+    // Exponents as Fortran programs write them; functions that are all complex are told by name.
+    let fortran = text.replace("E-", "D-").replace("E+", "D+");
+    let fortran = desk.file("fortran.uff", fortran);
+    let again = succeeds(&["record", argument(&fortran), "--json"]).json();
+    assert_eq!(again["channels"], listed["channels"]);
+    let pairs = format!("{:>10}{:>10}{:>10}", 6, result.angles() / 2, 1);
+    let complex = desk.file("complex.uff", text.replace(&count, &pairs));
+    let words = ["record", argument(&complex)];
+    refused(
+        &gearmesh(&words),
+        2,
+        &["all its functions are complex (te_m"],
+    );
     let nm = result.torque_nm[0];
     let record = desk.path("record");
     let words = |te: &str| {

@@ -5,7 +5,30 @@ use super::unit::is_known;
 use super::{Channel, MeasuredError};
 use gearmesh_geometry::input::shown_field;
 
-/// The channels over the first column, or over the one called `axis`.
+/// Text of a measuring program's file: UTF-8, UTF-16 with a byte order mark, or else Latin-1; the latter two are named.
+pub fn decoded(bytes: Vec<u8>) -> (String, Option<&'static str>) {
+    let utf16 = |read: fn([u8; 2]) -> u16| {
+        let pairs = bytes[2..].chunks_exact(2);
+        let units = pairs.map(|pair| read([pair[0], pair[1]]));
+        String::from_utf16_lossy(&units.collect::<Vec<_>>())
+    };
+    match bytes[..] {
+        [0xff, 0xfe, ..] => (utf16(u16::from_le_bytes), Some("UTF-16")),
+        [0xfe, 0xff, ..] => (utf16(u16::from_be_bytes), Some("UTF-16")),
+        _ => match String::from_utf8(bytes) {
+            Ok(text) => (text, None),
+            Err(error) => {
+                let bytes = error.as_bytes().iter();
+                (
+                    bytes.map(|&byte| char::from(byte)).collect(),
+                    Some("Latin-1"),
+                )
+            }
+        },
+    }
+}
+
+/// The channels over the first column, or over the one called `axis`. Lines before the heads, as measuring programs write them, are passed over.
 ///
 /// # Errors
 /// [`MeasuredError::Table`] with the line; [`MeasuredError::NoChannel`] for an `axis` that is not there.
@@ -20,43 +43,38 @@ pub fn csv_channels(text: &str, axis: Option<&str>) -> Result<Vec<Channel>, Meas
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
     let wrong = |line: u64, problem: String| MeasuredError::Table { line, problem };
-    let mut heads: Vec<(String, String)> = Vec::new();
-    let mut columns: Vec<Vec<f64>> = Vec::new();
+    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
     for row in reader.records() {
         let row = row.map_err(|error| wrong(0, error.to_string()))?;
         let line = row.position().map_or(0, csv::Position::line);
-        if heads.is_empty() {
-            heads = row.iter().map(head_and_unit).collect();
-            if heads.len() < 2 {
-                return Err(wrong(
-                    line,
-                    "one column; an axis and a channel are needed".into(),
-                ));
-            }
-            continue;
-        }
-        if row.len() != heads.len() {
+        rows.push((line, row.iter().map(str::to_owned).collect()));
+    }
+    let (mut heads, first) = heads_of(&rows, delimiter)?;
+    // Spreadsheets leave columns of nothing at the end.
+    let is_bare = |at: usize| {
+        let below = rows[first..].iter().map(|(_, row)| row.get(at));
+        below.flatten().all(String::is_empty)
+    };
+    while heads.len() > 1
+        && heads.last().is_some_and(|(name, _)| name.is_empty())
+        && is_bare(heads.len() - 1)
+    {
+        heads.pop();
+    }
+    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); heads.len()];
+    for (line, row) in &rows[first..] {
+        let beyond = row.get(heads.len()..).unwrap_or_default();
+        if row.len() < heads.len() || beyond.iter().any(|field| !field.is_empty()) {
             let problem = format!("{} fields; the heads are {}", row.len(), heads.len());
-            return Err(wrong(line, problem));
+            return Err(wrong(*line, problem));
         }
-        if columns.is_empty() && row.iter().all(|field| number(field, delimiter).is_none()) {
-            for ((_, unit), field) in heads.iter_mut().zip(&row) {
-                *unit = unbracketed(field).to_owned();
-            }
-            columns = vec![Vec::new(); heads.len()];
-            continue;
-        }
-        columns.resize_with(heads.len(), Vec::new);
         for ((field, column), (head, _)) in row.iter().zip(&mut columns).zip(&heads) {
             let value = number(field, delimiter).ok_or_else(|| {
                 let problem = format!("`{}` under `{head}` is no number", shown_field(field));
-                wrong(line, problem)
+                wrong(*line, problem)
             })?;
             column.push(value);
         }
-    }
-    if columns.first().is_none_or(Vec::is_empty) {
-        return Err(wrong(1, "no line of numbers".into()));
     }
     let place = match axis {
         None => 0,
@@ -86,28 +104,82 @@ pub fn csv_channels(text: &str, axis: Option<&str>) -> Result<Vec<Channel>, Meas
     Ok(channels.collect())
 }
 
-/// The most frequent separator of the first line that is no comment.
-fn delimiter_of(text: &str) -> u8 {
-    let mut lines = text.lines();
-    let heads = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let count = |delimiter: &u8| {
-        let bytes = heads.unwrap_or("").bytes();
-        bytes.filter(|byte| byte == delimiter).count()
+/// Heads with their units, and the first row of numbers: the first one with an axis and a channel. The heads are the row before it, or the one
+/// before that where units stand between; where there is none, columns have numbers for names.
+fn heads_of(
+    rows: &[(u64, Vec<String>)],
+    delimiter: u8,
+) -> Result<(Vec<(String, String)>, usize), MeasuredError> {
+    let wrong = |line: u64, problem: &str| MeasuredError::Table {
+        line,
+        problem: problem.to_owned(),
     };
-    // Of equals the last wins: a comma.
-    *[b'\t', b';', b',']
-        .iter()
-        .max_by_key(|d| count(d))
-        .unwrap_or(&b',')
+    let is_number = |field: &String| parsed(field, delimiter).is_some();
+    let of_numbers = |row: &[String]| {
+        let mut filled = row.iter().filter(|field| !field.is_empty()).peekable();
+        filled.peek().is_some() && filled.all(is_number)
+    };
+    let counts = |row: &[String]| row.iter().filter(|field| !field.is_empty()).count();
+    let found = rows.iter().position(|(_, row)| of_numbers(row));
+    let Some(first) = found else {
+        return Err(wrong(1, "no line of numbers"));
+    };
+    let (line, row) = &rows[first];
+    if counts(row) < 2 {
+        let one = rows.first().map_or(*line, |(line, _)| *line);
+        return Err(wrong(one, "one column; an axis and a channel are needed"));
+    }
+    let alike = |back: usize| -> Option<&Vec<String>> {
+        let (_, above) = rows.get(first.checked_sub(back)?)?;
+        (above.len() == row.len()).then_some(above)
+    };
+    let units = |above: &[String]| above.iter().any(|field| is_known(unbracketed(field)));
+    let heads = match (alike(1), alike(2)) {
+        (Some(below), Some(above)) if units(below) => {
+            let pairs = above.iter().zip(below);
+            pairs
+                .map(|(head, unit)| (head.clone(), unbracketed(unit).to_owned()))
+                .collect()
+        }
+        (Some(above), _) => above.iter().map(|head| head_and_unit(head)).collect(),
+        (None, _) if first > 0 => {
+            let above = rows[first - 1].1.len();
+            let problem = format!("{} fields; the heads are {above}", row.len());
+            return Err(wrong(*line, &problem));
+        }
+        (None, _) => (1..=row.len())
+            .map(|i| (format!("column {i}"), String::new()))
+            .collect(),
+    };
+    Ok((heads, first))
 }
 
-fn number(field: &str, delimiter: u8) -> Option<f64> {
+/// What separates the numbers: tabs, else semicolons, else commas; as in the first line that begins with a number, or the last line.
+fn delimiter_of(text: &str) -> u8 {
+    let begins = |line: &&str| {
+        let line = line.trim_start_matches(['"', ' ', '+', '-']);
+        line.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+    };
+    let lines = || text.lines().filter(|line| !line.starts_with('#'));
+    let numbers = lines().find(begins).or_else(|| lines().next_back());
+    let line = numbers.unwrap_or("");
+    let all = [b'\t', b';', b','];
+    let found = all.into_iter().find(|&d| line.contains(char::from(d)));
+    found.unwrap_or(b',')
+}
+
+/// A number, finite or not.
+fn parsed(field: &str, delimiter: u8) -> Option<f64> {
     let parsed = if delimiter == b',' {
         field.parse()
     } else {
         field.replace(',', ".").parse()
     };
-    parsed.ok().filter(|value: &f64| value.is_finite())
+    parsed.ok()
+}
+
+fn number(field: &str, delimiter: u8) -> Option<f64> {
+    parsed(field, delimiter).filter(|value| value.is_finite())
 }
 
 /// `TE [µm]`, `TE (µm)`, `TE / µm` or `te_um`.
@@ -154,6 +226,37 @@ mod tests {
         let found = csv_channels("angle_deg,te_um,note_x\n0,1,2\n", None).unwrap();
         let heads: Vec<_> = found.iter().map(|c| (&*c.name, &*c.unit)).collect();
         assert_eq!(heads, [("te", "um"), ("note_x", "")]);
+    }
+
+    #[test]
+    fn lines_of_the_measuring_program_are_passed_over() {
+        let same = [
+            "sep=;\nphi [deg];TE [µm]\n0;1,5\n1;2,5\n",
+            "Rig 3;12.05.2026\nOperator;M. Muster;night\n\nphi [deg];TE [µm]\n0;1,5\n1;2,5\n",
+            "phi [deg];TE [µm];;\n0;1,5;;\n1;2,5;;\n",
+            "Rig 3, drilled wheel\nphi\tTE\ndeg\tµm\n0\t1,5\n1\t2,5\n",
+        ];
+        for text in same {
+            let found = csv_channels(text, None).unwrap();
+            assert_eq!(found.len(), 1, "{text}");
+            assert_eq!((&*found[0].name, &*found[0].unit), ("TE", "µm"), "{text}");
+            assert_eq!((&*found[0].axis, &*found[0].axis_unit), ("phi", "deg"));
+            assert_eq!(found[0].y, [1.5, 2.5], "{text}");
+        }
+        let bare = csv_channels("0,1.5\n1,2.5\n", None).unwrap();
+        assert_eq!((&*bare[0].name, &*bare[0].axis), ("column 2", "column 1"));
+        assert_eq!(bare[0].y, [1.5, 2.5]);
+    }
+
+    #[test]
+    fn text_of_windows_programs_is_read() {
+        let text = "phi [°];TE [µm]\n0;1,5\n";
+        let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
+        let wide = text.encode_utf16().flat_map(u16::to_le_bytes);
+        let wide: Vec<u8> = [0xff, 0xfe].into_iter().chain(wide).collect();
+        assert_eq!(decoded(text.into()), (text.to_owned(), None));
+        assert_eq!(decoded(latin), (text.to_owned(), Some("Latin-1")));
+        assert_eq!(decoded(wide), (text.to_owned(), Some("UTF-16")));
     }
 
     #[test]

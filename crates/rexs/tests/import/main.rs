@@ -6,7 +6,9 @@ mod bad_files;
 mod bevel_force;
 mod containers;
 mod dialects;
+mod incomplete;
 mod other_gearboxes;
+mod planetary;
 mod power;
 mod real_files;
 

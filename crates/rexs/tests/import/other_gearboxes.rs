@@ -5,7 +5,7 @@ use crate::{GEARBOX, file, names, read};
 use gearmesh_rexs::{Entry, Import};
 
 /// A component with its attributes: id, unit, value; several numbers make an array.
-fn component(id: usize, kind: &str, name: &str, attributes: &[(&str, &str, &str)]) -> String {
+pub fn component(id: usize, kind: &str, name: &str, attributes: &[(&str, &str, &str)]) -> String {
     let mut text = format!("<component id=\"{id}\" type=\"{kind}\" name=\"{name}\">\n");
     for (key, unit, value) in attributes {
         let cells: Vec<String> = value.split(' ').map(|c| format!("<c>{c}</c>")).collect();
@@ -19,10 +19,10 @@ fn component(id: usize, kind: &str, name: &str, attributes: &[(&str, &str, &str)
 }
 
 /// Type and references by id and role.
-type Relation<'a> = (&'a str, &'a [(usize, &'a str)]);
+pub type Relation<'a> = (&'a str, &'a [(usize, &'a str)]);
 
 /// A file of components, relations (type, references by id and role) and what follows them.
-fn model(parts: &str, relations: &[Relation<'_>], after: &str) -> String {
+pub fn model(parts: &str, relations: &[Relation<'_>], after: &str) -> String {
     let relation = |(i, (kind, references)): (usize, &Relation<'_>)| {
         let references: String = (references.iter())
             .map(|(id, role)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
@@ -48,7 +48,13 @@ const SECTION: [(&str, &str, &str); 5] = [
 ];
 
 /// A shaft at a place, along u, from the unit's frame.
-fn shaft(id: usize, name: &str, place: &str, u: &str, further: &[(&str, &str, &str)]) -> String {
+pub fn shaft(
+    id: usize,
+    name: &str,
+    place: &str,
+    u: &str,
+    further: &[(&str, &str, &str)],
+) -> String {
     let mut attributes = vec![
         ("reference_component_for_position", "none", "1"),
         ("support_vector", "mm", place),
@@ -60,7 +66,7 @@ fn shaft(id: usize, name: &str, place: &str, u: &str, further: &[(&str, &str, &s
 }
 
 /// Every attribute of the text is told about its component: taken, assumed or not represented.
-fn demand_all_listed(text: &str, made: &Import) {
+pub fn demand_all_listed(text: &str, made: &Import) {
     let ledger = &made.ledger;
     let all: Vec<&Entry> = (ledger.taken.iter())
         .chain(&ledger.assumed)

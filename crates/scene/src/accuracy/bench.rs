@@ -146,7 +146,7 @@ impl<'a> Bench<'a> {
     pub fn knobs(&self) -> Result<(Vec<Knob>, Vec<String>), StudyError> {
         let mut knobs = match self.subject(&Case::default(), &mut MadeFiles::new())? {
             Subject::Pair(scene) => of_pair(&self.rest.load(&scene)?),
-            Subject::Bevel(pair) => of_bevel(pair.file.tca.per_pitch),
+            Subject::Bevel(pair) => of_bevel(&pair.file),
             Subject::System(_) => of_system(&self.base),
             Subject::Bearing(_) => Vec::new(),
         };

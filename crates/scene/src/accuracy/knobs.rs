@@ -1,5 +1,8 @@
 //! The knobs of a scene: keys that trade accuracy for time, with the rungs between.
 
+use std::ops::RangeInclusive;
+
+use gearmesh_bevel::PairFile;
 use toml::Value;
 
 use crate::pair::LoadedScene;
@@ -118,16 +121,33 @@ pub(super) fn of_pair(loaded: &LoadedScene) -> Vec<Knob> {
     knobs
 }
 
-/// Knobs of the tooth contact analysis of a bevel pair.
-pub(super) fn of_bevel(own: usize) -> Vec<Knob> {
-    let allowed = |counts: &[usize]| {
-        let allowed = counts.iter().filter(|count| (8..=1000).contains(*count));
+/// Knobs of the tooth contact analysis of a bevel pair, and of its contact under load.
+pub(super) fn of_bevel(file: &PairFile) -> Vec<Knob> {
+    let allowed = |counts: &[usize], range: RangeInclusive<usize>| {
+        let allowed = counts.iter().filter(|count| range.contains(*count));
         let values = allowed.map(|count| Value::Integer(*count as i64));
         values.collect::<Vec<_>>()
     };
-    let counts = [own / 4, own / 2, own, 2 * own];
-    let further = [4, 8, 16].map(|times| own * times);
-    vec![Knob::of("tca.positions_per_pitch", allowed(&counts)).and_further(allowed(&further))]
+    let positions = |key: &str, own: usize, range: RangeInclusive<usize>| {
+        let counts = [own / 4, own / 2, own, 2 * own];
+        let further = [4, 8, 16].map(|times| own * times);
+        Knob::of(key, allowed(&counts, range.clone())).and_further(allowed(&further, range))
+    };
+    let own = file.tca.per_pitch;
+    let mut knobs = vec![positions("tca.positions_per_pitch", own, 8..=1000)];
+    if let Some(load) = &file.load {
+        knobs.push(positions(
+            "load.positions_per_pitch",
+            load.positions,
+            4..=500,
+        ));
+        // Models allow no more than their own, and half spaces are cut off in slices that are too short: none finer than stated.
+        if let Some(own) = load.slices {
+            let counts = [own / 4, own / 2, own];
+            knobs.push(Knob::of("load.slices", allowed(&counts, 3..=100)));
+        }
+    }
+    knobs
 }
 
 /// To six digits: a step is read by people.

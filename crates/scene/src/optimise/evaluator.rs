@@ -97,6 +97,11 @@ impl<'a> Evaluator<'a> {
         })?;
         let torques = match &scene {
             Subject::Pair(scene) => scene.torques_nm.clone(),
+            Subject::Bevel(pair) => pair
+                .file
+                .load
+                .as_ref()
+                .map_or_else(Vec::new, |load| load.torques_nm.clone()),
             _ => Vec::new(),
         };
         if tables.from_s > 0.0 && !is_in_time(&scene) {

@@ -18,6 +18,7 @@ use super::subject::Subject;
 use super::system_cases;
 use super::table::table;
 use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
+use crate::bevel_load::BevelLoadError;
 use crate::pair::RunError;
 use crate::system::{Run, SystemScene};
 use crate::system_run::{Figures, SystemRunError};
@@ -37,6 +38,9 @@ pub enum StudyError {
     /// A case of a bevel pair.
     #[error(transparent)]
     Bevel(#[from] BevelError),
+    /// A case of a bevel pair under load.
+    #[error(transparent)]
+    BevelLoad(#[from] BevelLoadError),
     /// A case of a bearing.
     #[error(transparent)]
     Bearing(#[from] BearingError),
@@ -80,6 +84,7 @@ impl StudyError {
             Self::Input(_) => true,
             Self::Run(error) => error.is_input(),
             Self::Pair(error) => error.is_input(),
+            Self::BevelLoad(error) => matches!(error, BevelLoadError::Slices { .. }),
             Self::Bevel(_) | Self::Bearing(_) | Self::Column(_) | Self::Elsewhere(_) => false,
             Self::File(_) | Self::Folder { .. } | Self::Reduction { .. } | Self::Stopped => false,
         }
@@ -102,7 +107,7 @@ pub struct Selected {
     pub column: String,
     /// Unit.
     pub unit: String,
-    /// Of a gear pair the torque on gear 2 \[N·m\].
+    /// Of a gear pair, and of a bevel pair under load, the torque on gear 2 \[N·m\].
     pub torque_nm: Option<f64>,
     /// What was found.
     pub value: SelectedValue,

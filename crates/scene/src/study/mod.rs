@@ -7,7 +7,7 @@
 //! | what is computed | [`Subject`] | `subject.rs`, `bearing_operation.rs` |
 //! | the scene of a case | [`BaseScene`] | `varied_scene.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
-//! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `figure.rs` |
+//! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `loaded_columns.rs`, `figure.rs` |
 //! | cases for other machines, and the table of what they gave | [`StudyCases`], [`CaseRunner`], [`gather_study`] | `elsewhere.rs` |
 //! | what is written | `study.csv` | `table.rs` |
 //!
@@ -21,6 +21,7 @@ mod design;
 mod elsewhere;
 mod evaluate;
 mod figure;
+mod loaded_columns;
 mod pair_columns;
 mod rest_cases;
 mod rest_columns;

@@ -10,6 +10,7 @@ use gearmesh_model::{FileError, bytes_digest, file_digest, write_text};
 use super::cases::{Selected, SelectedValue, StudyError};
 use super::evaluate::{Clock, Effort};
 use super::figure::Wanted;
+use super::loaded_columns;
 use super::pair_columns::{self, RestColumn, columns, place, unit_of};
 use super::rest_columns;
 use super::subject::Subject;
@@ -25,7 +26,7 @@ const HEAD: &str = "# figures at rest, all they depend on: ";
 /// All columns of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RestFigures {
-    /// Torques on gear 2 \[N·m\]; none of bevel pairs and bearings.
+    /// Torques on gear 2 \[N·m\]; none of bearings and of bevel pairs without `[load]`.
     pub torques_nm: Vec<f64>,
     /// The columns, a number for each torque, or a single one without.
     pub columns: Vec<RestColumn>,
@@ -155,7 +156,7 @@ impl RestCases {
     pub fn names(&self, subject: &Subject) -> Result<Option<Vec<String>>, StudyError> {
         Ok(match subject {
             Subject::Pair(scene) => Some(pair_columns::names(&self.load(scene)?)),
-            Subject::Bevel(_) => Some(rest_columns::bevel_names()),
+            Subject::Bevel(pair) => Some(loaded_columns::names(pair)),
             Subject::Bearing(bearing) => Some(rest_columns::bearing_names(bearing)),
             Subject::System(_) => None,
         })
@@ -196,8 +197,7 @@ impl RestCases {
                 Ok((figures, effort))
             }
             Subject::Bevel(pair) => {
-                let values = rest_columns::of_bevel(pair)?;
-                let figures = single(rest_columns::bevel_names(), values);
+                let figures = loaded_columns::figures(pair, &self.shelf)?;
                 Ok((figures, clock.effort()))
             }
             Subject::Bearing(bearing) => {

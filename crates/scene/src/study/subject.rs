@@ -19,7 +19,7 @@ pub enum Subject {
     Pair(Box<Scene>),
     /// A multibody system.
     System(Box<SystemScene>),
-    /// A bevel pair: its tooth contact analysis.
+    /// A bevel pair: its tooth contact analysis, with `[load]` under torques.
     Bevel(Box<BevelSubject>),
     /// A bearing in equilibrium.
     Bearing(Box<BearingSubject>),
@@ -57,10 +57,6 @@ impl Subject {
         if InputKind::of(&document)? == InputKind::Gear {
             if PairFile::recognises(&document)? {
                 let file = PairFile::from_document(&document)?;
-                if file.load.is_some() {
-                    let problem = "a study, an optimisation and `accuracy` look at the tooth contact without load; remove this table";
-                    return Err(document.error("load", problem));
-                }
                 return Ok(Self::Bevel(Box::new(BevelSubject { file, document })));
             }
             if is_bearing(&document)? {

@@ -14,10 +14,11 @@ use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{bytes_digest, read_reduced_gear};
 
 use super::bearing_operation::OperationTable;
-use super::design::Case;
+use super::design::{Case, Setting};
 use super::subject::{OPERATION, Subject, is_bearing};
 use crate::former_forms::{PAIR, SYSTEM};
 use crate::named_files;
+use crate::system::names::unknown;
 
 /// Digits of the digest in the name of a file that a study makes.
 const NAME_DIGITS: usize = 16;
@@ -142,7 +143,7 @@ impl BaseScene {
         let mut root = self.begun.clone();
         // Keys of files, by the key that names the file.
         let mut of_files: BTreeMap<&str, Vec<(&str, &str, &toml::Value)>> = BTreeMap::new();
-        let mut added = None;
+        let mut added: Vec<(&Setting, &str)> = Vec::new();
         for setting in &case.settings {
             for key in &setting.keys {
                 if let Some((file, inner)) = key.split_once(':') {
@@ -155,7 +156,7 @@ impl BaseScene {
                 let is_new =
                     outcome.map_err(|problem| of_key(&setting.parameter, key, &problem))?;
                 if is_new {
-                    added = Some((&setting.parameter, key));
+                    added.push((setting, key));
                 }
             }
         }
@@ -174,7 +175,7 @@ impl BaseScene {
         let case_name = case.name().replace('/', "\u{2215}");
         let name = format!("{} with {case_name}", self.document.file);
         Subject::from_document(InputDocument::new(name, text), &self.folder).map_err(|error| {
-            match added {
+            match self.at_fault(&added, &error) {
                 // The key is what the scene did not have: the fault lies with it.
                 Some((parameter, key)) => {
                     of_key(parameter, key, &format!("is refused: {}", error.problem))
@@ -182,6 +183,28 @@ impl BaseScene {
                 None => VaryError::Scene(error),
             }
         })
+    }
+
+    /// Of keys that the scene did not have the one that is refused for the same reason by itself, else the last one.
+    fn at_fault<'s>(
+        &self,
+        added: &[(&'s Setting, &'s str)],
+        error: &InputError,
+    ) -> Option<(&'s str, &'s str)> {
+        let is_refused = |setting: &Setting, key: &str| {
+            let mut root = self.begun.clone();
+            let path = self.path_for(key, &setting.value);
+            if set(&mut root, &path, &setting.value).is_err() {
+                return true;
+            }
+            let text = toml::to_string(&root).unwrap_or_default();
+            let document = InputDocument::new(&self.document.file, text);
+            let outcome = Subject::from_document(document, &self.folder);
+            outcome.is_err_and(|alone| alone.problem == error.problem)
+        };
+        let alone = added.iter().find(|(setting, key)| is_refused(setting, key));
+        let (setting, key) = alone.or(added.last())?;
+        Some((&setting.parameter, key))
     }
 
     /// Puts the name of a changed copy in the place of a file's.
@@ -195,7 +218,11 @@ impl BaseScene {
         let first = keys[0];
         let whole = |key: &str| format!("{file}:{key}");
         let Some(toml::Value::String(name)) = self.value(file) else {
-            let problem = format!("begins with `{file}`, which names no file in the scene");
+            let known = file_keys(&self.begun);
+            let problem = format!(
+                "begins with `{file}`: {}",
+                unknown("key that names a file", file, &known)
+            );
             return Err(of_key(first.1, &whole(first.0), &problem));
         };
         let path = self.folder.join(name);
@@ -322,6 +349,33 @@ fn begin_microgeometry(root: &mut toml::Value, key: &str, folder: &Path) -> Resu
     Ok(())
 }
 
+/// Keys whose values look like names of gear, model or bearing files, as dotted paths.
+fn file_keys(root: &toml::Value) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut waiting: Vec<(String, &toml::Value)> = vec![(String::new(), root)];
+    while let Some((path, value)) = waiting.pop() {
+        let below = |key: &str| match &path[..] {
+            "" => key.to_owned(),
+            path => format!("{path}.{key}"),
+        };
+        match value {
+            toml::Value::String(name) if name.ends_with(".h5") || name.ends_with(".toml") => {
+                found.push(path);
+            }
+            toml::Value::Array(items) => {
+                let items = items.iter().enumerate();
+                waiting.extend(items.map(|(i, item)| (below(&i.to_string()), item)));
+            }
+            toml::Value::Table(table) => {
+                waiting.extend(table.iter().map(|(key, item)| (below(key), item)));
+            }
+            _ => {}
+        }
+    }
+    found.sort();
+    found
+}
+
 /// What stands at a dotted path.
 fn found_at<'a>(root: &'a toml::Value, key: &str) -> Option<&'a toml::Value> {
     let mut place = root;
@@ -361,6 +415,12 @@ fn set(root: &mut toml::Value, key: &str, value: &toml::Value) -> Result<bool, S
             _ => "nothing below it".to_owned(),
         };
         let next = match place {
+            // A list of one item, counted from where, cannot be begun by the study.
+            toml::Value::Table(table) if is_new && part.parse::<usize>().is_ok() => {
+                return Err(format!(
+                    "is not in the scene: it states no `{walked}`; state the whole list there (`operation` in the study itself), and its items can vary"
+                ));
+            }
             toml::Value::Table(table) => {
                 is_new |= !table.contains_key(part);
                 let empty = || toml::Value::Table(toml::Table::new());

@@ -50,6 +50,31 @@ fn the_pendulum_swings_with_its_period() {
     );
 }
 
+/// A spring between a body that turns and one whose speed nobody states is told; speeds that are stated are not.
+#[test]
+fn a_body_that_a_spring_will_jerk_is_told() {
+    let scene = |speed: &str| {
+        let mut text =
+            "title = \"t\"\n[run]\nkind = \"transient\"\nend_s = 0.01\n[solver]\nstep_s = 1e-4\n[output]\ninterval_s = 1e-3\n"
+                .to_owned();
+        for (name, speed) in [("motor", ""), ("wheel", speed)] {
+            text += &format!(
+                "[[body]]\nname = \"{name}\"\nmass_kg = 1.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\n{speed}\
+                 [[joint]]\nname = \"{name} axis\"\nkind = \"revolute\"\nbody_2 = \"{name}\"\n"
+            );
+        }
+        text + "[[motion]]\njoint = \"motor axis\"\nspeed_rpm = 600.0\n\
+            [[torsion_spring]]\nname = \"coupling\"\nbody_1 = \"motor\"\nbody_2 = \"wheel\"\nstiffness_Nm_per_rad = 100.0\n"
+    };
+    let told = |speed: &str| {
+        let built = build(&scene(speed)).unwrap_or_else(|e| panic!("{e:?}"));
+        let words = "body `wheel` starts at rest, and torsion spring `coupling` joins it to `motor`, which starts with 600.000000 rpm";
+        built.notes.iter().any(|note| note.starts_with(words))
+    };
+    assert!(told(""));
+    assert!(!told("speed_rpm = 600.0\n") && !told("speed_rpm = 0.0\n"));
+}
+
 /// Speeds and angles that the scene leaves open: gear 2 turns at the ratio, and its teeth touch where the closed form
 /// says.
 #[test]

@@ -22,6 +22,12 @@ const CHECKED: [usize; 2] = [13, 7];
 
 /// Runs the command.
 pub fn run(a: &ExportArguments) -> Result<(), Failure> {
+    if a.result.extension().is_some_and(|e| e == "h5") {
+        let shown = a.result.display();
+        return Err(Failure::input(format!(
+            "{shown}: a model or a result; a .step file is made of a gear file (.toml)"
+        )));
+    }
     let gear = offline::gear(&a.result)?;
     let python = offline::python()?;
     let task = format!("writing {}", a.output.display());

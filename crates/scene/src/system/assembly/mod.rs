@@ -221,6 +221,9 @@ impl LoadedSystem {
         let mut fastest = bodies.clone();
         let moved = (&motions[..], &PlacedMotion::spin_at_start as &_);
         start_speeds::settle_speeds(&mut bodies, holds, moved, &meshes, &mut parts.notes);
+        if !at_rest {
+            start_speeds::note_jerks(&bodies, &tables.torsion_spring, &mut parts.notes);
+        }
         start_speeds::refuse_missed_ratios(&bodies, &meshes, document)?;
         // What motions drive is not held at the speeds of the start.
         fastest.free_speeds();

@@ -18,6 +18,7 @@ use super::joints::{PlacedJoint, PlacedMotion};
 use super::mesh_frequency::carrier_rad_per_s;
 use super::shafts::PlacedShaft;
 use crate::system::tables::bearing::BearingTable;
+use crate::system::tables::connection::TorsionSpringTable;
 use crate::system::tables::joint::JointWord;
 use crate::system::tables::mesh_model::MeshKind;
 
@@ -201,6 +202,30 @@ fn fitting_spin(bodies: &Bodies, mesh: &PreparedMesh, (from, to): (usize, usize)
         .angular_velocity_rad_per_s
         .z;
     carrier - (spin - carrier) * mesh.teeth[from] as f64 / mesh.teeth[to] as f64
+}
+
+/// Tells of bodies whose speed nobody states and that a torsion spring joins to one that turns: they start at rest, and the spring jerks them.
+pub(super) fn note_jerks(bodies: &Bodies, springs: &[TorsionSpringTable], notes: &mut Vec<String>) {
+    for spring in springs {
+        let find = |name: &str| bodies.list.iter().position(|p| p.body.name == name);
+        let ends = [
+            spring.body_1.as_deref().and_then(find),
+            find(&spring.body_2),
+        ];
+        let [Some(a), Some(b)] = ends else { continue };
+        for (still, turning) in [(a, b), (b, a)] {
+            let [led, leading] = [still, turning].map(|body| &bodies.list[body]);
+            let rpm = leading.body.angular_velocity_rad_per_s.z * 60.0 / TAU;
+            let along = led.axis().dot(&leading.axis()).abs() > 1.0 - 1e-9;
+            if led.speed_is_free && !leading.speed_is_free && rpm != 0.0 && along {
+                notes.push(format!(
+                    "body `{}` starts at rest, and torsion spring `{}` joins it to `{}`, which starts with {rpm:.6} rpm: speeds do not follow through springs; state its \
+                     speed_rpm if it shall turn from the start",
+                    led.body.name, spring.name, leading.body.name
+                ));
+            }
+        }
+    }
 }
 
 /// Refuses speeds on both gears of a `kinematic` mesh that do not fit its ratio: the joint would change them at the

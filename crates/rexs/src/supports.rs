@@ -1,0 +1,100 @@
+//! Shafts that nothing holds: files of teeth alone have no bearings, pins and carriers of planetary stages stand on parts that
+//! scenes do not have.
+
+use crate::bearing::{self, AxialSupport, Bearing};
+use crate::coupling::RIGID;
+use crate::source::Source;
+use crate::train::Train;
+
+/// No component: the ground.
+const GROUND: i64 = i64::MIN;
+
+/// Leaves out shafts on which nothing stands: no gear, bearing, coupling, load or mass of the scene.
+pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
+    let mut used: Vec<i64> = Vec::new();
+    used.extend(train.gears.iter().map(|g| g.shaft));
+    used.extend(train.bevels.iter().map(|b| b.shaft));
+    used.extend(train.loads.iter().map(|l| l.shaft));
+    used.extend(train.masses.iter().map(|m| m.shaft));
+    used.extend(train.bearings.iter().flat_map(|b| b.sides));
+    used.extend(train.couplings.iter().flat_map(|c| c.sides));
+    let bare = train.shafts.iter().filter(|s| !used.contains(&s.id));
+    for component in bare.filter_map(|s| source.model.component(s.id)) {
+        let what =
+            "no gear, bearing, coupling, load or mass of the scene stands on it: not in the scene";
+        source.leave_out(component, what);
+    }
+    train.shafts.retain(|s| used.contains(&s.id));
+}
+
+/// Couplings of which the file says nothing hold shafts that lack bearings, and shafts that nothing holds across their axis are held
+/// at both ends.
+pub fn hold(source: &Source<'_>, train: &mut Train) {
+    let bearings = train.bearings.clone();
+    let places = |shaft: i64| -> usize {
+        let mine = bearings.iter().filter(|b| b.sides.contains(&shaft));
+        let radial = mine.filter(|b| b.radial_n_per_mm > 0.0);
+        radial
+            .map(|b| if b.tilt_nm_per_rad > 0.0 { 2 } else { 1 })
+            .sum()
+    };
+    for coupling in &mut train.couplings {
+        if coupling.is_bare && coupling.sides.iter().any(|&shaft| places(shaft) < 2) {
+            coupling.stiffness = RIGID;
+            if let Some(component) = source.model.component(coupling.id) {
+                let what = "no stiffness given, and a shaft at it has not two bearings of its own: rigid in all directions";
+                source.assume(component, what);
+            }
+        }
+    }
+    let couplings = train.couplings.iter();
+    let holding = couplings.filter(|c| c.stiffness[1] > 0.0);
+    let held: Vec<i64> = holding.flat_map(|c| c.sides).collect();
+    for i in 0..train.shafts.len() {
+        let shaft = &train.shafts[i];
+        let (id, name) = (shaft.id, shaft.name.clone());
+        if places(id) > 0 || held.contains(&id) {
+            continue;
+        }
+        let [start, end] = ends(train, i);
+        for (k, u) in [start, end].into_iter().enumerate() {
+            train.bearings.push(Bearing::rigid(
+                id,
+                format!("{name} held {}", k + 1),
+                [id, GROUND],
+                u,
+                if k == 0 {
+                    AxialSupport::Both
+                } else {
+                    AxialSupport::None
+                },
+            ));
+        }
+        if let Some(component) = source.model.component(id) {
+            let what = format!(
+                "no bearing and no coupling holds it across its axis: held at u = {start} and {end} mm by {:e} N/mm, along the axis at the first",
+                bearing::RIGID
+            );
+            source.assume(component, what);
+        }
+    }
+}
+
+/// Both ends of a shaft; without sections a face width beyond its gears \[mm\].
+fn ends(train: &Train, shaft: usize) -> [f64; 2] {
+    let shaft = &train.shafts[shaft];
+    let stated = shaft.ends_mm();
+    if stated[0] < stated[1] {
+        return stated;
+    }
+    let gears = train.gears.iter().filter(|g| g.shaft == shaft.id);
+    let reach = gears.map(|g| (g.mid_mm, g.gear.face_width_mm));
+    let [start, end] = reach.fold([f64::MAX, f64::MIN], |[a, b], (mid, width)| {
+        [a.min(mid - width), b.max(mid + width)]
+    });
+    if start < end {
+        [start, end]
+    } else {
+        [0.0, 100.0]
+    }
+}

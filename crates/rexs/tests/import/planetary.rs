@@ -1,0 +1,182 @@
+//! A planetary stage with a pinion on its carrier's shaft: what stands behind the stage turns and is loaded by Willis' equation.
+
+use crate::other_gearboxes::{component, demand_all_listed, model, shaft};
+use crate::{file, read};
+use gearmesh_rexs::Import;
+
+/// Sun 20, three planets 22, ring 64, as an industry program writes them: pins without a relation of their own, carriers in two
+/// halves. `brake` is what the ring's shaft is joined to: the casing, or nothing; `ring_load` a load on that shaft.
+fn gearbox(held: &str, loads: &[(&str, usize, &str)]) -> String {
+    let gear = |teeth, width, place| {
+        [
+            ("number_of_teeth", "none", teeth),
+            ("normal_module", "mm", "2"),
+            ("face_width", "mm", width),
+            ("u_coordinate_on_shaft", "mm", place),
+        ]
+    };
+    let bearing = |place| {
+        [
+            ("u_coordinate_on_shaft_inner_side", "mm", place),
+            ("axial_force_absorption", "none", "both_directions"),
+            ("radial_stiffness", "N / m", "1e9"),
+            ("axial_stiffness", "N / m", "1e9"),
+        ]
+    };
+    let speed = [
+        ("rotational_speed", "1 / min", "1500"),
+        ("defines_speed", "none", "true"),
+    ];
+    let mut parts = component(1, "gear_unit", "unit", &[])
+        + &component(2, "gear_casing", "casing", &[])
+        + &shaft(10, "sun shaft", "0 0 0", "1 0 0", &speed)
+        + &shaft(11, "carrier one", "200 0 0", "1 0 0", &[])
+        + &shaft(12, "carrier two", "90 0 0", "1 0 0", &[])
+        + &shaft(13, "ring shaft", "190 0 0", "1 0 0", &[])
+        + &shaft(14, "output shaft", "200 90 0", "1 0 0", &[])
+        + &component(20, "cylindrical_gear", "sun", &gear("20", "30", "160"))
+        + &component(21, "ring_gear", "ring", &gear("-64", "30", "0"))
+        + &component(22, "cylindrical_gear", "pinion", &gear("30", "20", "90"))
+        + &component(23, "cylindrical_gear", "wheel", &gear("60", "20", "90"))
+        + &component(30, "planetary_stage", "planets", &[])
+        + &component(31, "planet_carrier", "carrier", &[])
+        + &component(
+            32,
+            "cylindrical_stage",
+            "output",
+            &[("center_distance", "mm", "90")],
+        );
+    let mut relations: Vec<(&str, Vec<(usize, &str)>)> = vec![
+        ("stage", vec![(22, "gear_1"), (32, "stage"), (23, "gear_2")]),
+        (
+            "central_shaft",
+            vec![(30, "planetary_stage"), (10, "shaft")],
+        ),
+    ];
+    for (whole, part) in [(10, 20), (13, 21), (11, 22), (14, 23), (31, 11), (31, 12)] {
+        relations.push(("assembly", vec![(whole, "assembly"), (part, "part")]));
+    }
+    for carrier in [11, 12] {
+        let refs = vec![(30, "planetary_stage"), (carrier, "shaft")];
+        relations.push(("planet_carrier_shaft", refs));
+    }
+    for (i, on) in [10, 11, 14].into_iter().enumerate() {
+        for (k, place) in ["20", "180"].into_iter().enumerate() {
+            let id = 40 + 2 * i + k;
+            parts += &component(
+                id,
+                "concept_bearing",
+                &format!("bearing {id}"),
+                &bearing(place),
+            );
+            let refs = vec![(id, "assembly"), (on, "inner_part"), (2, "outer_part")];
+            relations.push(("side", refs));
+        }
+    }
+    for planet in 0..3 {
+        let [on, pin, own, sun, ring] = [300, 310, 320, 330, 340].map(|base| base + planet);
+        parts += &shaft(
+            on,
+            &format!("planet shaft {planet}"),
+            "160 0 42",
+            "1 0 0",
+            &[],
+        );
+        parts += &shaft(pin, &format!("pin {planet}"), "150 0 42", "1 0 0", &[]);
+        parts += &component(
+            own,
+            "cylindrical_gear",
+            &format!("planet {planet}"),
+            &gear("22", "30", "0"),
+        );
+        for id in [sun, ring] {
+            parts += &component(id, "cylindrical_stage", "", &[]);
+            relations.push(("assembly", vec![(30, "assembly"), (id, "part")]));
+        }
+        relations.push(("assembly", vec![(on, "assembly"), (own, "part")]));
+        relations.push(("assembly", vec![(31, "assembly"), (pin, "part")]));
+        relations.push(("planet_shaft", vec![(30, "planetary_stage"), (on, "shaft")]));
+        relations.push((
+            "stage",
+            vec![(20, "gear_1"), (sun, "stage"), (own, "gear_2")],
+        ));
+        relations.push((
+            "stage",
+            vec![(own, "gear_1"), (ring, "stage"), (21, "gear_2")],
+        ));
+    }
+    if held == "brake" {
+        parts += &component(
+            60,
+            "switchable_coupling",
+            "brake",
+            &[("is_engaged", "none", "true")],
+        );
+        let refs = vec![(60, "assembly"), (13, "inner_part"), (2, "outer_part")];
+        relations.push(("side", refs));
+    }
+    for (i, (name, on, torque)) in loads.iter().enumerate() {
+        let mut values = vec![
+            ("u_coordinate_on_shaft", "mm", "10"),
+            ("transmits_torque", "none", "true"),
+        ];
+        if !torque.is_empty() {
+            values.push(("torque_around_u_axis", "N m", torque));
+        }
+        parts += &component(70 + i, "external_load", name, &values);
+        relations.push(("assembly", vec![(*on, "assembly"), (70 + i, "part")]));
+    }
+    let relations: Vec<_> = relations
+        .iter()
+        .map(|(kind, list)| (*kind, &list[..]))
+        .collect();
+    model(&parts, &relations, "")
+}
+
+fn told<'a>(made: &'a Import, subject: &str) -> &'a str {
+    let left = &made.ledger.not_represented;
+    let found = left.iter().find(|e| e.subject.starts_with(subject));
+    &found
+        .unwrap_or_else(|| panic!("{subject} is not among {left:?}"))
+        .text
+}
+
+/// 50 N m on the sun, ring held: carrier 1500·20/84 1/min and 50·84/20 = 210 N m, output wheel 420 N m.
+#[test]
+fn torque_passes_a_stage_whose_ring_stands() {
+    for held in ["brake", "nothing"] {
+        let text = gearbox(held, &[("motor", 10, "50"), ("machine", 14, "")]);
+        let made = read(&text);
+        demand_all_listed(&text, &made);
+        let scene = file(&made, "box.toml");
+        for words in [
+            "speed_rpm = 1500.0",
+            "speed_rpm = 357.142857143",
+            "name = \"torque at sun of planets\"\nbody = \"sun\"\ntorque_Nm = -50.0",
+            "name = \"held at torque at carrier of planets\"",
+            "name = \"machine\"\nbody = \"output shaft/0\"\ntorque_Nm = 420.0",
+        ] {
+            assert!(scene.contains(words), "{held}: {words} is not in {scene}");
+        }
+        // Pins, the second half of the carrier and the ring's shaft carry nothing here.
+        for name in ["pin 0", "carrier two", "ring shaft", "planet shaft 0"] {
+            assert!(!scene.contains(name), "{held}: {name} is in {scene}");
+        }
+        assert!(told(&made, "planetary_stage").contains("its ring stands"));
+        assert!(told(&made, "shaft 310 `pin 0`").contains("not in the scene"));
+    }
+}
+
+/// Three members that turn are told, and pass nothing on.
+#[test]
+fn three_turning_members_pass_nothing() {
+    let loads = [
+        ("motor", 10, "50"),
+        ("ring motor", 13, "20"),
+        ("machine", 14, ""),
+    ];
+    let made = read(&gearbox("nothing", &loads));
+    let words = told(&made, "planetary_stage");
+    assert!(words.contains("do not pass through"), "{words}");
+    assert!(words.contains("sun, ring, carrier"), "{words}");
+}
