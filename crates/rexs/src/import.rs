@@ -272,7 +272,7 @@ impl Made {
         if self.files.is_empty() {
             return Err(RexsError::Missing {
                 component: "the file".to_owned(),
-                what: "holds no shaft, no cylindrical gear and no bevel pair: nothing to import"
+                what: "holds no shaft with anything on it, no cylindrical gear and no bevel pair: nothing to import"
                     .to_owned(),
             });
         }

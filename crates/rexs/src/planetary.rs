@@ -172,7 +172,7 @@ fn couple(
     }
     let [a, b] = pair.map(|i| members[i].name);
     format!(
-        "its {} stands, {b} turns {relative:.6} times as fast as {a}: torques pass through, and act on the shafts of both in the scene; no forces, which cancel between planets",
+        "its {} stands, {b} turns {relative:.6} times as fast as {a}: torques pass through, and act on the shafts of both in the scene; no forces: across the axis they cancel between planets, along the axis those of helical teeth are left out",
         members[standing].name
     )
 }

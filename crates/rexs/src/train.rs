@@ -273,7 +273,10 @@ fn join_stages(
             "bevel_stage" => bevel_stage(source, structure, train, stage, [g1, g2])?,
             _ => source.leave_out(
                 stage,
-                format!("{}s have no model in scenes: speeds and torques do not pass", stage.kind.replace('_', " ")),
+                format!(
+                    "{}s have no model in scenes: speeds and torques do not pass",
+                    stage.kind.replace('_', " ")
+                ),
             ),
         }
     }

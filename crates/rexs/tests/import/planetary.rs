@@ -167,6 +167,25 @@ fn torque_passes_a_stage_whose_ring_stands() {
     }
 }
 
+/// Torque on the ring, sun held: the carrier turns 64/84 times as fast, with 84/64 of the torque.
+#[test]
+fn torque_passes_a_stage_whose_sun_stands() {
+    let loads = [("ring motor", 13, "64"), ("machine", 14, "")];
+    let made = read(&gearbox("nothing", &loads));
+    let words = told(&made, "planetary_stage");
+    assert!(
+        words.contains("its sun stands, carrier turns 0.761905 times as fast as ring"),
+        "{words}"
+    );
+    let scene = file(&made, "box.toml");
+    for words in [
+        "name = \"torque at ring of planets\"",
+        "name = \"machine\"\nbody = \"output shaft/0\"\ntorque_Nm = 168.0",
+    ] {
+        assert!(scene.contains(words), "{words} is not in {scene}");
+    }
+}
+
 /// Three members that turn are told, and pass nothing on.
 #[test]
 fn three_turning_members_pass_nothing() {
