@@ -6,7 +6,8 @@
 //! | how does a slice on a contact line deflect another | [`SliceCompliance`] | `slice_compliance.rs`, `coupled_places.rs`, `station_blocks.rs` |
 //! | the same of a bevel gear | [`SliceCompliance::of_bevel`] | `bevel_slices.rs` |
 //! | what a root crack adds to that | [`crack_rows`] | `crack_rows.rs` |
-//! | where does a slice stand that has walked along the tooth | | `walked_slice.rs` |
+//! | where does a slice stand that has walked along the tooth | [`SliceWalk`] | `walked_slice.rs` |
+//! | how do the slices of a mesh sit on a flank, of either family | [`FlankSlices`] | `flank_slices.rs` |
 //! | where do the faces overlap, and which slices lie there | [`ContactZone`], [`SliceLayout`] | `contact_zone.rs` |
 //! | which stations along the tooth carry a slice's force | [`AxialSpread`] | `axial_spread.rs`, a gear's own slices: `placed_slice.rs` |
 //! | which unit loads make a force at a place along the profile | [`ProfileHats`] | `profile_shares.rs` |
@@ -44,6 +45,7 @@ pub mod crack_rows;
 pub mod drive;
 pub mod flank_deflection;
 pub mod flank_deviations;
+mod flank_slices;
 pub mod flank_surface;
 pub mod flanks_at_rest;
 pub mod half_spaces;
@@ -70,6 +72,7 @@ pub use contact_patch::{ContactPatch, FlankPlace, PatchBalance, PatchEdge};
 pub use contact_zone::{ContactZone, SliceLayout};
 pub use drive::Drive;
 pub use flank_deviations::FlankDeviations;
+pub use flank_slices::FlankSlices;
 pub use flank_surface::{FlankSurface, InvoluteSurface, RelativeCurvature, SurfaceCurvature};
 pub use flanks_at_rest::FlanksAtRest;
 pub use half_spaces::HalfSpaces;
@@ -81,3 +84,4 @@ pub use slice_compliance::SliceCompliance;
 pub use slice_contact::SliceContact;
 pub use static_contact::{ContactOptions, ContactState, StaticContact};
 pub use tip_contact::{PathExtension, TipContact, TipGear};
+pub use walked_slice::{SliceWalk, WalkedSlice};

@@ -14,7 +14,7 @@ use crate::placed_slice::ToothPlace;
 use crate::profile_shares::{ProfileHats, ProfilePlace};
 use crate::slice_spread::NeighbourTerm;
 use crate::station_blocks::StationBlocks;
-use crate::walked_slice::WalkedSlice;
+use crate::walked_slice::SliceWalk;
 use gearmesh_model::{Flank, ReducedGear, ReducedGearError};
 use std::f64::consts::PI;
 
@@ -38,8 +38,8 @@ pub struct SliceCompliance {
     young_pa: f64,
     poisson: f64,
     slice_width_m: f64,
-    /// Widths \[m\] of this face and of gear 1's, where slices walk along the teeth.
-    walks_on_m: Option<[f64; 2]>,
+    /// Where slices walk along the teeth.
+    walk: Option<SliceWalk>,
 }
 
 /// What a family of flanks says of one, besides its compliance.
@@ -203,7 +203,7 @@ impl SliceCompliance {
             young_pa: gear.young_pa,
             poisson: gear.poisson,
             slice_width_m,
-            walks_on_m: None,
+            walk: None,
         })
     }
 
@@ -211,27 +211,19 @@ impl SliceCompliance {
     /// were laid. Of own slices over the whole face, at least three.
     #[must_use]
     pub fn walking_along(mut self, face_1_m: f64) -> Self {
-        let enough = self.slices >= crate::walked_slice::SLICES;
-        self.walks_on_m = enough.then_some([self.slices as f64 * self.slice_width_m, face_1_m]);
+        let face_m = self.slices as f64 * self.slice_width_m;
+        self.walk = SliceWalk::new(self.slices, face_m, face_1_m);
         self
     }
 
     /// Whether they do.
     pub(crate) fn walks_along(&self) -> bool {
-        self.walks_on_m.is_some()
+        self.walk.is_some()
     }
 
     /// A place of a slice with where it stands along the tooth \[m\].
     pub(crate) fn walked(&self, place: ToothPlace, slice: usize, v: f64) -> ToothPlace {
-        let walked = self.walks_on_m.map(|[face_m, face_1_m]| {
-            // Slices are even on gear 1's face, which ends with this one at the heel: the slice here that is nearest to where it lies.
-            let count = self.slices as f64;
-            let lies_m = 0.5 * face_m - face_1_m * (1.0 - (slice as f64 + 0.5) / count);
-            let nearest = (lies_m / self.slice_width_m + 0.5 * count).max(0.0) as usize;
-            let nearest = nearest.min(self.slices - 1);
-            let laid = (nearest as f64 + 0.5) * self.slice_width_m - 0.5 * face_m;
-            WalkedSlice::new(nearest, self.slices, v - laid, self.slice_width_m)
-        });
+        let walked = self.walk.map(|walk| walk.at(slice, v));
         ToothPlace { walked, ..place }
     }
 

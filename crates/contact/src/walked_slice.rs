@@ -47,6 +47,41 @@ impl WalkedSlice {
     }
 }
 
+/// Slices of gear 2 that stand where their patches are along its teeth: gear 1's slices are even on its face, and both faces end
+/// together at the heel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliceWalk {
+    slices: usize,
+    face_m: f64,
+    face_1_m: f64,
+}
+
+impl SliceWalk {
+    /// So many slices over a face of `face_m`, as many as gear 1 has over its face of `face_1_m`; none where there are too few to share a force.
+    #[must_use]
+    pub fn new(slices: usize, face_m: f64, face_1_m: f64) -> Option<Self> {
+        let walk = Self {
+            slices,
+            face_m,
+            face_1_m,
+        };
+        (slices >= SLICES).then_some(walk)
+    }
+
+    /// Where a slice stands whose patch is at v from the middle of the face \[m\].
+    #[must_use]
+    pub fn at(&self, slice: usize, v_m: f64) -> WalkedSlice {
+        let count = self.slices as f64;
+        let width_m = self.face_m / count;
+        // The slice here that is nearest to where it lies.
+        let lies_m = 0.5 * self.face_m - self.face_1_m * (1.0 - (slice as f64 + 0.5) / count);
+        let nearest = (lies_m / width_m + 0.5 * count).max(0.0) as usize;
+        let nearest = nearest.min(self.slices - 1);
+        let laid_m = (nearest as f64 + 0.5) * width_m - 0.5 * self.face_m;
+        WalkedSlice::new(nearest, self.slices, v_m - laid_m, width_m)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -92,8 +92,11 @@ pub struct ModalRows {
     pub shapes: Vec<f64>,
     /// ∂φ/∂ξ, `[contact][mode]`; zero where the contact has reached the end of the flank.
     pub slopes: Vec<f64>,
-    /// φ_t along the profile towards the tip, `[contact][mode]` \[kg^-½\]; empty in a mesh without friction.
-    pub tangential: Vec<f64>,
+    /// ∂φ/∂(place along the tooth), `[contact][mode]` \[kg^-½/m\]; empty where slices do not walk along the teeth of the gear.
+    pub slopes_along: Vec<f64>,
+    /// How fast flanks slide along each tangent of the friction per unit of η̇, `[contact][mode]` \[kg^-½\]; empty in a mesh without friction, the
+    /// second one of flanks that slide along the profile only.
+    pub sliding: [Vec<f64>; 2],
 }
 
 impl ModalRows {
@@ -103,32 +106,37 @@ impl ModalRows {
         self.omega_squared.len()
     }
 
-    /// Takes everything from other rows but the shapes along the profile, which teeth do not feel; into the memory that is there.
+    /// Takes everything from other rows but those of sliding, which teeth do not feel; into the memory that is there.
     pub(crate) fn copy_normal_from(&mut self, other: &Self) {
         self.omega_squared.clone_from(&other.omega_squared);
         self.shapes.clone_from(&other.shapes);
         self.slopes.clone_from(&other.slopes);
+        self.slopes_along.clone_from(&other.slopes_along);
     }
 
     /// φ of a contact.
     #[must_use]
     pub fn shape(&self, contact: usize) -> &[f64] {
-        &self.shapes[contact * self.count()..][..self.count()]
+        self.row(&self.shapes, contact)
     }
 
     /// ∂φ/∂ξ of a contact.
     #[must_use]
     pub fn slope(&self, contact: usize) -> &[f64] {
-        &self.slopes[contact * self.count()..][..self.count()]
+        self.row(&self.slopes, contact)
     }
 
-    /// φ_t of a contact; empty in a mesh without friction.
+    /// How a contact slides along one of the tangents; empty where it does not.
     #[must_use]
-    pub fn along_profile(&self, contact: usize) -> &[f64] {
-        if self.tangential.is_empty() {
+    pub fn sliding(&self, contact: usize, tangent: usize) -> &[f64] {
+        self.row(&self.sliding[tangent], contact)
+    }
+
+    fn row<'a>(&self, rows: &'a [f64], contact: usize) -> &'a [f64] {
+        if rows.is_empty() {
             return &[];
         }
-        &self.tangential[contact * self.count()..][..self.count()]
+        &rows[contact * self.count()..][..self.count()]
     }
 }
 
@@ -167,6 +175,9 @@ pub struct FlankContacts {
     pub contacts: Vec<ToothContact>,
     /// Shapes of gear 1's and gear 2's vibration modes at them; empty without.
     pub modal: [ModalRows; 2],
+    /// How far vibration bends flanks towards each other at most \[m\], as a bound: stated before flanks are looked for, so that those are found
+    /// that touch when they are bent.
+    pub bent_m: f64,
     /// Gap of ideal flanks in the middle of the zone \[m\] where no flanks of this side can touch and no lines were looked for.
     pub open_gap_m: Option<f64>,
 }
@@ -182,11 +193,12 @@ impl FlankContacts {
             sections: Vec::with_capacity(contacts),
             contacts: Vec::with_capacity(contacts),
             modal: [ModalRows::default(), ModalRows::default()],
+            bent_m: 0.0,
             open_gap_m: None,
         }
     }
 
-    /// Forgets what was found; the modes' shapes are left alone.
+    /// Forgets what was found; what is of the modes is left alone.
     pub fn clear(&mut self) {
         self.along_teeth = AlongTeeth::default();
         self.lines.clear();
@@ -195,12 +207,16 @@ impl FlankContacts {
         self.open_gap_m = None;
     }
 
-    /// φ_t1·η̇₁ + φ_t2·η̇₂ \[m/s\] of a contact: how fast vibration moves both flanks towards their tips; zero without friction.
+    /// How fast vibration slides gear 2's flank over gear 1's along one of the tangents at a contact \[m/s\]; zero without friction.
     #[must_use]
-    pub fn tip_speed_m_per_s(&self, contact: usize, modal_rates: &[&[f64]; 2]) -> f64 {
+    pub fn sliding_by_vibration_m_per_s(
+        &self,
+        (contact, tangent): (usize, usize),
+        modal_rates: &[&[f64]; 2],
+    ) -> f64 {
         let of_gears = self.modal.iter().zip(modal_rates);
         of_gears
-            .map(|(modal, rates)| dot(modal.along_profile(contact), rates))
+            .map(|(modal, rates)| dot(modal.sliding(contact, tangent), rates))
             .sum()
     }
 

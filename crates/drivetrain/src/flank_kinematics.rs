@@ -79,7 +79,8 @@ pub trait FlankKinematics: Send {
         None
     }
 
-    /// Finds all patches that face each other on one side; `pose`: the one that was located.
+    /// Finds all patches that face each other on one side; `pose`: the one that was located. Families that leave patches out which stand too far open
+    /// count with flanks bent by [`FlankContacts::bent_m`].
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts);
 
     /// The same at any pose, whichever was located.
@@ -120,6 +121,13 @@ pub trait FlankKinematics: Send {
         _contact: usize,
         _side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
+        None
+    }
+
+    /// The unit tangents of [`Self::sliding`] and [`Self::second_sliding`] as the flanks of gear 1 and gear 2 see them, `[gear][tangent]`: along the profile
+    /// towards the tip, and along the tooth as the loads of a reduced gear count it. None of families that slide along the profile only, whose tangent
+    /// points to the tip of gear 1 and from that of gear 2 on right flanks.
+    fn tangents_on_flanks(&self, _contact: usize, _side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
         None
     }
 

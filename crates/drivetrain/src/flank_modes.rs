@@ -5,10 +5,11 @@
 //! ```
 //!
 //! φ is NᵀΦ of the reduced gear along the flank's inward normal, combined to slices with the same shares as the compliance, so that
-//! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap.
-//! Friction pushes on the modes by φ_t, along the profile towards the tip. Theory: docs/theory/gear_meshes.md.
+//! at rest, η = Ω⁻²φF, the gaps are those without modes to rounding. A pressing force moves the flank inwards: positive φη opens the gap. Where slices
+//! walk along the teeth (gear 2 of a bevel pair), φ changes along them, too.
+//! Friction pushes on the modes by the shapes in the tangent plane. Theory: docs/theory/gear_meshes.md.
 
-use gearmesh_contact::{AxialSpread, ProfileHats};
+use gearmesh_contact::{FlankSlices, ProfileHats, SliceWalk, WalkedSlice};
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
@@ -30,16 +31,18 @@ pub struct ModalMotion<'a> {
 pub struct FlankModes {
     omega_squared: Vec<f64>,
     hats: ProfileHats,
+    walk: Option<SliceWalk>,
     stations: usize,
     slices: usize,
-    /// Along the inward normal, `[tooth][station][slice][mode]`.
-    rows: Vec<f64>,
-    /// Along the profile towards the tip.
-    tangential_rows: Vec<f64>,
+    /// Along the inward normal, along the profile towards the tip, along the tooth, `[tooth][station][slice][mode]`; the last one is empty for
+    /// involute flanks, which do not slide along their teeth.
+    rows: [Vec<f64>; 3],
+    /// Largest entry of each mode along the normal, `[tooth][mode]`.
+    largest: Vec<f64>,
 }
 
 impl FlankModes {
-    /// The lowest `modes` modes of a model at its flanks of one side; `spread`: where the slices' forces sit on the gear.
+    /// The lowest `modes` modes of a model at its flanks of one side; `slices`: where their forces sit on the gear.
     ///
     /// # Errors
     /// [`DrivetrainError::Model`] if the model has no modes or no loads on that side, [`DrivetrainError::Length`] if it has fewer modes.
@@ -47,7 +50,7 @@ impl FlankModes {
         gear: &ReducedGear,
         side: Flank,
         modes: usize,
-        spread: &AxialSpread,
+        slices: FlankSlices,
     ) -> Result<Self, DrivetrainError> {
         gear.flank_index(side)?;
         let basis = gear.modal_basis()?;
@@ -59,43 +62,44 @@ impl FlankModes {
                 expected: modes,
             });
         }
+        let FlankSlices { hats, spread, walk } = slices;
         let grid = &gear.grid;
         let (stations, slices) = (grid.roll_angles_rad.len(), spread.slices());
-        let mut rows = vec![0.0; gear.teeth * stations * slices * modes];
-        let mut tangential_rows = rows.clone();
+        let zeros = || vec![0.0; gear.teeth * stations * slices * modes];
+        let along_tooth = gear.bevel.as_ref().map(|_| zeros());
+        let mut rows = [zeros(), zeros(), along_tooth.unwrap_or_default()];
+        let mut largest = vec![0.0_f64; gear.teeth * modes];
         for mode in 0..modes {
             for tooth in 0..gear.teeth {
                 let shape = gear.mode_at_flank(mode, tooth, side)?;
-                for station in 0..stations {
-                    for slice in 0..slices {
-                        let row = ((tooth * stations + station) * slices + slice) * modes + mode;
-                        let along = |component: usize| -> f64 {
-                            (spread.shares(slice).iter())
-                                .map(|&(axial, share)| {
-                                    share * shape[3 * grid.load(station, axial) + component]
-                                })
-                                .sum()
-                        };
-                        rows[row] = along(0);
-                        tangential_rows[row] = along(1);
+                for (station, slice) in (0..stations * slices).map(|k| (k / slices, k % slices)) {
+                    let row = ((tooth * stations + station) * slices + slice) * modes + mode;
+                    let along = |component: usize| -> f64 {
+                        (spread.shares(slice).iter())
+                            .map(|&(axial, share)| {
+                                share * shape[3 * grid.load(station, axial) + component]
+                            })
+                            .sum()
+                    };
+                    for (component, rows) in rows.iter_mut().enumerate() {
+                        if let Some(place) = rows.get_mut(row) {
+                            *place = along(component);
+                        }
                     }
+                    let most = &mut largest[tooth * modes + mode];
+                    *most = most.max(rows[0][row].abs());
                 }
             }
         }
         Ok(Self {
             omega_squared: basis.omega_squared[..modes].to_vec(),
-            hats: ProfileHats::of_involute(&grid.roll_angles_rad),
+            hats,
+            walk,
             stations,
             slices,
             rows,
-            tangential_rows,
+            largest,
         })
-    }
-
-    /// The part of `rows` for a slice at a roll station of a tooth.
-    fn row<'a>(&self, rows: &'a [f64], [tooth, station, slice]: [usize; 3]) -> &'a [f64] {
-        let row = (tooth * self.stations + station) * self.slices + slice;
-        &rows[row * self.count()..][..self.count()]
     }
 
     /// Number of modes.
@@ -104,13 +108,53 @@ impl FlankModes {
         self.omega_squared.len()
     }
 
+    /// How far the modes bend any flank along its normal at most \[m\], as a bound.
+    pub(crate) fn most_bent_m(&self, coordinates: &[f64]) -> f64 {
+        let of_tooth = |largest: &[f64]| -> f64 {
+            let each = largest.iter().zip(coordinates);
+            each.map(|(phi, eta)| phi * eta.abs()).sum()
+        };
+        let teeth = self.largest.chunks_exact(self.count().max(1));
+        teeth.map(of_tooth).fold(0.0, f64::max)
+    }
+
     /// Memory for the rows of so many contacts.
     pub(crate) fn rows_with_capacity(&self, contacts: usize) -> ModalRows {
+        let rows = || Vec::with_capacity(contacts * self.count());
         ModalRows {
             omega_squared: self.omega_squared.clone(),
-            shapes: Vec::with_capacity(contacts * self.count()),
-            slopes: Vec::with_capacity(contacts * self.count()),
-            tangential: Vec::with_capacity(contacts * self.count()),
+            shapes: rows(),
+            slopes: rows(),
+            slopes_along: self.walk.map_or_else(Vec::new, |_| rows()),
+            sliding: [rows(), rows()],
+        }
+    }
+
+    /// Where a force sits along the tooth whose patch belongs to a slice and stands at v \[m\].
+    fn along_tooth(&self, slice: usize, v_m: f64) -> AlongTooth {
+        match self.walk {
+            Some(walk) => AlongTooth::Walks(walk.at(slice, v_m)),
+            None => AlongTooth::Stays(slice),
+        }
+    }
+
+    /// Adds the rows of a component at stations and slices with their shares.
+    fn add(
+        &self,
+        component: usize,
+        tooth: usize,
+        (stations, slices): (
+            impl Iterator<Item = (usize, f64)>,
+            impl Iterator<Item = (usize, f64)> + Clone,
+        ),
+        sum: &mut [f64],
+    ) {
+        let modes = self.count();
+        for (station, share) in stations {
+            for (slice, part) in slices.clone() {
+                let row = ((tooth * self.stations + station) * self.slices + slice) * modes;
+                add_scaled(sum, share * part, &self.rows[component][row..][..modes]);
+            }
         }
     }
 
@@ -126,57 +170,116 @@ impl FlankModes {
         let modes = self.count();
         let (coordinates, rates) = (motion.coordinates[gear], motion.rates[gear]);
         let rows = &mut found.modal[gear];
-        rows.shapes.clear();
-        rows.shapes.resize(found.contacts.len() * modes, 0.0);
-        rows.slopes.clear();
-        rows.slopes.resize(found.contacts.len() * modes, 0.0);
+        begin(&mut rows.shapes, found.contacts.len() * modes);
+        begin(&mut rows.slopes, found.contacts.len() * modes);
+        if self.walk.is_some() {
+            begin(&mut rows.slopes_along, found.contacts.len() * modes);
+        }
         for section in &found.sections {
-            let roll = section.touching_roll_rad[gear];
-            let place = self.hats.place(roll);
+            let place = self.hats.place(section.touching_roll_rad[gear]);
             let walks = section.walks(gear);
-            let along = &section.roll_gradient[gear];
-            let roll_rate = along.dot(pose_rates);
+            let up = &section.roll_gradient[gear];
+            let roll_rate = up.dot(pose_rates);
             let (start, count) = section.contacts;
             for number in start..start + count {
                 let contact = &mut found.contacts[number];
-                let (tooth, slice) = (found.lines[contact.line].teeth[gear], contact.slice);
-                let row = |station: usize| self.row(&self.rows, [tooth, station, slice]);
+                let tooth = found.lines[contact.line].teeth[gear];
+                let at = self.along_tooth(contact.slice, contact.heights_m[gear]);
                 let shape = &mut rows.shapes[number * modes..][..modes];
-                for (station, share) in place.shares() {
-                    add_scaled(shape, share, row(station));
-                }
+                self.add(0, tooth, (place.shares(), at.shares()), shape);
                 let slope = &mut rows.slopes[number * modes..][..modes];
-                for (station, share) in place.rates().filter(|_| walks) {
-                    add_scaled(slope, share, row(station));
-                }
+                let climbs = place.rates().filter(|_| walks);
+                self.add(0, tooth, (climbs, at.shares()), slope);
                 contact.gap_m += dot(shape, coordinates);
                 let bent = dot(slope, coordinates);
-                contact.gradient += bent * along;
+                contact.gradient += bent * up;
                 contact.gap_rate_m_per_s += dot(shape, rates) + bent * roll_rate;
+                if self.walk.is_some() {
+                    let slope = &mut rows.slopes_along[number * modes..][..modes];
+                    self.add(0, tooth, (place.shares(), at.rates()), slope);
+                    let (bent, along) = (dot(slope, coordinates), &section.along_gradient[gear]);
+                    contact.gradient += bent * along;
+                    contact.gap_rate_m_per_s += bent * along.dot(pose_rates);
+                }
             }
         }
     }
 
-    /// Writes φ_t of all contacts on gear 0 or 1, for friction.
-    pub(crate) fn lay_along_profile(&self, gear: usize, found: &mut FlankContacts) {
+    /// Writes how fast vibration slides the flanks at all contacts on gear 0 or 1 of this side; `tangents`: as
+    /// [`crate::FlankKinematics::tangents_on_flanks`] of this gear.
+    pub(crate) fn lay_sliding(
+        &self,
+        (gear, side): (usize, Flank),
+        tangents: impl Fn(usize) -> Option<[[f64; 2]; 2]>,
+        found: &mut FlankContacts,
+    ) {
         let modes = self.count();
-        let tangential = &mut found.modal[gear].tangential;
-        tangential.clear();
-        tangential.resize(found.contacts.len() * modes, 0.0);
+        let sliding = &mut found.modal[gear].sliding;
+        let in_plane = tangents(0).is_some();
+        let (size, none) = (found.contacts.len() * modes, 0);
+        begin(&mut sliding[0], size);
+        begin(&mut sliding[1], if in_plane { size } else { none });
+        // Gear 2 slides over gear 1.
+        let moves = if gear == 0 { -1.0 } else { 1.0 };
         for section in &found.sections {
             let place = self.hats.place(section.touching_roll_rad[gear]);
             let (start, count) = section.contacts;
             for number in start..start + count {
                 let contact = &found.contacts[number];
-                let (tooth, slice) = (found.lines[contact.line].teeth[gear], contact.slice);
-                let sum = &mut tangential[number * modes..][..modes];
-                for (station, share) in place.shares() {
-                    let row = self.row(&self.tangential_rows, [tooth, station, slice]);
-                    add_scaled(sum, share, row);
+                let tooth = found.lines[contact.line].teeth[gear];
+                let at = self.along_tooth(contact.slice, contact.heights_m[gear]);
+                let mut add = |tangent: usize, component: usize, share: f64| {
+                    let sum = &mut sliding[tangent][number * modes..][..modes];
+                    let slices = at.shares().map(|(slice, part)| (slice, share * part));
+                    self.add(component, tooth, (place.shares(), slices), sum);
+                };
+                match tangents(number) {
+                    None if in_plane => {}
+                    // w⊥ points to the tip of gear 1 and from that of gear 2 on right flanks.
+                    None => add(0, 1, -side.mirror()),
+                    Some(both) => {
+                        for (tangent, [to_tip, along]) in both.into_iter().enumerate() {
+                            add(tangent, 1, moves * to_tip);
+                            add(tangent, 2, moves * along);
+                        }
+                    }
                 }
             }
         }
     }
+}
+
+/// Slices that share a force.
+#[derive(Clone, Copy)]
+enum AlongTooth {
+    Stays(usize),
+    Walks(WalkedSlice),
+}
+
+impl AlongTooth {
+    /// With their shares.
+    fn shares(&self) -> impl Iterator<Item = (usize, f64)> + Clone + use<> {
+        let (first, shares, count) = match *self {
+            Self::Stays(slice) => (slice, [1.0, 0.0, 0.0], 1),
+            Self::Walks(walked) => (walked.first, walked.shares, 3),
+        };
+        (first..).zip(shares).take(count)
+    }
+
+    /// With the derivatives of the shares by the place along the tooth \[1/m\].
+    fn rates(&self) -> impl Iterator<Item = (usize, f64)> + Clone + use<> {
+        let (first, rates, count) = match *self {
+            Self::Stays(slice) => (slice, [0.0; 3], 0),
+            Self::Walks(walked) => (walked.first, walked.rates, 3),
+        };
+        (first..).zip(rates).take(count)
+    }
+}
+
+/// So many zeros, in the memory that is there.
+fn begin(values: &mut Vec<f64>, size: usize) {
+    values.clear();
+    values.resize(size, 0.0);
 }
 
 /// a·b over the shorter of the two.

@@ -99,11 +99,32 @@ impl Friction {
     }
 }
 
-/// Friction in a tangent plane for a normal force of one newton.
+/// A tangent along which flanks slide on each other.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct InPlane {
-    /// μ at the speed of sliding.
+pub(crate) struct Tangent {
+    /// k: load on gear 2 of a unit force along it.
+    pub direction: Vector6,
+    /// ∂k by the increments of the pose; none where no derivatives are asked for.
+    pub change: Option<Matrix6>,
+    /// What vibration of the gears adds to the sliding \[m/s\].
+    pub vibration_m_per_s: f64,
+}
+
+/// Friction on gear 2 for a normal force of one newton, along one or two tangents.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Drag {
+    /// μ at the speed of sliding: signed along one tangent, positive in a plane.
     pub coefficient: f64,
+    /// How many tangents there are.
+    pub tangents: usize,
+    /// Friction along the tangents.
+    pub shares: [f64; 2],
+    /// Its derivatives by the speeds along them \[s/m\].
+    pub share_by_speed: [[f64; 2]; 2],
+    /// k.
+    pub directions: [Vector6; 2],
+    /// Derivatives of the speeds by the increments of the pose; zero unless asked for, as those below.
+    pub speeds_by_pose: [Vector6; 2],
     pub load: Vector6,
     pub by_position: Matrix6,
     pub by_velocity: Matrix6,
@@ -111,9 +132,55 @@ pub(crate) struct InPlane {
 }
 
 impl Friction {
-    /// Against the sliding along two tangents: loads of unit forces along them, with their derivatives by the pose.
-    pub(crate) fn in_plane(&self, tangents: [&(Vector6, Matrix6); 2], rates: &Vector6) -> InPlane {
-        let speeds = tangents.map(|(k, _)| k.dot(rates));
+    /// Against the sliding along one tangent, or in the plane of two at right angles.
+    pub(crate) fn along(&self, tangents: &[Tangent], rates: &Vector6) -> Drag {
+        let mut speeds = [0.0; 2];
+        let mut found = Drag {
+            coefficient: 0.0,
+            tangents: tangents.len(),
+            shares: [0.0; 2],
+            share_by_speed: [[0.0; 2]; 2],
+            directions: [Vector6::zeros(); 2],
+            speeds_by_pose: [Vector6::zeros(); 2],
+            load: Vector6::zeros(),
+            by_position: Matrix6::zeros(),
+            by_velocity: Matrix6::zeros(),
+            dissipated_w: 0.0,
+        };
+        for (i, tangent) in tangents.iter().enumerate() {
+            speeds[i] = tangent.direction.dot(rates) + tangent.vibration_m_per_s;
+            found.directions[i] = tangent.direction;
+            if let Some(change) = &tangent.change {
+                found.speeds_by_pose[i] = change.tr_mul(rates);
+            }
+        }
+        if tangents.len() == 1 {
+            let (mu, slope) = self.coefficient(speeds[0]);
+            found.coefficient = mu;
+            found.shares[0] = -mu;
+            found.share_by_speed[0][0] = -slope;
+        } else {
+            self.in_plane(speeds, &mut found);
+        }
+        for (i, tangent) in tangents.iter().enumerate() {
+            let (k, share) = (&tangent.direction, found.shares[i]);
+            found.load += share * k;
+            found.dissipated_w -= share * speeds[i];
+            let Some(change) = &tangent.change else {
+                continue;
+            };
+            found.by_position += share * change;
+            for j in 0..tangents.len() {
+                let by_speed = found.share_by_speed[i][j] * k;
+                found.by_position += by_speed * found.speeds_by_pose[j].transpose();
+                found.by_velocity += by_speed * found.directions[j].transpose();
+            }
+        }
+        found
+    }
+
+    /// Shares along two tangents and their derivatives.
+    fn in_plane(&self, speeds: [f64; 2], found: &mut Drag) {
         let speed = speeds[0].hypot(speeds[1]);
         let (mu, slope) = self.coefficient(speed);
         // At rest the secant μ/v is the slope, and any direction will do.
@@ -122,24 +189,14 @@ impl Friction {
         } else {
             ([1.0, 0.0], slope)
         };
-        let mut found = InPlane {
-            coefficient: mu,
-            load: Vector6::zeros(),
-            by_position: Matrix6::zeros(),
-            by_velocity: Matrix6::zeros(),
-            dissipated_w: mu * speed,
-        };
-        for (i, (k, change)) in tangents.into_iter().enumerate() {
-            found.load -= mu * e[i] * k;
-            found.by_position -= mu * e[i] * change;
-            for (j, (other, other_change)) in tangents.into_iter().enumerate() {
+        found.coefficient = mu;
+        found.shares = e.map(|e| -mu * e);
+        found.share_by_speed = [0, 1].map(|i: usize| {
+            [0, 1].map(|j: usize| {
                 let own = f64::from(u8::from(i == j));
-                let by_speed = slope * e[i] * e[j] + secant * (own - e[i] * e[j]);
-                found.by_position -= by_speed * k * other_change.tr_mul(rates).transpose();
-                found.by_velocity -= by_speed * k * other.transpose();
-            }
-        }
-        found
+                -(slope * e[i] * e[j] + secant * (own - e[i] * e[j]))
+            })
+        });
     }
 }
 

@@ -8,7 +8,7 @@
 //! | what simple models take from a pair's own static curve | [`PairCurve`] | `pair_curve.rs`, `roll_harmonics.rs` |
 //! | what is spent | [`Damping`], [`Friction`] | `damping.rs`, `friction.rs` |
 //! | teeth that are apart, or stand in each other | `nearest_flanks.rs`, `tooth_overlap.rs` |
-//! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs` |
+//! | force, moment and tangents on two gears | [`GearMesh`] | `gear_mesh.rs`, a side of it `side_assembly.rs` |
 //! | vibration modes of the gear bodies at the flanks | [`FlankModes`] | `flank_modes.rs`, `modal_loads.rs` |
 //! | the same between two bodies of a system | [`MeshElement`] | `mesh_element.rs` |
 //! | root strain at gauges while a run goes on | [`StrainGauges`] | `strain_gauges.rs` |
@@ -49,6 +49,7 @@ pub mod pose;
 pub mod posed_flanks;
 pub mod ring_foundation;
 pub mod roll_harmonics;
+mod side_assembly;
 pub mod slice_plane;
 pub mod step;
 pub mod strain_gauges;
@@ -82,6 +83,7 @@ pub use pair_curve::{PairCurve, PairSamples};
 pub use path_ends::PathEnds;
 pub use pose::Pose;
 pub use posed_flanks::PosedFlanks;
+pub use side_assembly::FlankFriction;
 pub use strain_gauges::{ModalPart, StrainGauges};
 pub use teeth_model::{TeethLoads, TeethModel};
 pub use tooth_compliance::{BeamTooth, RootCrack};

@@ -1,17 +1,19 @@
 //! Forces of a mesh on the vibration modes of its gears, and what they depend on.
 //!
 //! ```text
-//! Q_m = Σ_i F_i ψ_im,   ψ = φ + σ μ(v) φ_t        ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j),   ∂gap_j/∂η_m = ∂(gap rate)_j/∂η̇_m = φ_jm
-//!                                                  ∂μ_i = μ′ ∂v_i,   v = k·(u̇, ω) − σ φ_t·η̇
+//! Q_m = Σ_i F_i ψ_im,   ψ = φ + Σ_a τ_a(v) s_a     ∂F_i = −Σ_j (K_ij ∂gap_j + D_ij ∂(gap rate)_j),   ∂gap_j/∂η_m = ∂(gap rate)_j/∂η̇_m = φ_jm
+//!                                                  ∂τ_a = Σ_b τ_a,b ∂v_b,   v_b = k_b·(u̇, ω) + s_b·η̇
 //! ```
 //!
-//! φ_t is the shape along the profile towards the tip; friction points there on both gears where σ μ > 0, so that its power on the gears
-//! and their modes is −μ F v, v the sliding of the vibrating flanks. Without friction ψ = φ.
+//! τ is friction on gear 2 over the normal force along one tangent or two, s_a how fast vibration slides the flanks along a tangent: its power on the
+//! gears and their modes is F τ·v. On involute flanks there is one tangent, s = −σ φ_t with the shape φ_t along the profile towards the
+//! tip, and τ = −μ. Without friction ψ = φ.
 //!
-//! Left out of the tangent: how φ changes with the roll angle, of the order of deflection over pitch as all that the mesh leaves out.
+//! Left out of the tangent: how φ changes with the place on the flank, of the order of deflection over pitch as all that the mesh leaves out.
 
 use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::add_scaled;
+use crate::friction::Drag;
 use crate::pose::Vector6;
 use crate::teeth_model::TeethLoads;
 
@@ -34,7 +36,7 @@ pub struct ModalLoads {
     /// ∂Q/∂η̇.
     pub by_rates: Vec<f64>,
     shape: Vec<f64>,
-    along_profile: Vec<f64>,
+    sliding: [Vec<f64>; 2],
     along: [Vec<f64>; 2],
 }
 
@@ -43,21 +45,8 @@ pub(crate) struct ContactChange {
     pub direction: Vector6,
     pub by_pose: Vector6,
     pub by_rates: Vector6,
-    pub rubbing: Option<Rubbing>,
-}
-
-/// Friction of one contact.
-pub(crate) struct Rubbing {
-    /// σ = ±1 for right and left flanks.
-    pub sigma: f64,
-    /// μ(v).
-    pub coefficient: f64,
-    /// F dμ/dv \[N·s/m\].
-    pub force_by_speed: f64,
-    /// k: direction of the load of a unit friction force on gear 2.
-    pub direction: Vector6,
-    /// ∂v by pose; by rates it is k.
-    pub speed_by_pose: Vector6,
+    /// Friction and the normal force \[N\] under which it acts.
+    pub rubbing: Option<(Drag, f64)>,
 }
 
 impl ModalLoads {
@@ -74,7 +63,7 @@ impl ModalLoads {
             by_coordinates: vec![0.0; m * m],
             by_rates: vec![0.0; m * m],
             shape: vec![0.0; m],
-            along_profile: vec![0.0; m],
+            sliding: [vec![0.0; m], vec![0.0; m]],
             along: [vec![0.0; m], vec![0.0; m]],
         }
     }
@@ -107,18 +96,20 @@ impl ModalLoads {
         }
     }
 
-    /// Adds the force of a contact: normal, and towards the tips of both gears.
+    /// Adds the force of a contact: normal, and friction on gear 2 along the tangents.
     pub(crate) fn add_force(
         &mut self,
         contact: usize,
-        [normal_n, to_tip_n]: [f64; 2],
+        (normal_n, friction_n): (f64, [f64; 2]),
         found: &FlankContacts,
     ) {
         let (first, second) = self.force.split_at_mut(self.counts[0]);
         for (half, rows) in [first, second].into_iter().zip(&found.modal) {
             if rows.count() > 0 {
                 add_scaled(half, normal_n, rows.shape(contact));
-                add_scaled(half, to_tip_n, rows.along_profile(contact));
+                for (tangent, force_n) in friction_n.into_iter().enumerate() {
+                    add_scaled(half, force_n, rows.sliding(contact, tangent));
+                }
             }
         }
     }
@@ -169,29 +160,36 @@ impl ModalLoads {
     }
 
     /// Makes ψ of the contact's φ, and adds what the forces change as friction does with the sliding speed.
-    fn add_rubbing(&mut self, contact: usize, rubbing: &Rubbing, found: &FlankContacts) {
-        let (first, second) = self.along_profile.split_at_mut(self.counts[0]);
-        for (half, rows) in [first, second].into_iter().zip(&found.modal) {
-            if rows.count() > 0 {
-                half.copy_from_slice(rows.along_profile(contact));
+    fn add_rubbing(
+        &mut self,
+        contact: usize,
+        (drag, force_n): &(Drag, f64),
+        found: &FlankContacts,
+    ) {
+        for (tangent, sliding) in self.sliding.iter_mut().enumerate().take(drag.tangents) {
+            let (first, second) = sliding.split_at_mut(self.counts[0]);
+            for (half, rows) in [first, second].into_iter().zip(&found.modal) {
+                if rows.count() > 0 {
+                    half.fill(0.0);
+                    add_scaled(half, 1.0, rows.sliding(contact, tangent));
+                }
             }
+            add_scaled(&mut self.shape, drag.shares[tangent], sliding);
         }
-        add_scaled(
-            &mut self.shape,
-            rubbing.sigma * rubbing.coefficient,
-            &self.along_profile,
-        );
         let m = self.count();
-        for (mode, &phi) in self.along_profile.iter().enumerate() {
-            let towards_tip = rubbing.sigma * rubbing.force_by_speed * phi;
-            self.force_by_pose[mode] += towards_tip * rubbing.speed_by_pose;
-            self.force_by_rates[mode] += towards_tip * rubbing.direction;
-            self.load_by_rates[mode] += towards_tip * rubbing.direction;
-            add_scaled(
-                &mut self.by_rates[mode * m..][..m],
-                -rubbing.force_by_speed * phi,
-                &self.along_profile,
-            );
+        for a in 0..drag.tangents {
+            for b in 0..drag.tangents {
+                let by_speed = force_n * drag.share_by_speed[a][b];
+                for mode in 0..m {
+                    let on_mode = by_speed * self.sliding[a][mode];
+                    self.force_by_pose[mode] += on_mode * drag.speeds_by_pose[b];
+                    self.force_by_rates[mode] += on_mode * drag.directions[b];
+                    self.load_by_rates[mode] +=
+                        by_speed * self.sliding[b][mode] * drag.directions[a];
+                    let row = &mut self.by_rates[mode * m..][..m];
+                    add_scaled(row, on_mode, &self.sliding[b]);
+                }
+            }
         }
     }
 }

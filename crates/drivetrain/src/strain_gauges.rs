@@ -1,7 +1,7 @@
 //! Root strain while a run goes on: gauges of a gear read the slice forces of its mesh, and its modes.
 //!
 //! ```text
-//! ε = gᵀΦ (η − Ω⁻² Σ φ_t T) + Σ (row − gᵀΦ Ω⁻² φ) F + Σ row_t T          rows of method 1 or 2; without modes the rows alone
+//! ε = gᵀΦ (η − Ω⁻² Σ s T) + Σ (row − gᵀΦ Ω⁻² φ) F + Σ row_t T          rows of method 1 or 2; without modes the rows alone
 //! ```
 //!
 //! T is friction towards the tip; method 1 has no row_t. One multiplication a gauge, slice and share: no field, no allocation. Forces that
@@ -130,7 +130,7 @@ impl StrainGauges {
             let Some((found, forces)) = mesh.side(*side) else {
                 continue;
             };
-            let friction = mesh.friction_coefficients(*side);
+            let friction = mesh.friction(*side);
             for section in &found.sections {
                 let (first, count) = section.contacts;
                 if forces[first..first + count].iter().all(|f| *f <= 0.0) {
@@ -144,8 +144,7 @@ impl StrainGauges {
                         tooth: found.lines[contact.line].teeth[self.gear],
                         slice: contact.slice,
                         roll_rad,
-                        // The tip of either gear lies where friction −μ w⊥ on gear 2 and μ w⊥ on gear 1 point for μ σ > 0.
-                        components: [1.0, side.mirror() * friction[number]],
+                        components: [1.0, friction[number].towards_tips[self.gear]],
                         force_n: forces[number],
                     };
                     if loaded.force_n > 0.0 {
@@ -171,19 +170,25 @@ impl StrainGauges {
         &self.strain
     }
 
-    /// η − Ω⁻² Σ φ_t T: the tangential rows are whole, and method 1 reads no friction at rest.
+    /// η − Ω⁻² Σ s T: the tangential rows are whole, and method 1 reads no friction at rest.
     fn take_friction_at_rest_out(&mut self, mesh: &GearMesh) {
         for (side, _) in &self.sides {
             let Some((found, forces)) = mesh.side(*side) else {
                 continue;
             };
             let rows = &found.modal[self.gear];
-            let friction = mesh.friction_coefficients(*side);
-            for (contact, (force_n, mu)) in forces.iter().zip(friction).enumerate() {
-                let to_tip_n = side.mirror() * mu * force_n;
-                let of_modes = rows.along_profile(contact).iter().zip(&self.omega_squared);
-                for (eta, (phi, omega_squared)) in self.coordinates.iter_mut().zip(of_modes) {
-                    *eta -= to_tip_n * phi / omega_squared;
+            for (contact, (force_n, friction)) in
+                forces.iter().zip(mesh.friction(*side)).enumerate()
+            {
+                for (tangent, share) in friction.shares.into_iter().enumerate() {
+                    let of_modes = rows
+                        .sliding(contact, tangent)
+                        .iter()
+                        .zip(&self.omega_squared);
+                    for (eta, (sliding, omega_squared)) in self.coordinates.iter_mut().zip(of_modes)
+                    {
+                        *eta -= share * force_n * sliding / omega_squared;
+                    }
                 }
             }
         }

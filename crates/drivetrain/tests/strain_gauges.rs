@@ -41,8 +41,8 @@ fn gauges_read_the_forces_on_the_flanks() {
                     StrainGauges::new(&mesh, gear, model, &GAUGES, ModalPart::Included).unwrap();
                 let found = gauges.read(&mesh, &[]).to_vec();
                 let (flanks, forces) = mesh.side(side).unwrap();
-                let coefficients = mesh.friction_coefficients(side);
-                assert!(coefficients.iter().any(|c| c.abs() > 0.99 * mu));
+                let coefficients = mesh.friction(side);
+                assert!((coefficients.iter()).any(|c| c.coefficient.abs() > 0.99 * mu));
                 let slices = flanks.contacts.iter().enumerate().map(|(i, contact)| {
                     let (line, plane) = (&flanks.lines[contact.line], &planes[contact.slice]);
                     let roll_rad = flanks.section(contact).touching_roll_rad;
@@ -50,8 +50,11 @@ fn gauges_read_the_forces_on_the_flanks() {
                     let r1 = pair.gear_1.base_radius_m;
                     let point = r1 * (side.mirror() * across + roll_rad[0] * w);
                     let (from_axis, rubbing) = match gear {
-                        1 => (point, coefficients[i] * across),
-                        _ => (point - at.displacement_m, -coefficients[i] * across),
+                        1 => (point, coefficients[i].coefficient * across),
+                        _ => (
+                            point - at.displacement_m,
+                            -coefficients[i].coefficient * across,
+                        ),
                     };
                     let outwards = from_axis.dot(&across).signum();
                     LoadedSlice {

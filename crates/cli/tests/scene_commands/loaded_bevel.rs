@@ -14,8 +14,8 @@ use serde_json::Value;
 use super::bevel::shipped;
 use crate::common::{Desk, argument, changed, gearmesh, refused, succeeds};
 
-/// Elements and slices of the members here; gauges in the roots of the flanks that carry.
-const COARSE: &str = "[mesh]\nflank_mm = 2.4\nalong_mm = 4.0\nfillet_mm = 0.8\nbody_mm = 9.0\n[reduction]\nprofile_stations = 5\nslices = 7\n";
+/// Elements, slices and modes of the members here; gauges in the roots of the flanks that carry.
+const COARSE: &str = "[mesh]\nflank_mm = 2.4\nalong_mm = 4.0\nfillet_mm = 0.8\nbody_mm = 9.0\n[reduction]\nprofile_stations = 5\nslices = 7\n[modes]\ncount = 4\n";
 
 const PAIR: &str = "bevel_13_35.toml";
 const TEETH: [f64; 2] = [13.0, 35.0];

@@ -19,6 +19,7 @@ mod hard_bevel;
 mod import;
 mod loaded_bevel;
 mod measured;
+mod modal_bevel;
 mod moving;
 #[path = "../../../contact/tests/pair_common/mod.rs"]
 mod pair_common;

@@ -434,6 +434,10 @@ impl FlankKinematics for BevelMesh {
         Some(self.found[side as usize].sliding(contact, 1))
     }
 
+    fn tangents_on_flanks(&self, contact: usize, side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
+        self.found[side as usize].tangents_on_flanks(contact)
+    }
+
     fn contact_patch(
         &self,
         contact: usize,

@@ -5,6 +5,7 @@ use gearmesh_contact::{ContactError, HalfSpaces, LocalContact, SliceCompliance};
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
+use super::bevel_mesh::BevelMesh;
 use super::sliced_mesh::BevelSlices;
 use crate::error::DrivetrainError;
 use crate::flank_kinematics::FlankKinematics;
@@ -27,7 +28,8 @@ impl BevelSlices {
     ) -> Result<SliceContact, DrivetrainError> {
         let layout = *self.layout();
         let flank = |gear: usize| {
-            self.check_model(gear, side, models[gear])?;
+            models[gear].flank_index(side).map_err(ContactError::from)?;
+            self.pair().check_model(gear, models[gear])?;
             let made = SliceCompliance::of_bevel(models[gear], side, local, layout.slices);
             Ok::<_, DrivetrainError>(made.map_err(ContactError::from)?)
         };
@@ -57,14 +59,14 @@ impl BevelSlices {
     ) -> Result<ReducedTeeth, DrivetrainError> {
         ReducedTeeth::of_flanks(self.reduced_contact(side, models, local)?, nominal_force_n)
     }
+}
 
-    /// Refuses models of other gears.
-    fn check_model(
-        &self,
-        gear: usize,
-        side: Flank,
-        model: &ReducedGear,
-    ) -> Result<(), DrivetrainError> {
+impl BevelMesh {
+    /// Refuses a model that is not that of gear 0 or 1 of this pair.
+    ///
+    /// # Errors
+    /// [`DrivetrainError::OtherBevel`].
+    pub fn check_model(&self, gear: usize, model: &ReducedGear) -> Result<(), DrivetrainError> {
         let other = |problem: String| DrivetrainError::OtherBevel {
             gear: gear + 1,
             model: model.name.clone(),
@@ -77,12 +79,27 @@ impl BevelSlices {
             let problem = ["it is the pair's gear", "it is the pair's pinion"][gear];
             return Err(other(problem.to_owned()));
         }
-        let teeth = self.pair().teeth()[gear];
+        let teeth = self.teeth()[gear];
         if model.teeth != teeth {
             let problem = format!("it has {} teeth, the pair {teeth}", model.teeth);
             return Err(other(problem));
         }
-        model.flank_index(side).map_err(ContactError::from)?;
+        for side in model.flanks.iter().copied() {
+            let farthest_m = self.off_flank_m((gear, side), model);
+            if farthest_m > SAME_FLANK_M {
+                let problem = format!(
+                    "its {} flanks lie up to {:.4} mm off those of the pair: it was reduced from another pair file or other settings",
+                    side.name(),
+                    1e3 * farthest_m
+                );
+                return Err(other(problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// How far the points of a model lie off a flank at most \[m\].
+    fn off_flank_m(&self, (gear, side): (usize, Flank), model: &ReducedGear) -> f64 {
         let (grid, mut farthest_m) = (&model.grid, 0.0f64);
         for (i, u) in grid.roll_angles_rad.iter().enumerate() {
             for (j, along_m) in grid.z_m.iter().enumerate() {
@@ -90,19 +107,11 @@ impl BevelSlices {
                 let Some([point, _]) = model.bevel_point(side, grid.load(i, j)) else {
                     continue;
                 };
-                let own = self.pair().flank_point_m(side, gear, [s, *u]);
+                let own = self.flank_point_m(side, gear, [s, *u]);
                 let off = own - nalgebra::Vector3::from(point);
                 farthest_m = farthest_m.max(off.norm());
             }
         }
-        if farthest_m > SAME_FLANK_M {
-            let problem = format!(
-                "its {} flanks lie up to {:.4} mm off those of the pair: it was reduced from another pair file or other settings",
-                side.name(),
-                1e3 * farthest_m
-            );
-            return Err(other(problem));
-        }
-        Ok(())
+        farthest_m
     }
 }

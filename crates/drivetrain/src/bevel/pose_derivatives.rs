@@ -133,6 +133,20 @@ impl PoseDerivatives {
         normal.load(&self.arm()).1
     }
 
+    /// The two tangents as the flanks of gear 1 and gear 2 see them: up the profile, and along the tooth at right angles to it, as the loads of reduced
+    /// gears.
+    fn tangents_on_flanks(&self) -> [[[f64; 2]; 2]; 2] {
+        let [normal, tangent] = self.normal_and_tangent().map(|moving| moving.value);
+        let first = (tangent - normal * normal.dot(&tangent)).normalize();
+        let tangents = [first, normal.cross(&first)];
+        [0, 1].map(|gear: usize| {
+            let [along, up] = self.found.points[gear].dr;
+            let up = up.normalize();
+            let along = (along - up * up.dot(&along)).normalize();
+            tangents.map(|tangent| [tangent.dot(&up), tangent.dot(&along)])
+        })
+    }
+
     /// Loads on gear 2 of unit friction forces along two tangents at right angles, and their derivatives by the pose.
     fn sliding(&self) -> [(Vector6, Matrix6<f64>); 2] {
         let [normal, tangent] = self.normal_and_tangent();
@@ -157,6 +171,11 @@ impl MovingContacts {
     pub(crate) fn gap_curvature(&self, contact: usize) -> Matrix6<f64> {
         let motion = self.0.get(contact);
         motion.map_or_else(Matrix6::zeros, PoseDerivatives::gap_curvature)
+    }
+
+    /// As [`crate::FlankKinematics::tangents_on_flanks`].
+    pub(crate) fn tangents_on_flanks(&self, contact: usize) -> Option<[[[f64; 2]; 2]; 2]> {
+        self.0.get(contact).map(PoseDerivatives::tangents_on_flanks)
     }
 
     /// k along one of the two tangents, and ∂k, as [`crate::FlankKinematics::sliding`].

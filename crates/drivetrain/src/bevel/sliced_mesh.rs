@@ -132,7 +132,7 @@ impl BevelSlices {
         guesses.clear();
         found.action_m_per_u = [0.0; 2];
         let sliced = &self.sides[flank as usize];
-        let margin_m = self.margin_m(pose, flank);
+        let margin_m = self.margin_m(pose, flank) + found.bent_m;
         let reach_m = |least_m: f64| {
             let overlap_m = (margin_m - least_m).max(0.0);
             least_m.max(self.reach_m) + margin_m + REACH * overlap_m
@@ -356,6 +356,10 @@ impl FlankKinematics for BevelSlices {
         side: Flank,
     ) -> Option<(Vector6, Matrix6)> {
         Some(self.found[side as usize].sliding(contact, 1))
+    }
+
+    fn tangents_on_flanks(&self, contact: usize, side: Flank) -> Option<[[[f64; 2]; 2]; 2]> {
+        self.found[side as usize].tangents_on_flanks(contact)
     }
 
     fn nearest_gap_m(&self, side: Flank) -> Option<f64> {

@@ -229,13 +229,17 @@ impl ReducedTeeth {
         }
     }
 
-    /// F_placeᵀ ∂φ/∂ξ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy, for a section.
-    fn modal_energy_by_roll(
+    /// F_placeᵀ ∂φ Ω⁻² φᵀF of one gear: the modes' share in the change of the complementary energy, for a section whose shapes change by these slopes,
+    /// up the flank or along the tooth.
+    fn modal_energy(
         &self,
-        flanks: &FlankContacts,
+        (flanks, slopes): (&FlankContacts, &[f64]),
         loads: &TeethLoads,
         (section, gear): (usize, usize),
     ) -> f64 {
+        if slopes.is_empty() {
+            return 0.0;
+        }
         let modal = &flanks.modal[gear];
         let (first, count) = flanks.sections[section].contacts;
         let mut rate = 0.0;
@@ -244,7 +248,7 @@ impl ReducedTeeth {
                 let each = contacts.map(|i| loads.normal_n[i] * values[i * modal.count() + mode]);
                 each.sum()
             };
-            rate += sum(&modal.slopes, first..first + count)
+            rate += sum(slopes, first..first + count)
                 * sum(&modal.shapes, 0..flanks.contacts.len())
                 / omega_squared;
         }
@@ -284,13 +288,16 @@ impl ReducedTeeth {
                 // At the end of a flank the contact no longer walks.
                 if section.walks(gear) {
                     let walking = rows.clone().map(|row| self.slices.energy_by_u(row, gear));
-                    loads.energy_by_roll[number][gear] = walking.sum::<f64>()
-                        - self.modal_energy_by_roll(flanks, loads, (number, gear));
+                    let of_modes = (flanks, &flanks.modal[gear].slopes[..]);
+                    loads.energy_by_roll[number][gear] =
+                        walking.sum::<f64>() - self.modal_energy(of_modes, loads, (number, gear));
                 }
             }
             for gear in 0..2 {
                 let along = rows.clone().map(|row| self.slices.energy_by_v(row, gear));
-                loads.energy_by_height[number][gear] = along.sum();
+                let of_modes = (flanks, &flanks.modal[gear].slopes_along[..]);
+                loads.energy_by_height[number][gear] =
+                    along.sum::<f64>() - self.modal_energy(of_modes, loads, (number, gear));
             }
             if section.share_gradient != Vector6::zeros() {
                 let growing = rows.map(|row| self.slices.energy_by_share(row));

@@ -20,9 +20,9 @@ fn absent_effects_cost_nothing() {
     assert_eq!(plain.modal_loads().count(), 0);
     assert!(
         plain
-            .friction_coefficients(Flank::Right)
+            .friction(Flank::Right)
             .iter()
-            .all(|mu| *mu == 0.0)
+            .all(|friction| friction.coefficient == 0.0)
     );
     let mut rubbing = one_side(&pair).with_friction(friction());
     rubbing.evaluate(&at, true).unwrap();

@@ -1,8 +1,14 @@
 //! A reduced bevel gear with a made-up compliance on the real flanks of its member.
 
+use std::f64::consts::TAU;
+
 use gearmesh_drivetrain::BevelSlices;
 use gearmesh_geometry::Flank;
-use gearmesh_model::{BevelBody, BevelMember, BevelNearField, FlankGrid, ReducedGear};
+use gearmesh_model::{
+    BevelBody, BevelMember, BevelNearField, FlankGrid, ModalBasis, ReducedGear, RigidBody,
+};
+
+use super::modal_gear::{MODES, shape};
 
 /// Stations up the flank, and slices along it.
 const UP: usize = 6;
@@ -116,4 +122,68 @@ pub fn made_up_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
         grid,
         ..gearmesh_model::synthetic::small_bevel_gear()
     }
+}
+
+/// The same with modes of a ring whose static share is in its compliance: along the normal, up the profile and along the tooth, stronger
+/// towards the heel.
+pub fn modal_bevel(flanks: &BevelSlices, member: usize) -> ReducedGear {
+    let mut gear = made_up_bevel(flanks, member);
+    let (teeth, loads, along) = (gear.teeth, gear.grid.len(), gear.grid.z_m.len());
+    let at = |mode: usize, tooth: usize, flank: usize, load: usize| {
+        let up = (load / along) as f64 / (UP - 1) as f64;
+        let heel = (load % along) as f64 / (along - 1) as f64;
+        let side = if flank == 0 { 1.0 } else { -1.0 };
+        [
+            shape(mode, tooth, teeth, side, up) * (0.7 + 0.6 * heel),
+            0.5 * shape(mode, tooth + 1, teeth, 1.0, 0.5 - up),
+            0.4 * shape(mode, tooth + 2, teeth, 1.0, heel),
+        ]
+    };
+    let omega_squared: Vec<f64> = MODES.iter().map(|(f, ..)| (TAU * f).powi(2)).collect();
+    let mut flank = Vec::with_capacity(MODES.len() * teeth * 2 * loads * 3);
+    for mode in 0..MODES.len() {
+        for tooth in 0..teeth {
+            for side in 0..2 {
+                flank.extend((0..loads).flat_map(|load| at(mode, tooth, side, load)));
+            }
+        }
+    }
+    let normal = |mode: usize, tooth: usize, side: usize| {
+        let first = 3 * ((mode * teeth + tooth) * 2 + side) * loads;
+        flank[first..first + 3 * loads].iter().step_by(3)
+    };
+    // `[load flank][response tooth][response flank][load][response]`
+    for (block, entries) in gear.c_hub.chunks_exact_mut(loads * loads).enumerate() {
+        let (response_flank, tooth, load_flank) = (block % 2, block / 2 % teeth, block / 2 / teeth);
+        for (mode, omega_squared) in omega_squared.iter().enumerate() {
+            let rows = entries
+                .chunks_exact_mut(loads)
+                .zip(normal(mode, 0, load_flank));
+            for (row, l) in rows {
+                for (c, m) in row.iter_mut().zip(normal(mode, tooth, response_flank)) {
+                    *c += l * m / omega_squared;
+                }
+            }
+        }
+    }
+    let mut coupling = vec![0.0; 6 * MODES.len()];
+    coupling[5] = 0.4e-2;
+    coupling[6] = 0.15;
+    coupling[13] = 0.15;
+    coupling[35] = -0.3e-2;
+    gear.rigid_body = Some(RigidBody {
+        reference_m: [0.0; 3],
+        mass_kg: 0.25,
+        centre_m: [0.0, 0.0, 0.03],
+        inertia_kg_m2: [[3.2e-4, 0.0, 0.0], [0.0, 3.2e-4, 0.0], [0.0, 0.0, 1.1e-4]],
+    });
+    gear.modes = Some(ModalBasis {
+        nodal_diameters: MODES.iter().map(|(_, n, _)| *n).collect(),
+        omega_squared,
+        complete_to_hz: 6000.0,
+        flank,
+        gauges: Vec::new(),
+        coupling,
+    });
+    gear
 }

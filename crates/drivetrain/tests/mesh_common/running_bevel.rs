@@ -97,8 +97,20 @@ fn start(flanks: &BevelSlices) -> (f64, f64) {
     (turn, lever.signum())
 }
 
-/// Pinion driven at its speed, gear braked.
+/// Pinion driven at its speed, gear braked; rigid bodies.
 pub fn running_bevel(flanks: &BevelSlices, mesh: GearMesh) -> SystemBuilder {
+    let inertia = [0.7e-4, 0.7e-4, 1.1e-4];
+    let bodies = ["pinion", "gear"].map(|name| Body::rigid(name, 0.25, inertia));
+    running_at(flanks, mesh, bodies, SPEED)
+}
+
+/// The same with these bodies at this speed of the pinion \[rad/s\].
+pub fn running_at(
+    flanks: &BevelSlices,
+    mesh: GearMesh,
+    [pinion, gear]: [Body; 2],
+    speed: f64,
+) -> SystemBuilder {
     let (turn, forwards) = start(flanks);
     let pair = flanks.pair();
     let axes = |turn: f64| {
@@ -107,15 +119,14 @@ pub fn running_bevel(flanks: &BevelSlices, mesh: GearMesh) -> SystemBuilder {
     };
     let axis = axes(0.0) * Vector3::z();
     let mut builder = gearmesh_dynamics::System::builder();
-    let inertia = [0.7e-4, 0.7e-4, 1.1e-4];
     let pinion = Body {
-        angular_velocity_rad_per_s: Vector3::new(0.0, 0.0, -forwards * SPEED),
-        ..Body::rigid("pinion", 0.25, inertia)
+        angular_velocity_rad_per_s: Vector3::new(0.0, 0.0, -forwards * speed),
+        ..pinion
     };
     let gear = Body {
         orientation: axes(turn),
-        angular_velocity_rad_per_s: forwards * SPEED * axis,
-        ..Body::rigid("gear", 0.25, inertia)
+        angular_velocity_rad_per_s: forwards * speed * axis,
+        ..gear
     };
     let [pinion, gear] = [pinion, gear].map(|body| builder.body(body).unwrap());
     let markers = [pinion, gear].map(|body| Marker::at(body, [0.0; 3]));
@@ -127,7 +138,7 @@ pub fn running_bevel(flanks: &BevelSlices, mesh: GearMesh) -> SystemBuilder {
             ground
         }
     });
-    let speed = JointKind::Rotation(Motion::Speed(TimeFunction::Constant(-forwards * SPEED)));
+    let speed = JointKind::Rotation(Motion::Speed(TimeFunction::Constant(-forwards * speed)));
     for (name, kind, member) in [
         ("pinion shaft", JointKind::Revolute, 0),
         ("drive", speed, 0),

@@ -84,11 +84,11 @@ fn bent_by_friction(mesh: &GearMesh, model: &ReducedGear, gear: usize, modes: us
     let mut eta = vec![0.0; modes];
     for side in [Flank::Right, Flank::Left] {
         let (found, forces) = mesh.side(side).unwrap();
-        let coefficients = mesh.friction_coefficients(side);
+        let coefficients = mesh.friction(side);
         for (i, contact) in found.contacts.iter().enumerate() {
             let roll_rad = found.section(contact).touching_roll_rad[gear];
             let tooth = found.lines[contact.line].teeth[gear];
-            let to_tip_n = side.mirror() * coefficients[i] * forces[i];
+            let to_tip_n = side.mirror() * coefficients[i].coefficient * forces[i];
             for (mode, eta) in eta.iter_mut().enumerate() {
                 let of_height = |height| tangential_shape(mode, tooth, model.teeth, height);
                 let (phi, _) = at_hats(model, roll_rad, of_height);
@@ -250,48 +250,57 @@ fn power_of_friction_on_gears_and_modes_balances() {
             let new = || hybrid(&pair, &models, [COUNT, COUNT], kinematics(&pair));
             let (mut smooth, mut rough) = (new(), new().with_friction(friction));
             for at in loaded_poses(&pair) {
-                let (eta, _) = at_rest(&mut smooth, &at, [COUNT, COUNT]);
-                for seed in 0..5 {
-                    let (rates, modal_rates) = motion(seed);
-                    let of = |mesh: &mut GearMesh, rates: &Vector6, modal_rates: &[f64]| {
-                        let motion = ModalMotion {
-                            coordinates: [&eta[..COUNT], &eta[COUNT..]],
-                            rates: [&modal_rates[..COUNT], &modal_rates[COUNT..]],
-                        };
-                        let load = mesh.evaluate_modal(&moving(&at, rates), &motion, false);
-                        (load.unwrap(), mesh.modal_loads().force.clone())
-                    };
-                    let (load, force) = of(&mut rough, &rates, &modal_rates);
-                    let (normal, normal_force) = of(&mut smooth, &rates, &modal_rates);
-                    assert_eq!(normal.power.dissipated_w, 0.0);
-                    let on_gears = -(load.load - normal.load).dot(&rates);
-                    let on_modes: f64 = (force.iter().zip(&normal_force).zip(&modal_rates))
-                        .map(|((with, without), rate)| -(with - without) * rate)
-                        .sum();
-                    let spent = load.power.dissipated_w;
-                    assert!(spent > 0.0 && on_modes.abs() > 1e-3 * spent);
-                    let off = (on_gears + on_modes - spent).abs() / spent;
-                    assert!(off < 1e-9, "{seed}: {off:e}");
-                    if !is_constant {
-                        continue;
-                    }
-                    let mut power = |rates: &Vector6, modal_rates: &[f64]| {
-                        of(&mut rough, rates, modal_rates).0.power.dissipated_w
-                    };
-                    let h = 1e-7;
-                    for mode in 0..2 * COUNT {
-                        let mut at = |by: f64| {
-                            let mut changed = modal_rates.clone();
-                            changed[mode] += by;
-                            power(&rates, &changed)
-                        };
-                        let slope = (at(h) - at(-h)) / (2.0 * h);
-                        let expected = normal_force[mode] - force[mode];
-                        let scale = normal.load.fixed_rows::<3>(0).norm() * MU;
-                        assert!((slope - expected).abs() < 1e-7 * scale, "mode {mode}");
-                    }
-                }
+                check_power_of_friction((&mut smooth, &mut rough), &at, is_constant);
             }
+        }
+    }
+}
+
+/// What friction takes out of the motion of gears and modes, both gears with all modes, is what it spends.
+pub fn check_power_of_friction(
+    (smooth, rough): (&mut GearMesh, &mut GearMesh),
+    at: &Pose,
+    is_constant: bool,
+) {
+    let (eta, _) = at_rest(smooth, at, [COUNT, COUNT]);
+    for seed in 0..5 {
+        let (rates, modal_rates) = motion(seed);
+        let of = |mesh: &mut GearMesh, rates: &Vector6, modal_rates: &[f64]| {
+            let motion = ModalMotion {
+                coordinates: [&eta[..COUNT], &eta[COUNT..]],
+                rates: [&modal_rates[..COUNT], &modal_rates[COUNT..]],
+            };
+            let load = mesh.evaluate_modal(&moving(at, rates), &motion, false);
+            (load.unwrap(), mesh.modal_loads().force.clone())
+        };
+        let (load, force) = of(rough, &rates, &modal_rates);
+        let (normal, normal_force) = of(smooth, &rates, &modal_rates);
+        assert_eq!(normal.power.dissipated_w, 0.0);
+        let on_gears = -(load.load - normal.load).dot(&rates);
+        let on_modes: f64 = (force.iter().zip(&normal_force).zip(&modal_rates))
+            .map(|((with, without), rate)| -(with - without) * rate)
+            .sum();
+        let spent = load.power.dissipated_w;
+        assert!(spent > 0.0 && on_modes.abs() > 1e-3 * spent);
+        let off = (on_gears + on_modes - spent).abs() / spent;
+        assert!(off < 1e-9, "{seed}: {off:e}");
+        if !is_constant {
+            continue;
+        }
+        let mut power = |rates: &Vector6, modal_rates: &[f64]| {
+            of(rough, rates, modal_rates).0.power.dissipated_w
+        };
+        let h = 1e-7;
+        for mode in 0..2 * COUNT {
+            let mut at = |by: f64| {
+                let mut changed = modal_rates.clone();
+                changed[mode] += by;
+                power(&rates, &changed)
+            };
+            let slope = (at(h) - at(-h)) / (2.0 * h);
+            let expected = normal_force[mode] - force[mode];
+            let scale = normal.load.fixed_rows::<3>(0).norm() * MU;
+            assert!((slope - expected).abs() < 1e-7 * scale, "mode {mode}");
         }
     }
 }

@@ -7,7 +7,11 @@
 mod mesh_common;
 
 mod at_rest;
+mod bevel;
 mod friction;
 mod in_time;
 mod loads;
+#[allow(dead_code)]
+#[path = "../mesh_common/running_bevel.rs"]
+mod running_bevel;
 mod vibrating_pair;

@@ -9,9 +9,9 @@ use gearmesh_dynamics::{Body, Joint, JointKind, Marker, System, SystemBuilder, T
 use gearmesh_geometry::microgeometry::{ReliefShape, TipRelief};
 use gearmesh_geometry::{Flank, GearPair, Microgeometry, ToothGeometry};
 use gearmesh_model::ReducedGear;
-use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
-use std::f64::consts::TAU;
+use nalgebra::{UnitQuaternion, Vector3};
 
+pub use crate::mesh_common::modal_gear::at_rest;
 use crate::mesh_common::modal_gear::{MODES, modal_gear};
 use crate::mesh_common::*;
 
@@ -63,38 +63,6 @@ pub fn loaded_poses(pair: &GearPair) -> Vec<Pose> {
         pose(pair, screwed, shift, tilt)
     })
     .to_vec()
-}
-
-/// Modal coordinates of both gears that give way at rest: Ω²η = Q(η), by Newton with the mesh's own tangent.
-pub fn at_rest(mesh: &mut GearMesh, pose: &Pose, modes: [usize; 2]) -> (Vec<f64>, MeshLoad) {
-    let m = modes[0] + modes[1];
-    let omega_squared = |i: usize| {
-        let mode = if i < modes[0] { i } else { i - modes[0] };
-        (TAU * MODES[mode].0).powi(2)
-    };
-    let mut eta = vec![0.0; m];
-    for _ in 0..30 {
-        let (first, second) = eta.split_at(modes[0]);
-        let motion = ModalMotion {
-            coordinates: [first, second],
-            ..ModalMotion::default()
-        };
-        let load = mesh.evaluate_modal(pose, &motion, true).unwrap();
-        let modal = mesh.modal_loads();
-        let residual = DVector::from_fn(m, |i, _| modal.force[i] - omega_squared(i) * eta[i]);
-        if residual.norm() <= 1e-13 * DVector::from_row_slice(&modal.force).norm() {
-            return (eta, load);
-        }
-        let matrix = DMatrix::from_fn(m, m, |i, j| {
-            let own = if i == j { omega_squared(i) } else { 0.0 };
-            own - modal.by_coordinates[i * m + j]
-        });
-        let step = matrix.lu().solve(&residual).unwrap();
-        eta.iter_mut()
-            .zip(step.iter())
-            .for_each(|(eta, step)| *eta += step);
-    }
-    panic!("no modal equilibrium");
 }
 
 pub fn relieved(gear: &ToothGeometry) -> Arc<dyn FlankError> {

@@ -7,27 +7,56 @@ use gearmesh_geometry::{Flank, InputError};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 
 use super::bevel_mesh::{SceneBevel, material};
+use super::bodies::Bodies;
 use super::mesh_model::REFERENCE_LINE_LOAD_N_PER_M;
-use crate::system::tables::mesh_model::HybridTable;
+use crate::system::tables::mesh_model::{HybridTable, MeshModel};
 
 /// Slices where neither the scene nor models say how many.
 const SLICES: usize = 15;
 
-/// The models that a mesh names.
+/// The reduced gears of a mesh.
 pub(super) type BevelModels = [Arc<ReducedGear>; 2];
 
 impl SceneBevel<'_> {
-    /// Reads the models of both members, where the mesh names any.
-    pub(super) fn models(&self) -> Result<Option<BevelModels>, InputError> {
-        let Some(files) = &self.table.bevel_models else {
-            return Ok(None);
-        };
-        let read = |i: usize| {
-            let key = format!("bevel_models.{i}");
-            let model = read_reduced_gear(&self.folder.join(&files[i]));
-            model.map(Arc::new).map_err(|e| self.keys.error(&key, e))
-        };
-        Ok(Some([read(0)?, read(1)?]))
+    /// The models of both members: those that the bodies name as their gears, else those that the mesh names; none where neither names any.
+    pub(super) fn models(
+        &self,
+        bodies: &Bodies,
+        numbers: [usize; 2],
+    ) -> Result<Option<BevelModels>, InputError> {
+        let placed = numbers.map(|number| &bodies.list[number]);
+        let (own, files) = (placed.map(|body| body.bevel()), &self.table.bevel_models);
+        let named = (0..2).find(|i| own[*i].is_some());
+        if let (Some(i), Some(_)) = (named, files) {
+            let problem = format!(
+                "is not used: body `{}` names its reduced gear itself; remove one of the two",
+                placed[i].body.name
+            );
+            return Err(self.keys.error("bevel_models", problem));
+        }
+        match (own, files) {
+            ([Some(first), Some(second)], _) => Ok(Some([Arc::clone(first), Arc::clone(second)])),
+            (_, Some(files)) => {
+                let read = |i: usize| {
+                    let key = format!("bevel_models.{i}");
+                    let model = read_reduced_gear(&self.folder.join(&files[i]));
+                    model.map(Arc::new).map_err(|e| self.keys.error(&key, e))
+                };
+                Ok(Some([read(0)?, read(1)?]))
+            }
+            ([Some(_), None] | [None, Some(_)], None)
+                if matches!(self.table.model, MeshModel::Hybrid(_)) =>
+            {
+                let without = usize::from(own[0].is_some());
+                let names = [without, 1 - without].map(|i| &placed[i].body.name);
+                let problem = format!(
+                    "body `{}` names no reduced bevel gear, but `{}` does; \"hybrid\" takes both or none: give it `gear = \"...h5\"` in its [[body]]",
+                    names[0], names[1]
+                );
+                Err(self.keys.error(["gear_1", "gear_2"][without], problem))
+            }
+            _ => Ok(None),
+        }
     }
 
     /// Slices along the teeth.
@@ -51,7 +80,7 @@ impl SceneBevel<'_> {
     pub(super) fn hybrid(
         &self,
         kinematics: BevelSlices,
-        (model, models): (&HybridTable, Option<&BevelModels>),
+        (model, models, modes): (&HybridTable, Option<&BevelModels>, [usize; 2]),
         sides: &[Flank],
     ) -> Result<GearMesh, InputError> {
         let face_width_m =
@@ -66,7 +95,12 @@ impl SceneBevel<'_> {
                     let models = [&*models[0], &*models[1]];
                     let local = (model.local.unwrap_or_default(), nominal);
                     let made = kinematics.reduced_teeth(side, models, local);
-                    made.map_err(|e| self.keys.error("bevel_models", e))?
+                    let key = self
+                        .table
+                        .bevel_models
+                        .as_ref()
+                        .map_or("", |_| "bevel_models");
+                    made.map_err(|e| self.keys.error(key, e))?
                 }
                 (_, stated) => {
                     let material = material(stated.as_ref(), &self.model_keys, "half_space")?;
@@ -92,24 +126,34 @@ impl SceneBevel<'_> {
         for side in others {
             mesh = mesh.with_side(*side, teeth(*side)?).map_err(fault)?;
         }
+        for (gear, count) in modes.into_iter().enumerate() {
+            if let (Some(models), true) = (models, count > 0) {
+                let vibrating = mesh.with_modes(gear + 1, &models[gear], count);
+                mesh = vibrating.map_err(fault)?;
+            }
+        }
         self.with_friction(mesh)
     }
 
     /// What the model needs and what it does not use.
-    pub(super) fn check_hybrid(&self, model: &HybridTable) -> Result<(), InputError> {
+    pub(super) fn check_hybrid(
+        &self,
+        model: &HybridTable,
+        reduced: bool,
+    ) -> Result<(), InputError> {
         let keys = &self.model_keys;
-        match (&self.table.bevel_models, &model.half_space) {
-            (Some(_), Some(_)) => {
+        match (reduced, &model.half_space) {
+            (true, Some(_)) => {
                 let problem =
-                    "is not used with `bevel_models`, whose materials count; remove one of the two";
+                    "is not used with reduced gears, whose materials count; remove one of the two";
                 Err(keys.error("half_space", problem))
             }
-            (None, None) => {
-                let problem = "missing: kind = \"hybrid\" needs the reduced gears of both members, `bevel_models = [\"pinion.h5\", \"gear.h5\"]`, \
+            (false, None) => {
+                let problem = "missing: kind = \"hybrid\" needs the reduced gears of both members, `gear = \"...h5\"` of both bodies or here `bevel_models = [\"pinion.h5\", \"gear.h5\"]`, \
                                or `half_space = {}` in its model for rigid gears whose surfaces give way";
                 Err(self.keys.error("bevel_models", problem))
             }
-            (None, Some(_)) if model.local.is_some() => {
+            (false, Some(_)) if model.local.is_some() => {
                 let problem =
                     "is not used with `half_space`, which has no model to complete; remove it";
                 Err(keys.error("local", problem))

@@ -40,7 +40,8 @@ impl SceneBevel<'_> {
         bodies: &Bodies,
         parts: &mut Parts,
     ) -> Result<PreparedMesh, InputError> {
-        self.refuse_unused(bodies, numbers)?;
+        let models = self.models(bodies, numbers)?;
+        self.refuse_unused((bodies, numbers), models.is_some())?;
         let file = PairFile::read(self.file)?;
         let fault = |error: BevelError| {
             let problem = format!("{}: {error}", self.file.display());
@@ -65,7 +66,6 @@ impl SceneBevel<'_> {
         ];
         let at_start = pose(bodies, numbers, &seats);
         let sides = self.teeth.flanks.flanks().to_vec();
-        let models = self.models()?;
         let fault = |e| self.keys.error("bevel_pair", e);
         let (base_radii_m, slice_width_m, corners, mesh) = match &self.table.model {
             MeshModel::Hybrid(model) => {
@@ -79,7 +79,8 @@ impl SceneBevel<'_> {
                 located.map_err(|e| self.keys.error("gear_2", e))?;
                 let (levers_m, width_m) = (flanks.pair().levers_m(), flanks.layout().width_m());
                 let corners = flanks.pair().flank_corners_m();
-                let mesh = self.hybrid(flanks, (model, models.as_ref()), &sides)?;
+                let modes = numbers.map(|number| bodies.list[number].modes);
+                let mesh = self.hybrid(flanks, (model, models.as_ref(), modes), &sides)?;
                 (levers_m, width_m, corners, mesh)
             }
             MeshModel::Impact(model) => {
@@ -90,6 +91,13 @@ impl SceneBevel<'_> {
                 }
                 let located = flanks.locate(&at_start);
                 located.map_err(|e| self.keys.error("gear_2", e))?;
+                for (gear, number) in numbers.into_iter().enumerate() {
+                    if let Some(model) = bodies.list[number].bevel() {
+                        let fits = flanks.check_model(gear, model);
+                        let key = ["gear_1", "gear_2"][gear];
+                        fits.map_err(|e| self.keys.error(key, e))?;
+                    }
+                }
                 let (levers_m, width_m) = (flanks.levers_m(), flanks.layout().width_m());
                 let corners = flanks.flank_corners_m();
                 (
@@ -104,7 +112,7 @@ impl SceneBevel<'_> {
         let flank_corners_m = corners.into_iter().flatten().flatten().collect();
         let modulus = |table| contact_modulus(table, &self.keys, "tooth_pairs");
         let tooth_pairs = self.table.tooth_pairs.as_ref().map(modulus).transpose()?;
-        self.effects(&file, parts);
+        self.effects((&file, models.is_some()), parts);
         Ok(PreparedMesh {
             name: self.table.name.clone(),
             key: key.to_owned(),
@@ -132,7 +140,11 @@ impl SceneBevel<'_> {
     }
 
     /// What of the table bevel flanks do not use.
-    fn refuse_unused(&self, bodies: &Bodies, numbers: [usize; 2]) -> Result<(), InputError> {
+    fn refuse_unused(
+        &self,
+        (bodies, numbers): (&Bodies, [usize; 2]),
+        reduced: bool,
+    ) -> Result<(), InputError> {
         let unused = |keys: &TableKeys<'_>, key: &str| {
             Err(keys.error(key, "is not used by a bevel pair; remove it"))
         };
@@ -159,7 +171,7 @@ impl SceneBevel<'_> {
                     let problem = "belongs to kind = \"impact\", one contact for each pair of teeth; the slices of \"hybrid\" have forces and pressures of their own, remove it";
                     return Err(self.keys.error("tooth_pairs", problem));
                 }
-                self.check_hybrid(model)?;
+                self.check_hybrid(model, reduced)?;
             }
             _ => return Err(self.other_model()),
         }
@@ -179,10 +191,10 @@ impl SceneBevel<'_> {
         }
         for (key, number) in ["gear_1", "gear_2"].into_iter().zip(numbers) {
             let body = &bodies.list[number];
-            if body.gear.is_some() {
+            if body.cylindrical().is_some() {
                 let problem = format!(
-                    "body `{}` is a cylindrical gear; the teeth of this mesh come from bevel_pair: remove `gear` from its [[body]] and state mass_kg \
-                     and inertia_kg_m2",
+                    "body `{}` is a cylindrical gear; the teeth of this mesh come from bevel_pair: name the reduced bevel gear as `gear` of its [[body]], \
+                     or remove `gear` and state mass_kg and inertia_kg_m2",
                     body.body.name
                 );
                 return Err(self.keys.error(key, problem));
@@ -262,7 +274,7 @@ impl SceneBevel<'_> {
     }
 
     /// What is computed, in words for the plan.
-    fn effects(&self, file: &PairFile, parts: &mut Parts) {
+    fn effects(&self, (file, reduced): (&PairFile, bool), parts: &mut Parts) {
         let name = |what: &str| format!("mesh `{}`: {what}", self.table.name);
         let both = self.teeth.flanks == TouchingFlanks::Both;
         let backlash = format!(
@@ -283,9 +295,10 @@ impl SceneBevel<'_> {
                 damping.map(|_| "STEP of the depth".to_string())
             }
             model => {
-                let what = match self.table.bevel_models {
-                    Some(_) => "reduced gears in slices along the teeth",
-                    None => "rigid gears, surfaces in slices along the teeth",
+                let what = if reduced {
+                    "reduced gears in slices along the teeth"
+                } else {
+                    "rigid gears, surfaces in slices along the teeth"
                 };
                 parts.effect(name("teeth"), Some(what.to_string()));
                 model.damping().map(|damping| damping.words().to_string())

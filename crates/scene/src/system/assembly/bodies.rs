@@ -7,9 +7,10 @@ use gearmesh_dynamics::state::BodyMotion;
 use gearmesh_dynamics::{Body, BodyId, GROUND, Marker};
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::TableKeys;
+use gearmesh_model::ReducedGear;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use super::gears::Gear;
+use super::gears::{BodyGear, Gear};
 use crate::system::names;
 use crate::system::tables::MM;
 use crate::system::tables::body::{BodyTable, Flexibility};
@@ -23,7 +24,7 @@ pub(super) struct PlacedBody {
     pub body: Body,
     /// Where mass and inertia come from.
     pub source: String,
-    pub gear: Option<Arc<Gear>>,
+    pub gear: Option<BodyGear>,
     /// Natural modes that the body has; none unless it is modal.
     pub modes: usize,
     /// Nobody has said where it is.
@@ -41,7 +42,7 @@ impl PlacedBody {
     pub(super) fn new(
         table: &BodyTable,
         keys: &TableKeys<'_>,
-        gear: Option<Arc<Gear>>,
+        gear: Option<BodyGear>,
     ) -> Result<Self, InputError> {
         if table.name.is_empty() || table.name == GROUND_NAME {
             return Err(keys.error(
@@ -65,7 +66,7 @@ impl PlacedBody {
         if let Some(velocity) = table.velocity_mm_per_s {
             body.velocity_m_per_s = vector(keys, "velocity_mm_per_s", velocity, MM)?;
         }
-        let mode_count = modes(table, keys, gear.as_deref(), &mut body)?;
+        let mode_count = modes(table, keys, gear.as_ref(), &mut body)?;
         let mut turn_is_free = true;
         if let Some(angles) = &table.cardan_deg {
             let angle = |i: usize| angles.get(i).copied().unwrap_or(0.0);
@@ -123,6 +124,21 @@ impl PlacedBody {
         })
     }
 
+    /// Its gear, on parallel axes.
+    pub(super) fn cylindrical(&self) -> Option<&Arc<Gear>> {
+        self.gear.as_ref()?.cylindrical()
+    }
+
+    /// Its reduced gear.
+    pub(super) fn model(&self) -> Option<&Arc<ReducedGear>> {
+        self.gear.as_ref()?.model()
+    }
+
+    /// Its reduced gear if that is a bevel gear.
+    pub(super) fn bevel(&self) -> Option<&Arc<ReducedGear>> {
+        self.model().filter(|model| model.bevel.is_some())
+    }
+
     /// Its motion at the start.
     pub(super) fn motion(&self) -> BodyMotion {
         let body = &self.body;
@@ -160,7 +176,7 @@ fn fault_key(table: &BodyTable) -> &'static str {
 fn modes(
     table: &BodyTable,
     keys: &TableKeys<'_>,
-    gear: Option<&Gear>,
+    gear: Option<&BodyGear>,
     body: &mut Body,
 ) -> Result<usize, InputError> {
     let word = table.flexibility.map_or("", Flexibility::name);
@@ -178,7 +194,7 @@ fn modes(
     if table.flexibility != Some(Flexibility::Modal) {
         return Ok(0);
     }
-    let model = gear.and_then(|gear| gear.model.as_deref()).ok_or_else(|| {
+    let model = gear.and_then(BodyGear::model).ok_or_else(|| {
         keys.error(
             "flexibility",
             "is \"modal\", which needs a reduced gear (.h5) with modes",

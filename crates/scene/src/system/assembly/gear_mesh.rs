@@ -103,15 +103,18 @@ impl PreparedMesh {
         }
         let gear = |i: usize| {
             let placed = &bodies.list[numbers[i]];
-            placed.gear.as_ref().ok_or_else(|| {
+            placed.cylindrical().ok_or_else(|| {
                 let key = ["gear_1", "gear_2"][i];
-                keys.error(
-                    key,
-                    format!(
-                        "body `{}` is no gear; give it `gear = \"...\"` in its [[body]]",
-                        placed.body.name
+                let name = &placed.body.name;
+                let problem = match placed.bevel() {
+                    Some(_) => format!(
+                        "body `{name}` is a bevel gear; name the file of its pair, `bevel_pair = \"...\"`"
                     ),
-                )
+                    None => format!(
+                        "body `{name}` is no gear; give it `gear = \"...\"` in its [[body]]"
+                    ),
+                };
+                keys.error(key, problem)
             })
         };
         let gears = [gear(0)?, gear(1)?];

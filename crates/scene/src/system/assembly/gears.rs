@@ -1,14 +1,15 @@
-//! The gears that bodies name: teeth, body and, for models, static patterns.
+//! The gears that bodies name: teeth, body and, for models, static patterns; of bevel gears the model, whose teeth are those of their meshes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use gearmesh_bevel::BevelGear;
 use gearmesh_drivetrain::{DrivetrainError, GearInertia, gear_body};
 use gearmesh_dynamics::Body;
 use gearmesh_geometry::gear_file::MicrogeometryTable;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
-use gearmesh_geometry::{GearDefinition, InputError};
+use gearmesh_geometry::{GearDefinition, InputError, Material};
 use gearmesh_model::{ReducedGear, read_reduced_gear};
 use nalgebra::{Matrix3, Vector3};
 
@@ -25,9 +26,91 @@ pub(super) struct Gear {
     pub microgeometry_of_scene: bool,
 }
 
+/// A reduced bevel gear.
+#[derive(Debug)]
+pub(super) struct ReducedBevel {
+    pub file: PathBuf,
+    pub model: Arc<ReducedGear>,
+}
+
+/// What a body names as its gear.
+#[derive(Debug, Clone)]
+pub(super) enum BodyGear {
+    Cylindrical(Arc<Gear>),
+    Bevel(Arc<ReducedBevel>),
+}
+
+impl BodyGear {
+    /// A gear on parallel axes.
+    pub(super) fn cylindrical(&self) -> Option<&Arc<Gear>> {
+        match self {
+            Self::Cylindrical(gear) => Some(gear),
+            Self::Bevel(_) => None,
+        }
+    }
+
+    /// The reduced gear, where it is one.
+    pub(super) fn model(&self) -> Option<&Arc<ReducedGear>> {
+        match self {
+            Self::Cylindrical(gear) => gear.model.as_ref(),
+            Self::Bevel(gear) => Some(&gear.model),
+        }
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        match self {
+            Self::Cylindrical(gear) => &gear.file,
+            Self::Bevel(gear) => &gear.file,
+        }
+    }
+
+    pub(super) fn material(&self) -> Material {
+        match self {
+            Self::Cylindrical(gear) => gear.definition.material,
+            Self::Bevel(gear) => Material {
+                young_pa: gear.model.young_pa,
+                poisson: gear.model.poisson,
+                density_kg_per_m3: None,
+            },
+        }
+    }
+
+    /// Mass and inertia: of the model's mesh, or in closed form.
+    pub(super) fn body(&self, keys: &TableKeys<'_>) -> Result<Body, InputError> {
+        match self {
+            Self::Cylindrical(gear) => gear.body(keys),
+            Self::Bevel(gear) => gear_body(&gear.model).map_err(|error| instead(keys, &error)),
+        }
+    }
+
+    /// Numbers of its gear file that look like those of another unit; those of a model were told when it was reduced.
+    pub(super) fn unit_slips(&self) -> Vec<InputError> {
+        self.cylindrical()
+            .map_or_else(Vec::new, |gear| gear.unit_slips())
+    }
+
+    /// Where it comes from, in words.
+    pub(super) fn source(&self) -> String {
+        match self {
+            Self::Cylindrical(gear) => gear.source(),
+            Self::Bevel(gear) => {
+                let (file, model) = (gear.file.display(), &gear.model);
+                format!("bevel model {file}, z {}", model.teeth)
+            }
+        }
+    }
+}
+
+/// A fault of the gear's body, with what may be stated in its place.
+fn instead(keys: &TableKeys<'_>, error: &DrivetrainError) -> InputError {
+    let problem =
+        format!("{error} (mass_kg and inertia_kg_m2 of this table take the place of the gear's)");
+    keys.error("gear", problem)
+}
+
 /// Gears by file, so that each is read once.
 #[derive(Debug, Default)]
-pub(super) struct GearFiles(BTreeMap<PathBuf, Arc<Gear>>);
+pub(super) struct GearFiles(BTreeMap<PathBuf, BodyGear>);
 
 impl GearFiles {
     /// The gear of a file.
@@ -35,30 +118,37 @@ impl GearFiles {
         &mut self,
         path: &Path,
         keys: &TableKeys<'_>,
-    ) -> Result<Arc<Gear>, InputError> {
+    ) -> Result<BodyGear, InputError> {
         if let Some(gear) = self.0.get(path) {
-            return Ok(Arc::clone(gear));
+            return Ok(gear.clone());
         }
-        let gear = Arc::new(Gear::read(path, keys)?);
-        self.0.insert(path.to_path_buf(), Arc::clone(&gear));
+        let gear = BodyGear::read(path, keys)?;
+        self.0.insert(path.to_path_buf(), gear.clone());
         Ok(gear)
     }
 }
 
-impl Gear {
+impl BodyGear {
     fn read(path: &Path, keys: &TableKeys<'_>) -> Result<Self, InputError> {
         let shown = path.display();
-        match path.extension().and_then(|e| e.to_str()) {
+        let gear = match path.extension().and_then(|e| e.to_str()) {
             Some("toml") => {
                 if !path.exists() {
                     return Err(keys.error("gear", format!("the gear file {shown} does not exist")));
                 }
-                Ok(Self {
+                let document = InputDocument::read(path)?;
+                if BevelGear::recognises(&document)? {
+                    let problem = format!(
+                        "{shown} is the file of a bevel gear, which a body takes reduced only; make a model of it with `gearmesh reduce {shown} -o GEAR.h5`"
+                    );
+                    return Err(keys.error("gear", problem));
+                }
+                Gear {
                     file: path.to_path_buf(),
                     definition: GearDefinition::read(path)?,
                     model: None,
                     microgeometry_of_scene: false,
-                })
+                }
             }
             Some("h5") => {
                 if !path.exists() {
@@ -67,31 +157,35 @@ impl Gear {
                     );
                     return Err(keys.error("gear", problem));
                 }
-                let model = read_reduced_gear(path).map_err(|e| keys.error("gear", e))?;
-                Ok(Self {
+                let model = Arc::new(read_reduced_gear(path).map_err(|e| keys.error("gear", e))?);
+                if model.bevel.is_some() {
+                    let file = path.to_path_buf();
+                    return Ok(Self::Bevel(Arc::new(ReducedBevel { file, model })));
+                }
+                Gear {
                     file: path.to_path_buf(),
                     definition: model.input.definition_in(shown)?.clone(),
-                    model: Some(Arc::new(model)),
+                    model: Some(model),
                     microgeometry_of_scene: false,
-                })
+                }
             }
-            _ => Err(keys.error(
-                "gear",
-                format!("found {shown}, allowed is a gear file (.toml) or a reduced gear (.h5)"),
-            )),
-        }
+            _ => {
+                return Err(keys.error(
+                    "gear",
+                    format!(
+                        "found {shown}, allowed is a gear file (.toml) or a reduced gear (.h5)"
+                    ),
+                ));
+            }
+        };
+        Ok(Self::Cylindrical(Arc::new(gear)))
     }
+}
 
+impl Gear {
     /// Mass and inertia: of the model's mesh, or in closed form.
     pub(super) fn body(&self, keys: &TableKeys<'_>) -> Result<Body, InputError> {
-        let hint = |error: DrivetrainError| {
-            keys.error(
-                "gear",
-                format!(
-                    "{error} (mass_kg and inertia_kg_m2 of this table take the place of the gear's)"
-                ),
-            )
-        };
+        let hint = |error: DrivetrainError| instead(keys, &error);
         if let Some(model) = &self.model {
             return gear_body(model).map_err(hint);
         }
@@ -173,10 +267,10 @@ impl Gear {
 /// # Errors
 /// [`InputError`] at the key, in a file, and where nothing would feel it.
 pub(super) fn with_own_microgeometry(
-    gear: Option<Arc<Gear>>,
+    gear: Option<BodyGear>,
     scene: &SystemScene,
     body: usize,
-) -> Result<Option<Arc<Gear>>, InputError> {
+) -> Result<Option<BodyGear>, InputError> {
     let Some(table) = &scene.tables.body[body].microgeometry else {
         return Ok(gear);
     };
@@ -186,12 +280,18 @@ pub(super) fn with_own_microgeometry(
         (scene.tables.gear_mesh.iter()).filter(|mesh| mesh.gear_1 == *name || mesh.gear_2 == *name);
     let problem = match gear {
         None => "is not used by a body without gear; remove it, or name its `gear`",
+        Some(BodyGear::Bevel(_)) => {
+            "is not used by a bevel gear, whose flanks are those of its pair file; remove it"
+        }
         Some(_) if own.clone().count() == 0 => {
             "is not used: the body is in no gear_mesh; remove it"
         }
-        Some(gear) if own.clone().any(|mesh| mesh.microgeometry.unwrap_or(true)) => {
+        Some(BodyGear::Cylindrical(gear))
+            if own.clone().any(|mesh| mesh.microgeometry.unwrap_or(true)) =>
+        {
             let at = (&scene.document, &path[..], scene.folder.as_path());
-            return Ok(Some(Arc::new(gear.with_microgeometry(table, at)?)));
+            let own = Arc::new(gear.with_microgeometry(table, at)?);
+            return Ok(Some(BodyGear::Cylindrical(own)));
         }
         Some(_) => {
             "is not used: microgeometry = false in all gear meshes of the body; remove one of the two"

@@ -10,6 +10,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::LoadedSystem;
 use super::gear_mesh::PreparedMesh;
+use super::gears::BodyGear;
 use super::parts::Parts;
 use super::shafts::PlacedShaft;
 
@@ -163,13 +164,18 @@ impl LoadedSystem {
         let mut places = vec![None; bodies.list.len()];
         let mut gears = Vec::new();
         for (place, body) in bodies.list.iter().enumerate() {
-            if let Some(gear) = &body.gear {
-                places[place] = Some(gears.len());
-                gears.push(MovingGear {
-                    body: body.body.name.clone(),
-                    shape: MovingShape::Cylindrical(Box::new(gear.definition.clone())),
-                });
-            }
+            let shape = match &body.gear {
+                Some(BodyGear::Cylindrical(gear)) => {
+                    MovingShape::Cylindrical(Box::new(gear.definition.clone()))
+                }
+                Some(BodyGear::Bevel(gear)) => MovingShape::Bevel(Arc::clone(&gear.model)),
+                None => continue,
+            };
+            places[place] = Some(gears.len());
+            gears.push(MovingGear {
+                body: body.body.name.clone(),
+                shape,
+            });
         }
         let (mut meshes, mut without_forces) = (Vec::new(), Vec::new());
         for (i, table) in tables.gear_mesh.iter().enumerate() {

@@ -59,7 +59,7 @@ use self::bearings::{cages, housing, rigid};
 use self::bodies::{Bodies, PlacedBody};
 use self::elements::Manner;
 use self::gear_mesh::PreparedMesh;
-use self::gears::{Gear, GearFiles};
+use self::gears::{BodyGear, GearFiles};
 use self::joints::PlacedMotion;
 use self::parts::Parts;
 use self::shafts::PlacedShaft;
@@ -79,7 +79,7 @@ pub struct LoadedSystem {
     /// The scene.
     pub scene: SystemScene,
     /// The gear of each `[[body]]`.
-    gears: Vec<Option<Arc<Gear>>>,
+    gears: Vec<Option<BodyGear>>,
 }
 
 /// How one system of a series differs from the scene.
@@ -126,8 +126,8 @@ impl LoadedSystem {
         let mut slips = self.scene.document.unit_slips();
         let mut seen = Vec::new();
         for gear in self.gears.iter().flatten() {
-            if !seen.contains(&&gear.file) {
-                seen.push(&gear.file);
+            if !seen.contains(&gear.file()) {
+                seen.push(gear.file());
                 slips.extend(gear.unit_slips());
             }
         }
@@ -306,7 +306,7 @@ impl LoadedSystem {
                 name: placed.body.name,
                 id,
                 source: placed.source,
-                model: placed.gear.and_then(|gear| gear.model.clone()),
+                model: placed.gear.and_then(|gear| gear.model().cloned()),
             });
         Ok(BuiltSystem {
             system,
@@ -345,10 +345,7 @@ impl LoadedSystem {
             let key = format!("gauge.{i}");
             let keys = TableKeys::new(&self.scene.document, &key);
             let body = bodies.find_body(&keys, "body", &table.body)?;
-            let model = bodies.list[body]
-                .gear
-                .as_ref()
-                .and_then(|gear| gear.model.as_ref());
+            let model = bodies.list[body].model();
             let of_bevel = || meshes.iter().find_map(|mesh| mesh.bevel_model(body));
             let model = model.or_else(of_bevel).ok_or_else(|| {
                 keys.error(

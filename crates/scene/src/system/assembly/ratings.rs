@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use super::bearings::rolling_bearing;
 use super::bodies::Bodies;
 use super::gear_mesh::{PreparedMesh, fitting_pair};
+use super::gears::BodyGear;
 use crate::rating::{
     BearingLifeJob, BearingLifeTable, FatigueJob, FatigueTable, RatingTable, nominal_error,
     nominal_method,
@@ -156,7 +157,7 @@ fn fatigue(
     let placed = bodies.list.iter().find(|p| p.body.name == gauge.body);
     let material = placed
         .and_then(|placed| placed.gear.as_ref())
-        .map(|gear| gear.definition.material)
+        .map(BodyGear::material)
         .ok_or_else(|| keys.error("gauge", "its body is no gear"))?;
     Ok(RatingJob {
         name: format!("gauge {} of {}", gauge.name, gauge.body),
@@ -300,7 +301,7 @@ fn nominal(
         let problem = format!("`{}` is kinematic and has no normal force", mesh.name);
         return Err(keys.error("mesh", problem));
     }
-    let [Some(first), Some(second)] = mesh.bodies.map(|number| bodies.list[number].gear.as_ref())
+    let [Some(first), Some(second)] = mesh.bodies.map(|number| bodies.list[number].cylindrical())
     else {
         return Err(keys.error("mesh", "its bodies are no gears"));
     };

@@ -327,10 +327,8 @@ fn spans(
     for (i, seat) in table.seat.iter().enumerate() {
         let at = format!("{key}.seat.{i}");
         let index = bodies.find_body(&TableKeys::new(document, &at), "body", &seat.body)?;
-        let gear = bodies.list[index]
-            .gear
-            .as_ref()
-            .map(|gear| &gear.definition);
+        let gear = bodies.list[index].cylindrical();
+        let gear = gear.map(|gear| &gear.definition);
         let cut = gear.filter(|gear| gear.blank.cut_into_shaft().is_some());
         if let (Some(gear), Some(face)) = (cut, faces.get_mut(seat.station)) {
             *face = (0.5 * gear.tooth.face_width_m, &seat.body);

@@ -1,4 +1,4 @@
-//! Seed 001's pair, rigid and with its reduced members.
+//! Seed 001's pair, rigid, with its reduced members, and with members that vibrate.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -22,14 +22,18 @@ pub(super) fn flexibility(
          *Joint*: force of the gear's revolute joint along the world's axes; x is the gear's own axis, z the pinion's. ± is the RMS about the mean.\n\n\
          | teeth | s | speed rpm | mesh force N | range N | joint: world x N | y N | z N |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
-    for (name, suffix) in [("rigid, `impact`", ""), ("`hybrid`", "_hybrid")] {
+    for (name, suffix, members) in [
+        ("rigid, `impact`", "", None),
+        ("`hybrid`", "_hybrid", Some("")),
+        ("`hybrid`, bodies `modal`", "_modal", Some("_modal")),
+    ] {
         let file = format!("dynamics_bevel_20_20{suffix}.toml");
         if !shipped.join(&file).exists() {
             continue;
         }
         say(&format!("== 20/20: {name}"));
-        if suffix == "_hybrid" {
-            reduced_members(&runner)?;
+        if let Some(members) = members {
+            reduced_members(&runner, members)?;
         }
         let (_, cpu_s) = runner.run(&file)?;
         let speed = runner.spread("bodies/gear/angular_velocity_z_rad_per_s")?;
@@ -51,10 +55,10 @@ pub(super) fn flexibility(
     Ok(())
 }
 
-/// Makes the models of both members, where the hybrid scene looks for them, unless they are there.
-fn reduced_members(runner: &Runner) -> Result<(), XtaskError> {
+/// Makes the models of both members, of files with this end of their names, where the scenes look for them, unless they are there.
+fn reduced_members(runner: &Runner, suffix: &str) -> Result<(), XtaskError> {
     for member in ["pinion", "gear"] {
-        let model = format!("../out/scenes/bevel_{member}_20_20.h5");
+        let model = format!("../out/scenes/bevel_{member}_20_20{suffix}.h5");
         let file = runner.folder.join(&model);
         if file.exists() {
             continue;
@@ -63,7 +67,7 @@ fn reduced_members(runner: &Runner) -> Result<(), XtaskError> {
             std::fs::create_dir_all(folder)
                 .map_err(XtaskError::io(|| format!("making {}", folder.display())))?;
         }
-        let gear = format!("bevel_{member}_20_20.toml");
+        let gear = format!("bevel_{member}_20_20{suffix}.toml");
         runner.call(&["reduce", &gear, "-o", &model, "--json"])?;
     }
     Ok(())
