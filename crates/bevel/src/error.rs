@@ -14,7 +14,7 @@ pub enum BevelError {
     /// The tool leaves no surface at a place of the flank.
     #[error(
         "the tool leaves no surface on the {flank} flank at cone distance {cone_mm:.3} mm, {height_mm:+.3} mm from the pitch cone: \
-         the settings do not fit the blank"
+         the settings do not fit the blank, or the flank is undercut there"
     )]
     NoFlankPoint {
         /// Member and side.

@@ -197,10 +197,21 @@ pub struct ReportArguments {
     /// HTML file
     #[arg(short, long)]
     pub output: PathBuf,
-    /// Add the stress over the cross-section of both gears of each pair, at the largest torque and the first position;
-    /// meshes the gears again
+    /// Add the stress of the gears: pictures of the loaded tooth and its neighbours at the moment of the largest root
+    /// stress, of a pair at its largest torque; meshes and solves each gear again
     #[arg(long)]
     pub stress: bool,
+    /// The stress at this time, the nearest row is taken [default: where the root stress is largest]
+    #[arg(long)]
+    pub stress_at_s: Option<f64>,
+    /// The stress of a pair at this angle of the driver, the nearest one is taken [default: where the root stress is
+    /// largest]
+    #[arg(long, allow_negative_numbers = true)]
+    pub stress_angle_deg: Option<f64>,
+    /// The stress of a multibody scene: folder that its file names are relative to [default: that of the result, else the
+    /// working folder]
+    #[arg(long)]
+    pub scene_folder: Option<PathBuf>,
     /// Folder of a reference record for each result, in the same order
     #[arg(long)]
     pub reference: Vec<PathBuf>,

@@ -1,4 +1,16 @@
 //! A gear's finite element body under forces at places of its flanks: the stress on its surface, for series and pictures.
+//!
+//! | what | file |
+//! | --- | --- |
+//! | the factorised body and its fields | this one |
+//! | one tooth: its root, how it stands, gauges put on it, places in words | `stressed_gear/tooth.rs` |
+//! | which of many loads strains the root most | `stressed_gear/root_search.rs` |
+
+mod root_search;
+mod tooth;
+
+pub use root_search::RootSearch;
+pub use tooth::{GaugeReading, RootFace, ToothFrame};
 
 use crate::console::StageBar;
 use crate::failure::Failure;
@@ -6,18 +18,19 @@ use crate::offline;
 use gearmesh_bevel::BevelGear;
 use gearmesh_contact::ProfileHats;
 use gearmesh_contact::bevel_slices::profile_hats;
+use gearmesh_fe::FeModel;
 use gearmesh_geometry::{Flank, GearDefinition, ProfileCurve};
 use gearmesh_mesh::{BevelMesh, OutlineFace};
 use gearmesh_model::{FlankGrid, ReducedGear};
 use gearmesh_recovery::{PlacedForce, placed_forces};
+use gearmesh_reduction::GearBody;
 use gearmesh_reduction::bevel::bevel_body;
 use gearmesh_reduction::bevel::loads::{bevel_grid, shares_of};
 use gearmesh_reduction::field::{Field, FlankUnits, GridForce};
 use gearmesh_reduction::flank_loads::flank_grid;
 use gearmesh_reduction::repeated_mesh::RepeatedMesh;
-use gearmesh_reduction::skin::{SkinFace, skin, stress_on_faces};
-use gearmesh_reduction::{GearBody, ReductionError};
-use gearmesh_report::moving::{FlankFace, GearSurface};
+use gearmesh_reduction::skin::{SkinFace, skin, von_mises_on_faces};
+use gearmesh_report::moving::{FlankFace, GearSurface, Moment};
 use std::collections::HashMap;
 
 /// A factorised body with the unit loads of its flanks.
@@ -53,6 +66,21 @@ pub fn bevel_gear_of(model: &ReducedGear, file: &str) -> Result<BevelGear, Failu
         &model.input.text,
         &bevel.pair_text,
     )?)
+}
+
+/// What presses on a gear at a moment.
+pub fn forces_on(moment: &Moment, gear: usize) -> Vec<PlacedForce> {
+    let own = moment.loads.iter().filter(|load| load.gear == gear);
+    own.map(|load| PlacedForce {
+        tooth: load.tooth,
+        side: load.side,
+        u: load.roll_rad,
+        v_m: load.height_m,
+        width_m: load.width_m,
+        normal_n: load.components_n[0],
+        tangential_n: load.components_n[1],
+    })
+    .collect()
 }
 
 impl StressedGear {
@@ -114,25 +142,37 @@ impl StressedGear {
 
     /// Von Mises stress in the middles of the surface's faces \[Pa\].
     pub fn stress(&self, forces: &[PlacedForce]) -> Result<Vec<f64>, Failure> {
-        let forces = self.grid_forces(forces)?;
         if forces.is_empty() {
             return Ok(vec![0.0; self.faces.len()]);
         }
-        Ok(match &self.body {
-            StressedBody::Cylindrical(_, body) => self.solved(body, forces)?,
-            StressedBody::Bevel(_, body) => self.solved(body, forces)?,
-        })
+        let displacement_m = self.displacement_m(forces)?;
+        Ok(von_mises_on_faces(
+            self.model(),
+            &self.faces,
+            &displacement_m,
+        )?)
     }
 
-    fn solved(
-        &self,
-        body: &GearBody<impl RepeatedMesh>,
-        forces: Vec<GridForce>,
-    ) -> Result<Vec<f64>, ReductionError> {
+    /// Displacement of all degrees of freedom \[m\].
+    pub fn displacement_m(&self, forces: &[PlacedForce]) -> Result<Vec<f64>, Failure> {
+        let forces = self.grid_forces(forces)?;
         let mut displacement_m = Vec::new();
-        self.units
-            .solve_each(body, &[forces], |_, u| displacement_m.extend_from_slice(u));
-        stress_on_faces(&body.model, &self.faces, &displacement_m)
+        let mut keep = |_: usize, u: &[f64]| displacement_m.extend_from_slice(u);
+        match &self.body {
+            StressedBody::Cylindrical(_, body) => {
+                self.units.solve_each(body, &[forces], &mut keep);
+            }
+            StressedBody::Bevel(_, body) => self.units.solve_each(body, &[forces], &mut keep),
+        }
+        Ok(displacement_m)
+    }
+
+    /// The finite element model.
+    pub fn model(&self) -> &FeModel {
+        match &self.body {
+            StressedBody::Cylindrical(_, body) => &body.model,
+            StressedBody::Bevel(_, body) => &body.model,
+        }
     }
 
     /// The whole field.

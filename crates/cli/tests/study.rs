@@ -154,6 +154,95 @@ fn a_scene_with_a_python_function_is_refused() {
     assert!(!out.exists());
 }
 
+/// A table that a file of the study names has its part in the names of the results: other contents are computed anew, those of before are found again.
+#[test]
+fn another_table_under_the_same_name_is_another_case() {
+    let desk = Desk::new();
+    let table = "torque_Nm = { table = { file = \"rig.csv\", column = \"torque_Nm\", time_column = \"time_s\" } }";
+    desk.file("scene.toml", changed(SCENE, "torque_Nm = 2.0", table));
+    let text = changed(STUDY, "load.0.torque_Nm", "body.0.mass_kg");
+    let study = desk.file("study.toml", text);
+    let out = desk.path("out");
+    let run = |torque: &str| {
+        desk.file(
+            "rig.csv",
+            format!("time_s,torque_Nm\n0,{torque}\n2,{torque}\n"),
+        );
+        let told = succeeds(&["study", argument(&study), "-o", argument(&out), "--json"]).json();
+        let names = common::names_in(&out).into_iter();
+        let results: Vec<String> = names.filter(|name| name.ends_with(".h5")).collect();
+        let speeds = told["cases"].as_array().unwrap().iter();
+        let speeds: Vec<f64> = speeds
+            .map(|case| number(&case["columns"][0]["largest"]))
+            .collect();
+        (results, speeds)
+    };
+    let near = |found: &[f64], speed: f64| {
+        assert!(
+            found.len() == 2 && found.iter().all(|x| (x - speed).abs() < 1e-9),
+            "{found:?}"
+        );
+    };
+    let (first, speeds) = run("2.0");
+    assert_eq!(first.len(), 2);
+    near(&speeds, 4.0);
+    let (second, speeds) = run("3.0");
+    near(&speeds, 6.0);
+    let new = second.iter().filter(|name| !first.contains(name));
+    assert_eq!(new.count(), 2, "{first:?} {second:?}");
+    let (third, speeds) = run("2.0");
+    near(&speeds, 4.0);
+    assert_eq!(third, second);
+}
+
+/// Elements and element lengths are one more knob of `accuracy`, each rung a reduction that is kept: of gears in plane strain, which take a moment.
+#[test]
+fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
+    let desk = Desk::new();
+    let gear = desk.file(
+        "gear.toml",
+        changed(
+            &changed(common::SOLID, "axial_mm = 3.0", "plane_strain = true"),
+            "slices = 2\n",
+            "",
+        ),
+    );
+    let model = desk.path("gear.h5");
+    succeeds(&["reduce", argument(&gear), "-o", argument(&model)]);
+    let scene = desk.file(
+        "pair.toml",
+        "title = \"pair\"\n[pair]\ngear_1 = \"gear.h5\"\ngear_2 = \"gear.h5\"\ncentre_distance_mm = 54.7\n[mesh.model]\nkind = \"hybrid\"\n\
+         [mesh.teeth]\npath = \"line-of-action\"\n[run]\ntorques_Nm = [60.0]\npitches = 1\npoints_per_pitch = 8\n",
+    );
+    let kept = desk.path("kept");
+    std::fs::create_dir(&kept).unwrap();
+    let words = ["accuracy", argument(&scene), "--columns", "te_mean_um"];
+    let varied = |more: &[&str]| {
+        let told = succeeds(&[&words[..], more].concat()).stdout;
+        told.contains("gears' meshes")
+    };
+    assert!(!varied(&[]));
+    let elements = ["--elements", argument(&kept)];
+    assert!(varied(&elements));
+    let models = || -> Vec<(String, std::time::SystemTime)> {
+        let folder = std::fs::read_dir(kept.join("models")).unwrap();
+        let mut all: Vec<_> = folder
+            .map(|entry| entry.unwrap())
+            .map(|entry| {
+                let made = entry.metadata().unwrap().modified().unwrap();
+                (entry.file_name().into_string().unwrap(), made)
+            })
+            .collect();
+        all.sort();
+        all
+    };
+    // Three rungs beside the gear as it is; both gears are the same.
+    let first = models();
+    assert_eq!(first.len(), 3, "{first:?}");
+    assert!(varied(&elements));
+    assert_eq!(models(), first);
+}
+
 /// The table of what lies in the folder, where nothing is computed.
 #[test]
 fn a_study_is_gathered_from_its_folder() {

@@ -12,7 +12,7 @@ pub const PYTHON_VARIABLE: &str = "GEARMESH_PYTHON";
 pub enum PythonError {
     /// No interpreter found.
     #[error(
-        "no Python environment: no folder above the program {searched} has `.venv/bin/python`, and there is no `python` beside it; run `cargo xtask demo` once in the project, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
+        "no Python environment: no folder above the program {searched} has `.venv/bin/python`, and there is no `python` beside it; beside the unpacked archive run `python3 -m venv .venv` and `.venv/bin/pip install ./gearmesh-*.whl`, in the sources `cargo xtask prepare`, or set {PYTHON_VARIABLE} to a Python that has gmsh and meshio"
     )]
     NotFound {
         /// Where the search began.

@@ -208,10 +208,13 @@ class Result:
             content = self._file(folder).read_bytes()
         return _unpickled, (content, self.notes, self.calls)
 
-    def report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report page (HTML)."""
+    def report(self, path: str | os.PathLike[str], **given: Any) -> None:
+        """Writes the report page (HTML).
+
+        Further options of `gearmesh report` with underscores: report("page.html", stress=True) adds the stress of the gears.
+        """
         with tempfile.TemporaryDirectory() as folder:
-            program("report", self._file(folder), "-o", path)
+            program("report", self._file(folder), "-o", path, *options(given))
 
     def export(self, path: str | os.PathLike[str], table: str | None = None, **given: Any) -> None:
         """Writes a table for other programs; the ending chooses the format: .csv, .parquet, .mat, .uff; .pvd writes gears that move.

@@ -15,7 +15,7 @@ use crate::flank_loads::{GridLoad, SparseVector, flank_grid, flank_loads};
 use crate::gear_body::GearBody;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::tooth_vectors::{on_tooth, summed};
-use crate::{ReductionError, Silent};
+use crate::{Progress, ReductionError, Silent};
 
 /// A force on one grid load: tooth, side, load number, normal and tangential (towards the tip) part \[N\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,6 +117,24 @@ impl FlankUnits {
         let on_mesh = |case: &Vec<GridForce>| self.on_mesh(&body.mesh, case);
         let rows: Vec<SparseVector> = cases.iter().map(on_mesh).collect();
         body.solve_each(&rows.iter().collect::<Vec<_>>(), &Silent, each);
+    }
+
+    /// What rows g of nodal weights read under each unit load of one side, on every tooth: gᵀK⁻¹p, `[row][tooth][component][load]`, components normal and tangential. No field
+    /// is made for it.
+    pub fn readings(
+        &self,
+        body: &GearBody<impl RepeatedMesh>,
+        side: Flank,
+        rows: &[SparseVector],
+        progress: &dyn Progress,
+    ) -> Vec<Vec<f64>> {
+        let loads = &self.0[side as usize];
+        let normal = loads.iter().map(|load| &load.normal);
+        let vectors: Vec<&SparseVector> = normal
+            .chain(loads.iter().map(|load| &load.tangential))
+            .collect();
+        let rows: Vec<&SparseVector> = rows.iter().collect();
+        body.readings(&rows, &vectors, progress)
     }
 
     /// The fields of some sets of grid forces.

@@ -10,7 +10,8 @@ function fieldPicture(figure, place, d) {
     X[i] = d.origin[0] + d.step * coordinates[2 * i];
     Y[i] = d.origin[1] + d.step * coordinates[2 * i + 1];
   }
-  const quadCount = quads.length / 4;
+  const quadCount = quads.length / 4, marks = d.marks || [];
+  const shades = d.shades ? unpack(d.shades, Float32Array) : null; // of a body in space: x and y tell nothing then
   const largest = values.reduce((m, v) => Math.max(m, v), -Infinity);
   const least = values.reduce((m, v) => Math.min(m, v), Infinity);
   const peak = peakPlace(), box = bounds(), border = outline();
@@ -23,7 +24,7 @@ function fieldPicture(figure, place, d) {
   const bar = element("canvas", { className: "bar" });
   const readout = element("p", { className: "readout" });
   const limit = element("input", { type: "number", value: Number(high.toPrecision(4)), step: "any" });
-  const lines = element("input", { type: "checkbox" });
+  const lines = element("input", { type: "checkbox", checked: !!shades }); // a body in space shows its shape by them
   limit.onchange = () => { const v = Number(limit.value); if (v > low) { high = v; request(); } else limit.value = Number(high.toPrecision(4)); };
   lines.onchange = request;
   place.before(element("div", { className: "tools" },
@@ -37,16 +38,24 @@ function fieldPicture(figure, place, d) {
   if (d.window) view = { ...d.window };
   rest();
 
-  function rest() { readout.textContent = `${d.quantity}: least ${number(least)}, largest ${number(largest)} ${d.unit} at x ${number(peak.x)}, y ${number(peak.y)} mm`; }
+  function rest() {
+    const at = shades ? "" : ` at x ${number(peak.x)}, y ${number(peak.y)} mm`;
+    readout.textContent = `${d.quantity}: least ${number(least)}, largest ${number(largest)} ${d.unit}${at}`;
+  }
 
   // All elements, the colours those of the bar.
   function fieldSvg() {
     const all = bounds(), f = 900 / all.width, w = 900, h = Math.ceil(all.height * f), x0 = all.x - all.width / 2, y1 = all.y + all.height / 2;
-    const fill = v => `rgb(${mapColour(VIRIDIS, (v - low) / (high - low)).join(",")})`, out = [];
+    const fill = (v, q) => `rgb(${mapColour(VIRIDIS, (v - low) / (high - low)).map(c => Math.round(shades ? c * shades[q] : c)).join(",")})`, out = [];
     for (let q = 0; q < quadCount; q++) {
       const n = [0, 1, 2, 3].map(k => quads[4 * q + k]);
       const v = d.perNode ? n.reduce((s, k) => s + values[k], 0) / 4 : values[q];
-      out.push(`<polygon points='${n.map(k => `${((X[k] - x0) * f).toFixed(2)},${((y1 - Y[k]) * f + 30).toFixed(2)}`).join(" ")}' fill='${fill(v)}' stroke='${fill(v)}' stroke-width='0.3'/>`);
+      out.push(`<polygon points='${n.map(k => `${((X[k] - x0) * f).toFixed(2)},${((y1 - Y[k]) * f + 30).toFixed(2)}`).join(" ")}' fill='${fill(v, q)}' stroke='${fill(v, q)}' stroke-width='0.3'/>`);
+    }
+    for (const m of marks) {
+      const x = (m.x - x0) * f, y = (y1 - m.y) * f + 30;
+      if (m.sign !== "words") out.push(`<${m.sign === "ring" ? `circle cx='${x.toFixed(2)}' cy='${y.toFixed(2)}' r='6'` : `rect x='${(x - 5).toFixed(2)}' y='${(y - 5).toFixed(2)}' width='10' height='10'`} fill='none' stroke='black' stroke-width='1.5'/>`);
+      out.push(`<text x='${(x + 10).toFixed(1)}' y='${(y + (m.sign === "square" ? 18 : -8)).toFixed(1)}' ${SVG_FONT} stroke='white' stroke-width='3' paint-order='stroke'>${escapeXml(m.words)}</text>`);
     }
     const words = `${figureTitle(figure)}: ${d.quantity}, ${number(low)} (dark) to ${number(high)} ${d.unit} (light)`;
     return `<svg xmlns='http://www.w3.org/2000/svg' width='${w}' height='${h + 34}' viewBox='0 0 ${w} ${h + 34}'><rect width='100%' height='100%' fill='white'/>` +
@@ -78,9 +87,16 @@ function fieldPicture(figure, place, d) {
     const edges = new Map();
     for (let q = 0; q < quadCount; q++) for (let k = 0; k < 4; k++) {
       const a = quads[4 * q + k], b = quads[4 * q + (k + 1) % 4], key = a < b ? a * count + b : b * count + a;
-      if (edges.has(key)) edges.set(key, null); else edges.set(key, [a, b]);
+      if (edges.has(key)) edges.set(key, null); else edges.set(key, [a, b, q]);
     }
     return [...edges.values()].filter(e => e && e[0] !== e[1]);
+  }
+  // Of a body in space: whether an edge of this quad is seen about a place, in pixels.
+  function isSeen(q, [x, y]) {
+    for (let j = Math.round(y) - 2; j <= Math.round(y) + 1; j++) for (let i = Math.round(x) - 2; i <= Math.round(x) + 1; i++) {
+      if (i >= 0 && j >= 0 && i < width && j < height && ids[j * width + i] === q) return true;
+    }
+    return false;
   }
 
   const whole = () => ({ x: box.x, y: box.y, width: 1.04 * Math.max(box.width, box.height * width / height) });
@@ -108,7 +124,9 @@ function fieldPicture(figure, place, d) {
     const ctx = canvas.getContext("2d"), image = ctx.createImageData(width, height), pixels = new Uint32Array(image.data.buffer);
     const table = colours();
     for (let p = 0; p < ids.length; p++) {
-      if (ids[p] >= 0) pixels[p] = table[Math.min(255, Math.max(0, Math.round((seen[p] - low) / (high - low) * 255)))];
+      if (ids[p] < 0) continue;
+      const colour = table[Math.min(255, Math.max(0, Math.round((seen[p] - low) / (high - low) * 255)))];
+      pixels[p] = shades ? shaded(colour, shades[ids[p]]) : colour;
     }
     // By way of a second canvas: what putImageData writes is lost in print.
     const sheet = element("canvas", { width, height });
@@ -122,6 +140,11 @@ function fieldPicture(figure, place, d) {
     const table = new Uint32Array(256);
     for (let i = 0; i < 256; i++) { const [r, g, b] = mapColour(VIRIDIS, i / 255); table[i] = (255 << 24 | b << 16 | g << 8 | r) >>> 0; }
     return table;
+  }
+
+  function shaded(colour, light) {
+    const channel = shift => Math.round((colour >>> shift & 255) * light) << shift;
+    return (255 << 24 | channel(16) | channel(8) | channel(0)) >>> 0;
   }
 
   function raster() {
@@ -155,8 +178,10 @@ function fieldPicture(figure, place, d) {
   }
   function strokes(ctx) {
     if (lines.checked) {
-      ctx.strokeStyle = "rgba(255, 255, 255, 0.35)"; ctx.lineWidth = 0.6 * ratio; ctx.beginPath();
+      ctx.strokeStyle = shades ? "rgba(255, 255, 255, 0.2)" : "rgba(255, 255, 255, 0.35)"; ctx.lineWidth = 0.6 * ratio; ctx.beginPath();
+      const shown = shades ? new Set(ids) : null;
       for (let q = 0; q < quadCount; q++) {
+        if (shown && !shown.has(q)) continue;
         const corners = [0, 1, 2, 3].map(k => toPixel(quads[4 * q + k]));
         if (corners.every(p => p[0] < 0) || corners.every(p => p[0] > width) || corners.every(p => p[1] < 0) || corners.every(p => p[1] > height)) continue;
         corners.forEach((p, k) => (k ? ctx.lineTo(...p) : ctx.moveTo(...p)));
@@ -165,9 +190,31 @@ function fieldPicture(figure, place, d) {
       ctx.stroke();
     }
     ctx.strokeStyle = cssColour("--ink"); ctx.lineWidth = 0.9 * ratio; ctx.beginPath();
-    for (const [a, b] of border) { ctx.moveTo(...toPixel(a)); ctx.lineTo(...toPixel(b)); }
+    for (const [a, b, q] of border) {
+      const from = toPixel(a), to = toPixel(b);
+      if (shades && !isSeen(q, [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2])) continue;
+      ctx.moveTo(...from); ctx.lineTo(...to);
+    }
     ctx.stroke();
+    for (const mark of marks) drawMark(ctx, mark);
     scaleMark(ctx);
+  }
+  function drawMark(ctx, { x, y, words, sign }) {
+    const px = (x - view.x) * scale() + width / 2, py = height / 2 - (y - view.y) * scale(), r = 6 * ratio;
+    const shape = () => { ctx.beginPath(); sign === "ring" ? ctx.arc(px, py, r, 0, 2 * Math.PI) : ctx.rect(px - r, py - r, 2 * r, 2 * r); ctx.stroke(); };
+    ctx.save();
+    ctx.lineJoin = "round";
+    if (sign !== "words") {
+      ctx.strokeStyle = cssColour("--paper"); ctx.lineWidth = 4 * ratio; shape();
+      ctx.strokeStyle = cssColour("--ink"); ctx.lineWidth = 1.6 * ratio; shape();
+    }
+    ctx.font = `600 ${12.5 * ratio}px system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif`;
+    ctx.textBaseline = "middle";
+    const wide = ctx.measureText(words).width, right = px + 12 * ratio + wide < width;
+    const at = sign === "words" ? px - wide / 2 : right ? px + 10 * ratio : px - 10 * ratio - wide, up = py + { ring: -12, square: 14, words: 0 }[sign] * ratio;
+    ctx.strokeStyle = cssColour("--paper"); ctx.lineWidth = 4 * ratio; ctx.strokeText(words, at, up);
+    ctx.fillStyle = cssColour("--ink"); ctx.fillText(words, at, up);
+    ctx.restore();
   }
   // A length to measure by: 1, 2 or 5 times a power of ten, about a seventh of the width.
   function scaleMark(ctx) {
@@ -222,7 +269,8 @@ function fieldPicture(figure, place, d) {
     if (held) { view.x -= (at[0] - held[0]) / scale(); view.y += (at[1] - held[1]) / scale(); held = at; request(); }
     const p = Math.floor(at[1]) * width + Math.floor(at[0]), q = ids ? ids[p] : -1;
     const x = view.x + (at[0] - width / 2) / scale(), y = view.y - (at[1] - height / 2) / scale();
-    if (q >= 0) readout.textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)} mm: ${d.quantity} ${number(seen[p])} ${d.unit} (element ${q})`.replace(/-/g, "−");
+    if (q >= 0 && shades) readout.textContent = `${d.quantity} ${number(seen[p])} ${d.unit}`;
+    else if (q >= 0) readout.textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)} mm: ${d.quantity} ${number(seen[p])} ${d.unit} (element ${q})`.replace(/-/g, "−");
     else rest();
   });
   canvas.addEventListener("pointerleave", rest);

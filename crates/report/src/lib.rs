@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | a folder with record.toml and data.csv | the reference as columns in SI units | [`ReferenceRecord::read`] |
 //! | a computed series and a column of a record | how far they agree, as a rig would show it | [`compare`] |
+//! | the surface of a body with values | a picture of it as seen from one direction | [`body_view`] |
 //! | charts, tables and field pictures | one HTML file that opens without a network | [`page::Page`] |
 //! | a curve of many points | fewer of them without losing a peak | [`min_max`] |
 //! | measured curves, CSV or universal files | a record | [`measured`] |
@@ -13,6 +14,7 @@
 //! [`page`] knows nothing of gears: it draws what it is given.
 
 pub mod accuracy_page;
+pub mod body_view;
 pub mod comparison;
 mod comparison_table;
 mod contact_pattern;

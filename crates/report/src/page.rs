@@ -30,7 +30,7 @@ mod table;
 mod text;
 
 pub use error::PageError;
-pub use field_picture::{FieldPicture, FieldValues, ViewWindow};
+pub use field_picture::{FieldPicture, FieldValues, Mark, MarkSign, ViewWindow};
 pub use flank_chart::FlankChart;
 pub use line_chart::{Axis, AxisScale, LineChart, LineSeries, LineStyle, SeriesColour};
 pub use path_chart::PathChart;

@@ -42,8 +42,17 @@ pub struct SceneChapter {
     pub result: SceneResult,
     /// Reference, if any.
     pub record: Option<ReferenceRecord>,
-    /// Pictures, if any.
-    pub pictures: Vec<GearPicture>,
+    /// Stress of its gears, if it is asked for.
+    pub stress: Option<Section>,
+}
+
+/// The result of a multibody scene with what belongs to it.
+#[derive(Debug)]
+pub struct SystemChapter {
+    /// Result.
+    pub result: SystemResult,
+    /// Stress of its gears, if it is asked for.
+    pub stress: Option<Section>,
 }
 
 /// Why no page could be made.
@@ -70,10 +79,10 @@ fn micro(values: &[f64]) -> Vec<f64> {
 /// [`ScenePageError`] when a comparison cannot be made, or a column of a result cannot be read.
 pub fn scene_page(
     chapters: &[SceneChapter],
-    systems: &[SystemResult],
+    systems: &[SystemChapter],
 ) -> Result<Page, ScenePageError> {
     let pairs = chapters.iter().map(|c| c.result.title.as_str());
-    let others = systems.iter().map(|r| r.head.title.as_str());
+    let others = systems.iter().map(|c| c.result.head.title.as_str());
     let titles: Vec<&str> = pairs.chain(others).collect();
     let mut page = Page::new("gearmesh report").subtitle(titles.join(" - "));
     for chapter in chapters {
@@ -102,27 +111,21 @@ pub fn scene_page(
                     .push(Text::preformatted(table)),
             );
         }
-        if !chapter.pictures.is_empty() {
-            let mut section = Section::new(format!("{}: stress", r.title)).push(Text::paragraph(
-                "Element stresses of the finite element model. Directly under the load they are those of the model's own load \
-                 patches, not of the Hertz contact; the colour scale is cut below them.",
-            ));
-            for picture in &chapter.pictures {
-                section = section.push(stress_picture(picture));
-            }
-            page = page.section(section);
+        if let Some(stress) = &chapter.stress {
+            page = page.section(stress.clone());
         }
         page = page.section(provenance(r));
     }
-    for result in systems {
-        for section in system_page::sections(result)? {
+    for chapter in systems {
+        for section in system_page::sections(&chapter.result, chapter.stress.clone())? {
             page = page.section(section);
         }
     }
     let pairs = chapters
         .iter()
         .map(|c| (&c.result.version, &c.result.created_utc));
-    let others = systems.iter().map(|r| (&r.version, &r.created_utc));
+    let others = systems.iter().map(|c| &c.result);
+    let others = others.map(|r| (&r.version, &r.created_utc));
     let made: Vec<String> = pairs
         .chain(others)
         .map(|(version, created)| format!("{version} {created}"))
@@ -450,6 +453,12 @@ fn root_strain(chapter: &SceneChapter) -> Section {
         );
     }
     section.push(table)
+}
+
+impl From<&GearPicture> for FieldPicture {
+    fn from(picture: &GearPicture) -> Self {
+        stress_picture(picture)
+    }
 }
 
 fn stress_picture(picture: &GearPicture) -> FieldPicture {

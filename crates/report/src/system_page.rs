@@ -30,7 +30,10 @@ use crate::page::{KeyFigures, Section, Text};
 use crate::ratings;
 
 /// All sections of a result.
-pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
+pub(crate) fn sections(
+    r: &SystemResult,
+    stress: Option<Section>,
+) -> Result<Vec<Section>, FileError> {
     let passings = r.mesh_passings()?;
     let mut sections = vec![overview(r, &passings)?];
     match r.kind {
@@ -54,6 +57,7 @@ pub(crate) fn sections(r: &SystemResult) -> Result<Vec<Section>, FileError> {
         ResultKind::Static => sections.extend(equilibria::equilibria(r)?),
         ResultKind::Eigen => sections.push(eigen::eigen(r)),
     }
+    sections.extend(stress);
     sections.extend(ratings::section(&r.head.title, &r.ratings));
     sections.push(provenance(r));
     Ok(sections)

@@ -23,7 +23,7 @@ pub struct TcaArguments {
     /// Page with pictures: contact pattern, transmission error, ease-off
     #[arg(long, value_name = "PAGE.html")]
     pub report: Option<PathBuf>,
-    /// Add the stress in the bodies of both members to the page, at the largest torque where one pair of teeth carries most; needs load.models
+    /// Add the stress in the bodies of both members to the page, at the largest torque where their root stress is largest; needs load.models
     #[arg(long, requires = "report")]
     pub stress: bool,
     /// Write the displacement and von Mises field of this member, too: 1 the pinion, 2 the gear

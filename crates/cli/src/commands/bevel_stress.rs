@@ -1,6 +1,8 @@
 //! Stress in the bodies of a bevel pair under the loads of `gearmesh tca`: pictures for the page, whole fields for other programs.
 
 use super::loaded_tca::Loaded;
+use super::report_stress::{StressSection, add_worst};
+use super::tooth_stress;
 use crate::arguments::TcaArguments;
 use crate::console;
 use crate::failure::Failure;
@@ -15,9 +17,8 @@ use gearmesh_model::ReducedGear;
 use gearmesh_recovery::PlacedForce;
 use gearmesh_reduction::GearBody;
 use gearmesh_reduction::field::Field;
-use gearmesh_reduction::skin::{SkinFace, stress_on_faces};
+use gearmesh_reduction::skin::{SkinFace, von_mises_on_faces};
 use gearmesh_report::page::{FieldPicture, FieldValues, Section, Text};
-use gearmesh_report::short;
 use std::path::Path;
 
 const MEMBERS: [&str; 2] = ["pinion", "gear"];
@@ -38,8 +39,8 @@ impl Case<'_> {
     }
 }
 
-/// Makes what the arguments ask for: the field's file, and the page's section, where it shall have one.
-pub fn asked(a: &TcaArguments, loaded: Option<&Loaded>) -> Result<Option<Section>, Failure> {
+/// Makes what the arguments ask for: the field's file, and the page's section with its figures, where it shall have one.
+pub fn asked(a: &TcaArguments, loaded: Option<&Loaded>) -> Result<Option<StressSection>, Failure> {
     let option = match (a.stress, a.field_gear) {
         (true, _) => "--stress",
         (false, Some(_)) => "--field-gear",
@@ -53,11 +54,13 @@ pub fn asked(a: &TcaArguments, loaded: Option<&Loaded>) -> Result<Option<Section
     };
     let mut bodies: [Option<StressedGear>; 2] = [None, None];
     let mut section = a.stress.then(|| {
-        Section::new("Stress in the bodies").push(Text::paragraph(
-            "Von Mises stress of the finite elements under the forces of all pairs of teeth. Above, the body seen along its axis, the largest value along the \
-             teeth; below, the surface of the most loaded tooth on the side that presses, from the middle of the tooth space over root and fillet to the tip. Close \
-             to the contact it is that of forces spread over the elements, not the pressure of the contact.",
-        ))
+        let section = Section::new("Stress in the bodies");
+        let words = format!(
+            "{} Each member at the position of its largest root stress under the largest torque. Last, the body along its axis, the largest value along the teeth, and the \
+             tooth's side unrolled, from the middle of the space over root and fillet to the tip.",
+            tooth_stress::WORDS
+        );
+        (section.push(Text::paragraph(words)), Vec::new())
     });
     for (member, body) in bodies.iter_mut().enumerate() {
         let has_field = a.field_gear == Some(member as u8 + 1);
@@ -162,24 +165,40 @@ fn write_field(
 }
 
 fn pictures(
-    section: Section,
+    made: StressSection,
     loaded: &Loaded,
     (member, model, stressed): (usize, &ReducedGear, &StressedGear),
-) -> Result<Section, Failure> {
-    let case = case(torque_of(loaded, None)?, None)?;
-    let field = stressed.field(&forces(loaded, &case, member, model))?;
+) -> Result<StressSection, Failure> {
+    let torque = torque_of(loaded, None)?;
+    let positions = torque.positions.iter();
+    let cases: Vec<Case<'_>> = positions
+        .map(|position| Case { torque, position })
+        .collect();
+    let of_cases = cases.iter().map(|case| forces(loaded, case, member, model));
+    let of_cases: Vec<Vec<PlacedForce>> = of_cases.collect();
+    let name = MEMBERS[member];
+    let words = |k: usize| cases[k].words();
+    let ((section, figures), worst) = add_worst(made, (name, stressed), &of_cases, words)?;
+    let Some(worst) = worst else {
+        return Ok((section, figures));
+    };
+    let field = stressed.field(&of_cases[worst])?;
     let (gear, body) = bevel(stressed)?;
-    let pairs = case.position.pair_forces_n();
-    let tooth = pairs.first().map_or(0, |(teeth, _)| teeth[member]);
-    let (unrolled, largest_mpa) = tooth_surface(gear, body, &field, (tooth, loaded.side))?;
-    let [name, words] = [MEMBERS[member], &case.words()];
-    Ok(section
-        .push(along_axis(body, &field, &format!("{name} along its axis, {words}")))
+    let drawn = figures.last().and_then(|f| f["tooth"].as_u64());
+    let tooth = drawn.unwrap_or_default() as usize;
+    let unrolled = tooth_surface(gear, body, &field, (tooth, loaded.side))?;
+    let words = words(worst);
+    let section = section
+        .push(along_axis(
+            body,
+            &field,
+            &format!("{name} along its axis, {words}"),
+        ))
         .push(unrolled.titled(&format!(
-            "{name}, tooth {tooth}, {} side, toe left, tip up, {words}: at most {} MPa below the flank",
-            loaded.side,
-            short(largest_mpa)
-        ))))
+            "{name}, tooth {tooth}, {} side unrolled, toe left, tip up, {words}",
+            loaded.side
+        )));
+    Ok((section, figures))
 }
 
 /// The section in the middle of the face as it is seen along the axis, coloured by the largest stress along the teeth.
@@ -220,14 +239,13 @@ impl Unrolled {
     }
 }
 
-/// One side of a tooth from the middle of the space to the tip: along the face, and the length over root, fillet and flank; and the largest stress
-/// below the flank \[MPa\].
+/// One side of a tooth from the middle of the space to the tip: along the face, and the length over root, fillet and flank.
 fn tooth_surface(
     gear: &BevelGear,
     body: &GearBody<BevelMesh>,
     field: &Field,
     (tooth, side): (usize, Flank),
-) -> Result<(Unrolled, f64), Failure> {
+) -> Result<Unrolled, Failure> {
     let mesh = &body.mesh;
     let faces = mesh.outline_faces(tooth, side, |k, section| [k as f64, section as f64]);
     // Nodes by their numbers on the outline and along the tooth.
@@ -257,26 +275,16 @@ fn tooth_surface(
             element: face.element,
         })
         .collect();
-    let stress = stress_on_faces(&body.model, &skin, field.displacement_m.as_flattened())?;
-    let lines = &mesh.outline_m[side as usize];
-    let patch = gear.patch(side).map_err(Failure::work)?;
-    let below = faces.iter().zip(&stress).filter(|(face, _)| {
-        face.corners_m().iter().all(|[k, section]| {
-            let [cone, height] = lines[*section as usize][*k as usize];
-            gearmesh_reduction::bevel::loads::shares_of(&patch, cone, height)[0] < 1e-6
-        })
-    });
-    let largest = below.map(|(_, stress)| *stress).fold(0.0, f64::max);
+    let stress = von_mises_on_faces(&body.model, &skin, field.displacement_m.as_flattened())?;
     let quads = skin.iter().map(|face| {
         let corner = |k: usize| number[&face.corners[k]];
         [corner(0), corner(1), corner(2), corner(3)]
     });
-    let unrolled = Unrolled {
+    Ok(Unrolled {
         quads: quads.collect(),
         nodes_mm,
         values_mpa: stress.iter().map(|x| 1e-6 * x).collect(),
-    };
-    Ok((unrolled, 1e-6 * largest))
+    })
 }
 
 fn distance_m(a: [f64; 3], b: [f64; 3]) -> f64 {

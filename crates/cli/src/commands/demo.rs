@@ -2,14 +2,16 @@
 
 use crate::arguments::DemoArguments;
 use crate::commands::report::write_page;
+use crate::commands::report_stress::CROSS_SECTION;
 use crate::commands::run::transmission_error;
 use crate::commands::stress_picture::picture;
 use crate::console;
 use crate::failure::Failure;
-use crate::offline;
+use crate::offline::{self, FieldCase};
 use gearmesh_geometry::GearDefinition;
 use gearmesh_model::write_reduced_gear;
 use gearmesh_reduction::GearBody;
+use gearmesh_report::page::{FieldPicture, Section, Text};
 use gearmesh_report::scene_comparison::compare_scene;
 use gearmesh_report::scene_page::SceneChapter;
 use gearmesh_report::{Quantity, ReferenceRecord};
@@ -70,15 +72,23 @@ pub fn run(arguments: &DemoArguments) -> Result<(), Failure> {
             result.angles() * result.torque_nm.len(),
             result.strain.len()
         ));
-        let picture = picture(&loaded, &result, (2, &definition, &body))?;
+        let case = FieldCase {
+            gear: 2,
+            torque: result.torque_nm.len() - 1,
+            angle: 0,
+        };
+        let picture = picture(&loaded, &result, case, (&definition, &body))?;
         clock.lap(format!("{pair}: stress field for the report"));
         let record = ReferenceRecord::read(&records.join(pair)).map_err(Failure::input)?;
         print_table(&result, &record)?;
         clock.lap(format!("{pair}: comparison"));
+        let stress = Section::new(format!("{}: stress", result.title))
+            .push(Text::paragraph(CROSS_SECTION))
+            .push(FieldPicture::from(&picture));
         chapters.push(SceneChapter {
             result,
             record: Some(record),
-            pictures: vec![picture],
+            stress: Some(stress),
         });
     }
     write_page(&chapters, &[], &out.join("report.html"))?;

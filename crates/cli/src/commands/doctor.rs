@@ -105,7 +105,8 @@ fn machine() -> Finding {
 fn python() -> Vec<Finding> {
     let explained = format!(
         "gears are meshed in a Python environment with gmsh and meshio: that named by {PYTHON_VARIABLE}, else `.venv/bin/python` in a folder above the program. \
-         `cargo xtask prepare` makes one in the project; elsewhere: python3 -m venv .venv, .venv/bin/pip install gmsh meshio, export {PYTHON_VARIABLE}=$PWD/.venv/bin/python"
+         With the archive: in its folder python3 -m venv .venv, .venv/bin/pip install ./gearmesh-*.whl. With the sources: cargo xtask prepare. Elsewhere: python3 -m venv .venv, \
+         .venv/bin/pip install the wheel, or gmsh meshio alone, export {PYTHON_VARIABLE}=$PWD/.venv/bin/python"
     );
     let missing = |text: String| Finding {
         name: "python".to_owned(),
@@ -138,7 +139,9 @@ fn python() -> Vec<Finding> {
             "gmsh" => format!(
                 "{used}; pip install gmsh, and on Debian apt-get install libglu1-mesa libgl1 libxcursor1 libxft2 libxinerama1 libgomp1"
             ),
-            "gearmesh" => format!("{used}; `cargo xtask prepare` builds it into the environment"),
+            "gearmesh" => format!(
+                "{used}; pip install the wheel (gearmesh-*.whl, of the archive) into that environment; with the sources `cargo xtask prepare` builds it"
+            ),
             _ => format!("{used}; pip install {name} into that environment"),
         };
         let text = if name == "python" {
@@ -171,7 +174,7 @@ fn calculix() -> Finding {
             },
         ),
         is_sound: found.is_ok(),
-        advice: "only `cargo xtask bench offline` compares with it; apt-get install calculix-ccx"
+        advice: "nothing that is computed needs it: a benchmark of the sources compares with it"
             .to_owned(),
         is_needed: false,
     }

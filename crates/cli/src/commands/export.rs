@@ -8,7 +8,7 @@
 
 mod series;
 mod step;
-mod system_moments;
+pub mod system_moments;
 mod tables;
 
 use crate::arguments::ExportArguments;

@@ -1,7 +1,6 @@
 //! `gearmesh report`: one HTML page for one or more results.
 
-use super::recover::scene_of;
-use super::stress_picture::pictures;
+use super::report_stress;
 use crate::arguments::ReportArguments;
 use crate::console;
 use crate::failure::Failure;
@@ -10,9 +9,8 @@ use crate::page_file;
 use gearmesh_report::ReferenceRecord;
 use gearmesh_report::overlay::{overlaid_pairs, overlaid_systems};
 use gearmesh_report::page::Page;
-use gearmesh_report::scene_page::{SceneChapter, scene_page};
+use gearmesh_report::scene_page::{SceneChapter, SystemChapter, scene_page};
 use gearmesh_scene::ResultFile;
-use gearmesh_scene::system_run::SystemResult;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +24,18 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
             a.results.len()
         )));
     }
+    for (name, given) in [
+        ("--stress-at-s", a.stress_at_s.is_some()),
+        ("--stress-angle-deg", a.stress_angle_deg.is_some()),
+        ("--scene-folder", a.scene_folder.is_some()),
+    ] {
+        if given && !a.stress {
+            let problem = format!("{name} is for pictures of the stress; add --stress");
+            return Err(Failure::input(problem));
+        }
+    }
     let (mut chapters, mut systems) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
     let files = file_names(&a.results);
     // Of pairs, of multibody results.
     let mut names = [Vec::new(), Vec::new()];
@@ -39,7 +48,18 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
                         path.display()
                     )));
                 }
-                systems.push(*result);
+                let stress = match a.stress {
+                    true => Some(report_stress::of_system(a, &result, path)?),
+                    false => None,
+                };
+                let stress = stress.map(|(section, own)| {
+                    figures.extend(own);
+                    section
+                });
+                systems.push(SystemChapter {
+                    result: *result,
+                    stress,
+                });
                 names[1].push(files[k].clone());
                 continue;
             }
@@ -50,28 +70,34 @@ pub fn run(a: &ReportArguments) -> Result<(), Failure> {
             None => None,
         };
         names[0].push(files[k].clone());
-        let pictures = if a.stress {
-            let (pictures, left_out) = pictures(&scene_of(&result, path)?, &result)?;
-            left_out.iter().for_each(console::note);
-            pictures
-        } else {
-            Vec::new()
+        let stress = match a.stress {
+            true => Some(report_stress::of_pair(a, &result, path)?),
+            false => None,
         };
+        let stress = stress.map(|(section, own)| {
+            figures.extend(own);
+            section
+        });
         chapters.push(SceneChapter {
             result,
             record,
-            pictures,
+            stress,
         });
     }
     let page = scene_page(&chapters, &systems).map_err(Failure::work)?;
     let pairs = chapters.iter().zip(&names[0]);
     let pairs: Vec<_> = pairs.map(|(c, name)| (name.clone(), &c.result)).collect();
-    let others: Vec<_> = names[1].iter().cloned().zip(&systems).collect();
+    let others = names[1].iter().cloned();
+    let others: Vec<_> = others.zip(systems.iter().map(|c| &c.result)).collect();
     let overlaid = overlaid_systems(&others).map_err(Failure::work)?;
     let sections = overlaid.into_iter().chain(overlaid_pairs(&pairs));
     page_file::write(&sections.fold(page, Page::first_section), &a.output)?;
     if a.json {
-        console::json(&json!({ "file": a.output, "results": a.results }));
+        let mut told = json!({ "file": a.output, "results": a.results });
+        if a.stress {
+            told["stress"] = figures.into();
+        }
+        console::json(&told);
     }
     Ok(())
 }
@@ -97,7 +123,7 @@ fn file_names(files: &[PathBuf]) -> Vec<String> {
 /// Renders the page and writes it, beside and renamed.
 pub fn write_page(
     chapters: &[SceneChapter],
-    systems: &[SystemResult],
+    systems: &[SystemChapter],
     output: &Path,
 ) -> Result<(), Failure> {
     let page = scene_page(chapters, systems).map_err(Failure::work)?;

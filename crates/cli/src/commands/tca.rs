@@ -28,7 +28,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         Some(load) => Some(loaded_tca::analyse((&file, &design), load, &a.pair)?),
         None => None,
     };
-    let stress = bevel_stress::asked(a, loaded.as_ref())?;
+    let (stress, stress_figures) = bevel_stress::asked(a, loaded.as_ref())?.unzip();
     if let Some(path) = &a.report {
         let analysed = tca_page::Analysed {
             file: &file,
@@ -44,6 +44,9 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         let mut all = figures(&file, &found, moved.as_ref());
         if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
             all.insert("load".to_owned(), loaded_tca::figures(loaded));
+            if let Some(figures) = stress_figures {
+                all.insert("stress".to_owned(), figures.into());
+            }
         }
         console::json(&all);
     } else {

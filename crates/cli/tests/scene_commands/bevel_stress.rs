@@ -3,6 +3,7 @@
 use crate::common::{Desk, argument, gearmesh, refused, succeeds};
 use gearmesh_mesh::python::PythonEnvironment;
 use serde_json::Value;
+use std::path::Path;
 
 fn shipped(name: &str) -> String {
     let path = format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -24,7 +25,8 @@ fn reduced_pair() -> Desk {
         let text = format!(
             "name = \"{member}\"\n[bevel_gear]\npair = \"bevel_20_20.toml\"\nmember = \"{member}\"\n[blank]\nbore_diameter_mm = 34.0\n\
              [material]\nyoung_GPa = 206.0\npoisson = 0.3\ndensity_kg_per_m3 = 7850.0\n\
-             [mesh]\nflank_mm = 1.5\nfillet_mm = 0.4\nbody_mm = 6.0\nalong_mm = 3.75\n[reduction]\nprofile_stations = 4\nslices = 3\n"
+             [mesh]\nflank_mm = 1.5\nfillet_mm = 0.4\nbody_mm = 6.0\nalong_mm = 3.75\n[reduction]\nprofile_stations = 4\nslices = 3\n\
+             [[gauge]]\nname = \"root\"\ntooth = 0\nside = \"left\"\ntangent_deg = 30.0\nlength_mm = 0.3\nwidth_mm = 3.0\n"
         );
         let file = desk.file(&format!("{member}.toml"), &text);
         let model = desk.path(&format!("{member}.h5"));
@@ -80,6 +82,48 @@ for at in reader.time_values:
 json.dump(moments, sys.stdout)
 ";
 
+/// Values of each picture of a page by its title, as drawn, with its marks.
+const PICTURES: &str = "
+import base64, html, json, re, sys
+import numpy as np
+told = {}
+for title, data in re.findall(r'<figcaption>([^<]*)</figcaption>.*?<script type=\"application/json\">(.*?)</script>', open(sys.argv[1]).read(), re.S):
+    data = json.loads(data)
+    if data.get('shades'):
+        values = np.frombuffer(base64.b64decode(data['values']), np.float32).astype(float)
+        told[html.unescape(title)] = {'largest': values.max(), 'values': len(values), 'shades': len(base64.b64decode(data['shades'])) // 4, 'high': data['high'],
+            'marks': [[m['sign'], m['words']] for m in data['marks']], 'bytes': len(json.dumps(data))}
+json.dump(told, sys.stdout)
+";
+
+/// Pictures of a page as its figures say: four of each gear, colours up to the largest root stress, which is one of the values drawn.
+fn demand_pictures(page: &Path, stress: &Value) {
+    let drawn = python(PICTURES, &[argument(page)]);
+    let drawn = drawn.as_object().unwrap();
+    let gears = stress.as_array().unwrap();
+    assert_eq!(drawn.len(), 4 * gears.len(), "{:?}", drawn.keys());
+    for gear in gears {
+        let [name, tooth, side, when] = ["gear", "tooth", "side", "when"].map(|key| &gear[key]);
+        let (name, side) = (name.as_str().unwrap(), side.as_str().unwrap());
+        for (quantity, key) in [
+            ("von Mises stress", "root_von_Mises_MPa"),
+            ("first principal stress", "root_first_principal_MPa"),
+        ] {
+            let when = when.as_str().unwrap();
+            let picture =
+                &drawn[&format!("{name}, tooth {tooth}, {side} side: {quantity}, {when}")];
+            let root = gear[key].as_f64().unwrap();
+            assert!((picture["high"].as_f64().unwrap() / root - 1.0).abs() < 1e-6);
+            assert!(picture["largest"].as_f64().unwrap() > (1.0 - 1e-6) * root);
+            assert_eq!(picture["values"], picture["shades"]);
+            assert!(picture["bytes"].as_u64().unwrap() < 1_000_000);
+            let marks = picture["marks"].as_array().unwrap().iter();
+            let signs: Vec<&str> = marks.map(|m| m[0].as_str().unwrap()).collect();
+            assert_eq!(signs, ["words", "words", "square", "ring"], "{picture}");
+        }
+    }
+}
+
 fn numbers(value: &Value) -> Vec<f64> {
     let all = value.as_array().unwrap().iter();
     all.map(|x| x.as_f64().unwrap()).collect()
@@ -108,19 +152,32 @@ fn at_rest(desk: &Desk) {
         "--field-output",
         argument(&field),
     ];
-    let told = succeeds(&words);
+    let told = succeeds(&[&words[..], &["--json"]].concat());
     assert!(
         told.stderr.contains("field of the gear, 100 N m"),
         "{}",
         told.stderr
     );
     let html = std::fs::read_to_string(&page).unwrap();
-    for title in [
-        "Stress in the bodies",
-        "pinion along its axis, 100 N m",
-        "gear, tooth ",
-    ] {
+    for title in ["Stress in the bodies", "pinion along its axis, 100 N m"] {
         assert!(html.contains(title), "{title}");
+    }
+    demand_pictures(&page, &told.json()["stress"]);
+    // A gauge in the picture reads of the field what it read in passing, by the reduced model's row.
+    for gear in told.json()["stress"].as_array().unwrap() {
+        let read = gear["gauges_ustrain"][0]["strain"].as_f64().unwrap();
+        let passing = told.json()["load"]["strain"].clone();
+        let of = passing
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|of| of["member"] == gear["gear"] && of["torque_Nm"].as_f64() == Some(100.0));
+        let series = numbers(&of.unwrap()["method_2_ustrain"]);
+        let off = series.iter().map(|x| (x / read - 1.0).abs());
+        let off = off.fold(f64::INFINITY, f64::min);
+        // Rows of the gear read slices where they were laid, up to 0.1 mm beside where the picture's forces touch it.
+        let most = if gear["gear"] == "gear" { 1e-3 } else { 1e-8 };
+        assert!(read > 100.0 && off < most, "{gear} {series:?}");
     }
     let first = python(FIELD, &[argument(&field)]);
     let figure = |value: &Value, name: &str| value[name].as_f64().unwrap();
@@ -221,4 +278,65 @@ fn in_motion(desk: &Desk) {
         }
     }
     assert!(most > 10.0, "{most}");
+    // The page's pictures at the last of these moments show the stress of the series: the largest of the tooth is on the side that is seen.
+    let at = moments[3]["at"].as_f64().unwrap();
+    let page = desk.path("run.html");
+    let words = [
+        "report",
+        argument(&result),
+        "-o",
+        argument(&page),
+        "--stress",
+        "--stress-at-s",
+        &at.to_string(),
+        "--json",
+    ];
+    let told = succeeds(&words).json();
+    demand_pictures(&page, &told["stress"]);
+    let drawn = python(PICTURES, &[argument(&page)]);
+    for (gear, stress) in told["stress"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(numbers(&moments[3]["stress"]))
+    {
+        let start = format!(
+            "{}, tooth {}, ",
+            gear["gear"].as_str().unwrap(),
+            gear["tooth"]
+        );
+        let titles = drawn.as_object().unwrap().iter();
+        let mut of_gear = titles
+            .filter(|(title, _)| title.starts_with(&start) && title.contains("side: von Mises"));
+        let largest = of_gear.next().unwrap().1["largest"].as_f64().unwrap();
+        assert!(
+            (1e6 * largest / stress - 1.0).abs() < 1e-5,
+            "{largest} {stress}"
+        );
+    }
+    // Left to itself the program takes the row of the largest root stress: no smaller one than here.
+    let [_, _, _, _, _, at_s, _, _] = words;
+    let free: Vec<&str> = (words.iter().copied())
+        .filter(|word| *word != at_s && *word != at.to_string())
+        .collect();
+    let free = succeeds(&free).json();
+    for (worst, here) in free["stress"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(told["stress"].as_array().unwrap())
+    {
+        let root = |of: &Value| of["root_von_Mises_MPa"].as_f64().unwrap();
+        assert!(root(worst) >= root(here), "{worst} {here}");
+    }
+    for (unused, words) in [
+        (
+            "--stress-angle-deg",
+            &["--stress-angle-deg", "1", "--stress"][..],
+        ),
+        ("add --stress", &["--stress-at-s", "1"]),
+    ] {
+        let call = ["report", argument(&result), "-o", argument(&page)];
+        refused(&gearmesh(&[&call[..], words].concat()), 2, &[unused]);
+    }
 }

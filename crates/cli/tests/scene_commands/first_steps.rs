@@ -99,10 +99,29 @@ fn doctor_says_where_python_is_and_what_the_variable_does() {
     for word in [
         "MISSING python",
         "/no/such/python (GEARMESH_PYTHON)",
-        "pip install gmsh meshio",
+        "pip install ./gearmesh-*.whl",
+        "With the sources: cargo xtask prepare",
+        "gmsh meshio",
     ] {
         assert!(text.contains(word), "{word} is not in {text}");
     }
+    // Of the archive, whose users have no cargo: alone in a folder without a Python beside or above it.
+    let desk = Desk::new();
+    let alone = desk.path("gearmesh");
+    std::fs::hard_link(program, &alone)
+        .or_else(|_| std::fs::copy(program, &alone).map(|_| ()))
+        .unwrap();
+    let output = Command::new(&alone)
+        .arg("doctor")
+        .env_remove("GEARMESH_PYTHON")
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        text.contains("unpacked archive") && !text.contains("xtask demo"),
+        "{text}"
+    );
 }
 
 #[test]

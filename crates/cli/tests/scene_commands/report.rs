@@ -1,6 +1,6 @@
 //! `gearmesh report`.
 
-use crate::common::{Desk, argument, run_scene, succeeds};
+use crate::common::{Desk, argument, gearmesh, refused, run_scene, succeeds};
 
 /// The page works without a network: nothing in it asks for another file.
 #[test]
@@ -60,7 +60,7 @@ fn results_stand_side_by_side() {
         "-o",
         argument(&page),
     ];
-    succeeds(&[&words[..], &["--stress"]].concat());
+    let told = succeeds(&[&words[..], &["--stress", "--json"]].concat()).json();
     let html = std::fs::read_to_string(&page).unwrap();
     for part in [
         "Gear pairs side by side",
@@ -79,5 +79,31 @@ fn results_stand_side_by_side() {
         html.matches("von Mises stress over the width</figcaption>")
             .count(),
         4
+    );
+    let seen = |words: &str| html.matches(words).count();
+    assert_eq!(
+        seen("cut in the middle of the face, seen from the +z: first principal"),
+        4
+    );
+    assert_eq!(
+        seen("right side: von Mises stress, 60 N m, driver angle"),
+        4
+    );
+    // Where the root stress is largest, not where it is at another angle.
+    let root = |told: &serde_json::Value, gear: usize| {
+        told["stress"][gear]["root_von_Mises_MPa"].as_f64().unwrap()
+    };
+    let alone = [&words[..2], &words[3..], &["--stress", "--json"]].concat();
+    let at = |angle: &str| succeeds(&[&alone[..], &["--stress-angle-deg", angle]].concat()).json();
+    let other = at("5.0");
+    for gear in 0..2 {
+        assert_eq!(root(&told, gear), root(&told, gear + 2));
+        assert!(root(&told, gear) >= root(&other, gear), "{told} {other}");
+    }
+    let unused = [&alone[..], &["--stress-at-s", "1"]].concat();
+    refused(
+        &gearmesh(&unused),
+        2,
+        &["--stress-at-s", "--stress-angle-deg"],
     );
 }

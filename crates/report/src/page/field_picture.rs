@@ -26,6 +26,38 @@ pub struct ViewWindow {
     pub width_mm: f64,
 }
 
+/// A place in a picture with words beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Place, mm.
+    pub at_mm: [f64; 2],
+    /// Words.
+    pub words: String,
+    /// What is drawn there.
+    pub sign: MarkSign,
+}
+
+/// Sign of a mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MarkSign {
+    /// A ring, the words above.
+    Ring,
+    /// A square, the words below.
+    Square,
+    /// The words alone.
+    Words,
+}
+
+impl MarkSign {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Ring => "ring",
+            Self::Square => "square",
+            Self::Words => "words",
+        }
+    }
+}
+
 /// A picture of a field on a plane mesh: wheel or +/− to zoom, drag or arrows to move, value under the cursor, colour
 /// bar with an upper end that the reader can change.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +70,8 @@ pub struct FieldPicture {
     values: FieldValues,
     colour_range: Option<[f64; 2]>,
     window: Option<ViewWindow>,
+    shades: Vec<f64>,
+    marks: Vec<Mark>,
 }
 
 impl FieldPicture {
@@ -56,6 +90,8 @@ impl FieldPicture {
             values: FieldValues::PerElement(Vec::new()),
             colour_range: None,
             window: None,
+            shades: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -87,6 +123,26 @@ impl FieldPicture {
     pub fn window(mut self, window: ViewWindow) -> Self {
         self.window = Some(window);
         self
+    }
+
+    /// The mesh is a body seen in space: how light each quad is, from 0 to 1. Later quads hide earlier ones, and what is hidden has no outline.
+    #[must_use]
+    pub fn shades(mut self, shades: Vec<f64>) -> Self {
+        self.shades = shades;
+        self
+    }
+
+    /// Adds a mark.
+    #[must_use]
+    pub fn mark(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Values and shades, in the order in which quads are drawn.
+    #[cfg(test)]
+    pub(crate) fn drawn(&self) -> (&FieldValues, &[f64]) {
+        (&self.values, &self.shades)
     }
 
     pub(super) fn title(&self) -> &str {
@@ -134,6 +190,8 @@ impl FieldPicture {
             "low": low,
             "high": high,
             "window": self.window.map(|w| json!({ "x": w.centre_mm[0], "y": w.centre_mm[1], "width": w.width_mm })),
+            "shades": (!self.shades.is_empty()).then(|| floats(self.shades.iter().copied())),
+            "marks": self.marks.iter().map(|m| json!({ "x": m.at_mm[0], "y": m.at_mm[1], "words": m.words, "sign": m.sign.name() })).collect::<Vec<_>>(),
         }))
     }
 
@@ -215,6 +273,22 @@ impl FieldPicture {
             });
         }
         finite(what, Box::new(values.iter().copied().enumerate()))?;
+        if !self.shades.is_empty() && self.shades.len() != self.quads.len() {
+            return Err(PageError::Count {
+                block: block(),
+                what: "the list of shades".to_owned(),
+                found: self.shades.len(),
+                expected: self.quads.len(),
+            });
+        }
+        finite(
+            "the list of shades",
+            Box::new(self.shades.iter().copied().enumerate()),
+        )?;
+        finite(
+            "the list of marks",
+            Box::new((self.marks.iter().enumerate()).flat_map(|(i, m)| m.at_mm.map(|v| (i, v)))),
+        )?;
         if let Some([low, high]) = self.colour_range {
             check_range(&self.title, "the colour scale", low, high)?;
         }

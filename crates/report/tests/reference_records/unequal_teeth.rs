@@ -247,7 +247,7 @@ fn the_page_shows_what_is_covered() {
         let chapter = SceneChapter {
             result: result(pitches),
             record: None,
-            pictures: Vec::new(),
+            stress: None,
         };
         scene_page(&[chapter], &[]).unwrap().render().unwrap()
     };

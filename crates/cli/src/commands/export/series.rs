@@ -1,13 +1,12 @@
 //! Gears that move: a .pvd file that names a .vtu file for each moment, in a folder beside it.
 
-use super::system_moments::SystemMoments;
+use super::system_moments::{SystemMoments, WantedMoments, stressed, surface};
 use crate::arguments::ExportArguments;
 use crate::commands::recover::scene_of;
 use crate::console::{self, RunBar};
 use crate::failure::Failure;
-use crate::stressed_gear::StressedGear;
+use crate::stressed_gear::{StressedGear, forces_on};
 use gearmesh_model::write_text;
-use gearmesh_recovery::PlacedForce;
 use gearmesh_report::moving::{
     GearSurface, Moment, Series, pair_moment, pair_surfaces, series_text,
 };
@@ -28,10 +27,27 @@ pub fn run(a: &ExportArguments) -> Result<(), Failure> {
                     "--torque-Nm is for results of a [pair]; leave it out",
                 ));
             }
-            let mut moments = SystemMoments::new(a, *result)?;
+            let wanted = WantedMoments {
+                result: &a.result,
+                from_s: a.from_s,
+                to_s: a.to_s,
+                scene_folder: a.scene_folder.as_deref(),
+            };
+            let mut moments = SystemMoments::new(&wanted, &result)?;
             let rows = chosen(moments.rows(), a);
-            let (surfaces, unit) = (moments.surfaces.clone(), moments.unit);
-            let stressed = std::mem::take(&mut moments.stressed);
+            let unit = moments.unit;
+            let gears = moments.gears();
+            let stressed = match a.stress {
+                true => gears.iter().map(stressed).collect(),
+                false => Ok(Vec::new()),
+            };
+            let stressed = stressed?;
+            let surfaces: Vec<GearSurface> = match &stressed[..] {
+                [] => gears.iter().map(surface).collect::<Result<_, _>>()?,
+                stressed => {
+                    (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?
+                }
+            };
             write(a, &surfaces, unit, rows.len(), |k| {
                 with_stress(moments.moment(rows[k])?, &stressed)
             })
@@ -90,18 +106,7 @@ fn pair(a: &ExportArguments, result: &SceneResult) -> Result<(), Failure> {
 /// Adds the stress of each gear under the forces on its flanks, where gears are given.
 fn with_stress(mut moment: Moment, gears: &[StressedGear]) -> Result<Moment, Failure> {
     for (number, gear) in gears.iter().enumerate() {
-        let own = moment.loads.iter().filter(|load| load.gear == number);
-        let forces: Vec<PlacedForce> = own
-            .map(|load| PlacedForce {
-                tooth: load.tooth,
-                side: load.side,
-                u: load.roll_rad,
-                v_m: load.height_m,
-                width_m: load.width_m,
-                normal_n: load.components_n[0],
-                tangential_n: load.components_n[1],
-            })
-            .collect();
+        let forces = forces_on(&moment, number);
         moment.von_mises_pa.push(gear.stress(&forces)?);
     }
     Ok(moment)

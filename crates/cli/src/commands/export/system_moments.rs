@@ -1,6 +1,5 @@
 //! Moments of a multibody result: gears where their bodies are, line loads and pressures computed again from places and speeds.
 
-use crate::arguments::ExportArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::stressed_gear::{StressedGear, bevel_gear_of, bevel_surface};
@@ -17,12 +16,20 @@ use std::path::{Path, PathBuf};
 /// Sections of a gear's surface over its face.
 const SECTIONS: usize = 20;
 
+/// Which moments of a result are wanted, and where its scene is.
+pub struct WantedMoments<'a> {
+    /// File of the result.
+    pub result: &'a Path,
+    /// First time, of a run in time.
+    pub from_s: Option<f64>,
+    /// Last time, of a run in time.
+    pub to_s: Option<f64>,
+    /// Folder that the scene's file names are relative to, where the user names one.
+    pub scene_folder: Option<&'a Path>,
+}
+
 /// A result whose rows are moments.
 pub struct SystemMoments {
-    /// Surfaces of the gears.
-    pub surfaces: Vec<GearSurface>,
-    /// Their bodies, where the stress is asked for.
-    pub stressed: Vec<StressedGear>,
     /// What the series runs over, in words.
     pub unit: &'static str,
     gears: GearsInMotion,
@@ -36,7 +43,7 @@ pub struct SystemMoments {
 
 impl SystemMoments {
     /// Reads the columns of all gears and builds their meshes.
-    pub fn new(a: &ExportArguments, result: SystemResult) -> Result<Self, Failure> {
+    pub fn new(a: &WantedMoments<'_>, result: &SystemResult) -> Result<Self, Failure> {
         let shown = a.result.display();
         let axis = match result.kind {
             ResultKind::Transient => "time_s",
@@ -52,7 +59,7 @@ impl SystemMoments {
                 "{shown}: --from-s and --to-s are for runs in time; this result is `static`, leave them out"
             )));
         }
-        let folder = scene_folder(a, &result)?;
+        let folder = scene_folder(a, result)?;
         let document = InputDocument::new(
             format!("scene inside {shown}"),
             result.head.scene_toml.clone(),
@@ -92,18 +99,7 @@ impl SystemMoments {
                 at.last().unwrap_or(&0.0)
             )));
         }
-        let stressed = match a.stress {
-            true => gears.gears.iter().map(stressed).collect(),
-            false => Ok(Vec::new()),
-        };
-        let stressed = stressed?;
-        let surfaces: Vec<GearSurface> = match &stressed[..] {
-            [] => gears.gears.iter().map(surface).collect::<Result<_, _>>()?,
-            stressed => (stressed.iter().map(StressedGear::surface)).collect::<Result<_, _>>()?,
-        };
         Ok(Self {
-            surfaces,
-            stressed,
             unit: if axis == "time_s" { "s" } else { "equilibria" },
             gears,
             at,
@@ -111,6 +107,16 @@ impl SystemMoments {
             first,
             last,
         })
+    }
+
+    /// Gears, in the order in which a moment numbers them.
+    pub fn gears(&self) -> &[MovingGear] {
+        &self.gears.gears
+    }
+
+    /// What a row is of what the series runs over.
+    pub fn at(&self, row: usize) -> f64 {
+        self.at[row]
     }
 
     /// Rows that were asked for.
@@ -154,7 +160,7 @@ impl SystemMoments {
 }
 
 /// A gear as it is drawn without stress.
-fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
+pub fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
     match &gear.shape {
         MovingShape::Cylindrical(definition) => {
             let width_m = definition.tooth.face_width_m;
@@ -172,7 +178,7 @@ fn surface(gear: &MovingGear) -> Result<GearSurface, Failure> {
 }
 
 /// A gear's body, factorised.
-fn stressed(gear: &MovingGear) -> Result<StressedGear, Failure> {
+pub fn stressed(gear: &MovingGear) -> Result<StressedGear, Failure> {
     match &gear.shape {
         MovingShape::Cylindrical(definition) => StressedGear::of_gear(definition),
         MovingShape::Bevel(model) => {
@@ -182,10 +188,10 @@ fn stressed(gear: &MovingGear) -> Result<StressedGear, Failure> {
 }
 
 /// The folder from which the scene names the files that the result was computed with.
-fn scene_folder(a: &ExportArguments, result: &SystemResult) -> Result<PathBuf, Failure> {
+fn scene_folder(a: &WantedMoments<'_>, result: &SystemResult) -> Result<PathBuf, Failure> {
     let beside = a.result.parent().unwrap_or(Path::new("")).to_owned();
-    let candidates = match &a.scene_folder {
-        Some(folder) => vec![folder.clone()],
+    let candidates = match a.scene_folder {
+        Some(folder) => vec![folder.to_owned()],
         None => vec![beside, PathBuf::new()],
     };
     let scene = &result.head.scene_toml;
