@@ -51,16 +51,21 @@ impl DofOrdering {
         Self::from_forward(forward)
     }
 
-    /// Nested dissection of the interior, then the kept nodes in the order given. Nodes are triples of rows of `k`,
-    /// of which the lower triangle is read; `kept` lists nodes.
+    /// Nested dissection of the interior, then the nodes `late` of the interior, then the kept ones, both in the order given. Nodes are
+    /// triples of rows of `k`, of which the lower triangle is read. Late nodes that separate the others into parts keep what is eliminated in
+    /// one part out of the other.
     ///
     /// # Errors
-    /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is kept twice or does not
+    /// [`FeError::TooLarge`]; [`FeError::Metis`]; [`FeError::NotAPermutation`] when a node is listed twice or does not
     /// exist.
-    pub fn interior_first(k: &StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
+    pub fn interior_first(
+        k: &StiffnessMatrix,
+        late: &[usize],
+        kept: &[usize],
+    ) -> Result<Self, FeError> {
         let count = k.ncols() / 3;
         let mut place = vec![0i32; count];
-        for &node in kept {
+        for &node in late.iter().chain(kept) {
             match place.get_mut(node) {
                 Some(slot) if *slot == 0 => *slot = -1,
                 _ => {
@@ -90,7 +95,7 @@ impl DofOrdering {
         })?)?;
         let nodes = order.into_iter().map(|i| interior[i as usize]);
         let forward = nodes
-            .chain(kept.iter().copied())
+            .chain(late.iter().chain(kept).copied())
             .flat_map(|node| 3 * node..3 * node + 3)
             .collect();
         Self::from_forward(forward)

@@ -77,20 +77,21 @@ impl StaticCondensation {
     /// [`FeError::NotPositiveDefinite`] when the interior can move with the kept nodes held; those of
     /// [`DofOrdering::interior_first`].
     pub fn new(k: StiffnessMatrix, kept: &[usize]) -> Result<Self, FeError> {
-        Self::announced(k, kept, |_| ())
+        Self::announced(k, &[], kept, |_| ())
     }
 
-    /// As [`StaticCondensation::new`]; `before` is told what will be factorised, so that it can say how long that
-    /// takes.
+    /// As [`StaticCondensation::new`]; the nodes `late` of the interior are eliminated after its other ones ([`DofOrdering::interior_first`]),
+    /// `before` is told what will be factorised, so that it can say how long that takes.
     ///
     /// # Errors
     /// As [`StaticCondensation::new`].
     pub fn announced(
         mut k: StiffnessMatrix,
+        late: &[usize],
         kept: &[usize],
         before: impl FnOnce(&SymbolicFactor),
     ) -> Result<Self, FeError> {
-        let ordering = DofOrdering::interior_first(&k, kept)?;
+        let ordering = DofOrdering::interior_first(&k, late, kept)?;
         let diagonal: Vec<f64> = kept
             .iter()
             .flat_map(|node| 3 * node..3 * node + 3)

@@ -14,7 +14,7 @@ use crate::flank_loads::SparseVector;
 use crate::repeated_mesh::RepeatedMesh;
 use crate::sector_substructure::SectorSubstructure;
 use crate::tooth_substructure::ToothSubstructure;
-use faer::Mat;
+use faer::{Mat, MatRef};
 use gearmesh_fe::{CondensedLoads, CyclicInterface, CylindricalFrames, FeError, FeModel};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -100,6 +100,10 @@ impl CyclicBody {
             ("DOF of a tooth", self.tooth.condensation().size()),
             ("DOF at its foot", 3 * self.tooth.boundary_count()),
             ("DOF of a sector", self.sector.condensation().size()),
+            (
+                "numbers in the factor of a sector",
+                self.sector.condensation().info().nnz_l,
+            ),
             ("DOF of a cut", self.interface.cut_size()),
             ("harmonics", self.interface.harmonics()),
         ]
@@ -117,15 +121,7 @@ impl CyclicBody {
         let mut at_cuts = Mat::<f64>::zeros(2 * self.interface.cut_size(), own * n);
         let loaded: Vec<CondensedLoads> = (0..own)
             .map(|a| {
-                let mut loads = Mat::zeros(self.sector.condensation().size(), n);
-                for column in 0..n {
-                    for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
-                        for axis in 0..3 {
-                            loads[(3 * node + axis, column)] =
-                                on_tooth.kept[(3 * b + axis, column)];
-                        }
-                    }
-                }
+                let loads = self.at_foot(on_tooth.kept.as_ref(), a);
                 let condensed = self.sector.condensation().condense(loads.as_ref());
                 at_cuts
                     .as_mut()
@@ -173,6 +169,19 @@ impl CyclicBody {
                 }
             });
         rows
+    }
+
+    /// Loads of a tooth, carried to its foot, on the a-th tooth of sector 0.
+    pub(crate) fn at_foot(&self, carried: MatRef<'_, f64>, a: usize) -> Mat<f64> {
+        let mut loads = Mat::zeros(self.sector.condensation().size(), carried.ncols());
+        for column in 0..carried.ncols() {
+            for (b, &node) in self.sector.tooth_nodes(a).iter().enumerate() {
+                for axis in 0..3 {
+                    loads[(3 * node + axis, column)] = carried[(3 * b + axis, column)];
+                }
+            }
+        }
+        loads
     }
 
     /// XᵀKX for full Cartesian fields that are zero where the body is held: the sum over all parts.

@@ -3,6 +3,7 @@
 use crate::cyclic_body::CyclicBody;
 use crate::flank_loads::SparseVector;
 use crate::repeated_mesh::RepeatedMesh;
+use crate::single_sector::SingleSector;
 use crate::tooth_submodel::Deformation;
 use crate::tooth_vectors::on_tooth;
 use crate::whole_gear::WholeGear;
@@ -140,7 +141,7 @@ impl<M: RepeatedMesh> GearBody<M> {
         named.map(|(n, c)| (n.to_string(), c as f64)).collect()
     }
 
-    fn count(&self, right_hand_sides: usize) {
+    pub(crate) fn count(&self, right_hand_sides: usize) {
         self.right_hand_sides
             .fetch_add(right_hand_sides, Ordering::Relaxed);
     }
@@ -168,15 +169,12 @@ impl<M: RepeatedMesh> GearBody<M> {
         }
     }
 
-    /// The part of aᵀ K⁻¹ b that stays inside a tooth cell, its shared nodes held \[m/N\], for vectors given on tooth 0; none where the
-    /// gear was factorised as a whole.
-    pub fn inside_tooth(&self, vectors: &[&SparseVector]) -> Option<Mat<f64>> {
+    /// The body under loads given on tooth 0 and placed, turned, on every tooth, as a single sector; none where it repeats or was
+    /// factorised as a whole.
+    pub(crate) fn single_sector(&self, vectors: &[&SparseVector]) -> Option<SingleSector<'_>> {
         match &self.solver {
             Solver::Whole(_) => None,
-            Solver::Cyclic(body) => {
-                let on_tooth = body.tooth.condense(&body.frames, vectors);
-                Some(on_tooth.gram(&on_tooth))
-            }
+            Solver::Cyclic(body) => SingleSector::new(body, vectors),
         }
     }
 

@@ -5,7 +5,7 @@
 //! | unit loads on the flank grid, as nodal loads | `flank_loads.rs` |
 //! | integration over a part of an element face | `face_overlap.rs` |
 //! | mesh, model and the way it is solved | `gear_body.rs` |
-//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
+//! | by repetition: a tooth, a sector, the ring | `tooth_substructure.rs`, `sector_substructure.rs`, `sector_stiffness.rs`, `separating_circle.rs`, `cyclic_body.rs`, `cyclic_response.rs` |
 //! | by one factorisation of everything | `whole_gear.rs` |
 //! | loads of tooth 0 turned to other teeth | `tooth_vectors.rs` |
 //! | the tooth-only submodel and its solution W | `tooth_submodel.rs` |
@@ -13,7 +13,7 @@
 //! | a narrow load on a fine section of the tooth | `contact_problem.rs` |
 //! | a gauge as one row of nodal weights | `gauge_row.rs` |
 //! | compliance, checks, gauges' rows | `flank_compliance.rs` |
-//! | C_hub of a body that does not repeat, by patterns | `hub_patterns.rs` |
+//! | C_hub of a body that does not repeat, by patterns | `hub_patterns.rs`, `single_sector.rs` |
 //! | the reduction | `reduce.rs`; of a bevel gear `bevel/` |
 //! | a gear that was meshed elsewhere | `import.rs`, `imported_mesh.rs` |
 //! | whether its mesh fits; the outlines found in it | `imported_check.rs`, `imported_error.rs`; `imported_outline.rs` |
@@ -60,7 +60,10 @@ pub mod reduce;
 pub mod repeated_mesh;
 pub mod rigid_mass;
 pub mod root_crack;
+mod sector_stiffness;
 pub mod sector_substructure;
+mod separating_circle;
+mod single_sector;
 pub mod skin;
 mod tooth_frame;
 pub mod tooth_submodel;

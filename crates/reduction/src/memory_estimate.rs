@@ -102,7 +102,9 @@ fn reduction_bytes(gear: &GearDefinition, size: &MeshSize) -> f64 {
     let own = teeth / sectors;
     let grid = gear.reduction.roll_stations * (2 * gear.reduction.slices + 1);
     let loads = (grid * gear.reduction.flanks.len()) as f64;
-    let c_hub = C_HUB_COPIES * REAL * own * loads * teeth * loads;
+    // Without repetition C_hub is solved and kept by patterns, of tooth 0 alone in full.
+    let in_full = if own < teeth { own } else { 1.0 };
+    let c_hub = C_HUB_COPIES * REAL * in_full * loads * teeth * loads;
     let [early, late] = BYTES_A_NODE.map(|bytes| bytes * size.nodes);
     if is_whole(gear) {
         // A cross-section's factor grows with its nodes times their logarithm only, and is small.

@@ -3,9 +3,11 @@
 use crate::Progress;
 use crate::part::Part;
 use crate::repeated_mesh::RepeatedMesh;
+use crate::sector_stiffness::sector_stiffness;
+use crate::separating_circle::separating_circle;
 use crate::tooth_substructure::{ToothSubstructure, gather};
 use faer::Mat;
-use faer::sparse::{SparseColMat, SparseColMatRef, Triplet};
+use faer::sparse::SparseColMatRef;
 use gearmesh_fe::{
     CylindricalFrames, DofMap, FeError, FeModel, SparseMatrix, StaticCondensation, StiffnessMatrix,
     assemble_mass, assemble_stiffness,
@@ -113,15 +115,22 @@ impl SectorSubstructure {
                 nodes.filter_map(place).collect::<Vec<_>>()
             })
         };
-        let stiffness = assemble(
+        let stiffness = sector_stiffness(
             images[0].len(),
-            &body_stiffness,
-            &body_nodes,
-            tooth,
-            &tooth_nodes,
+            (body_stiffness.as_ref(), &body_nodes),
+            (tooth.condensation().stiffness(), &tooth_nodes),
         )?;
         let kept = cuts.concat();
-        let condensation = StaticCondensation::announced(stiffness, &kept, |symbolic| {
+        let late: Vec<usize> = match sectors {
+            1 => {
+                let elements = body_elements.iter();
+                let elements = elements.map(|&e| model.element_nodes(e as usize));
+                let circle = separating_circle(mesh.nodes(), elements, |n| !fixed[n as usize]);
+                circle.into_iter().filter_map(place).collect()
+            }
+            _ => Vec::new(),
+        };
+        let condensation = StaticCondensation::announced(stiffness, &late, &kept, |symbolic| {
             progress.expect(symbolic.expected_seconds())
         })?;
         Ok(Self {
@@ -233,39 +242,4 @@ fn free_dofs(body: &Part, fixed: &[bool]) -> Result<DofMap, FeError> {
 
 fn frames(body: &Part, mesh: &impl RepeatedMesh, fixed: &[bool]) -> CylindricalFrames {
     CylindricalFrames::new(free_nodes(body, fixed).map(|n| mesh.nodes()[n as usize]))
-}
-
-/// Lower triangle of the sector's stiffness: the body's own and one dense block per tooth.
-fn assemble(
-    nodes: usize,
-    body_stiffness: &StiffnessMatrix,
-    body_nodes: &[usize],
-    tooth: &ToothSubstructure,
-    tooth_nodes: &[Vec<usize>],
-) -> Result<StiffnessMatrix, FeError> {
-    let block = tooth.condensation().stiffness();
-    let dof = |nodes: &[usize], k: usize| 3 * nodes[k / 3] + k % 3;
-    let body = body_stiffness.as_ref();
-    let from_body = (0..body.ncols()).flat_map(|column| {
-        body.row_idx_of_col(column)
-            .zip(body.val_of_col(column))
-            .map(move |(row, value)| (dof(body_nodes, row), dof(body_nodes, column), *value))
-    });
-    let from_teeth = tooth_nodes.iter().flat_map(|own| {
-        (0..block.ncols()).flat_map(move |column| {
-            (0..block.nrows())
-                .map(move |row| (dof(own, row), dof(own, column), block[(row, column)]))
-        })
-    });
-    // Some gigabytes where one sector has all teeth: room for just as many, instead of a list that doubles as it grows.
-    let of_tooth = block.ncols() * (block.ncols() + 1) / 2;
-    let mut triplets = Vec::with_capacity(body.compute_nnz() + tooth_nodes.len() * of_tooth);
-    triplets.extend(
-        from_body
-            .chain(from_teeth)
-            .filter(|(row, column, _)| row >= column)
-            .map(|(row, column, value)| Triplet::new(row, column, value)),
-    );
-    SparseColMat::try_new_from_triplets(3 * nodes, 3 * nodes, &triplets)
-        .map_err(|_| FeError::OutOfMemory { bytes: 0 })
 }

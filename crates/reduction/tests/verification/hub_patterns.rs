@@ -1,4 +1,4 @@
-//! C_hub of a body that does not repeat, by patterns, against C_hub in full.
+//! C_hub of a body that does not repeat, solved by patterns, against C_hub in full.
 
 use crate::small_gears::{COARSE, THIN_RIM, difference, gear, reduced};
 use gearmesh_geometry::GearDefinition;
@@ -27,9 +27,11 @@ fn patterns_keep_every_block() {
         .map(|load| load.normal)
         .collect();
     let vectors: Vec<&SparseVector> = loads.iter().collect();
-    let rows = body.compliance(model.teeth, &vectors, &Silent);
-    let inside = body.inside_tooth(&vectors).unwrap();
-    let (patterns, left_out) = by_patterns(&rows, &inside).unwrap();
+    let found = by_patterns(&body, &vectors, &Silent).unwrap();
+    let (patterns, left_out) = (found.patterns, found.left_out);
+    assert_eq!(model.hub_patterns, None);
+    // Eight teeth with all loads, ten with the patterns and two combinations of loads.
+    assert_eq!(found.solved, 8 * loads.len() + 10 * (patterns.count + 2));
     println!(
         "{} patterns of {} loads leave out {left_out:e}",
         patterns.count,
