@@ -8,7 +8,7 @@ use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::input::{InputDocument, MOST_MESH_BYTES, demand_readable};
 use gearmesh_geometry::{Element, Flank, GearDefinition, MeshedBody};
 use gearmesh_mesh::python::{PythonEnvironment, PythonError};
-use gearmesh_mesh::{BevelMesh, ElementList, GearMesh};
+use gearmesh_mesh::{BevelMesh, BodyGrid, ElementList, GearMesh};
 use gearmesh_model::{CellKind, Field as MeshField, MeshData, ReducedGear, write_by, write_mesh};
 use gearmesh_recovery::grid_forces;
 use gearmesh_reduction::field::{Field, GridForce, fields};
@@ -172,6 +172,15 @@ pub fn export_mesh(
         cell_fields: fields.cell,
     };
     export((&data, gear.mesh.element), unit, output)
+}
+
+/// Says where the body of a bevel gear is not meshed in rows.
+pub fn note_body_grid(grid: BodyGrid) {
+    if grid == BodyGrid::Free {
+        console::note(
+            "the body below the teeth is meshed freely in its meridian, for rows of hexahedra from the teeth to the bore would be too poor there",
+        );
+    }
 }
 
 /// The same of a bevel gear: sets are the bore and the flanks of all teeth.

@@ -1,18 +1,15 @@
 //! Sections of a bevel gear's sector along the tooth: where their nodes lie.
 //!
 //! A section is the cone L = const, normal to the pitch cone; the one at the toe and the one at the heel are the ends of the tooth. In a section
-//! a place is the azimuth χ and the height h above the pitch cone. Below the rim sections go on along straight lines between the two
-//! lines of the meridian. Nodes of all sections are numbered alike:
+//! a place is the azimuth χ and the height h above the pitch cone. The body below the ring is `bevel_meridian.rs`. Nodes of all sections are numbered alike:
 //!
 //! ```text
 //!            T---------T            h   tip
 //!           /  tooth    \           tooth: rows of the outline × columns between the flanks
 //!    A--r--P             P--r--A    P   where the fillet makes 45° with the centre line; the tooth stands on the cut P-P
 //!    |     |\___________/|     |    A   middle of the tooth space, r lower end of the fillet
-//!    |ring |             |     |    ring and body: one grid of rows × columns
-//!    +-----Q-------------Q-----+
-//!    |body                     |
-//!    +-------------------------+    bore
+//!    |ring |             |     |    ring: a grid of rows × columns
+//!    +-----Q-------------Q-----+    where the body begins
 //! ```
 
 use gearmesh_bevel::{BevelError, BevelGear, FlankSide, Located};
@@ -64,8 +61,10 @@ struct Side {
 
 /// A section's nodes.
 pub struct Level {
-    /// Nodes (m), the ring's and body's grid row by row, then the rows of the tooth above the cut.
+    /// Nodes (m), the ring's grid row by row, then the rows of the tooth above the cut.
     pub nodes: Vec<[f64; 3]>,
+    /// Azimuths of the ring's columns where the body begins (rad).
+    pub columns_rad: Vec<f64>,
     /// Outline from A to the tip, right and left: cone distance and height (m).
     pub outline_m: [Vec<[f64; 2]>; 2],
     /// The same as points (m).
@@ -78,7 +77,7 @@ pub struct Levels<'a> {
     /// Spacing of the nodes.
     pub spacing: Spacing,
     /// Points of the meridian's lines, radius and z: from the ring to the bore, on the toe's and on the heel's side.
-    meridian: Vec<[[f64; 2]; 2]>,
+    pub(crate) meridian: Vec<[[f64; 2]; 2]>,
     ring_m: f64,
 }
 
@@ -188,6 +187,14 @@ impl<'a> Levels<'a> {
         }
     }
 
+    /// The same gear with an even number of elements along the tooth, one more than before if need be. `order` as in [`Self::new`].
+    #[must_use]
+    pub fn even_along(mut self, order: usize) -> Self {
+        let layers = ((self.spacing.along.len() - 1) / order).next_multiple_of(2) * order;
+        self.spacing.along = (0..=layers).map(|i| i as f64 / layers as f64).collect();
+        self
+    }
+
     /// Columns of the ring's grid, of which the tooth's cut takes the middle ones: (beside the cut, all).
     pub fn columns(&self) -> (usize, usize) {
         let s = &self.spacing;
@@ -231,7 +238,7 @@ impl<'a> Levels<'a> {
             .map(|t| hermite(foot, [[tangent, -tangent], [tangent, tangent]], *t))
             .collect();
 
-        // The grid of ring and body.
+        // The grid of the ring.
         let mut top: Vec<[f64; 2]> = outlines[0][..=beside].to_vec();
         top.extend(&cut[1..]);
         top.extend(outlines[1][..beside].iter().rev());
@@ -244,10 +251,15 @@ impl<'a> Levels<'a> {
         let parts = |from: f64, to: f64, n: usize| {
             (0..n).map(move |i| from + (to - from) * i as f64 / n as f64)
         };
-        let low: Vec<f64> = parts(-edge, q[0], beside)
+        let even: Vec<f64> = parts(-edge, q[0], beside)
             .chain(parts(q[0], q[1], columns - 2 * beside))
             .chain(parts(q[1], edge, beside))
             .chain([edge])
+            .collect();
+        // Columns of a shallow ring may go aside by less.
+        let share = (self.ring_m / (RING_IN_MODULES * self.gear.mean_module_m())).min(1.0);
+        let low: Vec<f64> = (top.iter().zip(&even))
+            .map(|(top, even)| top[0] + share * (even - top[0]))
             .collect();
         let place = |p: [f64; 2]| {
             let [z, r] = blank.meridian_m(cone, p[1]);
@@ -259,12 +271,7 @@ impl<'a> Levels<'a> {
                 nodes.push(place(lerp(*t, [*x, ring_bottom], *share)));
             }
         }
-        for &(piece, share) in &s.body {
-            let at =
-                [0, 1].map(|k| lerp(self.meridian[piece][k], self.meridian[piece + 1][k], share));
-            let [r, z] = lerp(at[0], at[1], along);
-            nodes.extend(low.iter().map(|x| polar(r, middle + x / scale, z)));
-        }
+        let columns_rad = low.iter().map(|x| middle + x / scale).collect();
 
         // The tooth above the cut: Coons' patch between cut, outlines and tip.
         let tip = blank.addendum_m(cone);
@@ -291,6 +298,7 @@ impl<'a> Levels<'a> {
         let heights = |line: &Vec<[f64; 2]>| line.iter().map(|p| [cone, p[1]]).collect();
         Ok(Level {
             nodes,
+            columns_rad,
             outline_m: [heights(&outlines[0]), heights(&outlines[1])],
             outline_points_m: [points(&outlines[0]), points(&outlines[1])],
         })

@@ -1,7 +1,8 @@
 //! Nodes and elements of a bevel gear in hexahedra, swept along the tooth from toe to heel, with the sets that the reduction needs.
 //!
-//! One tooth's sector is made of two grids of quads in each section ([`Levels`]): ring and body, and the tooth above its cut. Sectors are
-//! turned copies; the left side of one is the right side of the next.
+//! One tooth's sector is made of two grids of quads in each section ([`Levels`]), the tooth above its cut and the ring below it, and of quads
+//! of the meridian below the ring ([`BodyGrid`]), turned about the axis over the ring's columns. Sectors are turned copies; the left side of
+//! one is the right side of the next.
 
 use gearmesh_bevel::{BevelError, BevelGear};
 use gearmesh_elements::CellKind;
@@ -10,7 +11,9 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use crate::MeshError;
+use crate::bevel_grid::{Grid, hexahedron};
 use crate::bevel_level::{Level, Levels};
+use crate::bevel_meridian::{BodyGrid, Meridian};
 use crate::elements::ElementList;
 use crate::face::{FaceShape, OutlineFace};
 use crate::quality::{self, QualityReport};
@@ -33,184 +36,67 @@ pub struct BevelMesh {
     pub outline_m: [Vec<Vec<[f64; 2]>>; 2],
     teeth: usize,
     grid: Grid,
+    meridian: Meridian,
     /// Node of sector 0 by section node and section, [`NONE`] where there is none or where it is the next sector's.
     local: Vec<u32>,
+    /// The same of the body by node of the meridian and column; [`NONE`] at the ring, too.
+    in_body: Vec<u32>,
     /// Nodes of a sector.
     in_sector: usize,
 }
 
-/// Nodes of a section.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Grid {
-    /// 1, or 2 with nodes in the middles of sides.
+/// A gear's sections.
+struct Sections<'a> {
+    gear: &'a BevelGear,
     order: usize,
-    /// Columns of ring and body, and those beside the cut.
-    columns: usize,
-    pub(crate) beside: usize,
-    /// Rows of the ring, and of ring and body.
-    ring: usize,
-    rows: usize,
-    /// Rows of the tooth above the cut, and its columns.
-    pub(crate) tooth: usize,
-    pub(crate) across: usize,
-    sections: usize,
-}
-
-/// A section node and whether it is the image of one in the next sector.
-type Place = (usize, bool);
-
-impl Grid {
-    pub(crate) fn of(levels: &Levels<'_>, order: usize) -> Self {
-        let s = &levels.spacing;
-        let (beside, columns) = levels.columns();
-        Self {
-            order,
-            columns,
-            beside,
-            ring: s.ring.len() - 1,
-            rows: s.ring.len() - 1 + s.body.len(),
-            tooth: s.high.len() + s.flank.len() - 2,
-            across: s.across.len() - 1,
-            sections: s.along.len(),
-        }
-    }
-
-    fn section_nodes(&self) -> usize {
-        (self.rows + 1) * (self.columns + 1) + self.tooth * (self.across + 1)
-    }
-
-    /// Node of ring and body.
-    fn body(&self, row: usize, column: usize) -> usize {
-        row * (self.columns + 1) + column
-    }
-
-    /// Node of the tooth, row 0 the cut.
-    pub(crate) fn tooth(&self, row: usize, column: usize) -> usize {
-        match row {
-            0 => self.body(0, self.beside + column),
-            _ => (self.rows + 1) * (self.columns + 1) + (row - 1) * (self.across + 1) + column,
-        }
-    }
-
-    /// Nodes of one side's outline from the middle of the space to the tip.
-    fn outline(&self, side: Flank) -> Vec<usize> {
-        let foot = (0..self.beside).map(|c| match side {
-            Flank::Right => self.body(0, c),
-            Flank::Left => self.body(0, self.columns - c),
-        });
-        let column = match side {
-            Flank::Right => 0,
-            Flank::Left => self.across,
-        };
-        foot.chain((0..=self.tooth).map(|row| self.tooth(row, column)))
-            .collect()
-    }
-
-    /// All nodes of ring and body of some rows.
-    fn body_rows(&self, rows: std::ops::RangeInclusive<usize>) -> impl Iterator<Item = usize> {
-        let grid = *self;
-        rows.flat_map(move |row| (0..=grid.columns).map(move |column| grid.body(row, column)))
-    }
-
-    /// Nodes of the tooth above the cut, without the cut.
-    fn tooth_rows(&self) -> impl Iterator<Item = usize> {
-        let grid = *self;
-        (1..=grid.tooth).flat_map(move |row| (0..=grid.across).map(move |c| grid.tooth(row, c)))
-    }
-
-    /// The node in the sector itself, or in the next one where it lies on the left side.
-    fn own(&self, node: usize) -> Place {
-        let width = self.columns + 1;
-        if node < (self.rows + 1) * width && node % width == self.columns {
-            (node - self.columns, true)
-        } else {
-            (node, false)
-        }
-    }
-
-    /// Whether a node is one of an element: at most one of its three numbers is odd where elements are quadratic.
-    fn is_used(&self, node: usize, section: usize) -> bool {
-        if self.order == 1 {
-            return true;
-        }
-        let width = self.columns + 1;
-        let first_of_tooth = (self.rows + 1) * width;
-        let (row, column) = match node.checked_sub(first_of_tooth) {
-            None => (node / width, node % width),
-            Some(k) => (k / (self.across + 1) + 1, k % (self.across + 1)),
-        };
-        row % 2 + column % 2 + section % 2 <= 1
-    }
-
-    /// Quads by their nodes, order + 1 by order + 1: along ξ first, then η; (ξ, η, towards the heel) is right-handed.
-    fn quads(&self) -> Vec<[[usize; 3]; 3]> {
-        let p = self.order;
-        let mut quads = Vec::new();
-        let mut push = |node: &dyn Fn(usize, usize) -> usize| {
-            let mut quad = [[0; 3]; 3];
-            for (a, row) in quad.iter_mut().enumerate() {
-                for (b, slot) in row.iter_mut().enumerate() {
-                    if a <= p && b <= p {
-                        *slot = node(a, b);
-                    }
-                }
-            }
-            quads.push(quad);
-        };
-        // The tooth first: ξ up, η across. Then ring and body: ξ across, η down.
-        for row in (0..self.tooth).step_by(p) {
-            for column in (0..self.across).step_by(p) {
-                push(&|a, b| self.tooth(row + a, column + b));
-            }
-        }
-        for row in (0..self.rows).step_by(p) {
-            for column in (0..self.columns).step_by(p) {
-                push(&|a, b| self.body(row + b, column + a));
-            }
-        }
-        quads
-    }
-
-    /// Quads of the tooth, of tooth and ring, and of all.
-    fn quad_counts(&self) -> [usize; 3] {
-        let p = self.order;
-        let tooth = self.tooth / p * (self.across / p);
-        let row = self.columns / p;
-        [
-            tooth,
-            tooth + self.ring / p * row,
-            tooth + self.rows / p * row,
-        ]
-    }
+    levels: Levels<'a>,
+    made: Vec<Level>,
 }
 
 impl BevelMesh {
-    /// Meshes a bevel gear.
+    /// Meshes a bevel gear, the body in rows, or freely where rows would be poorer than demanded.
     ///
     /// # Errors
-    /// [`MeshError::Bevel`] where the tool leaves no surface, [`MeshError::Quality`] for a mesh poorer than demanded.
+    /// [`MeshError::Bevel`] where the tool leaves no surface, [`MeshError::Quality`] for a mesh poorer than demanded, and those of
+    /// [`Self::of_grid`].
     pub fn new(gear: &BevelGear) -> Result<Self, MeshError> {
-        let mesh = Self::of_any_quality(gear)?;
-        mesh.quality.demand(gear.mesh.min_scaled_jacobian)?;
-        Ok(mesh)
+        let sections = Sections::new(gear, BodyGrid::Rows)?;
+        let demanded = gear.mesh.min_scaled_jacobian;
+        let rows = Self::of_sections(&sections, BodyGrid::Rows)?;
+        if rows.quality.smallest >= demanded {
+            return Ok(rows);
+        }
+        // Teeth and ring are the same in both.
+        rows.worst(rows.cell_elements(0)).demand(demanded)?;
+        let free = Self::of_grid(gear, BodyGrid::Free)?;
+        free.quality.demand(demanded)?;
+        Ok(free)
     }
 
-    /// The same, however poor its elements.
+    /// The same with a body of this kind, however poor its elements.
     ///
     /// # Errors
-    /// As [`Self::new`] without the second.
-    pub fn of_any_quality(gear: &BevelGear) -> Result<Self, MeshError> {
-        let (order, shape) = match gear.mesh.element {
-            Element::Hex20 => (2, CellKind::Hex20),
-            _ => (1, CellKind::Hex8),
+    /// [`MeshError::Bevel`]; of free bodies [`MeshError::CrossedLines`], and [`MeshError::Python`] or [`MeshError::Plane`] where gmsh is
+    /// missing or fails.
+    pub fn of_grid(gear: &BevelGear, body: BodyGrid) -> Result<Self, MeshError> {
+        Self::of_sections(&Sections::new(gear, body)?, body)
+    }
+
+    fn of_sections(sections: &Sections<'_>, body: BodyGrid) -> Result<Self, MeshError> {
+        let Sections {
+            gear,
+            order,
+            levels,
+            made,
+        } = sections;
+        let order = *order;
+        let shape = if order == 1 {
+            CellKind::Hex8
+        } else {
+            CellKind::Hex20
         };
-        let levels = Levels::new(gear, order)?;
-        let grid = Grid::of(&levels, order);
-        let along = levels.spacing.along.clone();
-        let made: Vec<Level> = along
-            .par_iter()
-            .map(|share| levels.level(*share))
-            .collect::<Result<_, BevelError>>()?;
+        let grid = Grid::of(levels, order);
+        let meridian = Meridian::new(gear, levels, order, body)?;
         let count = grid.section_nodes();
         let mut local = vec![NONE; count * grid.sections];
         let mut own: Vec<[f64; 3]> = Vec::new();
@@ -219,6 +105,18 @@ impl BevelMesh {
                 if grid.is_used(node, section) && !grid.own(node).1 {
                     local[node * grid.sections + section] = own.len() as u32;
                     own.push(level.nodes[node]);
+                }
+            }
+        }
+        let at_ring: Vec<&[f64]> = made.iter().map(|l| l.columns_rad.as_slice()).collect();
+        let azimuths = meridian.azimuths_rad(&at_ring);
+        let mut in_body = vec![NONE; meridian.nodes.len() * grid.columns];
+        for (node, [z, radius]) in meridian.nodes.iter().enumerate() {
+            for column in 0..grid.columns {
+                if is_in_body(&grid, &meridian, node, column) && meridian.section[node].is_none() {
+                    in_body[node * grid.columns + column] = own.len() as u32;
+                    let (sin, cos) = azimuths[node][column].sin_cos();
+                    own.push([radius * cos, radius * sin, *z]);
                 }
             }
         }
@@ -233,8 +131,8 @@ impl BevelMesh {
         let nodes: Vec<[f64; 3]> = turned.collect();
         let mut outline_m: [Vec<Vec<[f64; 2]>>; 2] = [Vec::new(), Vec::new()];
         for level in made {
-            for (all, line) in outline_m.iter_mut().zip(level.outline_m) {
-                all.push(line);
+            for (all, line) in outline_m.iter_mut().zip(&level.outline_m) {
+                all.push(line.clone());
             }
         }
         let mut mesh = Self {
@@ -245,11 +143,13 @@ impl BevelMesh {
                 mean: 1.0,
                 worst_m: [0.0; 3],
             },
-            along,
+            along: levels.spacing.along.clone(),
             outline_m,
             teeth,
             grid,
+            meridian,
             local,
+            in_body,
             in_sector,
         };
         let mut elements = ElementList::new(shape);
@@ -263,16 +163,34 @@ impl BevelMesh {
                     );
                 }
             }
+            for quad in &mesh.meridian.quads {
+                for first in (0..grid.columns).step_by(order) {
+                    elements.push(
+                        hexahedron(quad, order)
+                            .map(|(node, column)| mesh.body_node(tooth, node, first + column)),
+                    );
+                }
+            }
         }
-        // All sectors are alike.
-        let one = elements.len() / teeth;
-        let mut first = ElementList::new(shape);
-        for element in elements.iter().take(one) {
-            first.push(element.iter().copied());
-        }
-        mesh.quality = quality::report(&mesh.nodes, &first);
         mesh.elements = elements;
+        // All sectors are alike.
+        let one = (mesh.elements.len() / teeth) as u32;
+        mesh.quality = mesh.worst((0..one).collect());
         Ok(mesh)
+    }
+
+    /// Quality of some elements.
+    fn worst(&self, of: Vec<u32>) -> QualityReport {
+        let mut elements = ElementList::new(self.elements.shape());
+        for element in of {
+            elements.push(self.elements.nodes(element).iter().copied());
+        }
+        quality::report(&self.nodes, &elements)
+    }
+
+    /// How the body is meshed.
+    pub fn body_grid(&self) -> BodyGrid {
+        self.meridian.kind
     }
 
     /// Number of teeth, which is that of the sectors.
@@ -292,6 +210,35 @@ impl BevelMesh {
         (sector * self.in_sector) as u32 + local
     }
 
+    /// The node of a sector at a place of the meridian and a column.
+    fn body_node(&self, sector: usize, node: usize, column: usize) -> u32 {
+        if let Some(section) = self.meridian.section[node] {
+            return self.node(sector, self.grid.ring(self.grid.ring, column), section);
+        }
+        let next = column == self.grid.columns;
+        let column = if next { 0 } else { column };
+        let sector = (sector + usize::from(next)) % self.teeth;
+        (sector * self.in_sector) as u32 + self.in_body[node * self.grid.columns + column]
+    }
+
+    /// Nodes of some nodes of the meridian in some columns, where there are any: those of the first, then those of the second.
+    fn body_columns(
+        &self,
+        sector: usize,
+        nodes: impl IntoIterator<Item = usize>,
+        columns: std::ops::Range<usize>,
+    ) -> Vec<u32> {
+        let mut all = Vec::new();
+        for node in nodes {
+            for column in columns.clone() {
+                if is_in_body(&self.grid, &self.meridian, node, column) {
+                    all.push(self.body_node(sector, node, column));
+                }
+            }
+        }
+        all
+    }
+
     /// Nodes of some section nodes in all sections that have them: those of the first, then those of the second.
     fn columns(&self, tooth: usize, nodes: impl IntoIterator<Item = usize>) -> Vec<u32> {
         let mut all = Vec::new();
@@ -305,39 +252,59 @@ impl BevelMesh {
         all
     }
 
+    /// Elements of a sector.
+    fn in_one(&self) -> usize {
+        self.elements.len() / self.teeth
+    }
+
     fn elements_of(&self, tooth: usize, quads: std::ops::Range<usize>) -> Vec<u32> {
         let layers = (self.grid.sections - 1) / self.grid.order;
-        let all = self.grid.quad_counts()[2];
-        let first = (tooth * all * layers) as u32;
+        let first = (tooth * self.in_one()) as u32;
         (quads.start * layers..quads.end * layers)
             .map(|e| first + e as u32)
             .collect()
     }
 
-    /// Columns of elements along the teeth, of all sectors: corners in the section nearest to the middle of the face, and elements from toe to heel.
+    /// What is seen of all sectors along the axis: corners, of teeth and ring in the section nearest to the middle of the face, and the elements before and behind them.
     pub fn columns_along(&self) -> Vec<([u32; 4], Vec<u32>)> {
         let (grid, p) = (self.grid, self.grid.order);
         let middle = (grid.sections - 1) / p / 2 * p;
         let quads = grid.quads();
+        let steps = grid.columns / p;
+        let in_cell = quads.len() * ((grid.sections - 1) / p);
         let of_tooth = |tooth: usize| {
             let quads = quads.iter().enumerate();
-            quads.map(move |(number, quad)| {
+            let cell = quads.map(move |(number, quad)| {
                 let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
                 let corners = corners.map(|node| self.node(tooth, node, middle));
                 (corners, self.elements_of(tooth, number..number + 1))
-            })
+            });
+            let first = tooth * self.in_one() + in_cell;
+            let body = self
+                .meridian
+                .seen
+                .iter()
+                .flat_map(move |([up, down], own)| {
+                    (0..steps).map(move |step| {
+                        let at = |node: usize, column: usize| self.body_node(tooth, node, column);
+                        let (a, b) = (step * p, (step + 1) * p);
+                        let elements = own.iter().map(|quad| (first + quad * steps + step) as u32);
+                        (
+                            [at(*up, a), at(*up, b), at(*down, b), at(*down, a)],
+                            elements.collect(),
+                        )
+                    })
+                });
+            cell.chain(body)
         };
         (0..self.teeth).flat_map(of_tooth).collect()
     }
 
     /// Nodes of the bore.
     pub fn bore(&self) -> Vec<u32> {
-        let row = self.grid.rows;
         let on_bore = |tooth| {
-            self.columns(
-                tooth,
-                (0..self.grid.columns).map(|c| self.grid.body(row, c)),
-            )
+            let nodes = self.meridian.bore.iter().copied();
+            self.body_columns(tooth, nodes, 0..self.grid.columns)
         };
         (0..self.teeth).flat_map(on_bore).collect()
     }
@@ -347,7 +314,7 @@ impl BevelMesh {
         let grid = self.grid;
         self.columns(
             tooth,
-            grid.body_rows(0..=grid.ring).chain(grid.tooth_rows()),
+            grid.ring_rows(0..=grid.ring).chain(grid.tooth_rows()),
         )
     }
 
@@ -358,20 +325,29 @@ impl BevelMesh {
 
     /// Nodes of a sector's body, with what it shares with the ring, the i-th of each sector the image of the i-th of sector 0.
     pub fn body_nodes(&self, sector: usize) -> Vec<u32> {
-        let grid = self.grid;
-        self.columns(sector, grid.body_rows(grid.ring..=grid.rows))
+        self.body_columns(
+            sector,
+            0..self.meridian.nodes.len(),
+            0..self.grid.columns + 1,
+        )
     }
 
     /// Elements of a sector's body.
     pub fn body_elements(&self, sector: usize) -> Vec<u32> {
-        let [_, cell, all] = self.grid.quad_counts();
-        self.elements_of(sector, cell..all)
+        let one = self.in_one();
+        let body = self.meridian.quads.len() * (self.grid.columns / self.grid.order);
+        ((sector + 1) * one - body..(sector + 1) * one)
+            .map(|e| e as u32)
+            .collect()
     }
 
     /// Nodes of the cut before a sector, the i-th of each sector the image of the i-th of sector 0.
     pub fn cut_nodes(&self, sector: usize) -> Vec<u32> {
         let grid = self.grid;
-        self.columns(sector, (0..=grid.rows).map(|row| grid.body(row, 0)))
+        // The ring's last row is the body's first.
+        let mut all = self.columns(sector, (0..grid.ring).map(|row| grid.ring(row, 0)));
+        all.extend(self.body_columns(sector, 0..self.meridian.nodes.len(), 0..1));
+        all
     }
 
     /// Elements of the tooth above the cut of the tooth-only submodel.
@@ -425,7 +401,7 @@ impl BevelMesh {
                     1 => (FaceShape::Quad4, corners.to_vec()),
                     _ => (FaceShape::Quad8, [corners, middles].concat()),
                 };
-                let element = (tooth * grid.quad_counts()[2] + quad) * layers + layer;
+                let element = tooth * self.in_one() + quad * layers + layer;
                 faces.push(OutlineFace {
                     shape,
                     nodes: (at.iter())
@@ -463,18 +439,30 @@ impl BevelMesh {
     }
 }
 
-/// Section nodes and sections of a hexahedron in VTK's order.
-pub(crate) fn hexahedron(
-    quad: &[[usize; 3]; 3],
-    order: usize,
-) -> impl Iterator<Item = (usize, usize)> {
-    let p = order;
-    let corners = [quad[0][0], quad[p][0], quad[p][p], quad[0][p]];
-    let middles = [quad[1][0], quad[2][1], quad[1][2], quad[0][1]];
-    let at = |nodes: [usize; 4], section: usize| nodes.map(|node| (node, section));
-    let mut all = [at(corners, 0), at(corners, p)].concat();
-    if p == 2 {
-        all.extend([at(middles, 0), at(middles, 2), at(corners, 1)].concat());
+impl<'a> Sections<'a> {
+    fn new(gear: &'a BevelGear, body: BodyGrid) -> Result<Self, MeshError> {
+        let order = match gear.mesh.element {
+            Element::Hex20 => 2,
+            _ => 1,
+        };
+        let mut levels = Levels::new(gear, order)?;
+        if body == BodyGrid::Free {
+            levels = levels.even_along(order);
+        }
+        let along = levels.spacing.along.par_iter();
+        let made = along
+            .map(|share| levels.level(*share))
+            .collect::<Result<_, BevelError>>()?;
+        Ok(Self {
+            gear,
+            order,
+            levels,
+            made,
+        })
     }
-    all.into_iter()
+}
+
+/// Whether elements have a node at a place of the meridian and a column.
+fn is_in_body(grid: &Grid, meridian: &Meridian, node: usize, column: usize) -> bool {
+    usize::from(meridian.between[node]) + column % grid.order <= 1
 }

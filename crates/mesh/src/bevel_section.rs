@@ -9,8 +9,8 @@ use gearmesh_geometry::{Element, Flank};
 use nalgebra::Vector3;
 
 use crate::MeshError;
+use crate::bevel_grid::{Grid, hexahedron};
 use crate::bevel_level::{Level, Levels};
-use crate::bevel_mesh::{Grid, hexahedron};
 use crate::elements::ElementList;
 use crate::face::{FaceShape, OutlineFace};
 

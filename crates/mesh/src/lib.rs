@@ -20,7 +20,9 @@
 //! | a body of tetrahedra, with fillets | [`solid_problem`], [`solid_mesher`] | `solid_problem.rs`, `solid_mesher.rs`, `solid_mesher.py` |
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
-//! | bevel gears: sections along the tooth, nodes, elements and sets | [`bevel_level::Levels`], [`BevelMesh`] | `bevel_level.rs`, `bevel_mesh.rs` |
+//! | bevel gears: sections along the tooth, their numbers | [`bevel_level::Levels`] | `bevel_level.rs`, `bevel_grid.rs` |
+//! | the body below: quads of the meridian | [`bevel_meridian`] | `bevel_meridian.rs` |
+//! | nodes, elements and sets | [`BevelMesh`] | `bevel_mesh.rs` |
 //! | its tooth in the section normal to it | [`BevelSection`] | `bevel_section.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
 //! | how large the mesh will be, before it is made | [`MeshSize`] | `mesh_size.rs` |
@@ -29,7 +31,9 @@
 //! Every node of the tooth outline lies on the exact profile, and its place along the outline is kept: loads and
 //! gauges find their faces by arc length and z, never by projection on a facet.
 
+mod bevel_grid;
 pub mod bevel_level;
+pub mod bevel_meridian;
 pub mod bevel_mesh;
 pub mod bevel_section;
 pub mod body;
@@ -57,6 +61,7 @@ pub mod tooth_blocks;
 pub mod tooth_cell;
 pub mod twist;
 
+pub use bevel_meridian::BodyGrid;
 pub use bevel_mesh::BevelMesh;
 pub use bevel_section::BevelSection;
 pub use cut_line::CutLine;
@@ -86,6 +91,17 @@ pub enum MeshError {
     /// The tool leaves no surface where a bevel tooth should be.
     #[error(transparent)]
     Bevel(#[from] gearmesh_bevel::BevelError),
+    /// The lines of a bevel body cross.
+    #[error(
+        "blank: the body's lines on the toe's and on the heel's side cross at diameter {diameter_mm:.3} mm, z {z_mm:.3} mm; \
+         change hub_z_mm, the points of the web or rim_mm so that they do not"
+    )]
+    CrossedLines {
+        /// Where.
+        diameter_mm: f64,
+        /// Where.
+        z_mm: f64,
+    },
     /// The free mesh of the body failed.
     #[error(transparent)]
     Solid(#[from] solid_mesher::SolidMeshError),

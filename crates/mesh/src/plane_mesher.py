@@ -7,6 +7,7 @@ one. Of each region the best mesh is taken; smaller elements are tried where it 
 """
 
 import json
+import os
 import sys
 
 import gmsh
@@ -141,12 +142,16 @@ def best_mesh(problem):
 
 def main():
     problems = json.load(sys.stdin)
+    # Blossom prints warnings on standard output, which is for the answer.
+    answer = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.option.setNumber("General.NumThreads", 1)
     results = [best_mesh(problem) for problem in problems]
     gmsh.finalize()
-    json.dump(results, sys.stdout)
+    with answer:
+        json.dump(results, answer)
 
 
 main()

@@ -5,8 +5,8 @@
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::Flank;
 use gearmesh_geometry::input::InputDocument;
-use gearmesh_mesh::BevelMesh;
 use gearmesh_mesh::bevel_level::Levels;
+use gearmesh_mesh::{BevelMesh, BodyGrid};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -25,6 +25,10 @@ fn gear(pair: &str, member: &str, bore_mm: f64, more: &str) -> BevelGear {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fe_models");
     BevelGear::from_document(&InputDocument::new("made up", text), &folder).unwrap()
 }
+
+/// Webs with steep walls.
+const STEEP_13: &str = "rim_mm = 4.0\nhub_z_mm = [72.0, 104.0]\nweb = [{ diameter_mm = 14.0, z_mm = [72.0, 104.0] }, { diameter_mm = 15.0, z_mm = [84.0, 92.0] }, { diameter_mm = 25.0, z_mm = [84.0, 92.0] }]";
+const STEEP_20: &str = "rim_mm = 3.0\nhub_z_mm = [26.0, 42.0]\nweb = [{ diameter_mm = 26.0, z_mm = [26.0, 42.0] }, { diameter_mm = 27.0, z_mm = [31.0, 36.0] }, { diameter_mm = 39.0, z_mm = [31.0, 36.0] }]";
 
 /// Members of the shipped pairs with default lengths, and the pinion of 13 teeth in quadratic elements.
 #[test]
@@ -73,8 +77,12 @@ fn shipped_pairs_are_meshed() {
 /// Sectors fit: the left side of each is the right side of the next, turned, and nodes are nowhere doubled.
 #[test]
 fn cuts_match_under_rotation() {
-    let gear = gear("bevel_13_35.toml", "pinion", 8.0, "");
-    let mesh = BevelMesh::new(&gear).unwrap();
+    for more in ["", STEEP_13] {
+        sectors_fit(&BevelMesh::new(&gear("bevel_13_35.toml", "pinion", 8.0, more)).unwrap());
+    }
+}
+
+fn sectors_fit(mesh: &BevelMesh) {
     let step = TAU / mesh.teeth() as f64;
     for (a, b) in [
         (mesh.cut_nodes(0), mesh.cut_nodes(1)),
@@ -119,6 +127,78 @@ fn webs_are_meshed_and_poor_meshes_refused() {
     let message = BevelMesh::new(&demanding).unwrap_err().to_string();
     assert!(
         message.contains("scaled Jacobian") && message.contains("min_scaled_jacobian"),
+        "{message}"
+    );
+}
+
+/// Elements between neighbouring teeth, by the signed volumes of their corners' tetrahedra.
+fn volume(mesh: &BevelMesh) -> f64 {
+    // The faces of a brick from outside, by their corners.
+    let faces = [
+        [0, 3, 2, 1],
+        [4, 5, 6, 7],
+        [0, 1, 5, 4],
+        [1, 2, 6, 5],
+        [2, 3, 7, 6],
+        [3, 0, 4, 7],
+    ];
+    let mut six = 0.0;
+    for element in mesh.elements.iter() {
+        for face in faces {
+            let at = face.map(|k| nalgebra::Vector3::from(mesh.nodes[element[k] as usize]));
+            // Both ways of cutting it, in the mean.
+            for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
+                six += 0.5 * at[a].dot(&at[b].cross(&at[c]));
+            }
+        }
+    }
+    six / 6.0
+}
+
+/// Webs with steep walls: rows would be too poor, the meridian is meshed freely instead. The teeth stay as they are, the volume is the same, the bore is round.
+#[test]
+fn steep_webs_are_meshed_freely() {
+    for (pair, member, bore, web) in [
+        ("bevel_20_20.toml", "gear", 20.0, STEEP_20),
+        ("bevel_13_35.toml", "pinion", 8.0, STEEP_13),
+    ] {
+        let gear = gear(pair, member, bore, web);
+        let rows = BevelMesh::of_grid(&gear, BodyGrid::Rows).unwrap();
+        assert!(rows.quality.smallest < 0.2, "{}", rows.quality.smallest);
+        let free = BevelMesh::new(&gear).unwrap();
+        assert_eq!(free.body_grid(), BodyGrid::Free);
+        assert!(free.quality.smallest > 0.2 && free.quality.mean > 0.6);
+        // No element of the body is the worst.
+        let [_, height] = {
+            let [x, y, z] = free.quality.worst_m;
+            gear.blank().cone_place(z, x.hypot(y))
+        };
+        assert!(height > -gear.blank().outer_dedendum_m - gear.mean_module_m());
+        let ratio = volume(&free) / volume(&rows);
+        assert!((ratio - 1.0).abs() < 2e-4, "{ratio}");
+        for node in free.bore() {
+            let [x, y, _] = free.nodes[node as usize];
+            assert!((x.hypot(y) - 0.5e-3 * bore).abs() < 1e-12);
+        }
+        // Quadratic elements have the same corners.
+        let mut quadratic = gear.clone();
+        quadratic.mesh.element = gearmesh_geometry::Element::Hex20;
+        quadratic.mesh.axial_m *= 2.0;
+        let mesh = BevelMesh::of_grid(&quadratic, BodyGrid::Free).unwrap();
+        assert!(mesh.quality.smallest > 0.2, "{}", mesh.quality.smallest);
+    }
+}
+
+/// Lines that cross are refused with the place, not handed to gmsh.
+#[test]
+fn crossed_lines_are_refused() {
+    let web = "rim_mm = 3.0\nhub_z_mm = [24.0, 42.0]\nweb = [{ diameter_mm = 36.0, z_mm = [20.0, 24.0] }]";
+    let gear = gear("bevel_20_20.toml", "gear", 20.0, web);
+    let message = BevelMesh::of_grid(&gear, BodyGrid::Free)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("cross at diameter") && message.contains("hub_z_mm"),
         "{message}"
     );
 }

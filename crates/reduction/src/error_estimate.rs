@@ -23,7 +23,7 @@
 
 use crate::bevel::gauge::bevel_gauge_row;
 use crate::bevel::loads::bevel_loads;
-use crate::bevel::reduce::{bevel_body, flank_patch};
+use crate::bevel::reduce::{bevel_body_of, flank_patch};
 use crate::flank_loads::{GridLoad, SparseVector, flank_loads};
 use crate::gauge_row::gauge_row;
 use crate::gear_body::GearBody;
@@ -34,6 +34,7 @@ use crate::toothed_mesh::ToothParts;
 use crate::{Progress, ReductionError, Within};
 use gearmesh_bevel::BevelGear;
 use gearmesh_geometry::{Element, Flank, GearDefinition, MeshSettings};
+use gearmesh_mesh::BodyGrid;
 use gearmesh_mesh::python::PythonEnvironment;
 use gearmesh_model::{FlankGrid, GaugeRows, ReductionChecks};
 
@@ -174,19 +175,20 @@ pub fn estimate(
     })
 }
 
-/// The same of a bevel gear.
+/// The same of a bevel gear, whose body is meshed in one way on all meshes.
 ///
 /// # Errors
 /// As [`estimate`].
 pub fn estimate_bevel(
     gear: &BevelGear,
+    grid: BodyGrid,
     reduced: &Reduced<'_>,
     progress: &dyn Progress,
 ) -> Result<ErrorEstimate, ReductionError> {
     estimated(reduced, &[false, true], progress, |axial, progress| {
         let mut coarse = gear.clone();
         coarse.mesh = coarsened(&gear.mesh, axial);
-        let body = bevel_body(&coarse, progress)?;
+        let body = bevel_body_of(&coarse, grid, progress)?;
         let side = reduced.flanks[0];
         let patch = flank_patch(&coarse, side)?;
         let loads = bevel_loads(&body.mesh, &patch, side, reduced.grid);

@@ -69,6 +69,7 @@ fn bevel(arguments: &MeshArguments, gear: &BevelGear) -> Result<(), Failure> {
     gearmesh_reduction::bevel::bevel_model(gear, &mesh)?;
     let (no_fields, unit) = (offline::MeshFields::default(), arguments.length_unit);
     offline::export_bevel_mesh(gear, &mesh, no_fields, unit, &arguments.output)?;
+    offline::note_body_grid(mesh.body_grid());
     let quality = mesh.quality;
     let bore = mesh.bore().len();
     let dofs = 3 * (mesh.nodes.len() - bore);

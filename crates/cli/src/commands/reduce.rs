@@ -41,7 +41,9 @@ fn bevel(arguments: &ReduceArguments, gear: &BevelGear) -> Result<(), Failure> {
     let bar = StageBar::new(&gear.name);
     let outcome = reduce_bevel(gear, options, &bar);
     bar.finish();
-    write(arguments, &outcome?.0)
+    let (model, body) = outcome?;
+    offline::note_body_grid(body.mesh.body_grid());
+    write(arguments, &model)
 }
 
 fn write(arguments: &ReduceArguments, model: &ReducedGear) -> Result<(), Failure> {

@@ -9,4 +9,4 @@ pub mod loads;
 pub mod near_field;
 pub mod reduce;
 
-pub use reduce::{bevel_body, bevel_model, reduce_bevel};
+pub use reduce::{bevel_body, bevel_body_of, bevel_model, reduce_bevel};

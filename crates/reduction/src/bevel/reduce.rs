@@ -3,7 +3,7 @@
 use gearmesh_bevel::{BevelError, BevelGear, FlankPatch, Hand};
 use gearmesh_fe::{FeModel, Material};
 use gearmesh_geometry::Flank;
-use gearmesh_mesh::{BevelMesh, MeshError};
+use gearmesh_mesh::{BevelMesh, BodyGrid, MeshError};
 use gearmesh_model::{
     BevelBody, BevelMember, FlankGrid, Provenance, ReducedGear, ReductionChecks, SpiralHand,
     StoredGear, utc_now,
@@ -40,9 +40,33 @@ pub fn bevel_body(
     gear: &BevelGear,
     progress: &dyn Progress,
 ) -> Result<GearBody<BevelMesh>, ReductionError> {
+    held(gear, progress, || BevelMesh::new(gear))
+}
+
+/// The same with a body of this kind, and elements no poorer than demanded.
+///
+/// # Errors
+/// As [`bevel_body`].
+pub fn bevel_body_of(
+    gear: &BevelGear,
+    grid: BodyGrid,
+    progress: &dyn Progress,
+) -> Result<GearBody<BevelMesh>, ReductionError> {
+    held(gear, progress, || {
+        let mesh = BevelMesh::of_grid(gear, grid)?;
+        mesh.quality.demand(gear.mesh.min_scaled_jacobian)?;
+        Ok(mesh)
+    })
+}
+
+fn held(
+    gear: &BevelGear,
+    progress: &dyn Progress,
+    made: impl FnOnce() -> Result<BevelMesh, MeshError>,
+) -> Result<GearBody<BevelMesh>, ReductionError> {
     let clock = Instant::now();
     progress.stage("meshing");
-    let mesh = BevelMesh::new(gear)?;
+    let mesh = made()?;
     let meshed_s = clock.elapsed().as_secs_f64();
     let model = bevel_model(gear, &mesh)?;
     let bore: Vec<usize> = mesh.bore().into_iter().map(|n| n as usize).collect();
@@ -155,7 +179,7 @@ pub fn reduce_bevel(
             c_tooth: &c_tooth,
             gauges: &gauges,
         };
-        let errors = estimate_bevel(gear, &reduced, progress)?;
+        let errors = estimate_bevel(gear, body.mesh.body_grid(), &reduced, progress)?;
         errors.state(&mut further, &mut gauges);
         lap("error estimate");
     }
