@@ -132,7 +132,7 @@ fn betti(model: &ReducedGear) -> f64 {
 /// Deflection under a load over the whole width in the middle of the flank, at the loaded tooth, the next one and the one opposite \[m/N\].
 fn deflections(element: Element, grid: BodyGrid, factor: f64) -> Vec<f64> {
     let lengths = format!(
-        "[mesh]\nflank_mm = 2.0\nfillet_mm = 0.5\nbody_mm = {}\nalong_mm = 5.0\n[reduction]\nprofile_stations = 3\nslices = 2\nflanks = [\"right\"]\n",
+        "[mesh]\nflank_mm = 2.0\nfillet_mm = 0.5\nbody_mm = {}\nalong_mm = 2.5\n[reduction]\nprofile_stations = 3\nslices = 2\nflanks = [\"right\"]\n",
         5.0 * factor
     );
     let mut gear = gear_with(GENTLE, &lengths);
@@ -154,14 +154,14 @@ fn deflections(element: Element, grid: BodyGrid, factor: f64) -> Vec<f64> {
     [0, 1, 10].map(|tooth: usize| all[tooth]).to_vec()
 }
 
-/// Both ways of meshing the body come to the same: the teeth are equal, what differs comes of the body alone, and falls as rows get shorter.
+/// Both ways of meshing the body come to the same: the teeth are equal, what differs comes of the body alone, and falls as rows get shorter. (With half as many
+/// columns along the tooth, a web in rows keeps 1 % of its stiffness too much however short they are.)
 #[test]
 fn both_ways_of_meshing_come_to_the_same() {
-    let best = deflections(Element::Hex20, BodyGrid::Free, 1.0);
+    let best = deflections(Element::Hex20, BodyGrid::Free, 0.5);
     let found = [1.0, 0.4].map(|factor| {
         let rows = deflections(Element::Hex20, BodyGrid::Rows, factor);
         difference(&best, &rows)
     });
-    println!("{found:?}");
-    assert!(found[0] < 0.015 && found[1] < 0.5 * found[0], "{found:?}");
+    assert!(found[0] < 0.005 && found[1] < 0.5 * found[0], "{found:?}");
 }

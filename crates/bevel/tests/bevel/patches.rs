@@ -88,7 +88,12 @@ fn a_patch_ends_where_the_tool_leaves_no_surface() {
         for k in 0..=10 {
             let at = [0.1 * f64::from(i), 0.1 * f64::from(k)];
             let [cone, height] = pinion.place_m(at);
-            let exact = flank.locate(cone, height).unwrap().point.r;
+            let Ok(exact) = flank.locate(cone, height) else {
+                // The lower line at the heel is where undercut begins; the mate's tip does not reach so deep.
+                assert_eq!([i, k], [10, 0]);
+                continue;
+            };
+            let exact = exact.point.r;
             let azimuth = exact.y.atan2(exact.x) + turn;
             worst = worst.max((pinion.azimuth_rad(at) - azimuth).abs() * exact.x.hypot(exact.y));
         }

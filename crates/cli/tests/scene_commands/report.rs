@@ -98,7 +98,9 @@ fn results_stand_side_by_side() {
     let other = at("5.0");
     for gear in 0..2 {
         assert_eq!(root(&told, gear), root(&told, gear + 2));
-        assert!(root(&told, gear) >= root(&other, gear), "{told} {other}");
+        // All teeth of a solid gear are alike.
+        let least = root(&other, gear) * (1.0 - 1e-9);
+        assert!(root(&told, gear) >= least, "{told} {other}");
     }
     let unused = [&alone[..], &["--stress-at-s", "1"]].concat();
     refused(

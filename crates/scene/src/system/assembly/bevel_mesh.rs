@@ -40,8 +40,10 @@ impl SceneBevel<'_> {
         bodies: &Bodies,
         parts: &mut Parts,
     ) -> Result<PreparedMesh, InputError> {
+        let is_named = |number: &usize| bodies.list[*number].bevel().is_some();
+        let reduced = self.table.bevel_models.is_some() || numbers.iter().any(is_named);
+        self.refuse_unused((bodies, numbers), reduced)?;
         let models = self.models(bodies, numbers)?;
-        self.refuse_unused((bodies, numbers), models.is_some())?;
         let file = PairFile::read(self.file)?;
         let fault = |error: BevelError| {
             let problem = format!("{}: {error}", self.file.display());
