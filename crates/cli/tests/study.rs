@@ -228,7 +228,12 @@ fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
         let folder = std::fs::read_dir(kept.join("models")).unwrap();
         let mut all: Vec<_> = folder
             .map(|entry| entry.unwrap())
-            .filter(|entry| entry.path().extension().is_some_and(|ending| ending == "h5"))
+            .filter(|entry| {
+                entry
+                    .path()
+                    .extension()
+                    .is_some_and(|ending| ending == "h5")
+            })
             .map(|entry| {
                 let made = entry.metadata().unwrap().modified().unwrap();
                 (entry.file_name().into_string().unwrap(), made)
