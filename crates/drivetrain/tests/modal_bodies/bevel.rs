@@ -208,7 +208,7 @@ fn bevel_flanks_that_touch_when_bent_are_found() {
         let at = pose_at(&flanks, side, (0.1, gap_m), none);
         for seed in 0..8 {
             let value = |i: usize| ((13 * seed + 7 * i + 1) as f64).sin();
-            let eta: Vec<f64> = (0..2 * COUNT).map(|i| 2e-5 * value(i)).collect();
+            let eta: Vec<f64> = (0..2 * COUNT).map(|i| 6e-5 * value(i)).collect();
             let motion = ModalMotion {
                 coordinates: [&eta[..COUNT], &eta[COUNT..]],
                 ..ModalMotion::default()

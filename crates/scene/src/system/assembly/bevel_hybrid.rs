@@ -135,17 +135,17 @@ impl SceneBevel<'_> {
         self.with_friction(mesh)
     }
 
-    /// What the model needs and what it does not use.
+    /// What the model needs and what it does not use; `of_bodies`: whether a body names its reduced gear.
     pub(super) fn check_hybrid(
         &self,
         model: &HybridTable,
-        reduced: bool,
+        of_bodies: bool,
     ) -> Result<(), InputError> {
         let keys = &self.model_keys;
+        let reduced = of_bodies || self.table.bevel_models.is_some();
         match (reduced, &model.half_space) {
             (true, Some(_)) => {
-                let problem =
-                    "is not used with reduced gears, whose materials count; remove one of the two";
+                let problem = "is not used with `bevel_models` or bodies that name reduced gears, whose materials count; remove one of the two";
                 Err(keys.error("half_space", problem))
             }
             (false, None) => {

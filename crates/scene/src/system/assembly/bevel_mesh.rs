@@ -40,9 +40,7 @@ impl SceneBevel<'_> {
         bodies: &Bodies,
         parts: &mut Parts,
     ) -> Result<PreparedMesh, InputError> {
-        let is_named = |number: &usize| bodies.list[*number].bevel().is_some();
-        let reduced = self.table.bevel_models.is_some() || numbers.iter().any(is_named);
-        self.refuse_unused((bodies, numbers), reduced)?;
+        self.refuse_unused(bodies, numbers)?;
         let models = self.models(bodies, numbers)?;
         let file = PairFile::read(self.file)?;
         let fault = |error: BevelError| {
@@ -142,11 +140,7 @@ impl SceneBevel<'_> {
     }
 
     /// What of the table bevel flanks do not use.
-    fn refuse_unused(
-        &self,
-        (bodies, numbers): (&Bodies, [usize; 2]),
-        reduced: bool,
-    ) -> Result<(), InputError> {
+    fn refuse_unused(&self, bodies: &Bodies, numbers: [usize; 2]) -> Result<(), InputError> {
         let unused = |keys: &TableKeys<'_>, key: &str| {
             Err(keys.error(key, "is not used by a bevel pair; remove it"))
         };
@@ -173,7 +167,8 @@ impl SceneBevel<'_> {
                     let problem = "belongs to kind = \"impact\", one contact for each pair of teeth; the slices of \"hybrid\" have forces and pressures of their own, remove it";
                     return Err(self.keys.error("tooth_pairs", problem));
                 }
-                self.check_hybrid(model, reduced)?;
+                let of_bodies = numbers.iter().any(|i| bodies.list[*i].bevel().is_some());
+                self.check_hybrid(model, of_bodies)?;
             }
             _ => return Err(self.other_model()),
         }
