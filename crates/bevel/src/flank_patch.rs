@@ -19,7 +19,7 @@ pub use crate::azimuth_surface::PatchPoint;
 const BEYOND: [[f64; 2]; 2] = [[0.1, 0.1], [0.0, 0.12]];
 
 /// Of that, tried in turn: a flank of few teeth is undercut just beyond its ends.
-const SHARES_BEYOND: [f64; 3] = [1.0, 0.4, 0.1];
+const SHARES_BEYOND: [f64; 4] = [1.0, 0.4, 0.1, 0.0];
 
 /// The mate's tip reaches so deep at most, over its addendum.
 const REACH: f64 = 1.05;

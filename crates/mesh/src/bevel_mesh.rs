@@ -66,7 +66,7 @@ impl BevelMesh {
         if rows.quality.smallest >= demanded {
             return Ok(rows);
         }
-        // Teeth and ring are the same in both.
+        // A free body changes nothing of teeth and ring, but that it may want one section more.
         rows.worst(rows.cell_elements(0)).demand(demanded)?;
         let free = Self::of_grid(gear, BodyGrid::Free)?;
         free.quality.demand(demanded)?;

@@ -21,7 +21,7 @@
 //! | its copies joined to the teeth | [`solid_body`] | `solid_body.rs` |
 //! | nodes, elements and sets | [`GearMesh`] | `gear_mesh.rs` |
 //! | bevel gears: sections along the tooth, their numbers | [`bevel_level::Levels`] | `bevel_level.rs`, `bevel_grid.rs` |
-//! | the body below: quads of the meridian | [`bevel_meridian`] | `bevel_meridian.rs` |
+//! | the body below: quads of the meridian, turned about the axis | [`bevel_meridian`] | `bevel_meridian.rs`, `bevel_twist.rs` |
 //! | nodes, elements and sets | [`BevelMesh`] | `bevel_mesh.rs` |
 //! | its tooth in the section normal to it | [`BevelSection`] | `bevel_section.rs` |
 //! | scaled Jacobian | [`quality`] | `quality.rs` |
@@ -36,6 +36,7 @@ pub mod bevel_level;
 pub mod bevel_meridian;
 pub mod bevel_mesh;
 pub mod bevel_section;
+mod bevel_twist;
 pub mod body;
 pub mod contact_section;
 pub mod crack_line;

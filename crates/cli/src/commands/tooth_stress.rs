@@ -48,7 +48,7 @@ pub const WORDS: &str = "Stress of the finite elements under the forces of all p
 fn root_stress(of: &LoadedGear<'_>, root: &[RootFace], u: &[f64]) -> Result<Pair, Failure> {
     let faces: Vec<_> = root.iter().map(|r| r.face.clone()).collect();
     let stress = stress_on_faces(of.stressed.model(), &faces, u)?;
-    let largest = |value: fn(&[f64; 6]) -> f64| {
+    let largest = |value: OfStress| {
         let values = stress.iter().map(|s| 1e-6 * value(s)).zip(root);
         let found = values.max_by(|a, b| a.0.total_cmp(&b.0));
         found.map_or(
@@ -180,8 +180,11 @@ pub fn add(section: Section, of: &LoadedGear<'_>) -> Result<(Section, Value), Fa
     Ok((section, figures))
 }
 
-/// Name and value of what is drawn.
-const QUANTITIES: [(&str, fn(&[f64; 6]) -> f64); 2] = [
+/// What is drawn of the six components of a stress \[Pa\].
+type OfStress = fn(&[f64; 6]) -> f64;
+
+/// Its name and its value.
+const QUANTITIES: [(&str, OfStress); 2] = [
     ("von Mises stress", von_mises),
     ("first principal stress", first_principal_pa),
 ];
@@ -222,7 +225,7 @@ impl<'a> Shown<'a> {
     fn picture(
         &self,
         view: &BodyView,
-        (title, quantity, value): (&str, &str, fn(&[f64; 6]) -> f64),
+        (title, quantity, value): (&str, &str, OfStress),
         top_mpa: f64,
     ) -> FieldPicture {
         let faces: Vec<(Vec<u32>, f64)> = (self.faces.iter())
