@@ -18,9 +18,6 @@ pub use crate::azimuth_surface::PatchPoint;
 /// How far a patch goes on beyond toe and heel, and below and above its lines, as shares of its size.
 const BEYOND: [[f64; 2]; 2] = [[0.1, 0.1], [0.0, 0.12]];
 
-/// Of that, tried in turn: a flank of few teeth is undercut just beyond its ends.
-const SHARES_BEYOND: [f64; 4] = [1.0, 0.4, 0.1, 0.0];
-
 /// The mate's tip reaches so deep at most, over its addendum.
 const REACH: f64 = 1.05;
 
@@ -59,15 +56,7 @@ impl FlankPatch {
         side: FlankSide,
     ) -> Result<Self, BevelError> {
         let turn = tooth.half_angle_rad(side);
-        let beyond = |share: f64| {
-            let [[a, b], [c, d]] = BEYOND.map(|ends| ends.map(|end| share * end));
-            let domain = [[-a, 1.0 + b], [-c, 1.0 + d]];
-            patch_of(tooth.flank(side), mate, domain, turn)
-        };
-        let [whole, shorter @ ..] = SHARES_BEYOND;
-        let surface = (shorter.into_iter()).fold(beyond(whole), |found, share| {
-            found.or_else(|error| beyond(share).map_err(|_| error))
-        })?;
+        let surface = patch_of(tooth.flank(side), mate, Self::domain(), turn)?;
         let blank = &tooth.blank;
         let frame = &surface.frame;
         Ok(Self {
@@ -80,9 +69,10 @@ impl FlankPatch {
         })
     }
 
-    /// Least and largest s and v at which the patch is defined: it goes on beyond the flank by a tenth, less where the tool leaves no surface there.
-    pub const fn domain(&self) -> [[f64; 2]; 2] {
-        self.surface.domain
+    /// Least and largest s and v at which the patch is defined.
+    pub const fn domain() -> [[f64; 2]; 2] {
+        let [[a, b], [c, d]] = BEYOND;
+        [[-a, 1.0 + b], [-c, 1.0 + d]]
     }
 
     /// Cone distance and height above the pitch cone of a place \[m\].

@@ -239,6 +239,7 @@ fn accuracy_varies_the_meshes_of_gears_and_keeps_them() {
                 (entry.file_name().into_string().unwrap(), made)
             })
             .collect();
+        all.retain(|(name, _)| name.ends_with(".h5"));
         all.sort();
         all
     };

@@ -204,7 +204,7 @@ fn shift(p: &mut PatchPoint, [x, y]: [f64; 2]) {
 
 /// Newton's method for one set of held coordinates.
 pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
-    let domains = [0, 1].map(|m: usize| bodies[m].patch.domain());
+    let domain = FlankPatch::domain();
     let mut at = start;
     for m in 0..2 {
         for k in 0..2 {
@@ -227,7 +227,7 @@ pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) 
         let mut moved: f64 = 0.0;
         for m in 0..2 {
             for k in 0..2 {
-                let [low, high] = domains[m][k];
+                let [low, high] = domain[k];
                 let next = (at[m][k] - step[2 * m + k]).clamp(low, high);
                 moved = moved.max((next - at[m][k]).abs());
                 at[m][k] = next;
