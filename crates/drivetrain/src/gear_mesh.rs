@@ -8,7 +8,7 @@
 //! Virtual work makes the load: it is a force on gear 2 and its reaction on gear 1 by construction. Left out of the tangent: how the
 //! compliance and the microgeometry's slope change with the pose, of the order of deflection over the pitch, 1e-3 of the stiffness.
 
-use gearmesh_dynamics::Power;
+use gearmesh_dynamics::{Iterate, Power};
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
@@ -18,9 +18,10 @@ use crate::flank_kinematics::FlankKinematics;
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::Friction;
 use crate::involute_mesh::InvoluteMesh;
+use crate::mesh_assembly::{Assembly, Parts};
 use crate::mesh_kinematics::MeshKinematics;
 pub use crate::mesh_load::MeshLoad;
-use crate::modal_loads::{ContactChange, ModalLoads, Rubbing};
+use crate::modal_loads::ModalLoads;
 use crate::pose::{Pose, Vector6};
 use crate::teeth_model::{TeethLoads, TeethModel};
 
@@ -56,6 +57,7 @@ pub struct GearMesh {
     load: MeshLoad,
     /// Whether the tangents of `load` are other than zero.
     has_tangents: bool,
+    iterate: Iterate,
     effort: MeshEffort,
 }
 
@@ -88,6 +90,7 @@ impl GearMesh {
             modal: ModalLoads::default(),
             load: MeshLoad::default(),
             has_tangents: false,
+            iterate: Iterate::Single,
             effort: MeshEffort::default(),
         };
         mesh.with_side(flank, model)
@@ -214,6 +217,14 @@ impl GearMesh {
         &self.modal
     }
 
+    /// Says how the poses of the next evaluations stand to each other.
+    pub fn expect(&mut self, iterate: Iterate) {
+        self.iterate = iterate;
+        for side in &mut self.sides {
+            side.model.expect(iterate);
+        }
+    }
+
     /// Takes the forces of the last pose as the start of the next solutions; see [`TeethModel::remember`].
     pub fn remember(&mut self) {
         for side in &mut self.sides {
@@ -299,7 +310,12 @@ impl GearMesh {
                 side.friction.clear();
                 continue;
             }
-            (self.kinematics).contacts(pose, side.flank, &mut side.found);
+            match self.iterate {
+                Iterate::Correction => {
+                    (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
+                }
+                _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
+            }
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);
@@ -351,140 +367,5 @@ impl GearMesh {
             assembly.add(parts, tangents);
         }
         Ok(())
-    }
-}
-
-/// What an evaluation writes to.
-struct Parts<'a> {
-    result: &'a mut MeshLoad,
-    modal: &'a mut ModalLoads,
-    coefficients: &'a mut [f64],
-    effort: &'a mut MeshEffort,
-}
-
-/// One side at one pose, put together.
-struct Assembly<'a> {
-    rates: Vector6,
-    /// See [`Side`]; empty without tangents.
-    rate_by_pose: &'a [Vector6],
-    found: &'a FlankContacts,
-    loads: &'a TeethLoads,
-    flank: Flank,
-    kinematics: &'a dyn FlankKinematics,
-    friction: Option<Friction>,
-    modal_rates: [&'a [f64]; 2],
-}
-
-impl Assembly<'_> {
-    fn add(&self, parts: Parts<'_>, tangents: bool) {
-        let (found, loads, result) = (self.found, self.loads, parts.result);
-        let sigma = self.flank.mirror();
-        for (section, energy) in found.sections.iter().zip(&loads.energy_by_roll) {
-            for (rate, gradient) in energy.iter().zip(&section.roll_gradient) {
-                result.load += *rate * gradient;
-            }
-        }
-        for (section, energy) in found.sections.iter().zip(&loads.energy_by_height) {
-            for (rate, gradient) in energy.iter().zip(&section.along_gradient) {
-                if *rate != 0.0 {
-                    result.load += *rate * gradient;
-                }
-            }
-        }
-        for (section, energy) in found.sections.iter().zip(&loads.energy_by_share) {
-            result.load += *energy * section.share_gradient;
-        }
-        for (i, contact) in found.contacts.iter().enumerate() {
-            let force = loads.normal_n[i];
-            // A contact without force has no stiffness either.
-            if force <= 0.0 {
-                continue;
-            }
-            let mut direction = contact.gradient;
-            let mut to_tip_n = 0.0;
-            let mut rubbing = None;
-            let second =
-                (self.friction).and_then(|_| self.kinematics.second_sliding(found, i, self.flank));
-            if let (Some(friction), Some(second)) = (self.friction, &second) {
-                parts.effort.friction += 1;
-                let first = (
-                    self.kinematics.sliding(found, i, self.flank),
-                    self.kinematics.sliding_gradient(found, i, self.flank),
-                );
-                let drag = friction.in_plane([&first, second], &self.rates);
-                parts.coefficients[i] = drag.coefficient;
-                direction += drag.load;
-                result.power.dissipated_w += force * drag.dissipated_w;
-                if tangents {
-                    result.by_position += force * drag.by_position;
-                    result.by_velocity += force * drag.by_velocity;
-                }
-            } else if let Some(friction) = self.friction {
-                parts.effort.friction += 1;
-                let k = self.kinematics.sliding(found, i, self.flank);
-                let vibration = found.tip_speed_m_per_s(i, &self.modal_rates);
-                let speed_m_per_s = k.dot(&self.rates) - sigma * vibration;
-                let (mu, slope) = friction.coefficient(speed_m_per_s);
-                parts.coefficients[i] = mu;
-                direction -= mu * k;
-                to_tip_n = sigma * mu * force;
-                result.power.dissipated_w += mu * force * speed_m_per_s;
-                if tangents {
-                    let turned = self.kinematics.sliding_gradient(found, i, self.flank);
-                    let speed_by_pose = turned.tr_mul(&self.rates);
-                    result.by_position -= mu * force * turned;
-                    result.by_position -= slope * force * k * speed_by_pose.transpose();
-                    result.by_velocity -= slope * force * k * k.transpose();
-                    rubbing = Some(Rubbing {
-                        sigma,
-                        coefficient: mu,
-                        force_by_speed: slope * force,
-                        direction: k,
-                        speed_by_pose,
-                    });
-                }
-            }
-            result.load += force * direction;
-            if parts.modal.count() > 0 {
-                parts.modal.add_force(i, [force, to_tip_n], found);
-            }
-            if tangents {
-                let (by_pose, by_rates) = self.force_gradients(i);
-                result.by_position += direction * by_pose.transpose();
-                result.by_velocity += direction * by_rates.transpose();
-                if parts.modal.count() > 0 {
-                    let change = ContactChange {
-                        direction,
-                        by_pose,
-                        by_rates,
-                        rubbing,
-                    };
-                    parts.modal.add_tangents(i, &change, loads, found);
-                }
-            }
-        }
-        if tangents {
-            let (found, forces_n) = (self.found, &loads.normal_n);
-            result.by_position += (self.kinematics).load_curvature(found, forces_n, self.flank);
-        }
-    }
-
-    /// ∂F_i/∂(increments) and ∂F_i/∂(rates).
-    fn force_gradients(&self, i: usize) -> (Vector6, Vector6) {
-        let (found, loads) = (self.found, self.loads);
-        let n = found.contacts.len();
-        let (mut by_pose, mut by_rates) = (Vector6::zeros(), Vector6::zeros());
-        for (j, contact) in found.contacts.iter().enumerate() {
-            let stiffness = loads.stiffness_n_per_m[i * n + j];
-            if stiffness != 0.0 {
-                by_pose -= stiffness * contact.gradient;
-            }
-            let damping = loads.damping_n_s_per_m[i * n + j];
-            if damping != 0.0 {
-                by_rates -= damping * contact.gradient;
-                by_pose -= damping * self.rate_by_pose[j];
-            }
-        }
-        (by_pose, by_rates)
     }
 }
