@@ -58,6 +58,8 @@ pub struct SliceContact {
     elastic: Elastic,
     local_contact: LocalContact,
     params: Params,
+    /// What the processor has for the loops over coupled places; results do not depend on it.
+    arch: pulp::Arch,
     runs: Vec<Run>,
     /// Slice of each patch, and its run.
     slice: Vec<usize>,
@@ -152,6 +154,7 @@ impl SliceContact {
             elastic,
             local_contact,
             params: Params::default(),
+            arch: pulp::Arch::new(),
             runs: Vec::with_capacity(capacity),
             slice: Vec::with_capacity(capacity),
             run: Vec::with_capacity(capacity),

@@ -12,10 +12,6 @@
 //! vibrations (stiff modes that a damping scheme passes over, motions that follow their loads), these accelerations tell nothing about what
 //! the step gets wrong, and are large: then a share of the step's own increment is the limit, [`MOST`]. A stated tolerance,
 //! such a share too, takes the place of both. Derivation: docs/theory/multibody.md.
-//!
-//! Corrections of reactions count as increments, because factors of an earlier step belong to axes that have turned since: what is left of the reactions then
-//! moves bodies by that angle's share of it. With factors of the step itself it moves nothing, is solved anew in the next step and does not add up: there it may be
-//! [`OF_REACTIONS`] of the reactions where that is more.
 
 use crate::matrix::Matrix;
 use crate::scheme::Scheme;
@@ -29,9 +25,6 @@ const SHARE: f64 = 0.003;
 /// Share of the step's own increment that is never exceeded: bodies with modes above 20 kHz, driven against each other in steps of 0.7
 /// ms, otherwise leave the iteration so early that they pass through each other.
 const MOST: f64 = 1e-8;
-
-/// Share of the reactions, as they would move free bodies, that their correction by factors of the step may be.
-const OF_REACTIONS: f64 = 1e-6;
 
 /// Smallest meaningful correction of a rotation \[rad\], and of a place over the size of the system: the rounding of a few operations.
 /// Velocities carry it divided by the step. It grows with the largest counted angle \[rad\], which is as inexact as it is large.
@@ -55,11 +48,6 @@ pub(crate) struct Progress<'a> {
     /// The latest correction, of increments and of βh² λ.
     pub delta: &'a [f64],
     pub mu: &'a [f64],
-    /// βh² and the reactions with the latest correction.
-    pub square: f64,
-    pub lambda: &'a [f64],
-    /// Whether the factors are of this step from its first guess on.
-    pub has_own_factors: bool,
     pub gradient: &'a Matrix,
 }
 
@@ -85,8 +73,7 @@ pub(crate) struct Convergence {
     pub inverse_mass: Vec<f64>,
     /// 1 for degrees of freedom of bodies, 1/scale for coordinates of elements.
     pub per_scale: Vec<f64>,
-    /// What the correction of the reactions pushes, and what they push in all.
-    pushed: Vec<[f64; 2]>,
+    pushed: Vec<f64>,
     /// `SHARE` · D β/γ
     share_of_error: f64,
 }
@@ -118,7 +105,7 @@ impl Convergence {
             revolved: 1.0,
             reach: (size, root_mass),
             inverse_mass: inverse_mass.collect(),
-            pushed: vec![[0.0; 2]; n],
+            pushed: vec![0.0; n],
             share_of_error: SHARE * scheme.velocity_error_constant() * scheme.beta / scheme.gamma,
         }
     }
@@ -129,62 +116,45 @@ impl Convergence {
     }
 
     /// Measures the latest correction. That of the reactions counts as the increment that it would cause if the bodies were free, M⁻¹Bᵀμ
-    /// with the diagonal of M: with old factors δ can vanish while λ does not converge. It is judged beside the increment that all of them would cause.
+    /// with the diagonal of M: with old factors δ can vanish while λ does not converge.
     pub(crate) fn measure(&mut self, kept: &[usize], step: &Progress<'_>) -> Measured {
         if !kept.is_empty() {
-            self.pushed.fill([0.0; 2]);
+            self.pushed.fill(0.0);
         }
         for &equation in kept {
-            let (mu, whole) = (step.mu[equation], step.square * step.lambda[equation]);
+            let mu = step.mu[equation];
             for (dof, b) in step.gradient.entries(equation) {
-                self.pushed[dof][0] += mu * b;
-                self.pushed[dof][1] += whole * b;
+                self.pushed[dof] += mu * b;
             }
         }
-        // Of increments, then as reactions push.
-        let mut most = [[(0.0_f64, 0); KINDS]; 2];
-        let mut reactions = [0.0_f64; KINDS];
+        let mut most = [(0.0_f64, 0); KINDS];
         let mut sum = 0.0;
         let corrections = step.delta.iter().zip(&self.pushed).zip(&self.inverse_mass);
-        for (dof, (((delta, [push, whole]), inverse), &kind)) in
-            corrections.zip(&self.kinds).enumerate()
-        {
-            let scale = self.per_scale[dof];
-            let sizes = [delta.abs() * scale, (inverse * push).abs() * scale];
+        for (dof, (((delta, push), inverse), &kind)) in corrections.zip(&self.kinds).enumerate() {
+            let correction = delta.abs().max((inverse * push).abs()) * self.per_scale[dof];
             // What is no number would be lost in the maximum.
             sum += delta + push;
-            for (most, size) in most.iter_mut().zip(sizes) {
-                if size > most[kind].0 {
-                    most[kind] = (size, dof);
-                }
+            if correction > most[kind].0 {
+                most[kind] = (correction, dof);
             }
-            reactions[kind] = reactions[kind].max((inverse * whole).abs() * scale);
         }
         let allowed = match step.stated {
-            Some(stated) => [self.moved(step).map(|size| stated * size); 2],
+            Some(stated) => self.moved(step).map(|size| stated * size),
             None => {
                 let (error, moved) = (self.own_error(step), self.moved(step));
-                let of_increments: [f64; KINDS] = std::array::from_fn(|kind| {
+                std::array::from_fn(|kind| {
                     (self.share_of_error * error[kind]).min(MOST * moved[kind])
-                });
-                let of_reactions = |kind: usize| OF_REACTIONS * reactions[kind];
-                let for_reactions = std::array::from_fn(|kind| match step.has_own_factors {
-                    true => of_increments[kind].max(of_reactions(kind)),
-                    false => of_increments[kind],
-                });
-                [of_increments, for_reactions]
+                })
             }
         };
         let (mut ratio, mut largest, mut above_floor) = (0.0_f64, 0, 0.0_f64);
-        for (most, allowed) in most.iter().zip(allowed) {
-            for (kind, &(correction, dof)) in most.iter().enumerate() {
-                let floor = self.floor[kind] * self.revolved;
-                let here = correction / (allowed[kind] + floor);
-                if here > ratio {
-                    (ratio, largest) = (here, dof);
-                }
-                above_floor = above_floor.max(correction / floor);
+        for (kind, (correction, dof)) in most.into_iter().enumerate() {
+            let floor = self.floor[kind] * self.revolved;
+            let here = correction / (allowed[kind] + floor);
+            if here > ratio {
+                (ratio, largest) = (here, dof);
             }
+            above_floor = above_floor.max(correction / floor);
         }
         Measured {
             ratio: if sum.is_finite() { ratio } else { f64::NAN },

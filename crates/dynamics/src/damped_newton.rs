@@ -63,8 +63,7 @@ impl Integrator {
                 if evaluated.is_ok() {
                     self.correct(square);
                     left = self.correction_size();
-                    let measured =
-                        self.measure(system, from, to, h, (params.newton_tolerance, false));
+                    let measured = self.measure(system, from, to, h, params.newton_tolerance);
                     let Measured { above_floor, .. } = measured;
                     (ratio, largest) = (measured.ratio, measured.largest);
                     let small = ratio <= 1.0 || above_floor <= STALLED;

@@ -8,6 +8,7 @@
 //! [`FARTHEST_SLICES`] leave out 1e-8 of it, 1e-13 m of teeth that give way by 10 µm. A patch that has come over a station is not near any more. Rates between
 //! patches that carry are computed where they stand, as always.
 
+use super::compliance::{Filling, Part};
 use super::{Elastic, Run, SliceContact};
 use crate::contact_error::ContactError;
 use crate::contact_patch::ContactPatch;
@@ -178,6 +179,11 @@ impl SliceContact {
 
     /// C and all its rates.
     fn fill_with_rates(&mut self) {
+        self.arch.dispatch(Filling(Part::WithRates, self));
+    }
+
+    #[inline(always)]
+    pub(super) fn fill_pairs_with_rates(&mut self) {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };

@@ -20,6 +20,9 @@ use crate::slice_plane::stacked;
 /// How far gear 2 may have moved \[m\]. A search looks so much farther that no section comes within reach that was out of it.
 pub(super) const NEARBY_M: f64 = 2e-6;
 
+/// Sections that stand open by more do not touch at poses nearby.
+const OPEN_M: f64 = 3.0 * NEARBY_M;
+
 /// What a search leaves for the next ones nearby.
 #[derive(Debug, Clone)]
 pub(super) struct Searched {
@@ -94,6 +97,10 @@ impl BevelSlices {
         // Where nothing was near, one pair of teeth stands for all, and has no section.
         if list.is_empty() {
             return false;
+        }
+        // Flanks that are turned away: as they were.
+        if found.contacts.iter().all(|contact| contact.gap_m > OPEN_M) {
+            return true;
         }
         searched.sought.clear();
         for (contact, motion) in found.contacts.iter().zip(list.iter()) {
