@@ -19,7 +19,6 @@ use crate::flank_kinematics::FlankKinematics;
 use crate::flank_modes::{FlankModes, ModalMotion};
 use crate::friction::Friction;
 use crate::involute_mesh::InvoluteMesh;
-use crate::mesh_assembly::{Assembly, Parts};
 use crate::mesh_kinematics::MeshKinematics;
 pub use crate::mesh_load::MeshLoad;
 use crate::modal_loads::ModalLoads;

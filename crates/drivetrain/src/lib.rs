@@ -34,7 +34,6 @@ pub mod gear_body;
 pub mod gear_inertia;
 pub mod gear_mesh;
 mod involute_mesh;
-mod mesh_assembly;
 mod mesh_channels;
 pub mod mesh_element;
 mod mesh_frame;

@@ -30,6 +30,8 @@ pub(super) struct Searched {
     stood: Option<(Vector3<f64>, Matrix3<f64>)>,
     /// How far gear 2 has moved since the search \[m\].
     moved_m: f64,
+    /// How much vibration modes bent the flanks at the search, at the most \[m\].
+    bent_m: f64,
     /// Turns of both gears' teeth \[rad\], one for each line that was found.
     pub turns_rad: Vec<[f64; 2]>,
     /// Sections to be solved.
@@ -51,20 +53,22 @@ impl Searched {
         Self {
             stood: None,
             moved_m: 0.0,
+            bent_m: 0.0,
             turns_rad: Vec::with_capacity(lines),
             sought: Vec::with_capacity(lines * slices),
         }
     }
 
     /// Says where a search was made; its lines follow.
-    pub(super) fn begin(&mut self, pose: &Pose) {
+    pub(super) fn begin(&mut self, pose: &Pose, bent_m: f64) {
         self.stood = Some((pose.displacement_m, pose.rotation));
         self.moved_m = 0.0;
+        self.bent_m = bent_m;
         self.turns_rad.clear();
     }
 
-    /// Goes on to a pose by a small step of gear 2; none if it has gone far since the search.
-    fn step(&mut self, pose: &Pose, size_m: f64) -> Option<Vector6> {
+    /// Goes on to a pose by a small step of gear 2; none if it has gone far since the search, or flanks have bent far.
+    fn step(&mut self, pose: &Pose, size_m: f64, bent_m: f64) -> Option<Vector6> {
         let (displacement_m, rotation) = self.stood?;
         let turn = pose.rotation * rotation.transpose();
         let theta = Vector3::new(
@@ -76,7 +80,8 @@ impl Searched {
         self.moved_m += moved_m.norm() + size_m * turned.norm();
         self.stood = Some((pose.displacement_m, pose.rotation));
         // A turn by half a revolution has no skew part either.
-        let is_small = self.moved_m < NEARBY_M && turn.trace() > 2.0;
+        let came_m = self.moved_m + (bent_m - self.bent_m).max(0.0);
+        let is_small = came_m < NEARBY_M && turn.trace() > 2.0;
         is_small.then(|| stacked(moved_m, turned))
     }
 }
@@ -91,7 +96,7 @@ impl BevelSlices {
         (list, searched): (&mut Vec<PoseDerivatives>, &mut Searched),
         found: &mut FlankContacts,
     ) -> bool {
-        let Some(step) = searched.step(pose, self.pair().mean_cone_m) else {
+        let Some(step) = searched.step(pose, self.pair().mean_cone_m, found.bent_m) else {
             return false;
         };
         // Where nothing was near, one pair of teeth stands for all, and has no section.

@@ -156,7 +156,7 @@ impl BevelSlices {
         found.clear();
         list.clear();
         guesses.clear();
-        searched.begin(pose);
+        searched.begin(pose, found.bent_m);
         found.action_m_per_u = [0.0; 2];
         let sliced = &self.sides[flank as usize];
         let margin_m = self.margin_m(pose, flank) + found.bent_m;
