@@ -271,7 +271,7 @@ fn what_bevel_pairs_do_not_know_is_refused() {
             stiff,
             "bevel_models = [\"a.h5\", \"b.h5\"]\nmodel = { kind = \"hybrid\", half_space = {} }",
             "half_space = {}",
-            &["is not used with reduced gears"],
+            &["is not used with `bevel_models` or bodies that name reduced gears"],
         ),
         (
             stiff,
