@@ -43,8 +43,8 @@ const SLOW: f64 = 0.2;
 /// Corrections that grow by this factor from one to the next, both by factors of this step, go astray.
 const ASTRAY: f64 = 2.0;
 
-/// Where a step begins with new factors, corrections are taken to shrink by no less than this share of how they were taken to shrink before, at first not
-/// at all: a first guess far away, or a force that bends, makes the second correction look small beside the first by chance.
+/// Corrections are taken to shrink by no less than this share of how they were taken to shrink before, at first not at all: a first guess far away, or a
+/// force that bends, makes the second correction look small beside the first by chance.
 const CAUTION: f64 = 0.3;
 
 /// So many corrections by old factors are many: new ones take about three.
@@ -215,11 +215,10 @@ impl Integrator {
             }
             let shrinks = above_floor < SLOW * last_above_floor;
             // What the corrections to come would add, if they shrink on as they do: ratio · (θ + θ² + …).
-            let shrunk = above_floor / last_above_floor;
             if iteration > 1 {
-                cautious = shrunk.max(CAUTION * cautious);
+                cautious = (above_floor / last_above_floor).max(CAUTION * cautious);
             }
-            let theta = if begins_fresh { cautious } else { shrunk }.min(0.5);
+            let theta = cautious.min(0.5);
             let rest = ratio
                 * if iteration > 1 {
                     theta / (1.0 - theta)
