@@ -14,8 +14,8 @@
 //! once a step by old ones has taken many corrections. Corrections by factors of the step itself that grow go astray: they might end at another solution, far
 //! from where the step began. The iteration is then given up; a damped one takes its place (`damped_newton.rs`), or a shorter step.
 //!
-//! Sources: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1; growing corrections, and how fast they may be taken to shrink:
-//! CVODE of SUNDIALS (A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363-396), which has the same two factors.
+//! Sources: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1; growing corrections: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math.
+//! Softw. 31 (2005) 363-396, whose CVODE gives up at the same factor.
 
 use std::sync::Arc;
 
@@ -43,11 +43,7 @@ const SLOW: f64 = 0.2;
 /// Corrections that grow by this factor from one to the next, both by factors of this step, go astray.
 const ASTRAY: f64 = 2.0;
 
-/// Corrections are taken to shrink by no less than this share of how they were taken to shrink before, at first not at all: a first guess far away, or a
-/// force that bends, makes the second correction look small beside the first by chance.
-const CAUTION: f64 = 0.3;
-
-/// So many corrections by old factors are many: new ones take about three.
+/// So many corrections by old factors are many: new ones take two or three.
 const MANY: usize = 5;
 
 /// So many steps then begin with new factors, before old ones are tried again.
@@ -161,8 +157,8 @@ impl Integrator {
         let begins_fresh = self.fresh_steps > 0;
         let mut stale = begins_fresh || self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut last_above_floor, mut place) = (f64::INFINITY, f64::INFINITY, 0);
-        // Corrections by factors of this step, one after the other, and how they are taken to shrink.
-        let (mut own_corrections, mut cautious) = (0, 1.0_f64);
+        // Corrections by factors of this step, one after the other.
+        let mut own_corrections = 0;
         self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
@@ -215,10 +211,7 @@ impl Integrator {
             }
             let shrinks = above_floor < SLOW * last_above_floor;
             // What the corrections to come would add, if they shrink on as they do: ratio · (θ + θ² + …).
-            if iteration > 1 {
-                cautious = (above_floor / last_above_floor).max(CAUTION * cautious);
-            }
-            let theta = cautious.min(0.5);
+            let theta = (above_floor / last_above_floor).min(0.5);
             let rest = ratio
                 * if iteration > 1 {
                     theta / (1.0 - theta)
