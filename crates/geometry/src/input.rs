@@ -7,7 +7,6 @@ mod near_names;
 mod number_ranges;
 mod number_table;
 mod readable_file;
-mod reading;
 mod table_keys;
 mod unit_slips;
 mod wording;
@@ -24,7 +23,6 @@ pub use readable_file::{
 };
 pub use table_keys::TableKeys;
 
-use reading::Misread;
 use serde::de::DeserializeOwned;
 use std::fmt::Display;
 use std::path::Path;
@@ -105,7 +103,7 @@ impl InputDocument {
     /// # Errors
     /// [`InputError`] for a text that is no TOML.
     pub fn former_notes(&self) -> Result<Vec<InputError>, InputError> {
-        let mut tree = DeTable::parse(&self.text).map_err(|e| self.syntax(&e))?;
+        let mut tree = DeTable::parse(&self.text).map_err(|e| self.complaint(Vec::new(), &e))?;
         let renewed = self.former.iter();
         let renewed = renewed.flat_map(|former| former.renew(tree.get_mut(), &self.text));
         let note = |renewed: Renewed| {
@@ -171,28 +169,20 @@ impl InputDocument {
     /// # Errors
     /// As [`InputDocument::parse`].
     pub fn glance<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let tree = self.tree().map_err(|e| self.syntax(&e))?;
-        reading::read(toml::Deserializer::from(tree)).map_err(|misread| self.complaint(misread))
+        let tree = self.tree().map_err(|e| self.complaint(Vec::new(), &e))?;
+        serde_path_to_error::deserialize(toml::Deserializer::from(tree))
+            .map_err(|e| self.complaint(kinds::keys_of(e.path()), e.inner()))
     }
 
-    /// A complaint about text that is not TOML.
-    fn syntax(&self, error: &toml::de::Error) -> InputError {
-        InputError {
-            file: self.file.clone(),
-            line: error.span().map(|span| self.line_of(span.start)),
-            key: String::new(),
-            problem: error.message().trim().to_owned(),
-        }
-    }
-
-    /// A complaint of serde.
-    fn complaint(&self, misread: Misread) -> InputError {
-        let (deeper, message) = kinds::told_below(&misread.message);
-        let mut path = misread.keys.clone();
+    /// A complaint about what serde found at `path`.
+    fn complaint(&self, mut path: Vec<String>, error: &toml::de::Error) -> InputError {
+        let (deeper, message) = kinds::told_below(error.message().trim());
         path.extend(deeper.iter().map(|part| (*part).to_owned()));
-        let line = match path.is_empty() {
-            true => Some(1),
-            false => self.locate(&path.join(".")),
+        // A span is that of the place that serde knows.
+        let span = error.span().filter(|_| deeper.is_empty());
+        let line = match span {
+            Some(span) => Some(self.line_of(span.start)),
+            None => self.locate(&path.join(".")),
         };
         let (key, problem) = wording::in_plain_words(path, message);
         InputError {

@@ -8,8 +8,7 @@ use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, VariantAccess, Visitor,
     value,
 };
-
-use super::reading::{Erased, read_by};
+use serde_path_to_error::Segment;
 
 /// An enumeration of tables, one variant a kind. Made by [`kinds!`](crate::kinds), not by hand.
 pub trait Kinds: Sized {
@@ -75,8 +74,11 @@ pub fn read_kind<'de, T: Kinds, D: Deserializer<'de>>(deserializer: D) -> Result
         ));
     }
     let named = toml::Table::from_iter([(kind, toml::Value::Table(table))]);
-    read_by(toml::Value::Table(named), |values| T::from_named(values))
-        .map_err(|misread| below(&misread.keys, &misread.message))
+    let mut track = serde_path_to_error::Track::new();
+    let deserializer =
+        serde_path_to_error::Deserializer::new(toml::Value::Table(named), &mut track);
+    T::from_named(deserializer)
+        .map_err(|error: toml::de::Error| below(&keys_of(&track.path()), error.message().trim()))
 }
 
 /// A table without its tag: perhaps the tag is misspelt, and stands there as a key that no kind knows.
@@ -124,6 +126,17 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
+/// Keys of a path within a document.
+pub(super) fn keys_of(path: &serde_path_to_error::Path) -> Vec<String> {
+    path.iter()
+        .filter_map(|segment| match segment {
+            Segment::Map { key } => Some(key.clone()),
+            Segment::Seq { index } => Some(index.to_string()),
+            Segment::Enum { .. } | Segment::Unknown => None,
+        })
+        .collect()
+}
+
 /// Stands before and behind the path of a complaint that lies deeper than its reader knows; in no text that people write.
 const MARK: char = '\u{1f}';
 /// Between the parts of such a path.
@@ -156,20 +169,22 @@ type KeysOfKind = (&'static str, Vec<&'static str>);
 
 /// The kinds with their keys, as serde knows them.
 fn keys_by_kind<T: Kinds>() -> Vec<KeysOfKind> {
-    let keys_of = |(number, name)| (name, asked::<T>(Some(number)));
-    (0..).zip(asked::<T>(None)).map(keys_of).collect()
-}
-
-/// The keys of a kind; asked for no kind, the names of all.
-fn asked<T: Kinds>(kind: Option<u64>) -> Vec<&'static str> {
-    let mut told = Asked::default();
-    let question = Question {
-        kind,
-        told: &mut told,
-    };
-    let question: &mut Erased<'_, '_> = &mut <Erased<'_, '_>>::erase(question);
-    let _ = T::from_named(question);
-    told.0
+    let mut kinds = Vec::new();
+    // Asked for no kind, it tells their names.
+    let mut names = Asked::default();
+    let _ = T::from_named(Question {
+        kind: None,
+        told: &mut names,
+    });
+    for (number, name) in names.0.iter().enumerate() {
+        let mut keys = Asked::default();
+        let _ = T::from_named(Question {
+            kind: Some(number as u64),
+            told: &mut keys,
+        });
+        kinds.push((*name, keys.0));
+    }
+    kinds
 }
 
 /// Names that a derived reader has told.
