@@ -1,7 +1,7 @@
 //! The page of `gearmesh tca --report`: contact pattern, transmission error, ease-off, and what assembly errors do.
 
 use super::loaded_tca::{self, Loaded};
-use super::tca::{NO_MEAN, moves};
+use super::tca::{NO_MEAN, moves, worth_of_points};
 use crate::arguments::TcaArguments;
 use crate::failure::Failure;
 use crate::page_file;
@@ -110,7 +110,12 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             short(1e3 * error.shaft_angle_rad),
             "mrad",
         );
-    Section::new("At a glance").push(figures)
+    let section = Section::new("At a glance").push(figures);
+    worth_of_points(of.flanks)
+        .into_iter()
+        .fold(section, |section, words| {
+            section.push(Text::paragraph(words))
+        })
 }
 
 /// The flank of a member with its ellipses and the path.
