@@ -82,9 +82,24 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
 
 fn at_a_glance(of: &Analysed<'_>) -> Section {
     let error = &of.file.tca.error;
-    let figures = KeyFigures::new()
+    let under_load = of.loaded.iter().flat_map(|loaded| &loaded.found);
+    let figures = under_load.fold(KeyFigures::new(), |figures, found| {
+        figures.figure(
+            format!(
+                "transmission error at {} N m, peak to peak",
+                found.torque_nm
+            ),
+            short(1e6 * found.peak_to_peak_rad()),
+            "µrad of the gear",
+        )
+    });
+    let name = match of.loaded {
+        Some(_) => "transmission error without load, peak to peak",
+        None => "transmission error, peak to peak",
+    };
+    let figures = figures
         .figure(
-            "transmission error, peak to peak",
+            name,
             short(1e6 * of.contact.peak_to_peak_rad),
             "µrad of the gear",
         )
