@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::bevel_gear::BevelGear;
+use crate::blank::ToothForm;
 use crate::error::BevelError;
 use crate::pair_file::PairFile;
 
@@ -139,6 +140,10 @@ impl BevelGear {
             .any(|flank| flank.cut_surface().is_none())
         {
             let problem = "its flanks are given by points, which say nothing of the root; allowed for a body are flanks that are cut: another form of `settings` in the pair file";
+            return Err(document.error("bevel_gear.member", problem));
+        }
+        if pair.blank.data.form == ToothForm::Straight {
+            let problem = "straight teeth are cut by a plane tool without an edge radius, so that the root has a sharp corner; bodies are made of \"spiral\" and \"zerol\" teeth";
             return Err(document.error("bevel_gear.member", problem));
         }
         let mut mills = tooth.flanks.iter().map(|flank| {

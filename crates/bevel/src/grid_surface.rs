@@ -99,6 +99,17 @@ impl GridSurface {
     }
 }
 
+/// A fit with some numbers of polynomials.
+struct Trial {
+    /// Polynomials along the face and up the flank.
+    size: [usize; 2],
+    coefficients: DVector<f64>,
+    /// Of each point, the distance from the surface through all others \[m\].
+    left_out: Vec<f64>,
+    /// Root mean square of how far place and normal of each point are missed by the surface through all others \[m\].
+    missed_m: f64,
+}
+
 /// Points on the blank.
 struct Samples {
     surface: AzimuthSurface,
@@ -316,8 +327,8 @@ impl Samples {
         Vector3::new(lever * self.azimuth_rad[point], slope(0), slope(1))
     }
 
-    /// Least squares with so many polynomials: coefficients and, of each point, the distance from the surface through all others.
-    fn solve(&self, size: [usize; 2], nominal: bool) -> Option<(DVector<f64>, Vec<f64>)> {
+    /// Least squares with so many polynomials.
+    fn solve(&self, size: [usize; 2], nominal: bool) -> Option<Trial> {
         let n = size[0] * size[1];
         let used = if nominal { 3 } else { 1 };
         let value = |i: usize| {
@@ -341,44 +352,53 @@ impl Samples {
             let residual = value(i) - rows * &coefficients;
             let hat = rows * solved.solve(&rows.transpose());
             let without = DMatrix::identity(used, used) - hat;
-            Some(without.lu().solve(&residual)?[0].abs())
+            let off = without.lu().solve(&residual)?;
+            Some((off[0].abs(), off.norm()))
         });
-        let left_out = left_out.collect::<Option<Vec<f64>>>()?;
-        Some((coefficients, left_out))
+        let (left_out, with_normals): (Vec<f64>, Vec<f64>) =
+            left_out.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        Some(Trial {
+            size,
+            coefficients,
+            left_out,
+            missed_m: rms(&with_normals),
+        })
     }
 
-    /// The numbers of polynomials with the least distance of left-out points, first along the face, then up the flank.
-    fn best(
-        &self,
-        grid: &PointGrid,
-        nominal: bool,
-    ) -> Option<([usize; 2], DVector<f64>, Vec<f64>)> {
+    /// The numbers of polynomials with which left-out points, places and normals, are missed least, first along the face, then
+    /// up the flank. Places alone may by chance be met well by a surface that waves between them.
+    fn best(&self, grid: &PointGrid, nominal: bool) -> Option<Trial> {
         let more = if nominal { 2 } else { 0 };
         let most = [
             (grid.size[0] + more).min(ALONG),
             (grid.size[1] + more).min(UP),
         ];
-        let mut best: Option<([usize; 2], DVector<f64>, Vec<f64>)> = None;
+        let mut best: Option<Trial> = None;
         let mut size = [3.min(most[0]), 3.min(most[1])];
         for k in [1, 0, 1, 0] {
             for count in 1..=most[k] {
-                let mut tried = size;
-                tried[k] = count;
-                let Some((c, left)) = self.solve(tried, nominal) else {
+                let mut next = size;
+                next[k] = count;
+                let Some(trial) = self.solve(next, nominal) else {
                     continue;
                 };
-                if best.as_ref().is_none_or(|(_, _, b)| rms(&left) < rms(b)) {
-                    best = Some((tried, c, left));
+                if best.as_ref().is_none_or(|b| trial.missed_m < b.missed_m) {
+                    best = Some(trial);
                 }
             }
-            size = best.as_ref()?.0;
+            size = best.as_ref()?.size;
         }
         best
     }
 
     fn fit(mut self, grid: &PointGrid) -> Result<GridSurface, InputError> {
         let none = || grid.error("no smooth surface goes through these points".to_owned());
-        let (size, coefficients, mut left_out) = self.best(grid, true).ok_or_else(none)?;
+        let Trial {
+            size,
+            coefficients,
+            mut left_out,
+            ..
+        } = self.best(grid, true).ok_or_else(none)?;
         let mut table = [[0.0; UP]; ALONG];
         let add = |c: &DVector<f64>, [p, q]: [usize; 2], table: &mut [[f64; UP]; ALONG]| {
             for i in 0..p {
@@ -391,10 +411,10 @@ impl Samples {
         self.surface.azimuth = Chebyshev2::new(table);
         let worst_normal_rad = self.demand_sense(grid, &left_out)?;
         if grid.is_measured {
-            let (size, added, left) = self.best(grid, false).ok_or_else(none)?;
-            add(&added, size, &mut table);
+            let added = self.best(grid, false).ok_or_else(none)?;
+            add(&added.coefficients, added.size, &mut table);
             self.surface.azimuth = Chebyshev2::new(table);
-            for (a, b) in left_out.iter_mut().zip(left) {
+            for (a, b) in left_out.iter_mut().zip(added.left_out) {
                 *a = a.hypot(b);
             }
         }

@@ -95,6 +95,13 @@ impl PairFile {
     /// # Errors
     /// As [`Self::read`].
     pub fn from_document(document: &InputDocument) -> Result<Self, InputError> {
+        // Asked before the table is read, for all that is not in it would only be an unknown key.
+        for key in ["bevel.offset_mm", "bevel.hypoid_offset_mm"] {
+            if document.has(key) {
+                let problem = "hypoid pairs, whose axes pass each other, are not computed: the axes of a bevel pair meet in the pitch apex; remove it (an error of assembly is tca.offset_um)";
+                return Err(document.error(key, problem));
+            }
+        }
         let file: BevelFile = document.parse()?;
         let blank = file.bevel.blank(document)?;
         let members = [

@@ -44,6 +44,35 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     assert!((number(&case["columns"][0]["largest"]) - 8.0).abs() < 1e-9);
 }
 
+/// Of a bevel pair under load, columns under load have a number for each torque, those without load one number and say so.
+#[test]
+fn what_is_without_load_stands_once() {
+    let desk = Desk::new();
+    let shipped = format!(
+        "{}/../../fe_models/bevel_20_20_loaded.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    desk.file("pair.toml", std::fs::read_to_string(shipped).unwrap());
+    let study = desk.file(
+        "study.toml",
+        "title = \"loaded\"\nscene = \"pair.toml\"\ncolumns = [\"te_peak_to_peak_urad\", \"loaded_te_peak_to_peak_urad\"]\n\
+         [[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0]\n",
+    );
+    let out = desk.path("out");
+    let told = succeeds(&["study", argument(&study), "-o", argument(&out)]).stdout;
+    let cells: Vec<Vec<&str>> = told
+        .lines()
+        .map(|l| l.split_whitespace().collect())
+        .collect();
+    assert_eq!(
+        told.lines().nth(1),
+        Some("te_peak_to_peak_urad, the same at every torque")
+    );
+    assert_eq!(cells[2], ["as", "it", "is", "51.86"], "{told}");
+    assert_eq!(cells[4], ["loaded_te_peak_to_peak_urad"], "{told}");
+    assert_eq!(cells[6].len(), 6, "{told}");
+}
+
 #[test]
 fn a_wrong_study_is_refused_and_a_failed_case_is_told() {
     let desk = Desk::new();

@@ -332,7 +332,7 @@ fn transmission_error_and_mesh_force_come_first() {
         assert!(lines.next().unwrap().contains(if kind == "static" {
             "value"
         } else {
-            "transmission_error"
+            "pk-pk mesh/transmission_error"
         }));
         succeeds(&["report", argument(&output), "-o", argument(&page)]);
         let html = std::fs::read_to_string(&page).unwrap();

@@ -20,7 +20,7 @@ pub struct CoupledPlaces<'a> {
 impl CoupledPlaces<'_> {
     /// Φ_aᵀ C Φ_b of a slice at the first place and one at the second \[m/N\]; the calibrated correction's part between neighbours is
     /// included.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn value(&self, slices: [usize; 2]) -> f64 {
         let [Some(a), Some(b)] = self.walked() else {
@@ -40,14 +40,15 @@ impl CoupledPlaces<'_> {
     }
 
     /// Where both stand along the tooth.
-    #[inline]
+    #[inline(always)]
     fn walked(&self) -> [Option<&WalkedSlice>; 2] {
-        self.places.map(|place| place.walked.as_ref())
+        let [a, b] = self.places;
+        [a.walked.as_ref(), b.walked.as_ref()]
     }
 
     /// The same with its derivatives by both places up the flank, and by those along the teeth \[m/N per m\], which are zero where slices do
     /// not walk that way. Of a slice with itself half of what its compliance changes by.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn coupling(&self, slices: [usize; 2]) -> (Coupling, [f64; 2]) {
         let [Some(a), Some(b)] = self.walked() else {
@@ -56,15 +57,13 @@ impl CoupledPlaces<'_> {
         let (mut whole, mut along) = self.blocks.around_with_rates([a, b]);
         if self.has_more {
             whole += self.more_around((&a.shares, &b.shares), [a, b]);
-            let [by_a, by_b] = [(&a.rates, &b.shares), (&a.shares, &b.rates)]
-                .map(|weights| self.more_around(weights, [a, b]).value);
-            along[0] += by_a;
-            along[1] += by_b;
+            along[0] += self.more_around((&a.rates, &b.shares), [a, b]).value;
+            along[1] += self.more_around((&a.shares, &b.rates), [a, b]).value;
         }
         (whole, along)
     }
 
-    #[inline]
+    #[inline(always)]
     fn coupling_at_middles(&self, slices: [usize; 2]) -> Coupling {
         let mut whole = self.blocks.between_with_rates(slices);
         if self.has_more {
@@ -73,6 +72,7 @@ impl CoupledPlaces<'_> {
         whole
     }
 
+    #[inline(always)]
     fn more(&self, slices: [usize; 2]) -> Coupling {
         let mut sum = Coupling::default();
         if self.neighboured {
@@ -86,6 +86,7 @@ impl CoupledPlaces<'_> {
 
     /// The calibrated correction's part between two slices of one tooth: each slice gives its own term to both neighbours, and a neighbour
     /// gets the mean of the two slices' terms, so that a uniform load deflects as before.
+    #[inline(always)]
     fn shared(&self, [a, b]: [usize; 2]) -> Coupling {
         let each = match a.abs_diff(b) {
             0 => {
@@ -95,7 +96,7 @@ impl CoupledPlaces<'_> {
             1 => 0.5,
             _ => return Coupling::default(),
         };
-        let [at_a, at_b] = self.places.map(|place| place.shared);
+        let (at_a, at_b) = (self.places[0].shared, self.places[1].shared);
         Coupling {
             value: each * (at_a.0 + at_b.0),
             by_a: each * at_a.1,
@@ -104,6 +105,7 @@ impl CoupledPlaces<'_> {
     }
 
     /// Σ_i Σ_j w_i w_j of [`Self::more`] over the slices around two places.
+    #[inline(always)]
     fn more_around(
         &self,
         (weights_a, weights_b): (&[f64; SLICES], &[f64; SLICES]),

@@ -317,7 +317,7 @@ impl SliceCompliance {
     }
 
     /// What slices at two places deflect each other by.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn between<'a>(&'a self, a: &'a ToothPlace, b: &'a ToothPlace) -> CoupledPlaces<'a> {
         let (tooth, turned) = a.in_sector;

@@ -15,10 +15,12 @@ use crate::nlcp::{
 };
 use crate::placed_slice::ToothPlace;
 use crate::slice_compliance::{LocalDepth, SliceCompliance};
+use crate::slice_contact::kept_compliance::KeptCompliance;
 use gearmesh_model::{Flank, ReducedGear};
 
 mod compliance;
 mod energy_rates;
+mod kept_compliance;
 
 /// What gives way.
 #[derive(Debug, Clone)]
@@ -56,6 +58,8 @@ pub struct SliceContact {
     elastic: Elastic,
     local_contact: LocalContact,
     params: Params,
+    /// What the processor has for the loops over coupled places; results do not depend on it.
+    arch: pulp::Arch,
     runs: Vec<Run>,
     /// Slice of each patch, and its run.
     slice: Vec<usize>,
@@ -67,6 +71,9 @@ pub struct SliceContact {
     rates: [Vec<f64>; 2],
     /// The same along the teeth, of gears on which slices walk that way; else empty.
     along: [Vec<f64>; 2],
+    kept: KeptCompliance,
+    /// Whether the rates are those of the patches that were prepared, without [`Self::fill_rates`].
+    rates_are_known: bool,
     /// Without a local law: compliance of each patch before it was divided by its share \[m/N\].
     own_compliance: Vec<f64>,
     local: Vec<LocalLaw>,
@@ -141,11 +148,13 @@ impl SliceContact {
         let capacity = most_lines * layout.slices;
         let empty = || Vec::with_capacity(capacity);
         let square = || vec![0.0; capacity * capacity];
+        let keeps = walks.iter().any(|walks| *walks);
         Self {
             layout,
             elastic,
             local_contact,
             params: Params::default(),
+            arch: pulp::Arch::new(),
             runs: Vec::with_capacity(capacity),
             slice: Vec::with_capacity(capacity),
             run: Vec::with_capacity(capacity),
@@ -153,6 +162,8 @@ impl SliceContact {
             c: square(),
             rates: [square(), square()],
             along: walks.map(|walks| if walks { square() } else { Vec::new() }),
+            kept: KeptCompliance::with_capacity(if keeps { capacity } else { 0 }),
+            rates_are_known: false,
             own_compliance: empty(),
             local: Vec::with_capacity(capacity),
             separation_m: empty(),
@@ -236,25 +247,27 @@ impl SliceContact {
         floor_n: f64,
         with_rates: bool,
     ) -> Result<(), ContactError> {
-        if patches.len() > self.capacity() {
-            return Err(ContactError::TooMany {
-                found: patches.len(),
-                most: self.capacity(),
-            });
-        }
         self.take(patches, floor_n, with_rates)?;
         self.fill();
-        self.with_rates = with_rates;
+        self.rates_are_known = false;
         self.divide_by_shares();
         Ok(())
     }
 
+    /// Takes the patches, their places and local laws.
     fn take(
         &mut self,
         patches: &[ContactPatch],
         floor_n: f64,
         with_rates: bool,
     ) -> Result<(), ContactError> {
+        if patches.len() > self.capacity() {
+            return Err(ContactError::TooMany {
+                found: patches.len(),
+                most: self.capacity(),
+            });
+        }
+        self.with_rates = with_rates;
         for values in [
             &mut self.separation_m,
             &mut self.closing,
@@ -372,7 +385,7 @@ impl SliceContact {
             }
         }?;
         let first_contact = problem.first_contact();
-        if self.with_rates {
+        if self.with_rates && !self.rates_are_known {
             self.fill_rates();
         }
         Ok((first_contact, info))

@@ -66,7 +66,7 @@ impl StationBlocks {
     }
 
     /// Combines the slices of two flanks of a pair of flanks at two places.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn at<'a>(&'a self, pair: usize, places: [&'a ProfilePlace; 2]) -> CombinedBlocks<'a> {
         let block = self.stride * self.stride;
@@ -93,18 +93,22 @@ pub struct CombinedBlocks<'a> {
 
 impl CombinedBlocks<'_> {
     /// The four rows of four entries of slice a on the first flank and slice b on the second one.
-    #[inline]
+    #[inline(always)]
     fn rows(&self, [a, b]: [usize; 2]) -> [&[f64; SHARES]; SHARES] {
         let first = (a * self.slices + b) * self.stride * self.stride;
         let entries = &self.values[first..][..(SHARES - 1) * self.stride + SHARES];
-        std::array::from_fn(|k| {
-            let row = entries[k * self.stride..].first_chunk();
-            row.unwrap_or(&[0.0; SHARES])
-        })
+        // Not `from_fn`, nor `map` below: calls that the loops around them cannot take in.
+        let stride = self.stride;
+        [
+            row(entries, 0),
+            row(entries, stride),
+            row(entries, 2 * stride),
+            row(entries, 3 * stride),
+        ]
     }
 
     /// C of slice a of the first flank and slice b of the second one.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn between(&self, slices: [usize; 2]) -> f64 {
         let rows = self.rows(slices);
@@ -115,7 +119,7 @@ impl CombinedBlocks<'_> {
     }
 
     /// The same with its changes.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn between_with_rates(&self, slices: [usize; 2]) -> Coupling {
         let rows = self.rows(slices);
@@ -133,7 +137,7 @@ impl CombinedBlocks<'_> {
 /// Slices that stand beside their own middles along the tooth: Σ_i Σ_j w_i w_j C_ij over those around both places.
 impl CombinedBlocks<'_> {
     /// C.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub(crate) fn around(&self, [a, b]: [&WalkedSlice; 2]) -> f64 {
         let own = self.places[0].all_shares();
@@ -151,7 +155,7 @@ impl CombinedBlocks<'_> {
     }
 
     /// The same with its changes by u, and by the places of both along the teeth \[m/N per m\].
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub(crate) fn around_with_rates(&self, [a, b]: [&WalkedSlice; 2]) -> (Coupling, [f64; 2]) {
         let [own, turned] = [self.places[0].all_shares(), self.places[0].all_rates()];
@@ -174,12 +178,18 @@ impl CombinedBlocks<'_> {
             by_a: dot(&by_a, shares),
             by_b: dot(&here, rates),
         };
-        (coupling, along.map(|row| dot(&row, shares)))
+        (coupling, [dot(&along[0], shares), dot(&along[1], shares)])
     }
 }
 
+/// The row that begins at an entry.
+#[inline(always)]
+fn row(entries: &[f64], first: usize) -> &[f64; SHARES] {
+    entries[first..].first_chunk().unwrap_or(&[0.0; SHARES])
+}
+
 /// Adds a multiple of a row.
-#[inline]
+#[inline(always)]
 fn add(sum: &mut [f64; SHARES], weight: f64, row: &[f64; SHARES]) {
     for (place, value) in sum.iter_mut().zip(row) {
         *place += weight * value;
@@ -187,7 +197,7 @@ fn add(sum: &mut [f64; SHARES], weight: f64, row: &[f64; SHARES]) {
 }
 
 /// Σ_k w_k row_k.
-#[inline]
+#[inline(always)]
 fn weighted(rows: &[&[f64; SHARES]; SHARES], weights: &[f64; SHARES]) -> [f64; SHARES] {
     let mut sum = [0.0; SHARES];
     for (row, weight) in rows.iter().zip(weights) {
@@ -198,7 +208,7 @@ fn weighted(rows: &[&[f64; SHARES]; SHARES], weights: &[f64; SHARES]) -> [f64; S
     sum
 }
 
-#[inline]
+#[inline(always)]
 fn dot(a: &[f64; SHARES], b: &[f64; SHARES]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }

@@ -10,6 +10,8 @@
 //!
 //! Neither pulls. The first spends τ ġᵀ K s ġ (but for what K changes within τ s ġ), the second c s ġ².
 
+use gearmesh_dynamics::Iterate;
+
 use crate::error::{DrivetrainError, not_negative, positive};
 use crate::flank_contacts::FlankContacts;
 use crate::step::step;
@@ -192,6 +194,10 @@ impl<M: TeethModel> TeethModel for Damped<M> {
                 full_depth_m,
             } => self.viscous(flanks, loads, [coefficient_n_s_per_m, full_depth_m]),
         }
+    }
+
+    fn expect(&mut self, iterate: Iterate) {
+        self.teeth.expect(iterate);
     }
 
     fn resolves_teeth(&self) -> bool {

@@ -83,6 +83,11 @@ pub trait FlankKinematics: Send {
     /// count with flanks bent by [`FlankContacts::bent_m`].
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts);
 
+    /// The same where `found` holds what was found last on this side, at a pose next to this one: families whose search takes long begin at it.
+    fn contacts_nearby(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
+        self.contacts(pose, side, found);
+    }
+
     /// The same at any pose, whichever was located.
     ///
     /// # Errors

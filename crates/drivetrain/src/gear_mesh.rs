@@ -9,7 +9,7 @@
 //! compliance and the microgeometry's slope change with the pose, of the order of deflection over the pitch, 1e-3 of the stiffness.
 
 use gearmesh_contact::FlankSlices;
-use gearmesh_dynamics::Power;
+use gearmesh_dynamics::{Iterate, Power};
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
@@ -58,6 +58,7 @@ pub struct GearMesh {
     load: MeshLoad,
     /// Whether the tangents of `load` are other than zero.
     has_tangents: bool,
+    iterate: Iterate,
     effort: MeshEffort,
 }
 
@@ -90,6 +91,7 @@ impl GearMesh {
             modal: ModalLoads::default(),
             load: MeshLoad::default(),
             has_tangents: false,
+            iterate: Iterate::Single,
             effort: MeshEffort::default(),
         };
         mesh.with_side(flank, model)
@@ -215,6 +217,14 @@ impl GearMesh {
         &self.modal
     }
 
+    /// Says how the poses of the next evaluations stand to each other.
+    pub fn expect(&mut self, iterate: Iterate) {
+        self.iterate = iterate;
+        for side in &mut self.sides {
+            side.model.expect(iterate);
+        }
+    }
+
     /// Takes the forces of the last pose as the start of the next solutions; see [`TeethModel::remember`].
     pub fn remember(&mut self) {
         for side in &mut self.sides {
@@ -305,7 +315,12 @@ impl GearMesh {
                 of_gear.map_or(0.0, |modes| modes.most_bent_m(modal.coordinates[gear]))
             };
             side.found.bent_m = side.modes.iter().enumerate().map(bent_m).sum();
-            (self.kinematics).contacts(pose, side.flank, &mut side.found);
+            match self.iterate {
+                Iterate::Correction => {
+                    (self.kinematics).contacts_nearby(pose, side.flank, &mut side.found);
+                }
+                _ => (self.kinematics).contacts(pose, side.flank, &mut side.found),
+            }
             for (gear, modes) in side.modes.iter().enumerate() {
                 if let Some(modes) = modes {
                     modes.bend(gear, modal, &rates, &mut side.found);

@@ -151,6 +151,7 @@ impl MeshElement {
                 });
             }
         }
+        self.mesh.expect(view.iterate);
         self.mesh.update(&Pose::from(motion), &modal, tangents)
     }
 

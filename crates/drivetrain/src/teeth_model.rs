@@ -8,6 +8,8 @@
 //! | `analytic` | each tooth a beam on its foundation, Hertz | `models/analytic.rs` |
 //! | `hybrid` | two reduced gears and the complementarity problem | `models/hybrid.rs` |
 
+use gearmesh_dynamics::Iterate;
+
 use crate::error::DrivetrainError;
 use crate::flank_contacts::FlankContacts;
 
@@ -76,6 +78,10 @@ pub trait TeethModel: Send {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError>;
 
+    /// Says of the next evaluations how their motions stand to each other: what changes slowly may be kept from [`Iterate::First`] for the
+    /// [`Iterate::Correction`]s that follow.
+    fn expect(&mut self, _iterate: Iterate) {}
+
     /// K d: how much the forces of the last evaluation fall when the gaps open by d \[m\], into `forces`. For models that fill the
     /// stiffness in every evaluation, as those with a spring of its own for each contact do.
     fn apply_stiffness(
@@ -121,6 +127,10 @@ impl TeethModel for Box<dyn TeethModel> {
         loads: &mut TeethLoads,
     ) -> Result<(), DrivetrainError> {
         (**self).evaluate(flanks, tangents, loads)
+    }
+
+    fn expect(&mut self, iterate: Iterate) {
+        (**self).expect(iterate);
     }
 
     fn apply_stiffness(

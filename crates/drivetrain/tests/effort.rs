@@ -47,8 +47,9 @@ fn steps_take_few_evaluations() {
         let before = stated.info().iterations as f64 / steps;
         println!("{name}: {corrections} corrections a step, {before} with 1e-8");
         assert!(corrections < 1.1 * before, "{name}: {corrections} {before}");
+        // A step of five corrections is followed by 32 that begin with new factors.
         let factorisations = info.factorisations as f64 / steps;
-        assert!(factorisations < 0.05, "{name}: {factorisations}");
+        assert!(factorisations < 0.08, "{name}: {factorisations}");
         // The mesh is asked once a correction, and for tangents only where a matrix is factorised.
         let (after, tangents_after) = calls_of_mesh(run.system());
         assert_eq!(after - calls, info.iterations, "{name}");
@@ -61,8 +62,8 @@ fn steps_take_few_evaluations() {
 #[test]
 fn bevel_steps_take_few_evaluations() {
     for (name, kind, most) in [
-        ("half spaces", running_bevel::Teeth::HalfSpaces, 5.5),
-        ("reduced", running_bevel::Teeth::Reduced, 5.5),
+        ("half spaces", running_bevel::Teeth::HalfSpaces, 3.3),
+        ("reduced", running_bevel::Teeth::Reduced, 3.3),
     ] {
         let flanks = running_bevel::flanks(15);
         let mesh = running_bevel::bevel_mesh(kind, &flanks);
@@ -94,9 +95,11 @@ fn bevel_steps_take_few_evaluations() {
         println!(
             "{name}: {corrections} corrections, {factorisations} factorisations, {points} points"
         );
+        // Five and more by old factors.
         assert!(corrections < most, "{name}: {corrections}");
         assert!(factorisations < 1.05, "{name}: {factorisations}");
-        assert!(points < 220.0, "{name}: {points}");
+        // 175 where each call searches.
+        assert!(points < 130.0, "{name}: {points}");
         assert_eq!((info.rejected, info.unconverged), (0, 0), "{name}");
     }
 }

@@ -10,12 +10,16 @@ use crate::simulation::{RunInfo, Simulation};
 use crate::state::State;
 use crate::system::System;
 
+/// Counts that checkpoints of earlier versions have.
+const OLD_COUNTS: usize = 8;
+
 /// Arrays of a run. Each may be stored as it is; names say what they hold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Checkpoint {
     /// time, step length, step length of the factors \[s\], shortest and longest step \[s\], largest violations (2), energies (13).
     pub scalars: Vec<f64>,
-    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length.
+    /// steps, rejected, unconverged, iterations, factorisations, pivotings, evaluations, steps of the present length, steps to come that begin with new
+    /// factors (left out by earlier versions: none).
     pub counts: Vec<u64>,
     /// x, y, z of every body \[m\].
     pub positions_m: Vec<f64>,
@@ -78,6 +82,7 @@ impl Simulation {
                 info.pivotings,
                 info.evaluations,
                 self.steps_alike,
+                self.integrator.fresh_steps,
             ],
             positions_m: point
                 .state
@@ -126,9 +131,11 @@ impl Simulation {
         }
         let of_joints: usize = system.joints().iter().map(crate::joint::Joint::saved).sum();
         let c = checkpoint;
+        let fresh_steps = c.counts.get(OLD_COUNTS).copied();
+        let counts = OLD_COUNTS + usize::from(fresh_steps.is_some());
         for (what, found, expected) in [
             ("scalars", c.scalars.len(), 20),
-            ("counts", c.counts.len(), 8),
+            ("counts", c.counts.len(), counts),
             ("positions_m", c.positions_m.len(), 3 * bodies),
             ("quaternions", c.quaternions.len(), 4 * bodies),
             ("modal", c.modal.len(), start.modal.len()),
@@ -150,6 +157,7 @@ impl Simulation {
         integrator.saddle.restore(matrix);
         integrator.equations.gradient.set(gradient);
         integrator.factored_step_s = c.scalars[2];
+        integrator.fresh_steps = fresh_steps.unwrap_or_default();
         integrator.effort = Effort::default();
         restore_internal(&mut system, &c.internal);
         let vector = |k: usize| c.velocities[k * n..(k + 1) * n].to_vec();

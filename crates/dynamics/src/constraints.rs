@@ -4,6 +4,7 @@
 //! the metric of the mass matrix (`metric.rs`). The order makes the answer repeatable and lets an earlier joint keep its equations, which a QR
 //! with free choice of pivots would not. Dropped equations are watched, not solved.
 
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::metric::{Factors, Metric};
@@ -35,6 +36,7 @@ fn evaluate(
         acceleration: &vec![0.0; n],
         lambda: &vec![0.0; m],
         load_factor: 1.0,
+        iterate: Iterate::Single,
     };
     system.evaluate_without_elements(at, Detail::Tangents, equations);
     Metric::new(equations, system.layout.massive_ranges()).ok_or(DynamicsError::Singular {

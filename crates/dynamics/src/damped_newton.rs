@@ -14,9 +14,11 @@
 //! Source: P. Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, section 3.3 (natural monotonicity test).
 
 use crate::convergence::Measured;
+use crate::elements::Iterate;
 use crate::equations::Detail;
-use crate::integrator::{Integrator, Point, STALLED, StepFailure};
+use crate::integrator::{Integrator, Point, STALLED};
 use crate::scheme::Params;
+use crate::step_failure::StepFailure;
 use crate::system::System;
 
 /// Iterates after which a step is given up.
@@ -46,7 +48,7 @@ impl Integrator {
                 ratio,
                 largest,
             };
-            self.evaluate(system, to, Detail::Tangents)
+            self.evaluate(system, to, (Detail::Tangents, Iterate::Single))
                 .map_err(StepFailure::Element)?;
             if !self.factor(system, h) {
                 return Err(given_up);
@@ -56,7 +58,7 @@ impl Integrator {
             let whole = self.correction_size();
             loop {
                 self.go(system, from, to, (h, share));
-                let evaluated = self.evaluate(system, to, Detail::Forces);
+                let evaluated = self.evaluate(system, to, (Detail::Forces, Iterate::Single));
                 let mut left = f64::INFINITY;
                 if evaluated.is_ok() {
                     self.correct(square);

@@ -16,6 +16,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use nalgebra::{DMatrix, Matrix3};
 
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::krylov;
@@ -113,6 +114,7 @@ fn about(system: &mut System, state: &State) -> Result<Equations, DynamicsError>
         acceleration: &accelerations.acceleration,
         lambda: &accelerations.lambda,
         load_factor: 1.0,
+        iterate: Iterate::Single,
     };
     system.evaluate(at, Detail::Tangents, &mut equations)?;
     turn_to_world(system, state, &mut equations);
@@ -172,6 +174,7 @@ pub fn strain_shares(
         acceleration: &accelerations.acceleration,
         lambda: &accelerations.lambda,
         load_factor: 1.0,
+        iterate: Iterate::Single,
     };
     system.evaluate(at, Detail::Tangents, &mut equations)?;
     let shares = modes.iter().map(|mode| {

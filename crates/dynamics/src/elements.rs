@@ -48,6 +48,19 @@ use crate::relative_motion::PairTangent;
 use crate::state::{BodyMotion, Layout, motion_of};
 use crate::unknown::Unknown;
 
+/// How a motion at which an element is asked stands to the others that it is asked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Iterate {
+    /// By itself: at rest, for output, at the start of a run.
+    #[default]
+    Single,
+    /// The first guess of a step: iterates nearby will follow.
+    First,
+    /// A correction of the iterate at which it was asked last. What hardly changes between them may be taken from there, as far as the force is that of this
+    /// motion to rounding.
+    Correction,
+}
+
 /// All that an element may look at: time, and the motion of its bodies.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
@@ -56,6 +69,8 @@ pub struct View<'a> {
     /// Share of the external loads that acts, 0…1: below 1 only while a static equilibrium is approached. Elements that
     /// stand for applied loads multiply by it.
     pub load_factor: f64,
+    /// Whether the motion is one of several iterates.
+    pub iterate: Iterate,
     pub(crate) motions: &'a [BodyMotion],
     pub(crate) modal: &'a [f64],
     pub(crate) velocity: &'a [f64],

@@ -8,6 +8,7 @@
 use nalgebra::SVector;
 
 use crate::body::BodyId;
+use crate::elements::{Iterate, View};
 use crate::error::DynamicsError;
 use crate::inertia::{Motion, Tangents};
 use crate::matrix::Matrix;
@@ -30,6 +31,7 @@ pub(crate) struct At<'a> {
     /// One for each joint equation, dropped ones included (zero).
     pub lambda: &'a [f64],
     pub load_factor: f64,
+    pub iterate: Iterate,
 }
 
 /// The equations at one motion.
@@ -206,7 +208,10 @@ impl System {
         detail: Detail,
         out: &mut Equations,
     ) -> Result<(), DynamicsError> {
-        let view = view(&self.motions, &self.layout, at.state, at.load_factor);
+        let view = View {
+            iterate: at.iterate,
+            ..view(&self.motions, &self.layout, at.state, at.load_factor)
+        };
         for slot in &mut self.slots {
             slot.loads.begin(detail == Detail::Tangents);
             slot.force_calls += 1;

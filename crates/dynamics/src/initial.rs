@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::matrix::Matrix;
@@ -41,6 +42,7 @@ pub(crate) fn accelerations(
         acceleration: &acceleration,
         lambda: &lambda,
         load_factor: 1.0,
+        iterate: Iterate::Single,
     };
     system.evaluate(at, Detail::Tangents, equations)?;
     let mut forces: Vec<f64> = equations.residual.iter().map(|r| -r).collect();

@@ -10,15 +10,19 @@
 //!
 //! The factors are kept from step to step, what a step's own corrections tell about their error is used within it (`secants.rs`), and they
 //! are made anew, at the present iterate, when the step length has changed or corrections shrink
-//! too slowly.
+//! too slowly. In small systems, where factors cost less than an evaluation, they are made anew at the start of every step for a while
+//! once a step by old ones has taken many corrections. Corrections by factors of the step itself that grow go astray: they might end at another solution, far
+//! from where the step began. The iteration is then given up; a damped one takes its place (`damped_newton.rs`), or a shorter step.
 //!
-//! Source: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1.
+//! Sources: O. Brüls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137, table 1; growing corrections: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math.
+//! Softw. 31 (2005) 363-396, whose CVODE gives up at the same factor.
 
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::convergence::{Convergence, Measured, Progress};
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::joint::Joint;
@@ -29,11 +33,25 @@ use crate::saddle::{Saddle, SaddleForm};
 use crate::scheme::{LinearSolver, Params, Scheme};
 use crate::secants::Secants;
 use crate::state::State;
+use crate::step_failure::StepFailure;
 use crate::system::System;
 use crate::unknown::UnknownKind;
 
 /// Corrections must shrink by this factor from one iteration to the next, or the matrix is made anew.
 const SLOW: f64 = 0.2;
+
+/// Corrections that grow by this factor from one to the next, both by factors of this step, go astray.
+const ASTRAY: f64 = 2.0;
+
+/// So many corrections by old factors are many: new ones take two or three.
+const MANY: usize = 5;
+
+/// So many steps then begin with new factors, before old ones are tried again.
+const FRESH_STEPS: u64 = 32;
+
+/// Unknowns up to which a system is small. An evaluation by elements worth speaking of, such as a contact of elastic bodies, takes longer than factors
+/// of as many.
+const SMALL: usize = 60;
 
 /// Where corrections no longer shrink, they are accepted up to this multiple of the floor of rounding.
 pub(crate) const STALLED: f64 = 100.0;
@@ -60,18 +78,6 @@ pub(crate) struct Effort {
     pub pivotings: u64,
 }
 
-/// Why a step was given up.
-#[derive(Debug)]
-pub(crate) enum StepFailure {
-    NoConvergence {
-        iterations: usize,
-        ratio: f64,
-        largest: usize,
-    },
-    Singular,
-    Element(DynamicsError),
-}
-
 /// Scheme, work space and factors.
 pub(crate) struct Integrator {
     pub scheme: Scheme,
@@ -79,6 +85,8 @@ pub(crate) struct Integrator {
     pub saddle: Saddle,
     /// Step length that the factors are for; not a number before the first.
     pub factored_step_s: f64,
+    /// Steps to come that begin with new factors.
+    pub fresh_steps: u64,
     /// For the changes of step length, on the mass matrix itself.
     projector: Saddle,
     pub convergence: Convergence,
@@ -110,6 +118,7 @@ impl Integrator {
             equations: Equations::new(system),
             saddle: Saddle::new(&diagonal, system.layout.massless(), &form),
             factored_step_s: f64::NAN,
+            fresh_steps: 0,
             projector: Saddle::new(&diagonal, system.layout.massless(), &form),
             convergence: Convergence::new(system, &scheme),
             masses: system.masses(),
@@ -145,17 +154,25 @@ impl Integrator {
         let h = step_s;
         let square = self.scheme.beta * h * h;
         self.begin(system, from, to, h);
-        let mut stale = self.factored_step_s.to_bits() != h.to_bits();
+        let begins_fresh = self.fresh_steps > 0;
+        let mut stale = begins_fresh || self.factored_step_s.to_bits() != h.to_bits();
         let (mut last, mut last_above_floor, mut place) = (f64::INFINITY, f64::INFINITY, 0);
+        // Corrections by factors of this step, one after the other.
+        let mut own_corrections = 0;
         self.secants.reset();
         for iteration in 1..=params.most_iterations {
             self.effort.iterations += 1;
+            let iterate = if iteration == 1 {
+                Iterate::First
+            } else {
+                Iterate::Correction
+            };
             let detail = if stale {
                 Detail::Tangents
             } else {
                 Detail::Forces
             };
-            self.evaluate(system, to, detail)
+            self.evaluate(system, to, (detail, iterate))
                 .map_err(StepFailure::Element)?;
             if stale {
                 if !self.factor(system, h) {
@@ -172,6 +189,9 @@ impl Integrator {
                 }
                 self.secants.reset();
                 stale = false;
+                own_corrections = 1;
+            } else if own_corrections > 0 {
+                own_corrections += 1;
             }
             self.correct(square);
             self.secants.improve(&mut self.delta, &mut self.mu);
@@ -199,14 +219,16 @@ impl Integrator {
                     1.0
                 };
             if rest <= 1.0 || (!shrinks && above_floor <= STALLED) {
+                self.pace(begins_fresh, iteration);
                 self.finish(from, to, h);
                 return Ok(());
             }
             if !shrinks && iteration > 1 {
                 stale = true;
             }
+            let strays = own_corrections > 1 && above_floor > ASTRAY * last_above_floor;
             (last, last_above_floor, place) = (ratio, above_floor, largest);
-            if iteration == params.most_iterations {
+            if strays || iteration == params.most_iterations {
                 self.factored_step_s = f64::NAN;
                 return Err(StepFailure::NoConvergence {
                     iterations: iteration,
@@ -216,6 +238,17 @@ impl Integrator {
             }
         }
         Err(StepFailure::Singular)
+    }
+
+    /// Says how many steps to come begin with new factors, after one that did or did not and took so many corrections. Where new factors take as
+    /// many, they are no help.
+    fn pace(&mut self, began_fresh: bool, corrections: usize) {
+        let is_small = self.delta.len() + self.mu.len() <= SMALL;
+        self.fresh_steps = match (began_fresh, corrections >= MANY) {
+            (true, false) => self.fresh_steps - 1,
+            (false, true) if is_small => FRESH_STEPS,
+            _ => 0,
+        };
     }
 
     /// First guess of a step, and what corrections are measured against.
@@ -278,7 +311,7 @@ impl Integrator {
         &mut self,
         system: &mut System,
         to: &Point,
-        detail: Detail,
+        (detail, iterate): (Detail, Iterate),
     ) -> Result<(), DynamicsError> {
         self.effort.evaluations += 1;
         let at = At {
@@ -286,6 +319,7 @@ impl Integrator {
             acceleration: &to.acceleration,
             lambda: &to.lambda,
             load_factor: 1.0,
+            iterate,
         };
         system.evaluate(at, detail, &mut self.equations)
     }
@@ -360,6 +394,7 @@ impl Integrator {
             acceleration: &point.acceleration,
             lambda: &point.lambda,
             load_factor: 1.0,
+            iterate: Iterate::Single,
         };
         system.evaluate_without_elements(at, Detail::Tangents, &mut self.equations);
         let Equations { mass, gradient, .. } = &mut self.equations;

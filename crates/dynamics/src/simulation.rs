@@ -7,9 +7,10 @@ use crate::convergence::KINDS;
 use crate::energy::EnergyBalance;
 use crate::error::DynamicsError;
 use crate::initial;
-use crate::integrator::{Integrator, Point, StepFailure};
+use crate::integrator::{Integrator, Point};
 use crate::scheme::{AdaptiveStep, Params, Scheme, StepControl};
 use crate::state::State;
+use crate::step_failure::StepFailure;
 use crate::system::System;
 use crate::unknown_start::settle_unknowns;
 
@@ -283,7 +284,7 @@ impl Simulation {
                 h,
                 &self.params,
             );
-            if matches!(outcome, Err(StepFailure::NoConvergence { .. })) && self.is_shortest(h) {
+            if matches!(&outcome, Err(failure) if failure.is_of_the_way()) && self.is_shortest(h) {
                 outcome = self.integrator.attempt_damped(
                     &mut self.system,
                     &self.now,
@@ -299,13 +300,11 @@ impl Simulation {
                     let next = if again { PARTS as f64 * h } else { h };
                     return self.accept(h, next);
                 }
-                (
-                    StepControl::Fixed { step_s },
-                    Err(failure @ StepFailure::NoConvergence { .. }),
-                ) => {
+                (StepControl::Fixed { step_s }, Err(failure)) if failure.is_of_the_way() => {
                     self.info.unconverged += 1;
                     let part = h / PARTS as f64;
-                    let often = self.info.steps < RARE * self.info.unconverged;
+                    let leeway = failure.leeway();
+                    let often = self.info.steps + leeway < RARE * self.info.unconverged;
                     if part < LEAST_PART * step_s || often {
                         return Err(self.refusal(failure, FIXED_ADVICE));
                     }

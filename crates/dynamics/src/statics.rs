@@ -12,6 +12,7 @@
 
 use nalgebra::Vector3;
 
+use crate::elements::Iterate;
 use crate::equations::{At, Detail, Equations};
 use crate::error::DynamicsError;
 use crate::rotation::skew;
@@ -242,6 +243,7 @@ fn settle(
             acceleration: &rest,
             lambda,
             load_factor,
+            iterate: Iterate::Single,
         };
         let evaluated = system.evaluate(at, Detail::Tangents, equations);
         evaluated.map_err(|error| on_the_way(error, system, load_factor, moved))?;
@@ -315,6 +317,7 @@ fn settle(
                 acceleration: &rest,
                 lambda,
                 load_factor,
+                iterate: Iterate::Single,
             };
             if !walk.is_clear(at, system, equations) {
                 walk.to(last, system, state, lambda);

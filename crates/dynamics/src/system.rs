@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::body::{Body, BodyId, GROUND};
-use crate::elements::{Channel, ForceElement, Loads, View};
+use crate::elements::{Channel, ForceElement, Iterate, Loads, View};
 use crate::energy::Energy;
 use crate::error::DynamicsError;
 use crate::inertia::Inertia;
@@ -477,6 +477,7 @@ pub(crate) fn view<'a>(
     View {
         time_s: state.time_s,
         load_factor,
+        iterate: Iterate::Single,
         motions,
         modal: &state.modal,
         velocity: &state.velocity,

@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, Matrix5, Matrix6, UnitQuaternion, Vector3, Vector5};
 
 use crate::body::{Body, BodyId, GROUND, Modes};
+use crate::elements::Iterate;
 use crate::elements::{
     AppliedLoad, Axes, AxialSupport, BeamSection, Bushing, ForceElement, LinearBearing, LoadKind,
     MatrixBearing, SpringDamper, TorsionSpring,
@@ -104,6 +105,7 @@ impl Case {
             acceleration: &self.acceleration,
             lambda: &self.lambda,
             load_factor: 1.0,
+            iterate: Iterate::Single,
         };
         self.system.evaluate(at, detail, &mut equations).unwrap();
         equations

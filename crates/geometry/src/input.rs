@@ -11,7 +11,7 @@ mod table_keys;
 mod unit_slips;
 mod wording;
 
-pub use csv_rows::{CsvRows, shown_field};
+pub use csv_rows::{CsvRows, separator_hint, shown_field};
 use former_keys::Renewed;
 pub use former_keys::{FormerTable, Move};
 pub use kinds::{Kinds, read_kind};

@@ -63,7 +63,7 @@ pub fn optimise_page(problem: &Optimisation, found: &Optimum) -> Page {
     }
     section = section.push(front_table(problem, found));
     Page::new(tables.title.clone())
-        .subtitle("Optimisation of a gear pair")
+        .subtitle("Optimisation")
         .section(section)
         .footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
 }

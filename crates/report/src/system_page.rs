@@ -93,9 +93,8 @@ fn overview(r: &SystemResult, passings: &[MeshPassing]) -> Result<Section, FileE
     for table in tables {
         section = section.push(table);
     }
-    if !passings.is_empty() {
-        let lines: Vec<String> = passings.iter().map(MeshPassing::in_words).collect();
-        section = section.push(Text::preformatted(lines.join("\n")));
+    for passing in passings {
+        section = section.push(Text::paragraph(passing.in_words()));
     }
     Ok(section)
 }

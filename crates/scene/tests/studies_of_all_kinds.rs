@@ -250,6 +250,33 @@ fn a_bearing_has_a_front_of_deflection_against_pressure() {
     assert!(told.contains("did you mean `displacement_y_um`?"), "{told}");
 }
 
+/// A torque beside a column that has nothing of the load is refused, for the pair would be made for no load at all.
+#[test]
+fn a_torque_belongs_to_columns_under_load() {
+    let text = "title = \"t\"\nscene = \"bevel_20_20_loaded.toml\"\ntrials = 20\n\
+        [[variable]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nfrom = -10.0\nto = 10.0\n\
+        [[objective]]\nname = \"TE\"\nterm = [{ column = \"te_peak_to_peak_urad\", torque_Nm = 100.0 }]\n";
+    let scratch = tempfile::tempdir().unwrap();
+    let stop = AtomicBool::new(false);
+    let told = |text: &str| {
+        let document = InputDocument::new("o.toml", text);
+        let problem = Optimisation::from_document(document, &fe_models()).unwrap();
+        optimise(&problem, scratch.path(), &stop, &|_, _| ())
+            .unwrap_err()
+            .to_string()
+    };
+    let found = told(text);
+    assert!(
+        found.contains("o.toml:11: objective.0.term.0.torque_Nm: `te_peak_to_peak_urad` is a number without load"),
+        "{found}"
+    );
+    let found = told(&text.replace("_loaded.toml", ".toml"));
+    assert!(
+        found.contains("bevel pairs with [load]; remove it"),
+        "{found}"
+    );
+}
+
 /// The damper that lets a block swing least over a second is the strongest one that is allowed.
 #[test]
 fn a_run_in_time_is_optimised() {

@@ -27,7 +27,7 @@ pub(super) struct BlankTable {
     pressure_angle_deg: Option<f64>,
     /// Angle between the axes, both from apex to heel; 90 where not given.
     shaft_angle_deg: Option<f64>,
-    /// "spiral": hand of the pinion; the gear has the other.
+    /// "spiral", "zerol": hand of the pinion; the gear has the other.
     pinion_hand: Option<Hand>,
     /// Depth along the face; "standard" where not given.
     taper: Option<Taper>,

@@ -128,7 +128,7 @@ fn table(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) {
 }
 
 /// What a flank through points is worth.
-fn fit_words(fit: &GridFit) -> String {
+pub(super) fn fit_words(fit: &GridFit) -> String {
     let [toe, heel, tip] = fit.beyond_m.map(|x| 1e3 * x);
     format!(
         "{} x {} points, {} x {} polynomials; points off the surface by {:.3} um rms, {:.3} um at most; a point left out by {:.3} um rms, {:.3} um at most; normals by \
@@ -143,6 +143,20 @@ fn fit_words(fit: &GridFit) -> String {
         1e6 * fit.left_out_worst_m,
         fit.worst_normal_rad.to_degrees()
     )
+}
+
+/// The same by name.
+pub(super) fn fit_figures(fit: &GridFit) -> Value {
+    json!({
+        "points": fit.size,
+        "polynomials": fit.polynomials,
+        "rms_um": 1e6 * fit.rms_m,
+        "worst_um": 1e6 * fit.worst_m,
+        "left_out_rms_um": 1e6 * fit.left_out_rms_m,
+        "left_out_worst_um": 1e6 * fit.left_out_worst_m,
+        "worst_normal_deg": fit.worst_normal_rad.to_degrees(),
+        "beyond_mm": fit.beyond_m.map(|x| 1e3 * x),
+    })
 }
 
 fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Value {
@@ -161,16 +175,7 @@ fn figures(file: &PairFile, design: &PairDesign, checks: &[ToothCheck; 2]) -> Va
             let Some(fit) = flank.grid_fit() else {
                 continue;
             };
-            value[flank.side.word()] = json!({
-                "points": fit.size,
-                "polynomials": fit.polynomials,
-                "rms_um": 1e6 * fit.rms_m,
-                "worst_um": 1e6 * fit.worst_m,
-                "left_out_rms_um": 1e6 * fit.left_out_rms_m,
-                "left_out_worst_um": 1e6 * fit.left_out_worst_m,
-                "worst_normal_deg": fit.worst_normal_rad.to_degrees(),
-                "beyond_mm": fit.beyond_m.map(|x| 1e3 * x),
-            });
+            value[flank.side.word()] = fit_figures(fit);
         }
         for (side, s) in FlankSide::BOTH
             .into_iter()

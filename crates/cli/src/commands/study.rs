@@ -179,16 +179,35 @@ fn number_column(
     let of_column = |columns: &[Selected]| -> Vec<Selected> {
         columns.iter().skip(place).step_by(count).cloned().collect()
     };
+    let is_one = |result: &CaseResult| {
+        result.figures.as_ref().map_or(true, |columns| {
+            let all = of_column(columns);
+            all.iter().all(|one| one.value == all[0].value)
+        })
+    };
+    let most_torques = |result: &CaseResult| {
+        let columns = result.figures.as_ref();
+        columns.map_or(0, |columns| of_column(columns).len())
+    };
+    // What is without load stands there once.
+    let once = cases.iter().any(|result| most_torques(result) > 1) && cases.iter().all(is_one);
     let mut torques: Vec<f64> = Vec::new();
-    lines.push(column.to_owned());
+    lines.push(match once {
+        true => format!("{column}, the same at every torque"),
+        false => column.to_owned(),
+    });
     for (name, result) in names.iter().zip(cases) {
-        let columns = match &result.figures {
+        let mut columns = match &result.figures {
             Ok(columns) => of_column(columns),
             Err(problem) => {
                 lines.push(format!("{name:width$} failed: {problem}"));
                 continue;
             }
         };
+        if once {
+            columns.truncate(1);
+            columns.iter_mut().for_each(|one| one.torque_nm = None);
+        }
         let own: Vec<f64> = columns.iter().filter_map(|c| c.torque_nm).collect();
         // Told again where a case has other torques.
         if own != torques {

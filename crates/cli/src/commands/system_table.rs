@@ -149,7 +149,7 @@ fn sweep(result: &SystemResult) -> Vec<String> {
     chosen.sort_by_key(|(_, column)| rank(&column.name));
     chosen.truncate(MOST_COLUMNS);
     let mut head = format!("{:>12} {:>5}", "speed rpm", "way");
-    let mut factors = Vec::new();
+    let (mut factors, mut widths) = (Vec::new(), Vec::new());
     for (place, Column { name, unit, .. }) in &chosen {
         let stem = stem(name, unit);
         let windows = sweep.figures.iter();
@@ -158,7 +158,9 @@ fn sweep(result: &SystemResult) -> Vec<String> {
         });
         let (factor, unit) = usual_unit(unit, largest);
         factors.push(factor);
-        head += &format!(" {:>32}", format!("pk-pk {} {unit}", last_parts(stem)));
+        let cell = format!("pk-pk {} {unit}", last_parts(stem));
+        widths.push(cell.chars().count().max(12));
+        head += &format!("  {cell:>12}");
     }
     let mut lines = vec![head];
     for (window, figures) in sweep.windows.iter().zip(&sweep.figures) {
@@ -167,8 +169,11 @@ fn sweep(result: &SystemResult) -> Vec<String> {
             window.speed_rad_per_s * 60.0 / TAU,
             if window.up { "up" } else { "down" }
         );
-        for ((column, _), factor) in chosen.iter().zip(&factors) {
-            line += &format!(" {:>32}", short(factor * figures[*column].peak_to_peak()));
+        for (((column, _), factor), width) in chosen.iter().zip(&factors).zip(&widths) {
+            line += &format!(
+                "  {:>width$}",
+                short(factor * figures[*column].peak_to_peak())
+            );
         }
         lines.push(line);
     }
@@ -179,9 +184,7 @@ fn sweep(result: &SystemResult) -> Vec<String> {
 /// The last two parts of a column's name.
 fn last_parts(name: &str) -> String {
     let parts: Vec<&str> = name.split('/').collect();
-    let last = parts[parts.len().saturating_sub(2)..].join("/");
-    let cut = last.chars().count().saturating_sub(22);
-    last.chars().skip(cut).collect()
+    parts[parts.len().saturating_sub(2)..].join("/")
 }
 
 /// One line a column: the value where there is one equilibrium, mean and extremes over several.

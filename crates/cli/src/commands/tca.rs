@@ -5,7 +5,7 @@ use crate::commands::{bevel, bevel_stress, loaded_tca, tca_page};
 use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
-use gearmesh_bevel::{PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact};
+use gearmesh_bevel::{Flank, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact};
 use serde_json::{Value, json};
 
 /// Runs the command.
@@ -41,7 +41,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         tca_page::write(&analysed, a, path)?;
     }
     if a.json {
-        let mut all = figures(&file, &found, moved.as_ref());
+        let mut all = figures(&file, flanks, &found, moved.as_ref());
         if let (Some(loaded), Some(all)) = (&loaded, all.as_object_mut()) {
             all.insert("load".to_owned(), loaded_tca::figures(loaded));
             if let Some(figures) = stress_figures {
@@ -53,7 +53,7 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
         if let Some(loaded) = &loaded {
             loaded_tca::table(&file, loaded);
         }
-        table(&file, &found, moved.as_ref());
+        table(&file, flanks, &found, moved.as_ref());
     }
     Ok(())
 }
@@ -71,7 +71,26 @@ pub(super) fn moves(s: &Sensitivity) -> [(&'static str, [f64; 2]); 4] {
     ]
 }
 
-fn table(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) {
+/// What is to be known of flanks through points: how well they fit, and what that is beside the transmission error. Nothing of flanks
+/// that were cut.
+pub(super) fn worth_of_points(flanks: [&Flank; 2]) -> Vec<String> {
+    let words = |flank: &Flank| {
+        let fit = flank.grid_fit()?;
+        // Material along the normal turns the gear by its amount over the arm of the normal about the gear's axis.
+        let mean = &flanks[1].mean().point;
+        let arm_m = (mean.r.x * mean.n.y - mean.r.y * mean.n.x).abs();
+        Some(format!(
+            "{}: {}; {:.3} um turn the gear by {:.3} urad",
+            flank.name(),
+            bevel::fit_words(fit),
+            1e6 * fit.left_out_rms_m,
+            1e6 * fit.left_out_rms_m / arm_m
+        ))
+    };
+    flanks.into_iter().filter_map(words).collect()
+}
+
+fn table(file: &PairFile, flanks: [&Flank; 2], found: &ToothContact, moved: Option<&Sensitivity>) {
     console::data(format!(
         "{}: pinion {} on gear {}; transmission error peak to peak {:.3} urad of the gear, contact ratio of the path {:.4}, edges touch first on {:.1} % of it",
         file.title,
@@ -81,6 +100,7 @@ fn table(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) {
         found.contact_ratio,
         100.0 * found.edge_share
     ));
+    worth_of_points(flanks).into_iter().for_each(console::data);
     console::data(
         "pinion deg   TE urad   gear: L mm     h mm   ellipse mm: long  short   first   touches",
     );
@@ -122,7 +142,12 @@ fn table(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) {
     }
 }
 
-fn figures(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) -> Value {
+fn figures(
+    file: &PairFile,
+    flanks: [&Flank; 2],
+    found: &ToothContact,
+    moved: Option<&Sensitivity>,
+) -> Value {
     let path: Vec<Value> = found
         .path
         .iter()
@@ -153,6 +178,7 @@ fn figures(file: &PairFile, found: &ToothContact, moved: Option<&Sensitivity>) -
         "peak_to_peak_urad": 1e6 * found.peak_to_peak_rad,
         "contact_ratio": found.contact_ratio,
         "edge_share": found.edge_share,
+        "fit_of_points": flanks.map(|flank| flank.grid_fit().map(bevel::fit_figures)),
         "error_urad": found.error_rad.iter().map(|x| 1e6 * x).collect::<Vec<_>>(),
         "path": path,
         "ease_off_mm_mm_um": map,

@@ -1,7 +1,7 @@
 //! The page of `gearmesh tca --report`: contact pattern, transmission error, ease-off, and what assembly errors do.
 
 use super::loaded_tca::{self, Loaded};
-use super::tca::{NO_MEAN, moves};
+use super::tca::{NO_MEAN, moves, worth_of_points};
 use crate::arguments::TcaArguments;
 use crate::failure::Failure;
 use crate::page_file;
@@ -82,9 +82,24 @@ fn page(of: &Analysed<'_>, a: &TcaArguments) -> Result<Page, BevelError> {
 
 fn at_a_glance(of: &Analysed<'_>) -> Section {
     let error = &of.file.tca.error;
-    let figures = KeyFigures::new()
+    let under_load = of.loaded.iter().flat_map(|loaded| &loaded.found);
+    let figures = under_load.fold(KeyFigures::new(), |figures, found| {
+        figures.figure(
+            format!(
+                "transmission error at {} N m, peak to peak",
+                found.torque_nm
+            ),
+            short(1e6 * found.peak_to_peak_rad()),
+            "µrad of the gear",
+        )
+    });
+    let name = match of.loaded {
+        Some(_) => "transmission error without load, peak to peak",
+        None => "transmission error, peak to peak",
+    };
+    let figures = figures
         .figure(
-            "transmission error, peak to peak",
+            name,
             short(1e6 * of.contact.peak_to_peak_rad),
             "µrad of the gear",
         )
@@ -110,7 +125,12 @@ fn at_a_glance(of: &Analysed<'_>) -> Section {
             short(1e3 * error.shaft_angle_rad),
             "mrad",
         );
-    Section::new("At a glance").push(figures)
+    let section = Section::new("At a glance").push(figures);
+    worth_of_points(of.flanks)
+        .into_iter()
+        .fold(section, |section, words| {
+            section.push(Text::paragraph(words))
+        })
 }
 
 /// The flank of a member with its ellipses and the path.

@@ -1,6 +1,8 @@
 //! `gearmesh bevel` and `gearmesh tca`.
 
-use crate::common::{Desk, argument, gearmesh, refused, succeeds};
+use gearmesh_bevel::{Flank, PairFile};
+
+use crate::common::{Desk, argument, changed, gearmesh, refused, succeeds};
 
 pub fn shipped(name: &str) -> String {
     format!("{}/../../fe_models/{name}", env!("CARGO_MANIFEST_DIR"))
@@ -117,6 +119,123 @@ fn a_pair_file_with_loads_is_analysed_under_them() {
     }
 }
 
+/// A grid of points of a flank, as a machine lists them.
+fn points(flank: &Flank, size: [usize; 2]) -> String {
+    let blank = &flank.blank;
+    let mut text = "sector,height,x_mm,y_mm,z_mm,nx,ny,nz\n".to_owned();
+    for i in 0..size[0] {
+        let cone = blank.inner_cone_m() + blank.face_width_m * i as f64 / (size[0] - 1) as f64;
+        let bottom = flank.place(&flank.bottom(cone).unwrap().point.r)[1];
+        for k in 0..size[1] {
+            let share = k as f64 / (size[1] - 1) as f64;
+            let height = bottom + (blank.addendum_m(cone) - bottom) * share;
+            let p = flank.locate(cone, height).unwrap().point;
+            let place: Vec<String> = (1e3 * p.r).iter().map(|x| format!("{x:.4}")).collect();
+            let normal: Vec<String> = p.n.iter().map(|x| format!("{x:.6}")).collect();
+            let [place, normal] = [place, normal].map(|list| list.join(","));
+            text.push_str(&format!("{},{},{place},{normal}\n", i + 1, k + 1));
+        }
+    }
+    text
+}
+
+/// Contact analysis of a flank from points says how well it fits and what that is beside the transmission error: in print, in the page,
+/// in JSON. Tables with other separators are told apart.
+#[test]
+fn contact_of_points_says_what_they_are_worth() {
+    let desk = Desk::new();
+    let shipped = shipped("bevel_13_35.toml");
+    let design = PairFile::read(shipped.as_ref()).unwrap().design().unwrap();
+    for flank in &design.teeth[1].flanks {
+        desk.file(&format!("{}.csv", flank.side.word()), points(flank, [9, 5]));
+    }
+    let text = std::fs::read_to_string(&shipped).unwrap();
+    let settings =
+        "settings = \"points\"\nconcave_points = \"concave.csv\"\nconvex_points = \"convex.csv\"";
+    let text = changed(
+        &text,
+        "settings = \"basic\"\nedge_radius_mm = 0.5",
+        settings,
+    );
+    let file = desk.file("pair.toml", text);
+    let page = desk.path("page.html");
+    let report = ["tca", argument(&file), "--report", argument(&page)];
+    let printed = succeeds(&report).stdout;
+    let line = printed.lines().nth(1).unwrap();
+    assert!(
+        line.starts_with("gear's convex: 9 x 5 points") && line.contains("turn the gear by"),
+        "{line}"
+    );
+    assert!(
+        std::fs::read_to_string(&page)
+            .unwrap()
+            .contains(line.split(':').nth(1).unwrap())
+    );
+    let json = succeeds(&["tca", argument(&file), "--json"]).json();
+    let [pinion, gear] = [0, 1].map(|i: usize| &json["fit_of_points"][i]);
+    assert!(
+        pinion.is_null() && gear["points"] == serde_json::json!([9, 5]),
+        "{json}"
+    );
+    // The arm of the normal about the gear's axis: 83 mm of mean radius, by both angles' cosines.
+    let numbers = line.rsplit("; ").next().unwrap().split(' ');
+    let numbers: Vec<f64> = numbers.filter_map(|word| word.parse().ok()).collect();
+    let arm_mm = 1e3 * numbers[0] / numbers[1];
+    assert!(
+        (arm_mm / (83.12 * 0.8192 * 0.9397) - 1.0).abs() < 0.02,
+        "{arm_mm}"
+    );
+    let table = std::fs::read_to_string(desk.path("convex.csv")).unwrap();
+    for (from, to, told) in [
+        (
+            ",",
+            ";",
+            "names none of the wanted columns; this line has semicolons",
+        ),
+        (
+            ",",
+            "\t",
+            "names none of the wanted columns; this line has tabs",
+        ),
+    ] {
+        desk.file("convex.csv", table.replace(from, to));
+        refused(
+            &gearmesh(&["tca", argument(&file)]),
+            2,
+            &["convex.csv:1", told],
+        );
+    }
+}
+
+/// A zerol pair under a light load touches inside its flanks: of a load on tips nothing is said but 0. Straight teeth have no body, and
+/// the refusal asks for no key that they refuse.
+#[test]
+fn zerol_and_straight_pairs() {
+    let desk = Desk::new();
+    let pair = |form: &str, cut: &str| {
+        format!(
+            "title = \"20/31\"\n[bevel]\nteeth = [20, 31]\nouter_module_mm = 4.0\nface_width_mm = [18.0, 18.0]\n{form}\n[gear]\n{cut}\n[pinion]\n"
+        )
+    };
+    let zerol = pair(
+        "form = \"zerol\"\npinion_hand = \"left\"\ncutter_radius_mm = 76.2",
+        "settings = \"basic\"\nedge_radius_mm = 0.3",
+    );
+    let asked = "settings = \"local-synthesis\"\nedge_radius_mm = 0.3\npath_angle_deg = [90.0, 90.0]\nellipse_half_length_mm = [5.0, 5.0]\n\
+        transmission_curvature = [-0.003, -0.003]\n[load]\ntorques_Nm = [20.0]\nslices = 15\npositions_per_pitch = 8\n";
+    let file = desk.file("zerol.toml", zerol + asked);
+    let printed = succeeds(&["tca", argument(&file)]).stdout;
+    let cells = printed.lines().nth(2).unwrap().split_whitespace();
+    assert_eq!(cells.rev().nth(6), Some("0.0"), "{printed}");
+    let straight = pair("form = \"straight\"", "settings = \"crown\"");
+    desk.file("straight.toml", straight + "settings = \"crown\"\n");
+    let body = "name = \"gear\"\n[bevel_gear]\npair = \"straight.toml\"\nmember = \"gear\"\n[blank]\nbore_diameter_mm = 24.0\n\
+        [material]\nyoung_GPa = 206.0\npoisson = 0.3\n";
+    let body = desk.file("gear.toml", body);
+    let told = ["gear.toml:4: bevel_gear.member", "bodies are made of"];
+    refused(&gearmesh(&["check", argument(&body)]), 2, &told);
+}
+
 /// The page draws both flanks with an ellipse for each position that leads, and takes no other name.
 #[test]
 fn the_page_of_a_contact_analysis_has_its_pattern() {
@@ -191,6 +310,11 @@ fn what_cannot_be_cut_is_refused() {
             "the gear's blade does not fit",
         ),
         ("teeth = [13, 35]", "teeth = [6, 35]", "undercut"),
+        (
+            "teeth = [13, 35]",
+            "teeth = [13, 35]\noffset_mm = 20.0",
+            "bad.toml:7: bevel.offset_mm: hypoid pairs",
+        ),
     ] {
         let changed = text.replacen(from, to, 1);
         assert_ne!(changed, text, "{from}");

@@ -7,6 +7,30 @@ use crate::slice_compliance::LocalDepth;
 
 use super::{Elastic, Run, SliceContact};
 
+/// What is filled.
+pub(super) enum Part {
+    Compliance,
+    WithRates,
+    Rates,
+}
+
+/// A loop over coupled places, to be compiled for what the processor has: everything in it is part of it (`inline(always)`), for a function that is called was compiled
+/// for every processor.
+pub(super) struct Filling<'a>(pub Part, pub &'a mut SliceContact);
+
+impl pulp::NullaryFnOnce for Filling<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        match self.0 {
+            Part::Compliance => self.1.fill_compliance(),
+            Part::WithRates => self.1.fill_pairs_with_rates(),
+            Part::Rates => self.1.fill_carrying_rates(),
+        }
+    }
+}
+
 impl SliceContact {
     /// Whether patches in a row at one u share what they have in common: not where each has a place along the tooth of its own.
     pub(super) fn shares_places(&self) -> bool {
@@ -56,7 +80,7 @@ impl SliceContact {
     pub(super) fn fill(&mut self) {
         match &self.elastic {
             Elastic::HalfSpaces(_) => self.fill_half_spaces(),
-            Elastic::Reduced(_) => self.fill_compliance(),
+            Elastic::Reduced(_) => self.arch.dispatch(Filling(Part::Compliance, self)),
         }
     }
 
@@ -86,6 +110,7 @@ impl SliceContact {
         }
     }
 
+    #[inline(always)]
     fn fill_compliance(&mut self) {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
@@ -96,7 +121,10 @@ impl SliceContact {
             for b in &self.runs[number..] {
                 let on_1 = flank_1.between(&a.places[0], &b.places[0]);
                 let on_2 = flank_2.between(&a.places[1], &b.places[1]);
-                let along = [0, 1].map(|gear: usize| a.along_normals[gear] * b.along_normals[gear]);
+                let along = [
+                    a.along_normals[0] * b.along_normals[0],
+                    a.along_normals[1] * b.along_normals[1],
+                ];
                 for i in a.patches[0]..a.patches[1] {
                     for j in b.patches[0].max(i)..b.patches[1] {
                         let slices = [self.slice[i], self.slice[j]];
@@ -112,6 +140,11 @@ impl SliceContact {
     /// Fills the changes of C with the places between the patches that carry: of the others nobody feels them. Those of half spaces are known
     /// with C.
     pub(super) fn fill_rates(&mut self) {
+        self.arch.dispatch(Filling(Part::Rates, self));
+    }
+
+    #[inline(always)]
+    fn fill_carrying_rates(&mut self) {
         let Elastic::Reduced(flanks) = &self.elastic else {
             return;
         };

@@ -158,6 +158,11 @@ impl BevelMesh {
         contact_modulus_pa * stiffness_per_pa(&self.mean_curvature(side))
     }
 
+    /// Counts points.
+    pub(super) fn count_points(&self, points: u64) {
+        self.points.fetch_add(points, Ordering::Relaxed);
+    }
+
     /// Points of flanks that were computed so far at all poses, by this mesh and all copies of it: the effort of the search.
     #[must_use]
     pub fn computed_points(&self) -> u64 {
@@ -290,7 +295,7 @@ impl BevelMesh {
             list.push(motion);
             touches.push(touch);
         }
-        self.points.fetch_add(points.get(), Ordering::Relaxed);
+        self.count_points(points.get());
         // The nearest pair first: the transmission error is its gap.
         let gap_m = |line: usize| found.lines[line].ideal_gap_m;
         if let Some(first) = (0..list.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b))) {

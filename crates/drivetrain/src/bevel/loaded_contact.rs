@@ -152,7 +152,8 @@ impl LoadedContact {
             let patches = self.patches().filter(|patch| !on_tip || patch.on_tip);
             patches.map(|patch| patch.force_n).sum()
         };
-        sum(true) / sum(false)
+        // A sum of nothing is -0.0.
+        (sum(true) + 0.0) / sum(false)
     }
 
     /// Where the pattern begins and ends on the gear's flank: along the face and up the flank, as shares, of all patches that press with at least a

@@ -12,6 +12,7 @@
 //! | stiffness from the curvatures there | `hertz_stiffness.rs` |
 //! | flanks divided into triangles or quadrilaterals | `facets.rs` |
 //! | the pair in slices along the teeth | `sliced_mesh.rs`, a side of it `sliced_side.rs` |
+//! | its sections once more at a pose nearby | `nearby_sections.rs` |
 //! | what gives way in it | `bevel_teeth.rs` |
 //! | where a section across the tooth is nearest | `section_points.rs` |
 //! | the pair at rest under a torque | `loaded_contact.rs` |
@@ -27,6 +28,7 @@ mod facets;
 mod hertz_stiffness;
 mod line_geometry;
 mod loaded_contact;
+mod nearby_sections;
 mod nearest_points;
 mod nominal_contacts;
 mod pose_derivatives;

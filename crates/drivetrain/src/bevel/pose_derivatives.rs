@@ -88,6 +88,20 @@ impl PoseDerivatives {
         }
     }
 
+    /// At a contact next to this one: places move with the pose as here.
+    pub(crate) fn next_to(&self, found: &Nearest, displacement_m: &Vector3<f64>) -> Self {
+        Self {
+            found: *found,
+            arm: found.points[1].r - displacement_m,
+            places: self.places,
+        }
+    }
+
+    /// The contact.
+    pub(crate) fn found(&self) -> &Nearest {
+        &self.found
+    }
+
     /// A vector of a member with these derivatives by s and v, and how it moves.
     fn moving(&self, member: usize, value: Vector3<f64>, by: [Vector3<f64>; 2]) -> Moving {
         let mut by_pose = Matrix3x6::zeros();

@@ -6,7 +6,6 @@
 //! computed: a guess from the pair as designed tells them.
 
 use std::cell::Cell;
-use std::sync::atomic::Ordering;
 
 use gearmesh_bevel::{PairBlank, PairDesign};
 use gearmesh_contact::SliceLayout;
@@ -14,6 +13,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
 use super::bevel_mesh::{BevelMesh, angle_of};
+use super::nearby_sections::{NEARBY_M, Searched};
 use super::nearest_points::Nearest;
 use super::nominal_contacts::Guess;
 use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
@@ -58,6 +58,7 @@ pub struct BevelSlices {
     found: [MovingContacts; 2],
     guesses: Vec<Option<Guess>>,
     is_apart: [bool; 2],
+    searched: [Searched; 2],
     /// Sections that stand open by less are looked at in any case \[m\].
     reach_m: f64,
 }
@@ -95,6 +96,7 @@ impl BevelSlices {
             found: [0, 1].map(|_| MovingContacts::with_capacity(capacity)),
             guesses: Vec::with_capacity(capacity),
             is_apart: [false; 2],
+            searched: [0, 1].map(|_| Searched::with_capacity(MOST_PAIRS, slices)),
             reach_m: 0.0,
             pair,
         })
@@ -119,17 +121,42 @@ impl BevelSlices {
         self.sides[side as usize].line.misfit
     }
 
+    /// Slices along the face.
+    pub(super) fn slices(&self) -> usize {
+        self.layout.slices
+    }
+
+    /// What was found of a side, to be overwritten.
+    fn take(&mut self, side: Flank) -> (Vec<PoseDerivatives>, Searched) {
+        let side = side as usize;
+        let none = Searched::with_capacity(0, 0);
+        (
+            std::mem::take(&mut self.found[side].0),
+            std::mem::replace(&mut self.searched[side], none),
+        )
+    }
+
+    fn put(&mut self, side: Flank, (list, searched): (Vec<PoseDerivatives>, Searched)) {
+        self.found[side as usize].0 = list;
+        self.searched[side as usize] = searched;
+    }
+
     /// Goes over all sections of a side that may touch; returns whether there is none.
     fn find(
         &self,
         pose: &Pose,
         flank: Flank,
-        (list, guesses): (&mut Vec<PoseDerivatives>, &mut Vec<Option<Guess>>),
+        (list, guesses, searched): (
+            &mut Vec<PoseDerivatives>,
+            &mut Vec<Option<Guess>>,
+            &mut Searched,
+        ),
         found: &mut FlankContacts,
     ) -> bool {
         found.clear();
         list.clear();
         guesses.clear();
+        searched.begin(pose, found.bent_m);
         found.action_m_per_u = [0.0; 2];
         let sliced = &self.sides[flank as usize];
         let margin_m = self.margin_m(pose, flank) + found.bent_m;
@@ -167,31 +194,25 @@ impl BevelSlices {
         for (pair, own) in pairs().zip(guesses.chunks_exact(self.layout.slices)) {
             if own.iter().flatten().any(|guess| guess.gap_m <= reach_m) {
                 self.find_line(pose, flank, &pair.candidate, (own, reach_m), list, found);
-            }
-        }
-        // The nearest pair first: the transmission error is its gap.
-        let gap_m = |line: usize| found.lines[line].ideal_gap_m;
-        let nearest = (0..found.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
-        if let Some(first) = nearest {
-            found.lines.swap(0, first);
-            for number in [0, first] {
-                let (begin, count) = found.lines[number].contacts;
-                for contact in &mut found.contacts[begin..begin + count] {
-                    contact.line = number;
+                if found.lines.len() > searched.turns_rad.len() {
+                    searched.turns_rad.push(pair.candidate.turns_rad);
                 }
             }
-        } else {
+        }
+        if found.lines.is_empty() {
             self.pair.push_apart(pose, flank, found);
+        } else {
+            nearest_first(found, &mut searched.turns_rad);
         }
         list.is_empty()
     }
 
-    /// What guesses of gaps may miss \[m\]: the square of how far gear 2 stands off the design counts against the radius across the line.
+    /// What guesses of gaps may miss, poses nearby included \[m\]: the square of how far gear 2 stands off the design counts against the radius across the line.
     fn margin_m(&self, pose: &Pose, flank: Flank) -> f64 {
         let tilt = angle_of(&pose.axis_2()) - self.pair.shaft_angle_rad;
         let moved_m = pose.displacement_m.norm() + self.pair.mean_cone_m * tilt.abs();
         let [radius, _] = self.sides[flank as usize].line.at([0.5; 2]);
-        MARGIN_M + moved_m * moved_m / radius.value
+        MARGIN_M + NEARBY_M + moved_m * moved_m / radius.value
     }
 
     /// The sections of a pair of teeth.
@@ -224,13 +245,12 @@ impl BevelSlices {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);
-            let placed = (line, slice);
-            if self.push(pose, (placed, &sliced.line), (&point, &motion), found) {
+            if self.push(pose, flank, (line, slice), (&point, &motion), found) {
                 least_m = least_m.min(point.gap_m);
                 list.push(motion);
             }
         }
-        self.pair.points.fetch_add(points.get(), Ordering::Relaxed);
+        self.pair.count_points(points.get());
         let count = found.contacts.len() - first;
         if count > 0 {
             found.lines.push(TeethLine {
@@ -243,10 +263,11 @@ impl BevelSlices {
     }
 
     /// Adds a patch if any of it stands on gear 2.
-    fn push(
+    pub(super) fn push(
         &self,
         pose: &Pose,
-        ((line, slice), geometry): ((usize, usize), &super::line_geometry::LineGeometry),
+        flank: Flank,
+        (line, slice): (usize, usize),
         (point, motion): (&Nearest, &PoseDerivatives),
         found: &mut FlankContacts,
     ) -> bool {
@@ -261,7 +282,7 @@ impl BevelSlices {
         let number = found.contacts.len();
         let gradient = gradient(point, &pose.displacement_m);
         let up = point.at.map(|at| at[1]);
-        let [radius, length] = geometry.at(point.at[0]);
+        let [radius, length] = self.sides[flank as usize].line.at(point.at[0]);
         found.sections.push(Section {
             roll_rad: up,
             touching_roll_rad: up,
@@ -286,6 +307,23 @@ impl BevelSlices {
             gradient,
         });
         true
+    }
+}
+
+/// Brings the nearest pair of teeth to the front: the transmission error is its gap.
+pub(super) fn nearest_first(found: &mut FlankContacts, turns_rad: &mut [[f64; 2]]) {
+    let gap_m = |line: usize| found.lines[line].ideal_gap_m;
+    let nearest = (0..found.lines.len()).min_by(|a, b| gap_m(*a).total_cmp(&gap_m(*b)));
+    let Some(first) = nearest else {
+        return;
+    };
+    found.lines.swap(0, first);
+    turns_rad.swap(0, first);
+    for number in [0, first] {
+        let (begin, count) = found.lines[number].contacts;
+        for contact in &mut found.contacts[begin..begin + count] {
+            contact.line = number;
+        }
     }
 }
 
@@ -319,11 +357,21 @@ impl FlankKinematics for BevelSlices {
     }
 
     fn contacts(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
-        let mut list = std::mem::take(&mut self.found[side as usize].0);
+        let mut own = self.take(side);
         let mut guesses = std::mem::take(&mut self.guesses);
-        self.is_apart[side as usize] = self.find(pose, side, (&mut list, &mut guesses), found);
-        self.found[side as usize].0 = list;
+        let places = (&mut own.0, &mut guesses, &mut own.1);
+        self.is_apart[side as usize] = self.find(pose, side, places, found);
+        self.put(side, own);
         self.guesses = guesses;
+    }
+
+    fn contacts_nearby(&mut self, pose: &Pose, side: Flank, found: &mut FlankContacts) {
+        let mut own = self.take(side);
+        let again = self.find_again(pose, side, (&mut own.0, &mut own.1), found);
+        self.put(side, own);
+        if !again {
+            self.contacts(pose, side, found);
+        }
     }
 
     fn contacts_at(
@@ -333,7 +381,9 @@ impl FlankKinematics for BevelSlices {
         found: &mut FlankContacts,
     ) -> Result<(), DrivetrainError> {
         self.pair.check_axes(pose)?;
-        self.find(pose, side, (&mut Vec::new(), &mut Vec::new()), found);
+        let mut searched = Searched::with_capacity(0, 0);
+        let places = (&mut Vec::new(), &mut Vec::new(), &mut searched);
+        self.find(pose, side, places, found);
         Ok(())
     }
 

@@ -17,6 +17,7 @@ use gearmesh_contact::slice_contact::SliceContact;
 use gearmesh_contact::{
     ContactLines, ContactPatch, Drive, LocalContact, SliceLayout, nlcp::FLOOR_FRACTION,
 };
+use gearmesh_dynamics::Iterate;
 use gearmesh_geometry::{Flank, GearPair, Microgeometry};
 use gearmesh_model::ReducedGear;
 
@@ -48,6 +49,7 @@ pub struct ReducedTeeth {
     modal_rows: [Vec<f64>; 2],
     /// Teeth and slice forces that the next solution starts from.
     known: KnownForces,
+    iterate: Iterate,
 }
 
 /// Forces by tooth pair: lines come, go and change their number.
@@ -148,6 +150,7 @@ impl ReducedTeeth {
             change: empty(),
             modal_rows: [empty(), empty()],
             known: KnownForces::with_capacity(capacity),
+            iterate: Iterate::Single,
             slices,
         })
     }
@@ -321,9 +324,16 @@ impl TeethModel for ReducedTeeth {
         }
         self.check_displacement(flanks)?;
         self.take(flanks);
-        (self.slices).prepare(&self.patches, self.floor_n, true)?;
+        let (patches, floor_n) = (&self.patches, self.floor_n);
+        let goes_on = match self.iterate {
+            Iterate::Single => self.slices.prepare(patches, floor_n, true).map(|()| false),
+            Iterate::First => (self.slices.prepare_to_keep(patches, floor_n)).map(|()| false),
+            Iterate::Correction => self.slices.prepare_nearby(patches, floor_n),
+        }?;
         self.take_modes_out(flanks);
-        self.begin_solution();
+        if !goes_on {
+            self.begin_solution();
+        }
         self.slices.solve(Drive::TransmissionError(0.0))?;
         let forces = self.slices.forces_n();
         for (force, &row) in loads.normal_n.iter_mut().zip(&self.row) {
@@ -364,6 +374,14 @@ impl TeethModel for ReducedTeeth {
             if row != NOWHERE {
                 *force = self.change[row];
             }
+        }
+    }
+
+    fn expect(&mut self, iterate: Iterate) {
+        self.iterate = iterate;
+        // Nothing goes from one step to the next.
+        if iterate != Iterate::Correction {
+            self.slices.forget_kept();
         }
     }
 

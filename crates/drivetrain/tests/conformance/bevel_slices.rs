@@ -6,6 +6,7 @@ use gearmesh_contact::{HalfSpaces, LocalContact};
 use gearmesh_drivetrain::flank_contacts::FlankContacts;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
+use gearmesh_dynamics::Iterate;
 use gearmesh_geometry::Flank;
 use gearmesh_model::ReducedGear;
 
@@ -14,7 +15,7 @@ use crate::energy::{check_energy, check_power};
 use crate::mesh_common::made_up_bevel::made_up_bevel;
 use crate::mesh_common::*;
 use crate::two_bodies::{check_reaction, check_tangents, check_turned};
-use crate::{DAMPINGS, friction};
+use crate::{DAMPINGS, friction, rates};
 
 /// Slices along the teeth.
 const ALONG: usize = 12;
@@ -191,6 +192,64 @@ fn check_reduced(name: &str) {
         check_tangents((&what, 1e-2), &mut mesh, &poses);
         check_turned(&what, &mut mesh, &poses);
     }
+}
+
+/// Iterates next to a first guess, which take from there what hardly changes, have the loads of their poses by themselves, from fewer points of flanks; far
+/// ones are computed anew.
+#[test]
+fn iterates_of_bevel_slices_have_the_loads_of_their_poses() {
+    let pair = pair("bevel_20_20.toml");
+    let flanks = slices(&pair, ALONG);
+    let bodies = bodies(&flanks);
+    let teeth = |side: Flank| -> Box<dyn TeethModel> {
+        let models = [&bodies[0], &bodies[1]];
+        let local = (LocalContact::Calibrated, 2000.0);
+        let teeth = flanks.reduced_teeth(side, models, local).unwrap();
+        Box::new(Damped::new(teeth, DAMPINGS[0], ALONG).unwrap())
+    };
+    let mesh = || {
+        let right = Flank::Right;
+        let mesh = GearMesh::of_flanks(Box::new(flanks.clone()), right, teeth(right)).unwrap();
+        mesh.with_side(Flank::Left, teeth(Flank::Left)).unwrap()
+    };
+    let (mut near, mut alone) = (mesh(), mesh());
+    let points = || flanks.pair().computed_points();
+    let mut loaded = 0;
+    for (number, pose) in poses(&pair, 12e-6).iter().enumerate() {
+        let pose = moving(pose, &rates(number));
+        // Small steps from one to the next, then one that is none.
+        near.expect(Iterate::First);
+        near.evaluate(&pose, true).unwrap();
+        let mut there = pose;
+        for (iterate, size_m) in [4e-7, 1e-7, 3e-8, 1e-9, 1e-13, 2e-5]
+            .into_iter()
+            .enumerate()
+        {
+            let way = rates(number + 7 * iterate).normalize();
+            let lever = |i: usize| if i < 3 { 1.0 } else { 30.0 };
+            let step = Vector6::from_fn(|i, _| size_m * lever(i) * way[i]);
+            there = moved(&there, &step);
+            near.expect(Iterate::Correction);
+            let before = points();
+            let found = near.evaluate(&there, true).unwrap();
+            let between = points();
+            let expected = alone.evaluate(&there, true).unwrap();
+            let [of_near, of_alone] = [between - before, points() - between];
+            let off = (found.load - expected.load).norm() / expected.load.norm().max(1.0);
+            assert!(off < 5e-8, "{number}, {size_m:e}: {off:e}");
+            let off = (found.by_position - expected.by_position).norm();
+            let off = off / expected.by_position.norm().max(1.0);
+            assert!(off < 1e-6, "{number}, {size_m:e}: tangent {off:e}");
+            if size_m < 1e-6 && expected.load.norm() > 100.0 {
+                loaded += 1;
+                assert!(
+                    10 * of_near < 7 * of_alone,
+                    "{number}: {of_near} {of_alone}"
+                );
+            }
+        }
+    }
+    assert!(loaded > 20, "{loaded}");
 }
 
 /// Models of other gears are refused in words.

@@ -1,5 +1,5 @@
 //! Mechanisms with loops: Andrews' squeezing mechanism, five bars that pass through their straight position; chains;
-//! force elements with coordinates of their own; any free system. One program, so that its libraries are linked once.
+//! force elements with coordinates of their own, and such whose model ends somewhere; any free system. One program, so that its libraries are linked once.
 #![allow(clippy::unwrap_used)] // test code
 
 mod andrews;
@@ -13,6 +13,7 @@ mod own_coordinates;
 mod property_cases;
 mod random_systems;
 mod sparse;
+mod strayed_iterates;
 
 #[path = "../problems"]
 mod problems {

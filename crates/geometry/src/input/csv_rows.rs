@@ -50,6 +50,19 @@ pub fn shown_field(field: &str) -> String {
     shown
 }
 
+/// What a complaint about a row adds where its fields stand between other signs than commas, as decimal commas go with them;
+/// nothing where they do not.
+pub fn separator_hint(fields: &csv::StringRecord) -> &'static str {
+    let has = |sign: char| fields.iter().any(|field| field.contains(sign));
+    if has(';') {
+        "; this line has semicolons: fields stand between commas, and the decimal sign is a point"
+    } else if has('\t') {
+        "; this line has tabs: fields stand between commas, and the decimal sign is a point"
+    } else {
+        ""
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::{CsvRows, InputDocument, InputError, NumberRange, shown_field};
+use super::{CsvRows, InputDocument, InputError, NumberRange, separator_hint, shown_field};
 
 /// Columns of a file.
 #[derive(Debug, Clone)]
@@ -57,12 +57,12 @@ impl NumberTable {
         let known = |wanted: &str| found.iter().position(|head| head == wanted);
         // Without any of the heads it may be any file: nothing of it is printed.
         if heads.iter().all(|wanted| known(wanted).is_none()) {
-            let problem = "the first line names none of the wanted columns; is it another file?";
-            return Err(complaint(
-                Some(head_line),
-                &heads.join(", "),
-                problem.to_owned(),
-            ));
+            let hint = match separator_hint(&found) {
+                "" => "; is it another file?",
+                hint => hint,
+            };
+            let problem = format!("the first line names none of the wanted columns{hint}");
+            return Err(complaint(Some(head_line), &heads.join(", "), problem));
         }
         let places = heads
             .iter()
@@ -88,7 +88,12 @@ impl NumberTable {
                 return Err(complaint(
                     Some(line),
                     "",
-                    format!("{} fields; the head has {}", fields.len(), found.len()),
+                    format!(
+                        "{} fields; the head has {}{}",
+                        fields.len(),
+                        found.len(),
+                        separator_hint(&fields)
+                    ),
                 ));
             }
             for ((column, &place), head) in table.columns.iter_mut().zip(&places).zip(heads) {

@@ -28,13 +28,25 @@ pub(super) const ANGLE_DEG: Units = Units {
         ("\"", 1.0 / 3600.0),
         ("rev", 360.0),
         ("revolutions", 360.0),
+        ("turn", 360.0),
+        ("turns", 360.0),
     ],
 };
 
 /// Lengths in micrometres.
 pub(super) const LENGTH_UM: Units = Units {
     what: "a transmission error",
-    known: &[("um", 1.0), ("mm", 1e3), ("m", 1e6), ("nm", 1e-3)],
+    known: &[
+        ("um", 1.0),
+        ("mm", 1e3),
+        ("m", 1e6),
+        ("nm", 1e-3),
+        ("in", 25.4e3),
+        ("inch", 25.4e3),
+        ("mil", 25.4),
+        ("thou", 25.4),
+        ("uin", 25.4e-3),
+    ],
 };
 
 /// Strains in microstrain.
@@ -51,6 +63,7 @@ pub(super) const STRAIN_USTRAIN: Units = Units {
         ("m/m", 1e6),
         ("strain", 1e6),
         ("1", 1e6),
+        ("-", 1e6),
     ],
 };
 
@@ -147,6 +160,14 @@ mod tests {
         assert_eq!(STRAIN_USTRAIN.factor("%"), Some(1e4));
         assert!((ANGLE_DEG.factor("rad").unwrap() - 57.295_779_513_082_32).abs() < 1e-12);
         assert!((ANGLE_DEG.factor("arcsec").unwrap() * 3600.0 - 1.0).abs() < 1e-15);
+        for (unit, um) in [("in", 25_400.0), ("mil", 25.4), ("µin", 0.0254)] {
+            assert!(
+                (LENGTH_UM.factor(unit).unwrap() / um - 1.0).abs() < 1e-15,
+                "{unit}"
+            );
+        }
+        assert_eq!(ANGLE_DEG.factor("turns"), Some(360.0));
+        assert_eq!(STRAIN_USTRAIN.factor("-"), Some(1e6));
         let message = LENGTH_UM.factor_of("TE", "N").unwrap_err().to_string();
         assert!(
             message.contains("`N`") && message.contains("um mm m nm"),

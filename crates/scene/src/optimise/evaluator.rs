@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::file::{Judged, Optimisation};
 use crate::study::{
     BaseScene, Case, Design, FigureKinds, MadeFiles, RestCases, Scratch, Setting, StudyError,
-    Subject, VaryError, Wanted, evaluate, known_columns, number, probabilities, seeded,
+    Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number, probabilities,
+    seeded,
 };
 use crate::system::Run;
 
@@ -128,9 +129,16 @@ impl<'a> Evaluator<'a> {
                         let found = torques.iter().position(|known| *known == torque);
                         if found.is_none() {
                             let told = match torques.is_empty() {
-                                true => "belongs to scenes of a gear pair; remove it".to_owned(),
+                                true => "belongs to gear pairs, and to bevel pairs with [load]; remove it".to_owned(),
                                 false => format!("found {torque}, the scene has {torques:?}"),
                             };
+                            return Err(problem.document.error(&at("torque_Nm"), told).into());
+                        }
+                        if matches!(scene, Subject::Bevel(_)) && is_without_load(&wanted.column) {
+                            let told = format!(
+                                "`{}` is a number without load, the same at every torque; remove this key, or name a column under load, as `loaded_te_peak_to_peak_urad`",
+                                term.column
+                            );
                             return Err(problem.document.error(&at("torque_Nm"), told).into());
                         }
                         found

@@ -37,6 +37,14 @@ pub(super) fn names(subject: &BevelSubject) -> Vec<String> {
     names
 }
 
+/// Whether a column of a bevel pair is the same under every torque.
+#[must_use]
+pub(crate) fn is_without_load(column: &str) -> bool {
+    rest_columns::bevel_names()
+        .iter()
+        .any(|name| name == column)
+}
+
 /// All columns of a bevel pair. Models are those of the shelf, which reads each once.
 ///
 /// # Errors

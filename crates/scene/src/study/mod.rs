@@ -44,6 +44,7 @@ pub use elsewhere::{CaseRunner, SentCase, StudyCases, gather_study};
 pub use evaluate::{Effort, Scratch};
 pub(crate) use evaluate::{evaluate, number};
 pub use figure::{Figure, FigureKinds, Wanted};
+pub(crate) use loaded_columns::is_without_load;
 pub use pair_columns::RestColumn;
 pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
