@@ -1,11 +1,11 @@
-//! A flank as its azimuth over the blank: a place is s along the face and v up the flank between straight lines of the
+//! A flank as its azimuth over the blank: a place is s along the face and v up the flank between two lines of the
 //! axial section. With L, h of the blank the point is
 //!
 //! ```text
 //! r = (ρ cos χ, ρ sin χ, z),   ρ = L sin γ + h cos γ,   z = L cos γ − h sin γ
 //! ```
 //!
-//! χ(s, v) is a sum of Chebyshev polynomials; all derivatives follow.
+//! The lower line may bow, so that it follows a flank whose surface ends close below it. χ(s, v) is a sum of Chebyshev polynomials; all derivatives follow.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -36,6 +36,9 @@ impl PatchPoint {
     }
 }
 
+/// How the lower line departs from the straight line between its ends: h(s) − h_line(s) = s (1 − s) Σ c_k (2 s − 1)^k \[m\].
+pub(crate) type Bow = [f64; 6];
+
 /// Lines of the axial section between which s and v count.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SectionFrame {
@@ -43,6 +46,8 @@ pub(crate) struct SectionFrame {
     pub cones_m: [f64; 2],
     /// Heights of v = 0 and v = 1, each at s = 0 and s = 1 \[m\].
     pub heights_m: [[f64; 2]; 2],
+    /// Bow of the line v = 0; none where it is straight.
+    pub bow_m: Option<Bow>,
 }
 
 impl SectionFrame {
@@ -55,13 +60,36 @@ impl SectionFrame {
                 cones_m.map(|cone| -blank.dedendum_m(cone)),
                 cones_m.map(|cone| blank.addendum_m(cone)),
             ],
+            bow_m: None,
         }
+    }
+
+    /// Departure of the lower line from its straight line at s, with its first and second derivative by s \[m\].
+    fn bow(&self, s: f64) -> [f64; 3] {
+        let Some(coefficients) = &self.bow_m else {
+            return [0.0; 3];
+        };
+        let t = 2.0 * s - 1.0;
+        let [mut p, mut dp, mut ddp] = [0.0; 3];
+        for c in coefficients.iter().rev() {
+            ddp = ddp * t + 2.0 * dp;
+            dp = dp * t + p;
+            p = p * t + c;
+        }
+        let (window, slope) = (s * (1.0 - s), -t);
+        // t changes twice as fast as s.
+        [
+            window * p,
+            slope * p + 2.0 * window * dp,
+            -2.0 * p + 4.0 * slope * dp + 4.0 * window * ddp,
+        ]
     }
 
     /// L and h of a place \[m\].
     pub(crate) fn place_m(&self, [s, v]: [f64; 2]) -> [f64; 2] {
         let along = |ends: [f64; 2]| ends[0] + (ends[1] - ends[0]) * s;
-        let [low, high] = self.heights_m.map(along);
+        let [mut low, high] = self.heights_m.map(along);
+        low += self.bow(s)[0];
         [along(self.cones_m), low + (high - low) * v]
     }
 
@@ -69,7 +97,8 @@ impl SectionFrame {
     pub(crate) fn at(&self, [cone, height]: [f64; 2]) -> [f64; 2] {
         let [toe, heel] = self.cones_m;
         let s = (cone - toe) / (heel - toe);
-        let [low, high] = self.heights_m.map(|h| h[0] + (h[1] - h[0]) * s);
+        let [mut low, high] = self.heights_m.map(|h| h[0] + (h[1] - h[0]) * s);
+        low += self.bow(s)[0];
         [s, (height - low) / (high - low)]
     }
 
@@ -77,14 +106,21 @@ impl SectionFrame {
     pub(crate) fn depth_m(&self, s: f64) -> [f64; 2] {
         let [low, high] = self.heights_m;
         let ends = [0, 1].map(|i| high[i] - low[i]);
-        [ends[0] + (ends[1] - ends[0]) * s, ends[1] - ends[0]]
+        let [bow, slope, _] = self.bow(s);
+        [
+            ends[0] + (ends[1] - ends[0]) * s - bow,
+            ends[1] - ends[0] - slope,
+        ]
     }
 
     /// L and h with derivatives by s and v.
     fn jets(&self, at: [f64; 2]) -> [Jet; 2] {
         let [s, v] = [Jet::parameter(at[0], 0), Jet::parameter(at[1], 1)];
         let line = |ends: [f64; 2]| Jet::constant(ends[0]) + s * (ends[1] - ends[0]);
-        let [low, high] = self.heights_m.map(line);
+        let [mut low, high] = self.heights_m.map(line);
+        if self.bow_m.is_some() {
+            low = low + Jet::parameter(at[0], 0).chain(self.bow(at[0]));
+        }
         [line(self.cones_m), low + (high - low) * v]
     }
 }

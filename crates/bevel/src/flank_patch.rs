@@ -4,7 +4,9 @@
 //! A place is s along the face, 0 at the toe and 1 at the heel, and v up the flank, 0 at the lower line and 1 at the
 //! tip. Its azimuth is interpolated from the exact surface (`azimuth_surface.rs`).
 
-use crate::azimuth_surface::{AzimuthSurface, SectionFrame, scaled, unscaled};
+use nalgebra::{DMatrix, DVector};
+
+use crate::azimuth_surface::{AzimuthSurface, Bow, SectionFrame, scaled, unscaled};
 use crate::blank::MemberBlank;
 use crate::chebyshev::Chebyshev2;
 use crate::error::BevelError;
@@ -122,39 +124,84 @@ impl FlankPatch {
 /// # Errors
 /// [`BevelError::NoFlankPoint`] where the flank ends above its fillet.
 pub(crate) fn reach_of(flank: &Flank, mate: &MemberBlank) -> Result<SectionFrame, BevelError> {
-    let blank = &flank.blank;
-    let cones_m = [blank.inner_cone_m(), blank.outer_cone_m];
     let mut depths = [0.0; LOOKS];
     for (i, height) in depths.iter_mut().enumerate() {
-        let cone = cones_m[0] + blank.face_width_m * share(i);
-        let bottom = flank.bottom(cone)?;
+        let cone = cone_m(&flank.blank, share(i));
         let of_mate = -REACH * mate.addendum_m(cone);
-        *height = of_mate.max(flank.place(&bottom.point.r)[1]);
+        *height = of_mate.max(bottom_m(flank, cone)?);
     }
     let [toe, heel] = [depths[0], depths[LOOKS - 1]];
     let above = |i: usize| toe + (heel - toe) * share(i) - depths[i];
     let sag = (0..LOOKS).map(above).fold(0.0, f64::max);
-    Ok(SectionFrame {
-        cones_m,
-        heights_m: [
-            [toe - sag, heel - sag],
-            cones_m.map(|cone| blank.addendum_m(cone)),
-        ],
-    })
+    let mut frame = SectionFrame::of_tooth(&flank.blank);
+    frame.heights_m[0] = [toe - sag, heel - sag];
+    Ok(frame)
 }
 
-/// That part over a domain of s and v, turned by an angle about the axis.
+/// The whole flank above its fillet. Its lower line bows as the flank's end does: teeth close to undercut have no surface below it.
 ///
 /// # Errors
-/// [`BevelError::NoFlankPoint`] where the surface does not reach over it.
+/// [`BevelError::NoFlankPoint`] where the flank ends above its fillet.
+fn bowed_frame(flank: &Flank, domain: &[[f64; 2]; 2]) -> Result<SectionFrame, BevelError> {
+    let mut frame = SectionFrame::of_tooth(&flank.blank);
+    let [toe, heel] = [0.0, 1.0].map(|s| bottom_m(flank, cone_m(&flank.blank, s)));
+    let [toe, heel] = [toe?, heel?];
+    frame.heights_m[0] = [toe, heel];
+    let [from, to] = domain[0];
+    let size = Bow::default().len();
+    let mut powers = DMatrix::zeros(3 * size, size);
+    let mut bows = DVector::zeros(3 * size);
+    for k in 0..3 * size {
+        let turn = std::f64::consts::PI * (k as f64 + 0.5) / (3 * size) as f64;
+        let s = from + 0.5 * (to - from) * (1.0 - turn.cos());
+        bows[k] = bottom_m(flank, cone_m(&flank.blank, s))? - (toe + (heel - toe) * s);
+        let t = 2.0 * s - 1.0;
+        for power in 0..size {
+            powers[(k, power)] = s * (1.0 - s) * t.powi(power as i32);
+        }
+    }
+    frame.bow_m = powers
+        .svd(true, true)
+        .solve(&bows, 0.0)
+        .ok()
+        .map(|found| std::array::from_fn(|k| found[k]));
+    Ok(frame)
+}
+
+fn cone_m(blank: &MemberBlank, s: f64) -> f64 {
+    blank.inner_cone_m() + blank.face_width_m * s
+}
+
+/// Height of the flank's lower end above the pitch cone.
+fn bottom_m(flank: &Flank, cone_m: f64) -> Result<f64, BevelError> {
+    Ok(flank.place(&flank.bottom(cone_m)?.point.r)[1])
+}
+
+/// That part over a domain of s and v, turned by an angle about the axis. Where the surface does not reach down to a straight line
+/// it is the whole flank above its fillet.
+///
+/// # Errors
+/// [`BevelError::NoFlankPoint`] where the surface does not reach over it either.
 pub(crate) fn patch_of(
     flank: &Flank,
     mate: &MemberBlank,
     domain: [[f64; 2]; 2],
     turn_rad: f64,
 ) -> Result<AzimuthSurface, BevelError> {
+    let straight = reach_of(flank, mate)?;
+    patch_over(flank, straight, domain, turn_rad).or_else(|refused| {
+        let bowed = bowed_frame(flank, &domain).map_err(|_| refused)?;
+        patch_over(flank, bowed, domain, turn_rad)
+    })
+}
+
+fn patch_over(
+    flank: &Flank,
+    frame: SectionFrame,
+    domain: [[f64; 2]; 2],
+    turn_rad: f64,
+) -> Result<AzimuthSurface, BevelError> {
     let blank = &flank.blank;
-    let frame = reach_of(flank, mate)?;
     let mut start = *flank.mean();
     let azimuth = Chebyshev2::interpolate(|x, y| {
         let [cone, height] = frame.place_m(unscaled(&domain, [x, y]));

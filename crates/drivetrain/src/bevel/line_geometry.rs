@@ -8,6 +8,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// Degree of the polynomials.
 const DEGREE: usize = 4;
+/// Largest relative misfit that is allowed.
+pub(super) const MISFIT: f64 = 0.05;
+/// Distance of the logarithm's end below the lower line, in v.
+const BELOW: f64 = 0.02;
 /// Their terms.
 const TERMS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
 
@@ -29,17 +33,40 @@ pub(super) struct Grown {
     pub growth: f64,
 }
 
+/// What counts as the height in the polynomials.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Height {
+    /// v − ½.
+    Even,
+    /// ln(v + 0.02).
+    Stretched,
+}
+
+impl Height {
+    /// Its value, and its derivative by v.
+    fn at(self, v: f64) -> [f64; 2] {
+        match self {
+            Self::Even => [v - 0.5, 1.0],
+            Self::Stretched => {
+                let from_end = v.max(0.0) + BELOW;
+                [from_end.ln(), 1.0 / from_end]
+            }
+        }
+    }
+}
+
 /// Radius across the line and length along it over gear 1's flank.
 #[derive(Debug, Clone)]
 pub(super) struct LineGeometry {
+    height: Height,
     radius: [f64; TERMS],
     length: [f64; TERMS],
     /// Largest error of either at the samples, relative.
     pub misfit: f64,
 }
 
-/// The products of powers of s and v, and their derivatives by v; both from −½ to ½.
-fn terms([s, v]: [f64; 2]) -> ([f64; TERMS], [f64; TERMS]) {
+/// The products of powers of s and the height, and their derivatives by v.
+fn terms(height: Height, [s, v]: [f64; 2]) -> ([f64; TERMS], [f64; TERMS]) {
     let powers = |x: f64| {
         let mut powers = [1.0; DEGREE + 1];
         for k in 1..=DEGREE {
@@ -47,7 +74,8 @@ fn terms([s, v]: [f64; 2]) -> ([f64; TERMS], [f64; TERMS]) {
         }
         powers
     };
-    let (of_s, of_v) = (powers(s - 0.5), powers(v - 0.5));
+    let [height, rise] = height.at(v);
+    let (of_s, of_v) = (powers(s - 0.5), powers(height));
     let (mut values, mut slopes) = ([0.0; TERMS], [0.0; TERMS]);
     let mut number = 0;
     for total in 0..=DEGREE {
@@ -55,7 +83,7 @@ fn terms([s, v]: [f64; 2]) -> ([f64; TERMS], [f64; TERMS]) {
         number += 1;
         for k in 1..=total {
             values[number] = of_s[total - k] * of_v[k];
-            slopes[number] = k as f64 * of_s[total - k] * of_v[k - 1];
+            slopes[number] = k as f64 * of_s[total - k] * of_v[k - 1] * rise;
             number += 1;
         }
     }
@@ -68,7 +96,18 @@ impl LineGeometry {
         if samples.len() < 2 * TERMS {
             return None;
         }
-        let rows = DMatrix::from_fn(samples.len(), TERMS, |i, k| terms(samples[i].at).0[k]);
+        let even = Self::fitted_over(Height::Even, samples)?;
+        if even.misfit < MISFIT {
+            return Some(even);
+        }
+        let stretched = Self::fitted_over(Height::Stretched, samples);
+        Some(stretched.filter(|s| s.misfit < even.misfit).unwrap_or(even))
+    }
+
+    fn fitted_over(height: Height, samples: &[Sample]) -> Option<Self> {
+        let rows = DMatrix::from_fn(samples.len(), TERMS, |i, k| {
+            terms(height, samples[i].at).0[k]
+        });
         let svd = rows.svd(true, true);
         let fit = |of: &dyn Fn(&Sample) -> f64| -> Option<[f64; TERMS]> {
             let values = DVector::from_iterator(samples.len(), samples.iter().map(|x| of(x).ln()));
@@ -76,6 +115,7 @@ impl LineGeometry {
             Some(std::array::from_fn(|k| found[k]))
         };
         let mut fitted = Self {
+            height,
             radius: fit(&|sample| sample.radius_m)?,
             length: fit(&|sample| sample.length_m)?,
             misfit: 0.0,
@@ -94,7 +134,7 @@ impl LineGeometry {
 
     /// Radius across the line \[m\] and its length per unit of s \[m\].
     pub fn at(&self, at: [f64; 2]) -> [Grown; 2] {
-        let (values, slopes) = terms(at);
+        let (values, slopes) = terms(self.height, at);
         let sum = |of: &[f64; TERMS], by: &[f64; TERMS]| -> f64 {
             of.iter().zip(by).map(|(a, b)| a * b).sum()
         };

@@ -13,6 +13,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
 use super::bevel_mesh::{BevelMesh, angle_of};
+use super::line_geometry::MISFIT;
 use super::nearby_sections::{NEARBY_M, Searched};
 use super::nearest_points::Nearest;
 use super::nominal_contacts::Guess;
@@ -35,8 +36,6 @@ const REACH: f64 = 3.0;
 const LEAST_SHARE: f64 = 1e-4;
 /// Part of a slice over which the end of gear 2's face is rounded.
 const ROUNDING: f64 = 0.1;
-/// Largest misfit of the polynomials of the line.
-const MISFIT: f64 = 0.05;
 /// Slices along the teeth.
 const SLICES: std::ops::RangeInclusive<usize> = 3..=100;
 

@@ -67,10 +67,18 @@ fn bevel_slices_conform() {
 /// Gaps, shares and places of slices have their gradients.
 #[test]
 fn derivatives_of_bevel_slices_agree_with_differences() {
-    let pair = pair("bevel_20_20.toml");
-    let mut flanks = slices(&pair, ALONG);
+    // The line of 8/48 is described by other polynomials: its pinion is close to undercut.
+    for (name, least) in [("bevel_20_20.toml", 1000), ("bevel_8_48.toml", 500)] {
+        let compared = compare_derivatives(&pair(name));
+        assert!(compared > least, "{name}: {compared}");
+    }
+}
+
+/// Returns how many were compared.
+fn compare_derivatives(pair: &Pair) -> usize {
+    let mut flanks = slices(pair, ALONG);
     let mut compared = 0;
-    for (number, pose) in poses(&pair, 5e-6).iter().enumerate() {
+    for (number, pose) in poses(pair, 5e-6).iter().enumerate() {
         for side in Flank::ALL {
             flanks.locate(pose).unwrap();
             let mut here = FlankContacts::default();
@@ -135,7 +143,7 @@ fn derivatives_of_bevel_slices_agree_with_differences() {
             }
         }
     }
-    assert!(compared > 1000, "{compared}");
+    compared
 }
 
 /// Reduced bodies are not pressed deeper than this \[m\].
