@@ -265,6 +265,38 @@ fn axes_at_60_degrees() {
     );
 }
 
+/// Angles at which teeth stand in teeth are refused before the run, also where a tooth stands in the middle of a tooth and neither side finds its mate.
+#[test]
+fn teeth_in_teeth_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("bevel_20_20.toml"),
+        text("bevel_8_48.toml"),
+    )
+    .unwrap();
+    let said = |turn_deg: f64| {
+        let place =
+            format!("position_mm = [0.0, 0.0, 0.0]\ncardan_deg = [0.0, 90.0, {turn_deg:?}]");
+        let scene = changed(&at_3000_rpm(100.0), GEAR, &place);
+        let refused = build_in(&scene, folder.path()).err();
+        refused.map(|e| e.to_string())
+    };
+    // A pitch of the gear is 7.5 degrees.
+    let said: Vec<_> = (0..30).map(|k| said(0.25 * f64::from(k))).collect();
+    let refused: Vec<&String> = said.iter().flatten().collect();
+    for parts in [
+        ["flanks stand", "in each other at the start"],
+        ["teeth stand in teeth at the start", "together a pitch"],
+    ] {
+        let found = refused
+            .iter()
+            .any(|text| parts.iter().all(|part| text.contains(part)));
+        assert!(found, "{parts:?} {said:#?}");
+    }
+    // A tenth of a pitch is allowed on either side.
+    assert!((20..26).contains(&refused.len()), "{said:#?}");
+}
+
 /// A pair of few teeth on many.
 pub fn eight_and_48(pressure_deg: f64) -> String {
     format!(

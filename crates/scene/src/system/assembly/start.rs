@@ -13,6 +13,8 @@ use crate::system::tables::UM;
 const TOUCHING_M: f64 = 1e-13;
 /// Overlap of the coast flanks while the others touch, from which teeth are said to jam: pairs without backlash have some rounding.
 const JAMMED_M: f64 = UM;
+/// Part of a pitch that the gaps of both sides are together where a tooth stands in a tooth.
+const TOOTH_ON_TOOTH: f64 = 0.9;
 
 /// Turns gears whose angle nobody states so that their teeth touch, gear 2 where both are free; says what it did and
 /// where teeth stand whose angles are stated.
@@ -121,6 +123,22 @@ pub(super) fn settle_phases(
                 );
                 return Err(keys.error("", problem));
             }
+        }
+        let open = [gap(bodies, Flank::Right)?, gap(bodies, Flank::Left)?];
+        let (sum, pitch_m) = (open[0] + open[1], teeth.kinematics().pitch_m());
+        // The gaps of a tooth in its space add up to the backlash, less than a pitch by what two tips are thick. A whole pitch: each side found another space,
+        // a tooth stands in the middle of a tooth.
+        if sum.is_finite() && sum > TOOTH_ON_TOOTH * pitch_m {
+            let problem = format!(
+                "teeth stand in teeth at the start: the right flanks are open by {:.3} mm and the left ones by {:.3} mm, together a pitch ({:.3} mm); state other \
+                 angles (cardan_deg) of `{}` and `{}`, or leave the last angle of one of them out",
+                1e3 * open[0],
+                1e3 * open[1],
+                1e3 * pitch_m,
+                bodies.name(Some(mesh.bodies[0])),
+                bodies.name(Some(mesh.bodies[1]))
+            );
+            return Err(keys.error("", problem));
         }
         meshed.extend(mesh.bodies);
     }
