@@ -55,6 +55,12 @@ impl Chebyshev2 {
         Self { coefficients, used }
     }
 
+    /// Largest coefficient of the last two polynomials along the second variable: of the size of what is left out.
+    pub(crate) fn last_terms(&self) -> f64 {
+        let last = self.coefficients.iter().flat_map(|row| &row[UP - 2..]);
+        last.fold(0.0, |most, c| most.max(c.abs()))
+    }
+
     /// Value.
     pub(crate) fn value(&self, x: f64, y: f64) -> f64 {
         self.jet(x, y).v

@@ -17,8 +17,14 @@ use crate::tooth::Tooth;
 
 pub use crate::azimuth_surface::PatchPoint;
 
-/// How far a patch goes on beyond toe and heel, and below and above its lines, as shares of its size.
-const BEYOND: [[f64; 2]; 2] = [[0.1, 0.1], [0.0, 0.12]];
+/// How far a patch goes on beyond toe and heel, and above its upper line, as shares of its size.
+const BEYOND: [f64; 2] = [0.1, 0.12];
+/// How far it goes on below its lower line: gears that stand off their places reach deeper. The first of these where the surface goes on and the series is exact;
+/// flanks that turn back close below end at the line.
+const BELOW: [f64; 3] = [0.1, 0.07, 0.04];
+
+/// What the last terms of such a series are worth at most \[m\].
+const LAST_TERMS_M: f64 = 1e-11;
 
 /// The mate's tip reaches so deep at most, over its addendum.
 const REACH: f64 = 1.05;
@@ -58,7 +64,20 @@ impl FlankPatch {
         side: FlankSide,
     ) -> Result<Self, BevelError> {
         let turn = tooth.half_angle_rad(side);
-        let surface = patch_of(tooth.flank(side), mate, Self::domain(), turn)?;
+        let domain = |below: f64| [[-BEYOND[0], 1.0 + BEYOND[0]], [-below, 1.0 + BEYOND[1]]];
+        let flank = tooth.flank(side);
+        let straight = reach_of(flank, mate)?;
+        let is_exact = |surface: &AzimuthSurface| {
+            surface.azimuth.last_terms() * tooth.blank.outer_cone_m < LAST_TERMS_M
+        };
+        let deeper = BELOW.into_iter().find_map(|below| {
+            let surface = patch_over(flank, straight, domain(below), turn).ok();
+            surface.filter(is_exact)
+        });
+        let surface = match deeper {
+            Some(surface) => surface,
+            None => patch_of(flank, mate, domain(0.0), turn)?,
+        };
         let blank = &tooth.blank;
         let frame = &surface.frame;
         Ok(Self {
@@ -72,9 +91,8 @@ impl FlankPatch {
     }
 
     /// Least and largest s and v at which the patch is defined.
-    pub const fn domain() -> [[f64; 2]; 2] {
-        let [[a, b], [c, d]] = BEYOND;
-        [[-a, 1.0 + b], [-c, 1.0 + d]]
+    pub fn domain(&self) -> &[[f64; 2]; 2] {
+        &self.surface.domain
     }
 
     /// Cone distance and height above the pitch cone of a place \[m\].

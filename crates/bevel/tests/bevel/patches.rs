@@ -107,7 +107,7 @@ fn patches_end_where_the_flank_does() {
 
 /// The polynomials of cells are the series of the whole patch: places to far below a picometre, with the derivatives that tangents need.
 fn check_cells(patch: &FlankPatch) {
-    let [[s_low, s_high], [v_low, v_high]] = FlankPatch::domain();
+    let [[s_low, s_high], [v_low, v_high]] = *patch.domain();
     let mut worst = [0.0f64; 3];
     for i in 0..=100 {
         for k in 0..=200 {

@@ -15,11 +15,9 @@ use nalgebra::Vector3;
 
 use super::facets::{FacetSize, Facets};
 use super::hertz_stiffness::{local_measure, principal, stiffness_per_pa};
-use super::nearest_points::nearest_within;
-use super::nominal_contacts::Guess;
 use super::pose_derivatives::{MovingContacts, PoseDerivatives, gradient};
 use super::tooth_pairing::MOST_PAIRS;
-use super::tooth_side::{FAR, Side, about_z, nominal_rotation, placed, searched};
+use super::tooth_side::{FAR, Guesses, Side, about_z, nominal_rotation, placed};
 use super::touch::Touch;
 use crate::error::DrivetrainError;
 use crate::flank_contacts::{FlankContacts, Section, TeethLine, ToothContact};
@@ -232,37 +230,31 @@ impl BevelMesh {
         touches.clear();
         let side = &self.sides[flank as usize];
         found.action_m_per_u = [0.0; 2];
-        let mut guesses: [Option<Guess>; MOST_PAIRS] = [None; MOST_PAIRS];
+        let mut guesses = [Guesses::default(); MOST_PAIRS];
         let candidates = || self.candidates(pose, flank).zip(0..MOST_PAIRS);
         for (candidate, number) in candidates() {
             let back = about_z(-candidate.turns_rad[0]);
             let rotation = back * pose.rotation * about_z(candidate.turns_rad[1]);
-            let angle = candidate.angle_1_rad;
-            guesses[number] = side
-                .nominal
-                .guess(angle, &(back * pose.displacement_m), &rotation);
+            let moved_m = back * pose.displacement_m;
+            guesses[number] = side.guesses(candidate.angle_1_rad, &moved_m, &rotation);
         }
         // What guesses may miss at most, for a gap changes by no more than the axes move: only of those that stand so far open
         // is nothing computed.
         let moved_m = pose.displacement_m.norm()
             + self.mean_cone_m * (angle_of(&pose.axis_2()) - self.shaft_angle_rad).abs();
-        let gaps = guesses.iter().flatten().map(|guess| guess.gap_m);
+        let gaps = guesses.iter().filter_map(Guesses::gap_m);
         let least_m = gaps.fold(f64::INFINITY, f64::min).max(0.0);
         let far_m = FAR * self.pitch_m();
         let looked_m = far_m.min(least_m + NEAR * self.pitch_m()) + 2.0 * moved_m;
         let points = Cell::new(0);
         for (candidate, number) in candidates() {
-            let guess = &guesses[number];
-            if guess.is_some_and(|guess| guess.gap_m > looked_m) {
+            let guesses = &guesses[number];
+            if guesses.gap_m().is_some_and(|gap_m| gap_m > looked_m) {
                 continue;
             }
             let stands = (pose.rotation, pose.displacement_m);
             let bodies = placed(&side.patches, candidate.turns_rad, stands, &points);
-            let guessed = guess.as_ref().and_then(|guess| {
-                let mut limits = side.nominal.limits(guess);
-                limits.find_map(|limits| nearest_within(&bodies, limits, guess.at))
-            });
-            let Some(point) = guessed.or_else(|| searched(&bodies, &side.spheres, far_m)) else {
+            let Some(point) = side.contact(&bodies, guesses, far_m) else {
                 continue;
             };
             let motion = PoseDerivatives::new(&point, &pose.displacement_m);

@@ -369,7 +369,7 @@ fn quadrilateral([a, b, c, d]: [Vector3<f64>; 4]) -> [Place; 4] {
 
 /// The foot of a point on a flank, from a place nearby.
 fn foot_of(body: &Placed<'_>, x: &Vector3<f64>, start: [f64; 2]) -> Option<([f64; 2], PatchPoint)> {
-    let domain = FlankPatch::domain();
+    let domain = body.patch.domain();
     let mut at = start;
     for _ in 0..MOST_STEPS {
         let point = body.point(at);

@@ -9,9 +9,9 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
 use super::pose_derivatives::PoseDerivatives;
+use super::section_points::{TIPS, middle};
 use super::section_points::{TipHeld, nearest_on_section, tip_of};
 use super::sliced_mesh::{BevelSlices, nearest_first};
-use super::sliced_side::{TIPS, middle};
 use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};
 use crate::pose::{Pose, Vector6};

@@ -204,7 +204,6 @@ fn shift(p: &mut PatchPoint, [x, y]: [f64; 2]) {
 
 /// Newton's method for one set of held coordinates.
 pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) -> Option<Nearest> {
-    let domain = FlankPatch::domain();
     let mut at = start;
     for m in 0..2 {
         for k in 0..2 {
@@ -227,7 +226,7 @@ pub(super) fn solve(bodies: &[Placed<'_>; 2], held: Held, start: [[f64; 2]; 2]) 
         let mut moved: f64 = 0.0;
         for m in 0..2 {
             for k in 0..2 {
-                let [low, high] = domain[k];
+                let [low, high] = bodies[m].patch.domain()[k];
                 let next = (at[m][k] - step[2 * m + k]).clamp(low, high);
                 moved = moved.max((next - at[m][k]).abs());
                 at[m][k] = next;
@@ -304,6 +303,11 @@ impl Limits {
         Self::new(None, Some(1)),
     ];
 
+    /// The tip of a member, or nothing.
+    pub(super) const fn of_tip(tip: Option<usize>) -> Self {
+        Self::new(tip, None)
+    }
+
     const fn new(tip: Option<usize>, end: Option<usize>) -> Self {
         Self { tip, end }
     }
@@ -378,24 +382,44 @@ pub(crate) fn nearest_within(
     limits.contact(bodies, guess, &Cell::new(None))
 }
 
-/// Nearest points of two flanks with tips, toes and heels, from a guess. None where the flanks do not face each other, or
-/// stand farther apart than `far_m` at the guess.
-pub(crate) fn nearest(
+/// Nearest points from a guess nearby, whatever holds them: the limits that are likely first.
+pub(crate) fn nearest_from(
     bodies: &[Placed<'_>; 2],
+    likely: Limits,
     guess: [[f64; 2]; 2],
-    far_m: f64,
 ) -> Option<Nearest> {
+    let corners = [0, 1].map(|tip| [0, 1].map(|end| Limits::new(Some(tip), Some(end))));
+    let others = [Limits::NONE].into_iter().chain(Limits::ONE);
+    let mut all = [likely]
+        .into_iter()
+        .chain(others)
+        .chain(corners.into_iter().flatten());
+    all.find_map(|limits| nearest_within(bodies, limits, guess))
+}
+
+/// What is found from a guess.
+pub(crate) enum Outcome {
+    Contact(Nearest),
+    /// The flanks do not face each other, or stand too far apart.
+    Apart,
+    /// They face each other, but no contact was found from this place.
+    Missed([[f64; 2]; 2]),
+}
+
+/// Nearest points of two flanks with tips, toes and heels, from a guess. Apart are flanks that do not face each other, or
+/// stand farther apart than `far_m` at the guess.
+pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2], far_m: f64) -> Outcome {
     // From the middle of a cell straight to the other flank: both points then belong together. Flanks on which neither
     // middle has a foot do not face each other.
     let foot = |held: Held| solve(bodies, held, guess);
     let foot =
-        foot([guess[0].map(Some), [None; 2]]).or_else(|| foot([[None; 2], guess[1].map(Some)]))?;
-    if foot.gap_m > far_m {
-        return None;
-    }
+        foot([guess[0].map(Some), [None; 2]]).or_else(|| foot([[None; 2], guess[1].map(Some)]));
+    let Some(foot) = foot.filter(|foot| foot.gap_m <= far_m) else {
+        return Outcome::Apart;
+    };
     let inside = solve(bodies, FREE, foot.at);
     if let Some(found) = inside.filter(|found| Limits::NONE.others_hold(&found.at)) {
-        return Some(found);
+        return Outcome::Contact(found);
     }
     let start = inside.map_or(foot.at, |found| found.at);
     let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
@@ -431,8 +455,8 @@ pub(crate) fn nearest(
         .filter(|_| found.is_none() && inside.is_none());
     let missed = missed.and_then(|from| solve(bodies, FREE, from.at));
     let found = found.or(missed.filter(|found| Limits::NONE.others_hold(&found.at)));
-    if found.is_some() {
-        return found;
+    if let Some(found) = found {
+        return Outcome::Contact(found);
     }
     let mut found = None;
     for tip in [0, 1] {
@@ -441,5 +465,6 @@ pub(crate) fn nearest(
             found = least(found, limits.contact(bodies, start, &Cell::new(None)));
         }
     }
-    found
+    let from = elsewhere.get().map_or(start, |from| from.at);
+    found.map_or(Outcome::Missed(from), Outcome::Contact)
 }

@@ -49,16 +49,13 @@ pub(crate) struct Guess {
 }
 
 impl NominalContacts {
-    /// Over `reach` pitches to either side. `nearest` gives the rotation of gear 2 against gear 1 at an angle, and what is
-    /// nearest there.
+    /// Over `reach` pitches to either side: the rotation of gear 2 against gear 1 at each of [`Self::angles`], and what is nearest there.
     pub(crate) fn new(
         pitch_rad: f64,
         reach: f64,
-        mut nearest: impl FnMut(f64) -> (Matrix3<f64>, Option<Nearest>),
+        contacts: impl IntoIterator<Item = (Matrix3<f64>, Option<Nearest>)>,
     ) -> Self {
-        let angles = Self::angles(pitch_rad, reach);
-        let entry = |angle_rad: f64| {
-            let (rotation, found) = nearest(angle_rad);
+        let entry = |(rotation, found): (Matrix3<f64>, Option<Nearest>)| {
             let found = found?;
             let here = Vector3::zeros();
             Some(Entry {
@@ -71,9 +68,9 @@ impl NominalContacts {
             })
         };
         Self {
-            first_rad: angles[0],
+            first_rad: Self::angles(pitch_rad, reach)[0],
             step_rad: pitch_rad / PER_PITCH as f64,
-            entries: angles.into_iter().map(entry).collect(),
+            entries: contacts.into_iter().map(entry).collect(),
         }
     }
 
@@ -83,6 +80,12 @@ impl NominalContacts {
         let half = (reach * PER_PITCH as f64).ceil() as usize;
         let number = |number: usize| (number as f64 - half as f64) * step_rad;
         (0..=2 * half).map(number).collect()
+    }
+
+    /// What holds the contact of an entry, and its places; none where nothing is nearest.
+    pub(crate) fn entry(&self, number: usize) -> Option<(Limits, [[f64; 2]; 2])> {
+        let entry = self.entries[number].as_ref()?;
+        Some((entry.limits, entry.at))
     }
 
     /// The guess for a tooth at an angle; gear 2 in the frame of gear 1's tooth. None where nothing is nearest nominally.

@@ -20,6 +20,9 @@ const SLACK: f64 = 1e-9;
 /// Which tip holds a section's contact: of gear 1, of gear 2, or none.
 pub(crate) type TipHeld = Option<usize>;
 
+/// What may hold a section, whichever comes first.
+pub(super) const TIPS: [TipHeld; 3] = [None, Some(0), Some(1)];
+
 /// Coordinates of a section that stand still.
 fn held(s: f64, tip: TipHeld) -> Held {
     let mut held = [[Some(s), None], [None; 2]];
@@ -55,6 +58,40 @@ pub(crate) fn nearest_on_section(
         }
     }
     None
+}
+
+/// Place along gear 1's face of a slice's middle, from toe 0 to heel 1.
+pub(super) fn middle(slice: usize, slices: usize) -> f64 {
+    (slice as f64 + 0.5) / slices as f64
+}
+
+/// Contacts of all sections at a pose, from a contact of the flanks outwards, and from what holds it.
+pub(super) fn sections(
+    bodies: &[Placed<'_>; 2],
+    at: [[f64; 2]; 2],
+    tip: TipHeld,
+    slices: usize,
+) -> Vec<Option<Nearest>> {
+    let mut all = vec![None; slices];
+    let first = ((at[0][0] * slices as f64) as usize).min(slices - 1);
+    let mut go = |numbers: &mut dyn Iterator<Item = usize>| {
+        let (mut start, mut tip) = (at, tip);
+        for slice in numbers {
+            let s = middle(slice, slices);
+            let shift = s - start[0][0];
+            let mut guess = start;
+            guess[0][0] = s;
+            guess[1][0] += shift;
+            let order = std::iter::once(tip).chain(TIPS.into_iter().filter(|other| *other != tip));
+            all[slice] = nearest_on_section(bodies, s, order, guess);
+            if let Some(found) = &all[slice] {
+                (start, tip) = (found.at, tip_of(found));
+            }
+        }
+    };
+    go(&mut (first..slices));
+    go(&mut (0..first).rev());
+    all
 }
 
 /// Tangent of the line of nearest points on gear 1 per unit of s \[m\], where no tip holds it.

@@ -8,13 +8,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::hertz_stiffness::curvature;
 use super::line_geometry::{LineGeometry, Sample};
-use super::nearest_points::Nearest;
+use super::nearest_points::{Nearest, nearest_within};
 use super::nominal_contacts::NominalContacts;
-use super::section_points::{TipHeld, line_tangent, nearest_on_section, tip_of};
-use super::tooth_side::{FAR, REACH, Side, nominal_rotation, placed, searched};
-
-/// What may hold a section, whichever comes first.
-pub(super) const TIPS: [TipHeld; 3] = [None, Some(0), Some(1)];
+use super::section_points::{line_tangent, sections, tip_of};
+use super::tooth_side::{REACH, Side, nominal_rotation, placed};
 
 /// A side in slices.
 #[derive(Debug, Clone)]
@@ -23,39 +20,6 @@ pub(super) struct SlicedSide {
     pub nominal: Vec<NominalContacts>,
     /// The line over gear 1's flank.
     pub line: LineGeometry,
-}
-
-/// Place along gear 1's face of a slice's middle, from toe 0 to heel 1.
-pub(super) fn middle(slice: usize, slices: usize) -> f64 {
-    (slice as f64 + 0.5) / slices as f64
-}
-
-/// Contacts of all sections at a pose, from the contact of the flanks outwards.
-fn sections(
-    bodies: &[super::nearest_points::Placed<'_>; 2],
-    whole: &Nearest,
-    slices: usize,
-) -> Vec<Option<Nearest>> {
-    let mut all = vec![None; slices];
-    let first = ((whole.at[0][0] * slices as f64) as usize).min(slices - 1);
-    let mut go = |numbers: &mut dyn Iterator<Item = usize>| {
-        let (mut start, mut tip) = (whole.at, tip_of(whole));
-        for slice in numbers {
-            let s = middle(slice, slices);
-            let shift = s - start[0][0];
-            let mut guess = start;
-            guess[0][0] = s;
-            guess[1][0] += shift;
-            let order = std::iter::once(tip).chain(TIPS.into_iter().filter(|other| *other != tip));
-            all[slice] = nearest_on_section(bodies, s, order, guess);
-            if let Some(found) = &all[slice] {
-                (start, tip) = (found.at, tip_of(found));
-            }
-        }
-    };
-    go(&mut (first..slices));
-    go(&mut (0..first).rev());
-    all
 }
 
 impl SlicedSide {
@@ -71,16 +35,16 @@ impl SlicedSide {
         let poses = NominalContacts::angles(pitch_1, REACH);
         let mut samples = Vec::new();
         let mut found: Vec<Vec<(Matrix3<f64>, Option<Nearest>)>> = Vec::with_capacity(poses.len());
-        for angle_1 in poses {
+        for (number, angle_1) in poses.into_iter().enumerate() {
             let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
             let turns = [0, 1].map(|m: usize| angles[m] - side.azimuths_rad[m]);
             let rotation = nominal_rotation(shaft_angle_rad, turns);
             let stands = (rotation, Vector3::zeros());
             let bodies = placed(&side.patches, [0.0; 2], stands, &count);
-            let far_m = FAR * pitch_2 * side.levers_m[1];
-            let whole = searched(&bodies, &side.spheres, far_m);
+            let whole = side.nominal.entry(number);
+            let whole = whole.and_then(|(limits, at)| nearest_within(&bodies, limits, at));
             let here = whole.map_or(vec![None; slices], |whole| {
-                sections(&bodies, &whole, slices)
+                sections(&bodies, whole.at, tip_of(&whole), slices)
             });
             let inside = here
                 .iter()
@@ -90,10 +54,8 @@ impl SlicedSide {
             found.push(here.into_iter().map(|point| (rotation, point)).collect());
         }
         let nominal = (0..slices).map(|slice| {
-            let mut of_slice = found.iter().map(|here| here[slice]);
-            NominalContacts::new(pitch_1, REACH, |_| {
-                of_slice.next().unwrap_or((Matrix3::identity(), None))
-            })
+            let of_slice = found.iter().map(|here| here[slice]);
+            NominalContacts::new(pitch_1, REACH, of_slice)
         });
         let nominal = nominal.collect();
         let line = LineGeometry::fitted(&samples)?;

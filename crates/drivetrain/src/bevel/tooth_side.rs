@@ -8,14 +8,22 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
-use super::nearest_points::{Nearest, Placed, nearest};
-use super::nominal_contacts::NominalContacts;
+use super::nearest_points::{
+    Limits, Nearest, Outcome, Placed, nearest, nearest_from, nearest_within,
+};
+use super::nominal_contacts::{Guess, NominalContacts};
+use super::section_points::{sections, tip_of};
 use crate::error::DrivetrainError;
 
 /// Pitches of the pinion to either side of the plane of the axes within which teeth are looked at.
 pub(super) const REACH: f64 = 3.5;
 /// Flanks that stand farther open than this share of a pitch do not touch soon, and are passed over.
 pub(super) const FAR: f64 = 0.2;
+
+/// Sections that are looked at where Newton's method finds no contact of flanks that face each other.
+const SECTIONS: usize = 12;
+/// Gaps that differ by less are one \[m\].
+const SAME_M: f64 = 1e-9;
 
 /// A flank of each member on one side of the teeth.
 #[derive(Debug, Clone)]
@@ -26,6 +34,8 @@ pub(super) struct Side {
     pub spheres: [BoundingSpheres; 2],
     /// Contacts of the pair as designed.
     pub nominal: NominalContacts,
+    /// Contacts beside those, where a pair of teeth touches in two places (on the flank and on an edge): either may become the nearer one.
+    pub rivals: Option<NominalContacts>,
     /// Azimuth of the mean points of tooth 0 \[rad\].
     pub azimuths_rad: [f64; 2],
     /// Lever of the normal at the mean point of gear 1 and gear 2 \[m\].
@@ -54,25 +64,120 @@ impl Side {
         let azimuths_rad = [0, 1].map(|m: usize| patches[m].azimuth_rad(patches[m].mean));
         let levers_m = [0, 1].map(|m: usize| patches[m].lever_m());
         let [pitch_1, pitch_2] = blank.data.teeth.map(|z| TAU / z as f64);
-        let count = Cell::new(0);
-        let nominal = NominalContacts::new(pitch_1, REACH, |angle_1| {
-            let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
-            let turns = [0, 1].map(|m: usize| angles[m] - azimuths_rad[m]);
-            let rotation = nominal_rotation(blank.data.shaft_angle_rad, turns);
-            let bodies = placed(&patches, [0.0; 2], (rotation, Vector3::zeros()), &count);
-            (
-                rotation,
-                searched(&bodies, &spheres, FAR * pitch_2 * levers_m[1]),
-            )
-        });
+        let poses = NominalContacts::angles(pitch_1, REACH).into_iter();
+        let rotations: Vec<Matrix3<f64>> = poses
+            .map(|angle_1| {
+                let angles = [angle_1, -angle_1 * pitch_2 / pitch_1];
+                let turns = [0, 1].map(|m: usize| angles[m] - azimuths_rad[m]);
+                nominal_rotation(blank.data.shaft_angle_rad, turns)
+            })
+            .collect();
+        let far_m = FAR * pitch_2 * levers_m[1];
+        let [first, second] = designed_contacts(&patches, &spheres, &rotations, far_m);
+        let rivals = second.iter().any(Option::is_some);
+        let table = |contacts: Vec<Option<Nearest>>| {
+            NominalContacts::new(pitch_1, REACH, rotations.iter().copied().zip(contacts))
+        };
+        let (nominal, rivals) = (table(first), rivals.then(|| table(second)));
         Ok(Self {
             patches,
             spheres,
             nominal,
+            rivals,
             azimuths_rad,
             levers_m,
         })
     }
+
+    /// Where the tables expect the contacts of a pair of teeth at an angle of gear 1's; gear 2 in the frame of that tooth.
+    pub fn guesses(
+        &self,
+        angle_1_rad: f64,
+        displacement_m: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+    ) -> Guesses {
+        let of = |table: &NominalContacts| table.guess(angle_1_rad, displacement_m, rotation);
+        Guesses {
+            nominal: of(&self.nominal),
+            rival: self.rivals.as_ref().and_then(of),
+        }
+    }
+
+    /// The contact of the least gap near these guesses; searched over the flanks where none is there. None where flanks do not face each other, or stand
+    /// farther apart than `far_m`.
+    pub fn contact(
+        &self,
+        bodies: &[Placed<'_>; 2],
+        guesses: &Guesses,
+        far_m: f64,
+    ) -> Option<Nearest> {
+        let near = |table: &NominalContacts, guess: &Guess| {
+            let mut limits = table.limits(guess);
+            limits.find_map(|limits| nearest_within(bodies, limits, guess.at))
+        };
+        let nominal = guesses.nominal.as_ref();
+        let found = nominal.and_then(|guess| near(&self.nominal, guess));
+        let rival = self.rivals.as_ref().zip(guesses.rival.as_ref());
+        let rival = rival.and_then(|(table, guess)| near(table, guess));
+        let found = match (found, rival) {
+            (Some(a), Some(b)) => Some(if b.gap_m < a.gap_m { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        let found = found.or_else(|| searched(bodies, &self.spheres, far_m));
+        found.or_else(|| {
+            let guess = nominal?;
+            nearest_from(bodies, Limits::of_tip(None), guess.at)
+                .filter(|found| found.gap_m <= far_m)
+        })
+    }
+}
+
+/// Where a pair of teeth may touch.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Guesses {
+    nominal: Option<Guess>,
+    rival: Option<Guess>,
+}
+
+impl Guesses {
+    /// The least gap that is expected \[m\]; none where no contact is.
+    pub fn gap_m(&self) -> Option<f64> {
+        let gaps = [&self.nominal, &self.rival].into_iter().flatten();
+        gaps.map(|guess| guess.gap_m).reduce(f64::min)
+    }
+}
+
+/// Contacts of the pair as designed at neighbouring poses, those of the least gap and others beside them: each searched by itself, and followed from those of
+/// the pose before and after, for the search finds one at most and may miss it.
+fn designed_contacts(
+    patches: &[FlankPatch; 2],
+    spheres: &[BoundingSpheres; 2],
+    rotations: &[Matrix3<f64>],
+    far_m: f64,
+) -> [Vec<Option<Nearest>>; 2] {
+    let count = Cell::new(0);
+    let at = |k: usize| placed(patches, [0.0; 2], (rotations[k], Vector3::zeros()), &count);
+    let last = rotations.len() - 1;
+    let mut found: Vec<Vec<Nearest>> = (0..=last)
+        .map(|k| searched(&at(k), spheres, far_m).into_iter().collect())
+        .collect();
+    let onwards = (0..last).map(|k| [k, k + 1]);
+    let backwards = (0..last).rev().map(|k| [k + 1, k]);
+    for [from, to] in onwards.chain(backwards) {
+        for known in found[from].clone() {
+            let followed = nearest_from(&at(to), Limits::of(&known.held), known.at);
+            let is_new = |new: &Nearest| {
+                let same = |own: &Nearest| (own.gap_m - new.gap_m).abs() < SAME_M;
+                new.gap_m <= far_m && !found[to].iter().any(same)
+            };
+            if let Some(new) = followed.filter(is_new) {
+                found[to].push(new);
+                found[to].sort_by(|a, b| a.gap_m.total_cmp(&b.gap_m));
+                found[to].truncate(2);
+            }
+        }
+    }
+    [0, 1].map(|k: usize| found.iter().map(|own| own.get(k).copied()).collect())
 }
 
 /// Both flanks of a side in the frame of gear 1, turned about their own axes; gear 2 with its axes and its origin \[m\] there.
@@ -92,7 +197,7 @@ pub(super) fn placed<'a>(
     })
 }
 
-/// Nearest points without a guess, beginning at the two nearest of all bounding spheres.
+/// Nearest points without a guess, beginning at the two nearest of all bounding spheres, and, where that finds none, at the section of the least gap.
 pub(super) fn searched(
     bodies: &[Placed<'_>; 2],
     spheres: &[BoundingSpheres; 2],
@@ -104,7 +209,17 @@ pub(super) fn searched(
         [&first.rotation(), &second.rotation()],
         second.origin_m,
     )?;
-    nearest(bodies, guess, far_m)
+    match nearest(bodies, guess, far_m) {
+        Outcome::Contact(found) => Some(found),
+        Outcome::Apart => None,
+        Outcome::Missed(from) => {
+            let found = sections(bodies, from, None, SECTIONS);
+            let found = found.into_iter().flatten();
+            let least = found.min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))?;
+            nearest_from(bodies, Limits::of_tip(tip_of(&least)), least.at)
+                .filter(|found| found.gap_m <= far_m)
+        }
+    }
 }
 
 /// Gear 2's axes in gear 1's where the pair stands as designed and the gears have turned by these angles.

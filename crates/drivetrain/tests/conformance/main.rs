@@ -11,6 +11,7 @@ mod effects;
 mod energy;
 mod examples;
 mod exchange;
+mod followed_gaps;
 mod hertz;
 mod invariance;
 #[path = "../mesh_common/mod.rs"]
