@@ -55,6 +55,8 @@ impl PairTangents {
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
+    /// The axes about which the bodies turn, where the gears stand beside them.
+    axes: Option<MarkerPair>,
     bodies: [BodyId; 2],
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
@@ -72,12 +74,21 @@ impl MeshElement {
                 a: gear_1,
                 b: gear_2,
             },
+            axes: None,
             bodies: [gear_1.body, gear_2.body],
             mesh,
             gauges: Vec::new(),
             line_loads: None,
             pairs: None,
         }
+    }
+
+    /// States the axes about which the bodies turn, for gears that stand beside them or askew: the transmission error is then that of ideal
+    /// flanks on these axes, with runout and wobble in it.
+    #[must_use]
+    pub fn with_axes(mut self, [a, b]: [Marker; 2]) -> Self {
+        self.axes = Some(MarkerPair { a, b });
+        self
     }
 
     /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`, counted along gear 1's z.
@@ -125,6 +136,21 @@ impl MeshElement {
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
         self.pair.motion(gear_1, gear_2)
+    }
+
+    /// Transmission error at the last motion, not a number where none can be told.
+    fn transmission_error_m(&mut self, view: &View<'_>, motion: &RelativeMotion) -> f64 {
+        let told = match &self.axes {
+            // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
+            None => (self.mesh.transmission_error_m()).or_else(|| self.mesh.nearest_gap_m()),
+            Some(axes) => {
+                let [body_1, body_2] = self.bodies.map(|body| view.body(body));
+                let (gears, axes) = (Pose::from(motion), axes.motion(body_1, body_2));
+                let told = (self.mesh).transmission_error_on_axes_m(&gears, &Pose::from(&axes));
+                told.ok().flatten()
+            }
+        };
+        told.unwrap_or(f64::NAN)
     }
 
     /// Takes the mesh to a motion of its bodies and their modes.
@@ -289,13 +315,7 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
-        let nearest = || self.mesh.nearest_gap_m();
-        out[sides] = self
-            .mesh
-            .transmission_error_m()
-            .or_else(nearest)
-            .unwrap_or(f64::NAN);
+        out[sides] = self.transmission_error_m(view, &motion);
         out[sides + 1] = pairs as f64;
         out[sides + 2] = f64::from(u8::from(self.mesh.is_apart()));
         let mut places = out[sides + 3..].iter_mut();
