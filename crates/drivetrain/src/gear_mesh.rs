@@ -204,10 +204,9 @@ impl GearMesh {
         self.sides.iter().filter_map(gap_m).min_by(f64::total_cmp)
     }
 
-    /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on these axes, so that
-    /// runout and wobble are in it as in the turns of the bodies. `gears` is the last pose, `axes` the pose of the axes at the same moment.
-    ///
-    /// TE = TE at the gears + (gap on the axes − gap at the gears) of the nearest ideal flanks of the side that touches.
+    /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on these axes, of the side
+    /// that touches at the last pose, so that runout and wobble are in it as in the turns of the bodies. `gears` is the last pose, `axes` the
+    /// pose of the axes at the same moment, `found` memory for the flanks there.
     ///
     /// # Errors
     /// [`DrivetrainError`] if the axes stand so that flanks cannot be told.
@@ -215,26 +214,25 @@ impl GearMesh {
         &mut self,
         gears: &Pose,
         axes: &Pose,
+        found: &mut FlankContacts,
     ) -> Result<Option<f64>, DrivetrainError> {
-        let ideal = |side: &Side| side.found.lines.first().map(|line| line.ideal_gap_m);
         let gap_m = |side: &Side| {
-            let touching = ideal(side).or(side.found.open_gap_m);
+            let line = side.found.lines.first().map(|line| line.ideal_gap_m);
+            let touching = line.or(side.found.open_gap_m);
             touching.or_else(|| self.kinematics.nearest_gap_m(side.flank))
         };
-        let told = self
-            .sides
-            .iter()
-            .filter_map(|side| Some((side.flank, gap_m(side)?)));
-        let Some((side, told_m)) = told.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+        let told = (self.sides.iter()).filter_map(|side| Some((side.flank, gap_m(side)?)));
+        let Some((side, _)) = told.min_by(|a, b| a.1.total_cmp(&b.1)) else {
             return Ok(None);
         };
-        let at_gears = self.kinematics.nearest_gap_m(side);
+        self.kinematics.contacts_at(axes, side, found)?;
+        if let Some(line) = found.lines.first() {
+            return Ok(Some(line.ideal_gap_m));
+        }
         self.kinematics.locate(axes)?;
-        let on_axes = self.kinematics.nearest_gap_m(side);
+        let nearest = self.kinematics.nearest_gap_m(side);
         self.kinematics.locate(gears)?;
-        let moved = on_axes.zip(at_gears).map(|(on, at)| on - at);
-        let pitch_m = self.kinematics.pitch_m();
-        Ok(moved.map(|moved| told_m + moved - pitch_m * (moved / pitch_m).round()))
+        Ok(nearest)
     }
 
     /// Friction of each contact of a side at the last pose; zero without.

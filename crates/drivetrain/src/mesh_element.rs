@@ -6,6 +6,7 @@ use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMoti
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
+use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::mesh_channels::{self, FORCES, SliceLineLoads, force_on_gear_1};
@@ -56,7 +57,7 @@ pub struct MeshElement {
     name: String,
     pair: MarkerPair,
     /// The axes about which the bodies turn, where the gears stand beside them.
-    axes: Option<MarkerPair>,
+    axes: Option<(MarkerPair, FlankContacts)>,
     bodies: [BodyId; 2],
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
@@ -87,7 +88,8 @@ impl MeshElement {
     /// flanks on these axes, with runout and wobble in it.
     #[must_use]
     pub fn with_axes(mut self, [a, b]: [Marker; 2]) -> Self {
-        self.axes = Some(MarkerPair { a, b });
+        let found = FlankContacts::with_capacity(self.mesh.kinematics().capacity());
+        self.axes = Some((MarkerPair { a, b }, found));
         self
     }
 
@@ -140,13 +142,13 @@ impl MeshElement {
 
     /// Transmission error at the last motion, not a number where none can be told.
     fn transmission_error_m(&mut self, view: &View<'_>, motion: &RelativeMotion) -> f64 {
-        let told = match &self.axes {
+        let told = match &mut self.axes {
             // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
             None => (self.mesh.transmission_error_m()).or_else(|| self.mesh.nearest_gap_m()),
-            Some(axes) => {
+            Some((axes, found)) => {
                 let [body_1, body_2] = self.bodies.map(|body| view.body(body));
-                let (gears, axes) = (Pose::from(motion), axes.motion(body_1, body_2));
-                let told = (self.mesh).transmission_error_on_axes_m(&gears, &Pose::from(&axes));
+                let poses = [motion, &axes.motion(body_1, body_2)].map(Pose::from);
+                let told = (self.mesh).transmission_error_on_axes_m(&poses[0], &poses[1], found);
                 told.ok().flatten()
             }
         };
