@@ -109,12 +109,15 @@ impl Ball<'_> {
         let before = found.take().map(|place| Vector2::new(place[0], place[1]));
         // A ball that hardly bears any more may not be found from where it stood before.
         let near = before.and_then(|place| self.balanced(place).ok());
-        let (place, state) = if let Some(near) = near {
-            near
-        } else if let Some(start) = self.start() {
-            self.balanced(start)?
-        } else {
-            return Ok(self.unloaded());
+        let (place, state) = match near {
+            Some(near) => near,
+            None => match self.starts() {
+                [Some(start), None] | [None, Some(start)] => self.balanced(start)?,
+                [Some(first), Some(second)] => self
+                    .balanced(first)
+                    .or_else(|error| self.balanced(second).map_err(|_| error))?,
+                [None, None] => return Ok(self.unloaded()),
+            },
         };
         self.refuse_far_side(&state)?;
         if state.scale() > NO_FORCE_N {
@@ -143,8 +146,11 @@ impl Ball<'_> {
         }
     }
 
-    /// Where the iteration begins; none where the ball is loose and nothing presses it.
-    fn start(&self) -> Option<Vector2<f64>> {
+    /// Where the iteration begins, and where it begins again if that fails; none where the ball is loose and nothing presses it.
+    ///
+    /// Where the centrifugal force is more than what the rings press with, the ball is sought at the bottom of the outer groove: contacts that
+    /// hardly touch have no slope to begin with, and the way along a groove is narrow.
+    fn starts(&self) -> [Option<Vector2<f64>>; 2] {
         let row = self.row;
         let (inner, outer) = (self.inner, self.outer);
         // Nearest point of the inner ring's circle of groove centres, in the ball's plane.
@@ -156,26 +162,37 @@ impl Ball<'_> {
         let between = centre - from;
         let distance = between.norm();
         let approach = distance - inner.arm_m - outer.arm_m;
-        let moving = self.operation.is_turning();
-        if approach > 0.0 {
-            // Two springs in series along the line between the groove centres.
-            let ratio = outer.contact.stiffness_n_per_m15 / inner.contact.stiffness_n_per_m15;
-            let share = 1.0 / (1.0 + ratio.cbrt().powi(2));
-            return Some(from + between * ((outer.arm_m + approach * share) / distance));
-        }
-        if moving {
+        // In the outer groove under its centrifugal force alone.
+        let pressed_m = self.operation.is_turning().then(|| {
             let angles = ContactAngles {
                 inner: (1.0, 0.0),
                 outer: (1.0, 0.0),
             };
             let motion = self.motion_at(&angles, RaceControl::Outer);
             let pressed = motion.centrifugal_n.value / outer.contact.stiffness_n_per_m15;
-            return Some(from + Vector2::new(outer.arm_m + pressed.cbrt().powi(2), 0.0));
+            pressed.cbrt().powi(2)
+        });
+        let thrown = pressed_m.map(|depth| from + Vector2::new(outer.arm_m + depth, 0.0));
+        if approach > 0.0 {
+            // Two springs in series along the line between the groove centres.
+            let ratio = outer.contact.stiffness_n_per_m15 / inner.contact.stiffness_n_per_m15;
+            let depth = approach / (1.0 + ratio.cbrt().powi(2));
+            let least = pressed_m.unwrap_or(0.0);
+            let between = from + between * ((outer.arm_m + depth.max(least)) / distance);
+            return if depth > least {
+                [Some(between), thrown]
+            } else {
+                [thrown, Some(between)]
+            };
+        }
+        if thrown.is_some() {
+            return [thrown, None];
         }
         // The ring's tilt and the ball's plane make a difference of second order: within it the iteration decides.
         let doubt = self.pose.centre_m.norm_squared() / row.pitch_radius_m
             + row.pitch_radius_m * (a.x * a.x + a.y * a.y);
-        (approach > -doubt).then(|| from + between * (outer.arm_m / distance))
+        let touching = (approach > -doubt).then(|| from + between * (outer.arm_m / distance));
+        [touching, None]
     }
 
     fn motion_at(&self, angles: &ContactAngles, control: RaceControl) -> BallMotion {
@@ -330,6 +347,7 @@ impl Ball<'_> {
                 return Ok((place, state));
             }
             let mut factor = (0.2 * self.outer.arm_m / step.norm()).min(1.0);
+            let least = 1e-6 * factor;
             loop {
                 let next = place + step * factor;
                 let found = self.state(&next, control);
@@ -338,7 +356,7 @@ impl Ball<'_> {
                     break;
                 }
                 factor *= 0.5;
-                if factor < 1e-6 {
+                if factor < least {
                     // No descent: rounding of the residual, or no equilibrium.
                     if size <= 1e-9 * scale + NO_FORCE_N {
                         return Ok((place, state));

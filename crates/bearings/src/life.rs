@@ -1,6 +1,7 @@
 //! Rating life: L10 by ISO 281, L10r of the true load distribution by ISO/TS 16281, L10mr with lubrication and contamination.
 
 use crate::definition::{BearingDefinition, BearingGeometry};
+use crate::element_load::ElementLoad;
 use crate::operation::Operation;
 use crate::quasi_static::RowLoads;
 use crate::ratings::{Ratings, ball_static_factor, nominal_angle_rad, outer_angle_rad};
@@ -19,6 +20,9 @@ pub struct Life {
     /// L10mr = a_ISO L10r where a lubricant is stated.
     pub modified_mrev: Option<f64>,
 }
+
+/// Loads of an element that are no more than rounding \[N\].
+const NO_LOAD_N: f64 = 1e-9;
 
 /// Lubricant at the bearing's temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +86,10 @@ fn reference_mrev(
     loads: &RowLoads,
     inner_turns: bool,
 ) -> f64 {
+    let borne = |load: &ElementLoad| load.inner_load_n.max(load.outer_load_n) > NO_LOAD_N;
+    if !loads.elements.iter().flatten().any(borne) {
+        return f64::INFINITY;
+    }
     match &definition.geometry {
         BearingGeometry::Ball(g) => {
             let angle = nominal_angle_rad(g);

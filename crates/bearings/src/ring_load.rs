@@ -31,11 +31,22 @@ impl RingLoad {
         self.load.fixed_rows::<5>(0).into_owned()
     }
 
-    /// Takes the moment about the ring's own axis away: it is rounding, because races are surfaces of revolution and friction has no arm about the
-    /// axis. A shaft that turns freely in its bearings would otherwise find no rest.
+    /// Takes the moment about the ring's own axis a away, and what a turn about it changes: both are rounding, because races are surfaces of
+    /// revolution and friction has no arm about the axis. A shaft that turns freely in its bearings would otherwise find no rest.
+    ///
+    /// With a·M = 0 at all times a·δM = −δa·M = −(a × M)·δφ.
     pub(crate) fn turn_freely(&mut self, axis: &Vector3<f64>) {
         let mut moment = self.load.fixed_rows_mut::<3>(3);
         moment -= axis * axis.dot(&moment);
+        let moment: Vector3<f64> = moment.into_owned();
+        let by_turn = self.tangent.fixed_columns::<3>(3) * axis;
+        let mut columns = self.tangent.fixed_columns_mut::<3>(3);
+        columns -= by_turn * axis.transpose();
+        let mut rows = self.tangent.fixed_rows_mut::<3>(3);
+        let about_axis = axis.transpose() * &rows;
+        rows -= axis * about_axis;
+        let mut block = self.tangent.fixed_view_mut::<3, 3>(3, 3);
+        block -= axis * axis.cross(&moment).transpose();
     }
 
     /// Adds a force f at the place w from the ring's middle, of a point that does not move with the ring, whose change is

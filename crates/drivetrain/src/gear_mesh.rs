@@ -204,6 +204,37 @@ impl GearMesh {
         self.sides.iter().filter_map(gap_m).min_by(f64::total_cmp)
     }
 
+    /// The transmission error where gears stand beside the axes about which their bodies turn: that of ideal flanks on these axes, of the side
+    /// that touches at the last pose, so that runout and wobble are in it as in the turns of the bodies. `gears` is the last pose, `axes` the
+    /// pose of the axes at the same moment, `found` memory for the flanks there.
+    ///
+    /// # Errors
+    /// [`DrivetrainError`] if the axes stand so that flanks cannot be told.
+    pub fn transmission_error_on_axes_m(
+        &mut self,
+        gears: &Pose,
+        axes: &Pose,
+        found: &mut FlankContacts,
+    ) -> Result<Option<f64>, DrivetrainError> {
+        let gap_m = |side: &Side| {
+            let line = side.found.lines.first().map(|line| line.ideal_gap_m);
+            let touching = line.or(side.found.open_gap_m);
+            touching.or_else(|| self.kinematics.nearest_gap_m(side.flank))
+        };
+        let told = (self.sides.iter()).filter_map(|side| Some((side.flank, gap_m(side)?)));
+        let Some((side, _)) = told.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+            return Ok(None);
+        };
+        self.kinematics.contacts_at(axes, side, found)?;
+        if let Some(line) = found.lines.first() {
+            return Ok(Some(line.ideal_gap_m));
+        }
+        self.kinematics.locate(axes)?;
+        let nearest = self.kinematics.nearest_gap_m(side);
+        self.kinematics.locate(gears)?;
+        Ok(nearest)
+    }
+
     /// Friction of each contact of a side at the last pose; zero without.
     #[must_use]
     pub fn friction(&self, flank: Flank) -> &[FlankFriction] {

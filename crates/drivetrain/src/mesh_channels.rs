@@ -27,7 +27,8 @@ pub(crate) fn normal_force(flank: Flank) -> Channel {
 
 /// Transmission error, pairs of teeth that carry, and whether the gears are apart.
 pub(crate) fn state() -> [Channel; 3] {
-    let te = "transmission error of the flanks in contact, zero at first touch, negative under load; where none touch that of the nearest";
+    let te = "transmission error of the flanks in contact about the bodies' axes, zero at first touch, negative under load; where none touch that of the \
+              nearest";
     [
         Channel::new("transmission_error_m", "m", te),
         Channel::new("loaded_pairs", "1", "pairs of teeth that carry"),

@@ -6,6 +6,7 @@ use gearmesh_dynamics::{BodyId, ElementFailure, Marker, MarkerPair, RelativeMoti
 use gearmesh_model::ReducedGear;
 
 use crate::error::DrivetrainError;
+use crate::flank_contacts::FlankContacts;
 use crate::flank_modes::ModalMotion;
 use crate::gear_mesh::{GearMesh, MeshLoad};
 use crate::mesh_channels::{self, FORCES, SliceLineLoads, force_on_gear_1};
@@ -55,6 +56,8 @@ impl PairTangents {
 pub struct MeshElement {
     name: String,
     pair: MarkerPair,
+    /// The axes about which the bodies turn, where the gears stand beside them.
+    axes: Option<(MarkerPair, FlankContacts)>,
     bodies: [BodyId; 2],
     mesh: GearMesh,
     gauges: Vec<StrainGauges>,
@@ -72,12 +75,22 @@ impl MeshElement {
                 a: gear_1,
                 b: gear_2,
             },
+            axes: None,
             bodies: [gear_1.body, gear_2.body],
             mesh,
             gauges: Vec::new(),
             line_loads: None,
             pairs: None,
         }
+    }
+
+    /// States the axes about which the bodies turn, for gears that stand beside them or askew: the transmission error is then that of ideal
+    /// flanks on these axes, with runout and wobble in it.
+    #[must_use]
+    pub fn with_axes(mut self, [a, b]: [Marker; 2]) -> Self {
+        let found = FlankContacts::with_capacity(self.mesh.kinematics().capacity());
+        self.axes = Some((MarkerPair { a, b }, found));
+        self
     }
 
     /// Adds the line load of each slice, slices being so wide \[m\]: channels `line_load_slice_<number>_N_per_m`, counted along gear 1's z.
@@ -125,6 +138,21 @@ impl MeshElement {
     fn motion(&self, view: &View<'_>) -> RelativeMotion {
         let [gear_1, gear_2] = self.bodies.map(|body| view.body(body));
         self.pair.motion(gear_1, gear_2)
+    }
+
+    /// Transmission error at the last motion, not a number where none can be told.
+    fn transmission_error_m(&mut self, view: &View<'_>, motion: &RelativeMotion) -> f64 {
+        let told = match &mut self.axes {
+            // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
+            None => (self.mesh.transmission_error_m()).or_else(|| self.mesh.nearest_gap_m()),
+            Some((axes, found)) => {
+                let [body_1, body_2] = self.bodies.map(|body| view.body(body));
+                let poses = [motion, &axes.motion(body_1, body_2)].map(Pose::from);
+                let told = (self.mesh).transmission_error_on_axes_m(&poses[0], &poses[1], found);
+                told.ok().flatten()
+            }
+        };
+        told.unwrap_or(f64::NAN)
     }
 
     /// Takes the mesh to a motion of its bodies and their modes.
@@ -289,13 +317,7 @@ impl ForceElement for MeshElement {
                 .filter(|line| loaded(line.contacts.0, line.contacts.1))
                 .count();
         }
-        // Between two pairs of teeth, and where gears are apart, the nearest flanks are continued.
-        let nearest = || self.mesh.nearest_gap_m();
-        out[sides] = self
-            .mesh
-            .transmission_error_m()
-            .or_else(nearest)
-            .unwrap_or(f64::NAN);
+        out[sides] = self.transmission_error_m(view, &motion);
         out[sides + 1] = pairs as f64;
         out[sides + 2] = f64::from(u8::from(self.mesh.is_apart()));
         let mut places = out[sides + 3..].iter_mut();

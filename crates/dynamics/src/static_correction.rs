@@ -188,7 +188,30 @@ fn by_singular_values(
         time_s: 0.0,
     };
     let svd = scaled.svd().map_err(|_| singular())?;
-    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+    let rank = {
+        let s = svd.S().column_vector();
+        (0..total).take_while(|&k| s[k] > FREE * s[0]).count()
+    };
+    // A motion that nothing resists changes no load; yet off the equilibrium other motions change the load along it, by as much as loads are unbalanced.
+    // Scaled up, that little would weigh as much as all else: the equation along a free motion is left out.
+    let along_free = svd.V().subcols(rank, total - rank).to_owned();
+    let unequal = along_free.transpose() * &scaled;
+    let svd = if unequal.norm_max() > FREE * svd.S().column_vector()[0] {
+        let equal = &scaled - &along_free * unequal;
+        let equal = equal.svd().map_err(|_| singular())?;
+        (
+            equal.U().to_owned(),
+            equal.S().column_vector().to_owned(),
+            equal.V().to_owned(),
+        )
+    } else {
+        (
+            svd.U().to_owned(),
+            svd.S().column_vector().to_owned(),
+            svd.V().to_owned(),
+        )
+    };
+    let (u, s, v) = svd;
     let right = |i: usize| {
         -scale[i]
             * if i < n {

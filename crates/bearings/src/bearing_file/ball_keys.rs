@@ -145,7 +145,7 @@ fn free_angle_rad(
         "radial_clearance_um",
         clearance_um,
         clearance_um >= 0.0 && clearance_um < most_um,
-        &format!("0 up to, not including, {most_um:.1}: with more no ball touches both grooves"),
+        &format!("0 up to, not including, {most_um:.1}: with more no ball touches both grooves, and interference (negative clearance) is not modelled"),
     )?;
     Ok(angle(1e-3 * clearance_um))
 }

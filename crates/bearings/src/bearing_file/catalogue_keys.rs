@@ -72,7 +72,7 @@ pub(super) fn geometry(
                 "radial_clearance_um",
                 clearance_m / UM,
                 (0.0..1e-3).contains(&clearance_m),
-                "0 up to, not including, 1000",
+                "0 up to, not including, 1000; interference (negative clearance) is not modelled",
             )?;
             for (key, given) in [
                 ("inner_conformity", file.inner_conformity.is_some()),
@@ -145,7 +145,7 @@ fn ball_geometry(
                 "radial_clearance_um",
                 clearance_m / UM,
                 clearance_m >= 0.0 && clearance_m < 2.0 * distance_m,
-                &format!("0 up to, not including, {most:.1}"),
+                &format!("0 up to, not including, {most:.1}; interference (negative clearance) is not modelled"),
             )?;
             let half_sine = (0.25 * clearance_m / distance_m).sqrt();
             (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())

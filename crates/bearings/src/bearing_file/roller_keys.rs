@@ -53,7 +53,7 @@ pub(super) fn geometry(
         "radial_clearance_um",
         clearance_um,
         (0.0..1000.0).contains(&clearance_um),
-        "0 up to, not including, 1000",
+        "0 up to, not including, 1000; interference (negative clearance) is not modelled",
     )?;
     let taper = (file.kind == Kind::TaperedRoller)
         .then(|| taper(file, keys, (diameter, length, pitch)))

@@ -274,3 +274,55 @@ fn a_ring_pulled_out_is_an_error() {
     let ring = bearing.evaluate(&loose, &at_rpm(0.0)).unwrap();
     assert_eq!(ring.load.norm(), 0.0);
 }
+
+/// Without clearance (the default) and load all contacts just touch and have no slope; at speed each ball then rests in the outer groove
+/// under its centrifugal force alone.
+#[test]
+fn balls_that_just_touch_rest_in_the_outer_groove_at_speed() {
+    let bearing = bearing(B6205);
+    for rpm in [1.0, 1000.0, 20_000.0] {
+        let pose = rest(&bearing, [0.0; 3], FREE, rpm);
+        assert_eq!(pose.to_five().norm(), 0.0);
+        let (_, loads) = bearing.loads(&pose, &at_rpm(rpm)).unwrap();
+        for ball in &loads.elements[0] {
+            assert_eq!(ball.inner_load_n, 0.0);
+            close(ball.outer_load_n, ball.centrifugal_n, 1e-5);
+        }
+        // As a scene begins: rings in the middle, then a load.
+        let pose = rest(&bearing, [0.0, 1000.0, 200.0], HELD, rpm);
+        let ring = bearing.evaluate(&pose, &at_rpm(rpm)).unwrap();
+        close(-ring.load[1], 1000.0, 1e-9);
+    }
+}
+
+/// Rings that hardly touch the balls, or press them hard, at any speed: every ball is found, and bears its centrifugal force.
+#[test]
+fn balls_are_found_from_no_load_to_heavy_load_at_all_speeds() {
+    for (text, ball_m) in [(B6205, 7.938e-3), (B218, 22.23e-3)] {
+        let bearing = bearing(text);
+        for rpm in [1.0, 10.0, 100.0, 1000.0] {
+            for z in [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4] {
+                for x in [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5] {
+                    let pose = RingPose::from_five(&Vector5::new(x, 0.0, z, 0.0, 0.0));
+                    let (_, loads) = bearing
+                        .loads(&pose, &at_rpm(rpm))
+                        .unwrap_or_else(|e| panic!("{rpm} rpm, x {x}, z {z}: {e}"));
+                    for ball in &loads.elements[0] {
+                        let (inner, outer) =
+                            (ball.inner_contact_angle_rad, ball.outer_contact_angle_rad);
+                        // Outer-race control: friction there along the groove bears the gyroscopic moment.
+                        let friction = 2.0 * ball.gyroscopic_nm / ball_m;
+                        let across = ball.outer_load_n * outer.cos()
+                            - ball.inner_load_n * inner.cos()
+                            - friction * outer.sin();
+                        let scale = ball.outer_load_n + ball.centrifugal_n;
+                        assert!(
+                            (across - ball.centrifugal_n).abs() < 1e-6 * scale + 1e-8,
+                            "{ball:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

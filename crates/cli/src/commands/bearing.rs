@@ -163,6 +163,12 @@ fn lubrication(a: &BearingArguments) -> Result<Option<Lubrication>, Failure> {
     }))
 }
 
+/// To so many decimals, without the sign of what is nothing then.
+fn rounded(value: f64, decimals: i32) -> f64 {
+    let unit = 10.0_f64.powi(decimals);
+    (value * unit).round() / unit + 0.0
+}
+
 impl Answer<'_> {
     pub fn of_rollers(&self) -> bool {
         matches!(self.found.definition.geometry, BearingGeometry::Roller(_))
@@ -281,22 +287,22 @@ impl Answer<'_> {
         console::data(format!(
             "{}: inner ring moves by x {:.4}, y {:.4}, z {:.4} um, tilts by {:.5}, {:.5} mrad; moment {:.4}, {:.4} N m",
             self.found.definition.name,
-            1e6 * q[0],
-            1e6 * q[1],
-            1e6 * q[2],
-            1e3 * q[3],
-            1e3 * q[4],
-            -self.ring.load[3],
-            -self.ring.load[4]
+            rounded(1e6 * q[0], 4),
+            rounded(1e6 * q[1], 4),
+            rounded(1e6 * q[2], 4),
+            rounded(1e3 * q[3], 5),
+            rounded(1e3 * q[4], 5),
+            rounded(-self.ring.load[3], 4),
+            rounded(-self.ring.load[4], 4)
         ));
         let k = self.stiffness();
         console::data(format!(
             "stiffness: x {:.2}, y {:.2}, z {:.2} N/um; tilt {:.4e}, {:.4e} N m/rad",
-            1e-6 * k[0][0],
-            1e-6 * k[1][1],
-            1e-6 * k[2][2],
-            k[3][3],
-            k[4][4]
+            rounded(1e-6 * k[0][0], 2),
+            rounded(1e-6 * k[1][1], 2),
+            rounded(1e-6 * k[2][2], 2),
+            k[3][3] + 0.0,
+            k[4][4] + 0.0
         ));
         for (row, list) in self.loads.elements.iter().enumerate() {
             if self.loads.elements.len() > 1 {
@@ -312,8 +318,8 @@ impl Answer<'_> {
                     e.angle_rad.to_degrees(),
                     e.inner_load_n,
                     e.outer_load_n,
-                    e.inner_contact_angle_rad.to_degrees(),
-                    e.outer_contact_angle_rad.to_degrees(),
+                    rounded(e.inner_contact_angle_rad.to_degrees(), 4),
+                    rounded(e.outer_contact_angle_rad.to_degrees(), 4),
                     1e-6 * inner,
                     1e-6 * outer
                 ));

@@ -210,3 +210,19 @@ fn faults_at_rest() {
     let load = |ball: usize| json["rows"][0][ball]["inner_load_N"].as_f64().unwrap();
     assert!(load(4) > 1.05 * load(3) && load(4) > 1.05 * load(5));
 }
+
+/// Without load nothing is written as -0, and life is unlimited.
+#[test]
+fn a_bearing_without_load_has_plain_zeros() {
+    let desk = Desk::new();
+    let file = desk.file("218.toml", B218);
+    let text = succeeds(&["bearing", argument(&file), "--load-N", "0,0,0"]).stdout;
+    assert!(!text.contains("-0.0"), "{text}");
+    assert!(text.contains("L10r unlimited"), "{text}");
+    let sunk = ["bearing", argument(&file), "--load-N", "0,0,-100"];
+    refused(
+        &gearmesh(&sunk),
+        1,
+        &["a second row, or turn the load round"],
+    );
+}

@@ -20,6 +20,7 @@ mod pair_stiffness;
 mod pairs_at_rest;
 mod provenance;
 mod rolling_bearings;
+mod run_out;
 mod shafts;
 mod shipped;
 mod start;

@@ -88,9 +88,15 @@ impl Twin {
         };
         let [first, second] = [turns("pinion"), turns("wheel")];
         let moved = first.iter().zip(&second);
-        moved
+        let turned_m: Vec<f64> = moved
             .map(|(one, two)| hand * (base_2 * two + base_1 * one) - BEHIND_M)
-            .collect()
+            .collect();
+        // What the mesh tells is that of the turns, with runout and wobble in it.
+        let told_m = (result.rows).read("elements/mesh/transmission_error_m");
+        for (told, turned) in told_m.unwrap().iter().zip(&turned_m) {
+            assert!((told - turned).abs() < 1e-10, "{told:e} m, {turned:e} m");
+        }
+        turned_m
     }
 
     /// Largest difference of the transmission errors, and how far the effects move them \[m\].

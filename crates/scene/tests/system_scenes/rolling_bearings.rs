@@ -6,8 +6,10 @@ use gearmesh_bearings::bearing_file::BearingFromFile;
 use gearmesh_bearings::{AppliedBearingLoad, Operation, QuasiStaticBearing, TiltCondition};
 use gearmesh_dynamics::{StaticParams, equilibrium};
 use gearmesh_geometry::input::InputDocument;
+use gearmesh_scene::system_run::RunJob;
 
-use crate::common::{Outputs, build_in, changed, line_of};
+use crate::common::{Outputs, build_in, changed, line_of, load};
+use crate::system_runs::Desk;
 
 const PAIR: &str = r#"name = "7010 C pair"
 kind = "angular-contact"
@@ -115,4 +117,54 @@ fn bad_bearing_files_are_told() {
     );
     let told = refusal(&unknown);
     assert!(told.contains("radial_stiffness_N_per_mm"), "{told}");
+}
+
+/// A shaft between two single rows that turns freely rests as one that a torsion spring holds: nothing that is rounding resists its turn.
+#[test]
+fn a_free_shaft_between_two_rows_comes_to_rest() {
+    let tapered = "name = \"tapered\"\nkind = \"tapered-roller\"\nrollers = 17\nroller_diameter_mm = 10.0\nroller_length_mm = 15.0\n\
+                   pitch_diameter_mm = 60.0\ncontact_angle_deg = 15.0\n";
+    let balls = "name = \"balls\"\nkind = \"angular-contact\"\nballs = 14\nball_diameter_mm = 12.7\npitch_diameter_mm = 70.0\n\
+                 inner_conformity = 0.52\nouter_conformity = 0.52\ncontact_angle_deg = 25.0\n";
+    let held =
+        "[[torsion_spring]]\nname = \"hold\"\nbody_2 = \"shaft\"\nstiffness_Nm_per_rad = 100.0\n";
+    for (text, speed_rpm, first_axis) in [
+        (tapered, 0.0, -1.0),
+        (tapered, 1000.0, 1.0),
+        (balls, 0.0, 1.0),
+        (balls, 1000.0, -1.0),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("row.toml"), text).unwrap();
+        let bearing = |name: &str, z_mm: f64, axis: f64| {
+            format!(
+                "[[bearing]]\nname = \"{name}\"\nbody_2 = \"shaft\"\nat_mm = [0.0, 0.0, {z_mm:?}]\naxis = [0.0, 0.0, {axis:?}]\n\
+                 model = {{ kind = \"quasi-static\", file = \"row.toml\" }}\n"
+            )
+        };
+        let at_rest = |hold: &str| {
+            let text = format!(
+                "title = \"shaft\"\n[run]\nkind = \"static\"\n\
+                 [[body]]\nname = \"shaft\"\nmass_kg = 20.0\ninertia_kg_m2 = [0.1, 0.1, 0.1]\nspeed_rpm = {speed_rpm:?}\n{}{}\
+                 [[load]]\nname = \"across\"\nbody = \"shaft\"\nforce_N = 5000.0\nalong = [1.0, 0.0, 0.0]\nat_mm = [0.0, 0.0, 20.0]\n\
+                 [[load]]\nname = \"thrust\"\nbody = \"shaft\"\nforce_N = 800.0\nalong = [0.0, 0.0, 1.0]\n{hold}",
+                bearing("a", -100.0, first_axis),
+                bearing("b", 100.0, -first_axis),
+            );
+            let job = RunJob::from_scene(load(&text, folder.path()).unwrap()).unwrap();
+            let result = Desk::new().run(job);
+            let of = |column: &str| result.rows.read(column).unwrap()[0];
+            ["a", "b"].map(|bearing| {
+                ["x", "y", "z"].map(|axis| of(&format!("elements/{bearing}/force_world_{axis}_N")))
+            })
+        };
+        let (free, held) = (at_rest(""), at_rest(held));
+        for (free, held) in free.iter().flatten().zip(held.iter().flatten()) {
+            assert!((free - held).abs() < 1e-3, "{free} {held}");
+        }
+        assert!(
+            (free[0][0] + free[1][0] + 5000.0).abs() < 1e-3
+                && (free[0][2] + free[1][2] + 800.0).abs() < 1e-3
+        );
+    }
 }

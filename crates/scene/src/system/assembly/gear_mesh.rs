@@ -194,6 +194,10 @@ impl PreparedMesh {
                 let markers = [0, 1].map(|i| self.seats[i].on(bodies.id(ends[i])));
                 let mut element =
                     MeshElement::new(&self.name, markers, mesh).with_line_loads(self.slice_width_m);
+                let axes = [0, 1].map(|i| Marker::at(bodies.id(ends[i]), [0.0; 3]));
+                if markers != axes {
+                    element = element.with_axes(axes);
+                }
                 if let Some(contact_modulus_pa) = self.tooth_pairs {
                     element = element.with_tooth_pairs(contact_modulus_pa);
                 }
