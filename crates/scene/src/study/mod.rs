@@ -50,5 +50,5 @@ pub use pair_columns::RestColumn;
 pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
-pub use subject::{BearingSubject, BevelSubject, Subject};
+pub use subject::{BearingSubject, BevelSubject, SeriesOver, Subject};
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
