@@ -101,7 +101,7 @@ fn what_is_without_load_stands_once() {
     let study = desk.file(
         "study.toml",
         "title = \"loaded\"\nscene = \"pair.toml\"\ncolumns = [\"te_peak_to_peak_urad\", \"loaded_te_peak_to_peak_urad\"]\n\
-         [[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0]\n",
+         [[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0, 30.0]\n",
     );
     let out = desk.path("out");
     let told = succeeds(&["study", argument(&study), "-o", argument(&out)]).stdout;
@@ -114,8 +114,27 @@ fn what_is_without_load_stands_once() {
         Some("te_peak_to_peak_urad, the same at every torque")
     );
     assert_eq!(cells[2], ["as", "it", "is", "51.86"], "{told}");
-    assert_eq!(cells[4], ["loaded_te_peak_to_peak_urad"], "{told}");
-    assert_eq!(cells[6].len(), 6, "{told}");
+    assert_eq!(cells[5], ["loaded_te_peak_to_peak_urad"], "{told}");
+    assert_eq!(cells[7].len(), 6, "{told}");
+    // The page draws it once as well, beside a curve for each of the three torques.
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    let entries: Vec<&str> = page
+        .split("class=\"key\"")
+        .skip(1)
+        .filter_map(|entry| entry.split("</span> ").nth(1)?.split("</span>").next())
+        .collect();
+    assert_eq!(
+        entries,
+        [
+            "the same at every torque",
+            "50 N m",
+            "100 N m",
+            "200 N m",
+            "cases",
+            "front"
+        ],
+        "{entries:?}"
+    );
 }
 
 #[test]
