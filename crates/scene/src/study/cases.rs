@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gearmesh_bearings::BearingError;
-use gearmesh_bevel::BevelError;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{FileError, ReducedGear, write_reduced_gear, write_text};
 use rayon::prelude::*;
@@ -37,7 +36,7 @@ pub enum StudyError {
     Pair(#[from] RunError),
     /// A case of a bevel pair.
     #[error(transparent)]
-    Bevel(#[from] BevelError),
+    Bevel(InputError),
     /// A case of a bevel pair under load.
     #[error(transparent)]
     BevelLoad(#[from] BevelLoadError),
@@ -294,7 +293,7 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
         ..
     } = scenes;
     let (done, count) = (AtomicUsize::new(0), scenes.len());
-    let outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>> = scenes
+    let outcomes: Outcomes = scenes
         .into_par_iter()
         .map(|scene| {
             let outcome = run_case(study, scene, &rest, options);
@@ -316,10 +315,7 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
 pub(super) fn finished(
     study: &Study,
     (cases, scene_of): (Vec<Case>, &[usize]),
-    (outcomes, series_over): (
-        Vec<Result<Option<(PathBuf, Found)>, StudyError>>,
-        SeriesOver,
-    ),
+    (outcomes, series_over): (Outcomes, SeriesOver),
     (folder, reduced): (&Path, usize),
 ) -> Result<StudyOutcome, StudyError> {
     let stopped = outcomes.iter().any(|outcome| matches!(outcome, Ok(None)));
@@ -346,6 +342,9 @@ pub(super) fn finished(
         reduced,
     })
 }
+
+/// What became of the scenes: file and columns; none where the study was stopped before.
+type Outcomes = Vec<Result<Option<(PathBuf, Found)>, StudyError>>;
 
 /// The study's columns, or why a result does not give them.
 pub(super) type Found = Result<Vec<Selected>, String>;
