@@ -134,6 +134,9 @@ def test_files_to_begin_with_are_written_and_checked(tmp_path):
     assert gm.check(tmp_path / "pinion.toml")
     with pytest.raises(gm.InputError, match="there already"):
         gm.init("pair", tmp_path)
+    bevel = gm.init("bevel", tmp_path)
+    assert {path.name for path in bevel} == {"bevel_pair.toml", "bevel_pinion.toml", "bevel_gear.toml", "bevel_drive.toml"}
+    assert gm.check(tmp_path / "bevel_pair.toml")
     assert gm.doctor()
 
 

@@ -1,5 +1,8 @@
 //! What can go wrong.
 
+use gearmesh_geometry::InputError;
+use gearmesh_geometry::input::InputDocument;
+
 /// A bevel gear that cannot be made or meshed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BevelError {
@@ -97,4 +100,28 @@ pub enum BevelError {
         /// Why, and what to change.
         problem: String,
     },
+}
+
+impl BevelError {
+    /// The complaint as one of the pair file that asks for what cannot be: with its name, and the line of the member's table where it lies
+    /// with one member.
+    #[must_use]
+    pub fn in_file(&self, document: &InputDocument) -> InputError {
+        let of_flank = |flank: &str| match flank.starts_with("pinion") {
+            true => "pinion",
+            false => "gear",
+        };
+        let key = match self {
+            Self::Blank { key, problem } => return document.error(key, problem),
+            Self::NoFlankPoint { flank, .. }
+            | Self::Undercut { flank, .. }
+            | Self::NoBladeAngle { flank, .. } => of_flank(flank),
+            Self::Pointed { member, .. } | Self::BladeTooWide { member, .. } => member,
+            // It makes the pinion for a gear that is given.
+            Self::Synthesis { .. } => "pinion",
+            Self::NoContact { .. } if document.has("tca") => "tca",
+            Self::NoMate { .. } | Self::NoContact { .. } => "",
+        };
+        document.error(key, self)
+    }
 }

@@ -123,7 +123,7 @@ impl BevelGear {
         pair_document: &InputDocument,
     ) -> Result<Self, InputError> {
         let pair = PairFile::from_document(pair_document)?;
-        let cut = |e: BevelError| document.error("bevel_gear.pair", e);
+        let cut = |e: BevelError| document.error("bevel_gear.pair", e.in_file(pair_document));
         let design = pair.design().map_err(cut)?;
         let member = match file.bevel_gear.member {
             MemberWord::Pinion => 0,

@@ -22,6 +22,7 @@ use crate::error::BevelError;
 use crate::hand::FlankSide;
 use crate::pair_design::PairDesign;
 use crate::tca::TcaRequest;
+use crate::tooth::ToothCheck;
 use assembly_table::AssemblyTable;
 use blank_table::BlankTable;
 use load_table::LoadTable;
@@ -131,5 +132,24 @@ impl PairFile {
             &[pinion.cutting.clone(), gear.cutting.clone()],
             [pinion.edge_radius_m, gear.edge_radius_m],
         )
+    }
+
+    /// Settings and flanks of the pair, and what was found where both members' teeth were checked.
+    ///
+    /// # Errors
+    /// What [`Self::design`] and the checks say, as a complaint of the file: `document` is what this was read from.
+    pub fn checked_design(
+        &self,
+        document: &InputDocument,
+    ) -> Result<(PairDesign, [ToothCheck; 2]), InputError> {
+        let fault = |error: BevelError| error.in_file(document);
+        let design = self.design().map_err(fault)?;
+        let check = |i: usize| {
+            let member = &self.members[i];
+            let found = design.teeth[i].check(member.least_top_land_m, member.point_width_m);
+            found.map_err(fault)
+        };
+        let checks = [check(0)?, check(1)?];
+        Ok((design, checks))
     }
 }

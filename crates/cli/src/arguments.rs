@@ -79,7 +79,7 @@ pub enum Command {
     Import(ImportArguments),
     /// Print the JSON Schema of scene, study, gear, bearing or bevel files
     Schema(SchemaArguments),
-    /// Write commented files to start from: a gear, a pair, a gearbox
+    /// Write commented files to start from: a gear, a pair, a gearbox, a bevel pair
     Init(InitArguments),
     /// Say what this machine lacks: Python with gmsh and meshio, memory, other programs
     Doctor(DoctorArguments),

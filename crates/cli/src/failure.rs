@@ -1,5 +1,6 @@
 //! What a command ends with when it does not succeed: a message and whose fault it was.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Whose fault.
@@ -34,6 +35,19 @@ impl Failure {
         Self {
             fault: Fault::Work,
             message: cause.to_string(),
+        }
+    }
+
+    /// With the name of the file that it is about, where the message does not have it.
+    #[must_use]
+    pub fn about(self, file: &Path) -> Self {
+        let file = file.display().to_string();
+        if self.message.contains(&file) {
+            return self;
+        }
+        Self {
+            message: format!("{file}: {}", self.message),
+            ..self
         }
     }
 

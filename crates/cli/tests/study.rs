@@ -44,6 +44,51 @@ fn a_study_prints_its_cases_and_keeps_its_results() {
     assert!((number(&case["columns"][0]["largest"]) - 8.0).abs() < 1e-9);
 }
 
+/// Figures of a sweep are those of its speeds, of a static run those of its equilibria: no time is told with them.
+#[test]
+fn what_figures_are_taken_over_is_told() {
+    let desk = Desk::new();
+    let time = "[solver]\nstep_s = 1e-3\n[output]\ninterval_s = 1e-3";
+    let sweep = "kind = \"speed-sweep\"\nmotion = \"driver\"\nfrom_rpm = 10.0\nto_rpm = 20.0\nspeeds = 3\nsettle_s = 0.1\nmeasure_s = 0.1";
+    let still = "kind = \"static\"\nload_factors = [0.5, 1.0]";
+    for (run, held, over) in [
+        (
+            format!("{sweep}\n{time}"),
+            "[[motion]]\nname = \"driver\"\njoint = \"hinge\"\nspeed_rpm = 10.0",
+            "over all speeds",
+        ),
+        (
+            still.to_owned(),
+            "[[load]]\nbody = \"rod\"\ntorque_Nm = 0.5",
+            "over all equilibria",
+        ),
+        (
+            format!("kind = \"transient\"\nend_s = 0.1\n{time}"),
+            "",
+            "from 0 s on",
+        ),
+    ] {
+        let scene = format!(
+            "title = \"rod\"\ngravity_m_per_s2 = [0.0, -9.81, 0.0]\n[run]\n{run}\n\
+             [[body]]\nname = \"rod\"\nmass_kg = 1.0\ninertia_kg_m2 = [1e-3, 1e-3, 1e-3]\ncentre_of_mass_mm = [0.0, -100.0, 0.0]\n\
+             [[joint]]\nname = \"hinge\"\nkind = \"revolute\"\nbody_2 = \"rod\"\n{held}\n"
+        );
+        desk.file("scene.toml", scene);
+        let study = desk.file(
+            "study.toml",
+            "title = \"rods\"\nscene = \"scene.toml\"\ncolumns = [\"joints/hinge/force_y_N\"]\n\
+             [[parameter]]\nname = \"mass\"\nkeys = [\"body.0.mass_kg\"]\nvalues = [2.0]\n",
+        );
+        let out = desk.path("out");
+        let told = succeeds(&["study", argument(&study), "-o", argument(&out)]).stdout;
+        assert_eq!(
+            told.lines().next(),
+            Some(&format!("rods, {over}")[..]),
+            "{told}"
+        );
+    }
+}
+
 /// Of a bevel pair under load, columns under load have a number for each torque, those without load one number and say so.
 #[test]
 fn what_is_without_load_stands_once() {
@@ -56,7 +101,7 @@ fn what_is_without_load_stands_once() {
     let study = desk.file(
         "study.toml",
         "title = \"loaded\"\nscene = \"pair.toml\"\ncolumns = [\"te_peak_to_peak_urad\", \"loaded_te_peak_to_peak_urad\"]\n\
-         [[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0]\n",
+         [[parameter]]\nname = \"offset\"\nkeys = [\"tca.offset_um\"]\nvalues = [20.0, 30.0]\n",
     );
     let out = desk.path("out");
     let told = succeeds(&["study", argument(&study), "-o", argument(&out)]).stdout;
@@ -69,8 +114,27 @@ fn what_is_without_load_stands_once() {
         Some("te_peak_to_peak_urad, the same at every torque")
     );
     assert_eq!(cells[2], ["as", "it", "is", "51.86"], "{told}");
-    assert_eq!(cells[4], ["loaded_te_peak_to_peak_urad"], "{told}");
-    assert_eq!(cells[6].len(), 6, "{told}");
+    assert_eq!(cells[5], ["loaded_te_peak_to_peak_urad"], "{told}");
+    assert_eq!(cells[7].len(), 6, "{told}");
+    // The page draws it once as well, beside a curve for each of the three torques.
+    let page = std::fs::read_to_string(out.join("study.html")).unwrap();
+    let entries: Vec<&str> = page
+        .split("class=\"key\"")
+        .skip(1)
+        .filter_map(|entry| entry.split("</span> ").nth(1)?.split("</span>").next())
+        .collect();
+    assert_eq!(
+        entries,
+        [
+            "the same at every torque",
+            "50 N m",
+            "100 N m",
+            "200 N m",
+            "cases",
+            "front"
+        ],
+        "{entries:?}"
+    );
 }
 
 #[test]

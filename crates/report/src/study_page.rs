@@ -64,6 +64,18 @@ pub fn study_page(study: &Study, cases: &[CaseResult]) -> Page {
         .footer(format!("by gearmesh {}", env!("CARGO_PKG_VERSION")))
 }
 
+/// What a case has of one of `count` columns: a number for each torque, or a single one.
+fn of_column(case: &CaseResult, place: usize, count: usize) -> Vec<Selected> {
+    let all = case.figures.as_ref().map_or(&[][..], Vec::as_slice);
+    all.iter().skip(place).step_by(count).cloned().collect()
+}
+
+/// Whether a column that stands there for several torques does not depend on them in any case.
+fn is_same_at_every_torque(of_cases: &[Vec<Selected>]) -> bool {
+    let is_one = |own: &Vec<Selected>| own.windows(2).all(|pair| pair[0].value == pair[1].value);
+    of_cases.iter().any(|own| own.len() > 1) && of_cases.iter().all(is_one)
+}
+
 /// A column of a study: its numbers at each torque.
 struct Column {
     name: String,
@@ -75,10 +87,7 @@ impl Column {
     /// None where no case has a number.
     fn of(study: &Study, cases: &[CaseResult], place: usize) -> Option<Self> {
         let count = study.tables.columns.len();
-        let own = |case: &CaseResult| -> Vec<Selected> {
-            let all = case.figures.as_ref().map_or(&[][..], Vec::as_slice);
-            all.iter().skip(place).step_by(count).cloned().collect()
-        };
+        let own = |case: &CaseResult| of_column(case, place, count);
         let of_cases: Vec<Vec<Selected>> = cases.iter().map(own).collect();
         let sample = of_cases.iter().find(|own| !own.is_empty())?;
         let number = |row: usize, of: &dyn Fn(&SelectedValue) -> f64| -> Vec<Option<f64>> {
@@ -105,6 +114,9 @@ impl Column {
                     ("largest".to_owned(), number(0, &largest)),
                     ("peak to peak".to_owned(), number(0, &peak_to_peak)),
                 ]
+            }
+            SelectedValue::Single(_) if is_same_at_every_torque(&of_cases) => {
+                vec![("the same at every torque".to_owned(), number(0, &single))]
             }
             SelectedValue::Single(_) => sample
                 .iter()
@@ -234,7 +246,7 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
                 Axis::new(parameter.name.clone(), ""),
                 Axis::new(column.name.clone(), ""),
             );
-            let mut drawn = false;
+            let (mut drawn, mut has_means) = (false, false);
             for (name, values) in column.curves.iter().take(MOST_TORQUES) {
                 let means: Vec<(Option<f64>, f64)> = groups
                     .iter()
@@ -264,17 +276,26 @@ fn main_effects(study: &Study, cases: &[CaseResult], columns: &[Column]) -> Opti
                     .collect();
                 if line.len() > 1 {
                     drawn = true;
-                    if points.len() > line.len() {
-                        chart = chart.series(PointSeries::new(name.clone(), points));
-                        let of_means = format!("{name}, means");
-                        chart = chart.series(PointSeries::new(of_means, line).joined());
-                    } else {
-                        chart = chart.series(PointSeries::new(name.clone(), line).joined());
-                    }
+                    let series = match points.len() > line.len() {
+                        true => {
+                            has_means = true;
+                            PointSeries::new(name.clone(), points).through(line)
+                        }
+                        false => PointSeries::new(name.clone(), line).joined(),
+                    };
+                    chart = chart.series(series);
                 }
             }
+            let mut told = Vec::new();
+            if has_means {
+                told.push("lines: means of groups of cases".to_owned());
+            }
+            if column.curves.len() > MOST_TORQUES {
+                let count = column.curves.len();
+                told.push(format!("the first {MOST_TORQUES} of {count} torques"));
+            }
             if drawn && pictures.len() < MOST_PICTURES {
-                pictures.push(chart);
+                pictures.push(chart.told(told.join("; ")));
             }
         }
     }
@@ -372,6 +393,11 @@ fn table(study: &Study, cases: &[CaseResult]) -> Table {
         table = table.column(column.clone(), Align::Right);
     }
     let columns = study.tables.columns.len();
+    let is_one = |place: usize| {
+        let own: Vec<_> = cases.iter().map(|c| of_column(c, place, columns)).collect();
+        is_same_at_every_torque(&own)
+    };
+    let once: Vec<bool> = (0..columns).map(is_one).collect();
     for case in cases.iter().take(MOST_ROWS) {
         let cells: Vec<String> = match &case.figures {
             Err(problem) => {
@@ -380,12 +406,12 @@ fn table(study: &Study, cases: &[CaseResult]) -> Table {
                     .chain(rest)
                     .collect()
             }
-            Ok(all) => (0..columns)
+            Ok(_) => (0..columns)
                 .map(|place| {
-                    let own = all.iter().skip(place).step_by(columns);
-                    own.map(|one| cell(&one.value))
-                        .collect::<Vec<_>>()
-                        .join(", ")
+                    let own = of_column(case, place, columns);
+                    let rows = if once[place] { 1 } else { own.len() };
+                    let cells: Vec<_> = own.iter().take(rows).map(|one| cell(&one.value)).collect();
+                    cells.join(", ")
                 })
                 .collect(),
         };

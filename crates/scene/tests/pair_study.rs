@@ -261,6 +261,11 @@ fn what_is_wrong_is_told_before_anything_is_computed() {
         ),
         (
             HEAD,
+            key("gear_2.microgeometry.root_relief_um", "1.0"),
+            "`gear_2.microgeometry.root_relief_um` is refused: needs root_relief_start_diameter_mm",
+        ),
+        (
+            HEAD,
             key("pair.gear_1:microgeometry.tip_relief_um", "1.0"),
             "would reduce the gear for its flanks; vary the scene's microgeometry",
         ),

@@ -304,3 +304,66 @@ fn a_run_in_time_is_optimised() {
         "{told}"
     );
 }
+
+/// A longer contact ellipse takes load from the middle of the tooth: the longest that is allowed is best. The key stands in the pair file that
+/// the scene's mesh names.
+#[test]
+fn a_key_of_a_bevel_pair_in_motion_is_optimised() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = std::fs::read_to_string(fe_models().join("dynamics_bevel_20_20_slices.toml"));
+    let pair = fe_models().join("bevel_20_20.toml");
+    let pair = std::fs::canonicalize(pair).unwrap().display().to_string();
+    let scene = scene.unwrap().replace("bevel_20_20.toml", &pair);
+    let scene = scene
+        .replace("end_s = 0.06", "end_s = 0.001")
+        .replace("end_s = 0.01,", "end_s = 0.0005,");
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let key = "gear_mesh.0.bevel_pair:pinion.ellipse_half_length_mm";
+    let text = format!(
+        "title = \"t\"\nscene = \"scene.toml\"\ntrials = 20\nscatter_samples = 1\nfrom_s = 0.0006\n\
+         [[variable]]\nname = \"ellipse\"\nkeys = [\"{key}.0\", \"{key}.1\"]\nfrom = 3.0\nto = 5.0\n\
+         [[scatter]]\nname = \"path\"\nkeys = [\"gear_mesh.0.bevel_pair:pinion.path_angle_deg.0\"]\nuniform = {{ from = 0.0, to = 1e-9 }}\n\
+         [[objective]]\nname = \"middle\"\nterm = [{{ column = \"elements/mesh/line_load_slice_8_N_per_m:mean\" }}]\n"
+    );
+    let scratch = tempfile::tempdir().unwrap();
+    let stop = AtomicBool::new(false);
+    let optimum = |text: &str| {
+        let document = InputDocument::new("o.toml", text);
+        let problem = Optimisation::from_document(document, folder.path()).unwrap();
+        optimise(&problem, scratch.path(), &stop, &|_, _| ()).map_err(|e| e.to_string())
+    };
+    let found = optimum(&text).unwrap();
+    assert!((found.front[0].values[0] - 5.0).abs() < 1e-3, "{found:?}");
+    let before = found.before.unwrap()[0];
+    assert!(found.front[0].objectives[0] < 0.9 * before, "{before}");
+    // A study has the same numbers: what scatters by nothing is what the file states.
+    let study = format!(
+        "scene = \"scene.toml\"\nfrom_s = 0.0006\ncolumns = [\"elements/mesh/line_load_slice_8_N_per_m\"]\n\
+         [[parameter]]\nname = \"ellipse\"\nkeys = [\"{key}.0\", \"{key}.1\"]\nvalues = [5.0]\n"
+    );
+    let (outcome, _) = studied(folder.path(), &study).unwrap();
+    let of_study = [0, 1].map(|case| numbers(&outcome, case)[0]);
+    assert!((before / of_study[0] - 1.0).abs() < 1e-6, "{of_study:?}");
+    let best = found.front[0].objectives[0];
+    assert!((best / of_study[1] - 1.0).abs() < 1e-3, "{of_study:?}");
+    // A key that the file does not have, and a value that it does not take, are told with the key of the study's file.
+    for (from, to, told) in [
+        (
+            "pinion.ellipse_half_length_mm.0",
+            "pinion.elipse_mm",
+            "unknown field `elipse_mm`",
+        ),
+        ("from = 3.0\nto = 5.0", "from = -3.0\nto = -1.0", "found -2"),
+    ] {
+        let problem = optimum(&text.replace(from, to)).unwrap_err();
+        assert!(problem.contains("o.toml:8: variable.0.keys"), "{problem}");
+        assert!(
+            problem.contains("`gear_mesh.0.bevel_pair:pinion"),
+            "{problem}"
+        );
+        assert!(
+            problem.contains("is refused") && problem.contains(told),
+            "{problem}"
+        );
+    }
+}

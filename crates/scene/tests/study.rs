@@ -168,6 +168,13 @@ fn microgeometry_of_a_body_is_varied() {
         ) && told.ends_with("did you mean `tip_relief_um`?"),
         "{told}"
     );
+    let alone = "body.1.microgeometry.root_relief_um";
+    let alone = text.replace("body.0.microgeometry.tip_relief_um", alone);
+    let told = scenes(&alone).err().unwrap().to_string();
+    assert!(
+        told.ends_with("is refused: needs root_relief_start_diameter_mm"),
+        "{told}"
+    );
 }
 
 /// A column that is not there is told before the first case, with the nearest and all that there are.

@@ -5,24 +5,14 @@ use crate::console;
 use crate::failure::Failure;
 use gearmesh_bevel::pair_file::settings_toml;
 use gearmesh_bevel::{FlankSide, GridFit, MemberBlank, PairDesign, PairFile, ToothCheck};
+use gearmesh_geometry::input::InputDocument;
 use serde_json::{Value, json};
-
-/// Settings, flanks and checks of a pair file.
-pub fn design(file: &PairFile) -> Result<(PairDesign, [ToothCheck; 2]), Failure> {
-    let design = file.design().map_err(Failure::input)?;
-    let check = |i: usize| {
-        let member = &file.members[i];
-        let found = design.teeth[i].check(member.least_top_land_m, member.point_width_m);
-        found.map_err(Failure::input)
-    };
-    let checks = [check(0)?, check(1)?];
-    Ok((design, checks))
-}
 
 /// Runs the command.
 pub fn run(a: &BevelArguments) -> Result<(), Failure> {
-    let file = PairFile::read(&a.pair)?;
-    let (design, checks) = design(&file)?;
+    let document = InputDocument::read(&a.pair)?;
+    let file = PairFile::from_document(&document)?;
+    let (design, checks) = file.checked_design(&document)?;
     if a.json {
         console::json(&figures(&file, &design, &checks));
     } else {

@@ -1,7 +1,7 @@
 //! `gearmesh check`: reads a file of any kind and says what it is, or what is wrong with it.
 
 use crate::arguments::CheckArguments;
-use crate::commands::{bevel, reduce, system_table};
+use crate::commands::{reduce, system_table};
 use crate::failure::Failure;
 use crate::{console, offline};
 use gearmesh_bearings::QuasiStaticBearing;
@@ -126,7 +126,7 @@ fn found(path: &Path) -> Result<Finding, Failure> {
 
 fn bevel_pair(document: &InputDocument) -> Result<Finding, Failure> {
     let file = PairFile::from_document(document)?;
-    bevel::design(&file)?;
+    file.checked_design(document)?;
     Ok(Finding::new("bevel pair", Some(&file.title)))
 }
 

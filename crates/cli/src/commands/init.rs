@@ -12,6 +12,23 @@ const PAIR: (&str, &str) = ("pair.toml", include_str!("../../templates/pair.toml
 const DRIVE: (&str, &str) = ("drive.toml", include_str!("../../templates/drive.toml"));
 const GEARBOX: (&str, &str) = ("gearbox.toml", include_str!("../../templates/gearbox.toml"));
 
+const BEVEL_PAIR: (&str, &str) = (
+    "bevel_pair.toml",
+    include_str!("../../templates/bevel_pair.toml"),
+);
+const BEVEL_PINION: (&str, &str) = (
+    "bevel_pinion.toml",
+    include_str!("../../templates/bevel_pinion.toml"),
+);
+const BEVEL_GEAR: (&str, &str) = (
+    "bevel_gear.toml",
+    include_str!("../../templates/bevel_gear.toml"),
+);
+const BEVEL_DRIVE: (&str, &str) = (
+    "bevel_drive.toml",
+    include_str!("../../templates/bevel_drive.toml"),
+);
+
 /// Runs the command.
 pub fn run(a: &InitArguments) -> Result<(), Failure> {
     let (files, next): (&[(&str, &str)], &str) = match a.kind {
@@ -23,6 +40,10 @@ pub fn run(a: &InitArguments) -> Result<(), Failure> {
         InitKind::Gearbox => (
             &[PINION, WHEEL, GEARBOX],
             "gearmesh run gearbox.toml -o gearbox.h5",
+        ),
+        InitKind::Bevel => (
+            &[BEVEL_PAIR, BEVEL_PINION, BEVEL_GEAR, BEVEL_DRIVE],
+            "gearmesh tca bevel_pair.toml --report bevel_pair.html",
         ),
     };
     let there: Vec<&str> = files

@@ -54,8 +54,8 @@ pub fn analyse(
     let models = models(load, path)?;
     let members = models.as_ref().map(|[a, b]| [&a.0, &b.0]);
     let loaded = load_bevel((file, design), load, members).map_err(|error| match error {
-        BevelLoadError::Slices { .. } => Failure::input(error),
-        BevelLoadError::Contact(_) => Failure::work(error),
+        BevelLoadError::Slices { .. } => Failure::input(error).about(path),
+        BevelLoadError::Contact(_) => Failure::work(error).about(path),
     })?;
     let LoadedBevel {
         flanks,

@@ -6,6 +6,8 @@ use crate::{console, memory, offline, output_name};
 use gearmesh_bevel::BevelGear;
 use gearmesh_mesh::{BevelMesh, GearMesh};
 use gearmesh_reduction::OfflineJob;
+use gearmesh_reduction::ReductionError;
+use gearmesh_reduction::bevel::bevel_model;
 use serde_json::json;
 
 /// Runs the command.
@@ -65,8 +67,9 @@ pub fn run(arguments: &MeshArguments) -> Result<(), Failure> {
 }
 
 fn bevel(arguments: &MeshArguments, gear: &BevelGear) -> Result<(), Failure> {
-    let mesh = BevelMesh::new(gear).map_err(gearmesh_reduction::ReductionError::from)?;
-    gearmesh_reduction::bevel::bevel_model(gear, &mesh)?;
+    let about = |error: ReductionError| Failure::from(error).about(&arguments.gear);
+    let mesh = BevelMesh::new(gear).map_err(|error| about(error.into()))?;
+    bevel_model(gear, &mesh).map_err(about)?;
     let (no_fields, unit) = (offline::MeshFields::default(), arguments.length_unit);
     offline::export_bevel_mesh(gear, &mesh, no_fields, unit, &arguments.output)?;
     offline::note_body_grid(mesh.body_grid());

@@ -41,7 +41,7 @@ fn bevel(arguments: &ReduceArguments, gear: &BevelGear) -> Result<(), Failure> {
     let bar = StageBar::new(&gear.name);
     let outcome = reduce_bevel(gear, options, &bar);
     bar.finish();
-    let (model, body) = outcome?;
+    let (model, body) = outcome.map_err(|error| Failure::from(error).about(&arguments.gear))?;
     offline::note_body_grid(body.mesh.body_grid());
     write(arguments, &model)
 }

@@ -10,7 +10,8 @@ use crate::page_file;
 use gearmesh_report::study_page::study_page;
 use gearmesh_report::{short, study_figures, usual_unit};
 use gearmesh_scene::study::{
-    CaseResult, Selected, SelectedValue, Study, StudyOptions, StudyOutcome, gather_study, run_study,
+    CaseResult, Selected, SelectedValue, SeriesOver, Study, StudyOptions, StudyOutcome,
+    gather_study, run_study,
 };
 use gearmesh_scene::system_run::{Figures, stem};
 use std::sync::{Mutex, PoisonError};
@@ -75,9 +76,7 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
     if arguments.json {
         console::json(&study_figures(study, &outcome.cases));
     } else {
-        table(study, &outcome.cases)
-            .into_iter()
-            .for_each(console::data);
+        table(study, &outcome).into_iter().for_each(console::data);
     }
     if failed > 0 {
         let count = outcome.cases.len();
@@ -89,7 +88,8 @@ fn tell(study: &Study, outcome: StudyOutcome, arguments: &StudyArguments) -> Res
 }
 
 /// The figures for people.
-fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
+fn table(study: &Study, outcome: &StudyOutcome) -> Vec<String> {
+    let cases = &outcome.cases[..];
     let names: Vec<String> = cases.iter().map(|result| result.case.name()).collect();
     let widest = names.iter().map(|name| name.chars().count()).max();
     let width = widest.unwrap_or(0).max(4);
@@ -99,9 +99,13 @@ fn table(study: &Study, cases: &[CaseResult]) -> Vec<String> {
         all.iter()
             .any(|c| matches!(c.value, SelectedValue::Series(_)))
     });
-    let from = match study.tables.from_s {
-        from_s if from_s > 0.0 || has_series => format!(", from {from_s} s on"),
-        _ => String::new(),
+    let from = match outcome.series_over {
+        _ if !has_series && study.tables.from_s == 0.0 => String::new(),
+        SeriesOver::Time => format!(", from {} s on", study.tables.from_s),
+        SeriesOver::Equilibria => ", over all equilibria".to_owned(),
+        SeriesOver::OperatingPoints => ", over all operating points".to_owned(),
+        SeriesOver::Speeds => ", over all speeds".to_owned(),
+        SeriesOver::Nothing => String::new(),
     };
     let mut lines = vec![format!("{}{from}", study.tables.title)];
     if let (None, Some(first), true) = (found, cases.first(), cases.len() > MOST_LINES) {

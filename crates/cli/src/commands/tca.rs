@@ -6,6 +6,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output_name;
 use gearmesh_bevel::{Flank, PairFile, Sensitivity, ToothContact, sensitivity, tooth_contact};
+use gearmesh_geometry::input::InputDocument;
 use serde_json::{Value, json};
 
 /// Runs the command.
@@ -16,10 +17,12 @@ pub fn run(a: &TcaArguments) -> Result<(), Failure> {
     if let Some(path) = &a.field_output {
         output_name::demand_mesh(path)?;
     }
-    let file = PairFile::read(&a.pair)?;
-    let (design, _) = bevel::design(&file)?;
+    let document = InputDocument::read(&a.pair)?;
+    let file = PairFile::from_document(&document)?;
+    let (design, _) = file.checked_design(&document)?;
     let flanks = design.flanks(file.pinion_flank);
-    let found = tooth_contact(flanks, &file.blank, &file.tca).map_err(Failure::work)?;
+    let found = tooth_contact(flanks, &file.blank, &file.tca)
+        .map_err(|error| Failure::work(error.in_file(&document)))?;
     // Where only edges touch, or along a line, no contact moves with the errors.
     let moved = found
         .mean

@@ -54,7 +54,7 @@ fn help_names_all_commands() {
       import               Import a gearbox from a REXS file: gear files, scenes, bearing files, a list
                            of what was taken and what not
       schema               Print the JSON Schema of scene, study, gear, bearing or bevel files
-      init                 Write commented files to start from: a gear, a pair, a gearbox
+      init                 Write commented files to start from: a gear, a pair, a gearbox, a bevel pair
       doctor               Say what this machine lacks: Python with gmsh and meshio, memory, other
                            programs
       completions          Print the completions of a shell

@@ -298,7 +298,11 @@ fn what_cannot_be_cut_is_refused() {
             "",
             "pinion.path_angle_deg: missing; settings = \"local-synthesis\" needs it",
         ),
-        ("[8.0, 8.0]", "[0.1, 8.0]", "ask for a longer ellipse"),
+        (
+            "[8.0, 8.0]",
+            "[0.1, 8.0]",
+            "bad.toml:17: pinion: local synthesis: ",
+        ),
         (
             "edge_radius_mm = 0.5\n\n",
             "edge_radius_mm = 0.5\nbias_um = [1.0, 1.0]\n\n",
@@ -307,9 +311,13 @@ fn what_cannot_be_cut_is_refused() {
         (
             "edge_radius_mm = 0.5\n\n",
             "edge_radius_mm = 0.5\npoint_width_mm = 9.0\n\n",
-            "the gear's blade does not fit",
+            "bad.toml:13: gear: the gear's blade does not fit",
         ),
-        ("teeth = [13, 35]", "teeth = [6, 35]", "undercut"),
+        (
+            "teeth = [13, 35]",
+            "teeth = [6, 35]",
+            "bad.toml:17: pinion: the pinion's",
+        ),
         (
             "teeth = [13, 35]",
             "teeth = [13, 35]\noffset_mm = 20.0",
@@ -321,4 +329,30 @@ fn what_cannot_be_cut_is_refused() {
         let bad = desk.file("bad.toml", &changed);
         refused(&gearmesh(&["tca", argument(&bad)]), 2, &[expected]);
     }
+    // Of a body and of a scene the complaint names their own key and the place in the pair file.
+    desk.file("pair.toml", text.replace("[13, 35]", "[6, 35]"));
+    let at_fault = "pair.toml:17: pinion: the pinion's";
+    let body = std::fs::read_to_string(shipped("bevel_pinion_13_35.toml")).unwrap();
+    let body = desk.file("body.toml", changed(&body, "bevel_13_35.toml", "pair.toml"));
+    let mesh = desk.path("mesh.vtu");
+    for command in ["mesh", "reduce"] {
+        let answer = gearmesh(&[
+            command,
+            argument(&body),
+            "-o",
+            argument(&mesh.with_extension(match command {
+                "mesh" => "vtu",
+                _ => "h5",
+            })),
+        ]);
+        refused(&answer, 2, &["body.toml:", "bevel_gear.pair: ", at_fault]);
+    }
+    let scene = std::fs::read_to_string(shipped("dynamics_bevel_20_20.toml")).unwrap();
+    let scene = desk.file("scene.toml", scene.replace("bevel_20_20.toml", "pair.toml"));
+    let answer = gearmesh(&["run", argument(&scene), "-o", argument(&desk.path("o.h5"))]);
+    refused(
+        &answer,
+        2,
+        &["scene.toml:", "gear_mesh.0.bevel_pair: ", at_fault],
+    );
 }

@@ -24,6 +24,15 @@ fn what_init_writes_passes_check_and_runs() {
             "gearbox",
             &["gearbox.toml", "pinion.toml", "wheel.toml"][..],
         ),
+        (
+            "bevel",
+            &[
+                "bevel_drive.toml",
+                "bevel_gear.toml",
+                "bevel_pair.toml",
+                "bevel_pinion.toml",
+            ][..],
+        ),
     ] {
         let folder = desk.path(kind);
         succeeds(&["init", kind, "-o", argument(&folder)]);
@@ -63,6 +72,26 @@ fn what_init_writes_passes_check_and_runs() {
         desk.path("gearbox.h5"),
     );
     succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+}
+
+/// The pair's contact under its torques, and the pair in motion, both from what `init` wrote.
+#[test]
+fn a_bevel_pair_to_start_with_is_analysed_and_runs() {
+    let desk = Desk::new();
+    let folder = desk.path("bevel");
+    let told = succeeds(&["init", "bevel", "-o", argument(&folder)]);
+    assert!(
+        told.stderr.contains("gearmesh tca bevel_pair.toml"),
+        "{}",
+        told.stderr
+    );
+    let found = succeeds(&["tca", argument(&folder.join("bevel_pair.toml")), "--json"]).json();
+    let torques = found["load"]["torques"].as_array().unwrap();
+    assert_eq!(torques.len(), 3, "{found}");
+    let (scene, result) = (folder.join("bevel_drive.toml"), desk.path("drive.h5"));
+    let run = succeeds(&["run", argument(&scene), "-o", argument(&result)]);
+    // 17 teeth at 10 turns a second.
+    assert!(run.stdout.contains("170.000 Hz"), "{}", run.stdout);
 }
 
 #[test]

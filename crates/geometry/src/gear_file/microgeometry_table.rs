@@ -106,10 +106,12 @@ impl MicrogeometryTable {
                 ));
             }
             let flank = FlankTable {
-                table: side.as_ref().unwrap_or(self),
-                document,
-                path,
-                side: name,
+                of: SideTable {
+                    table: side.as_ref().unwrap_or(self),
+                    document,
+                    path,
+                    side: name,
+                },
                 profile,
                 face_width_m,
             };
@@ -119,6 +121,30 @@ impl MicrogeometryTable {
             right: of_side("right", &self.right)?,
             left: of_side("left", &self.left)?,
         })
+    }
+
+    /// Checks what can be said without the teeth: amounts that are allowed, and beside each the diameter or length that it needs.
+    ///
+    /// # Errors
+    /// [`InputError`] at the key.
+    pub fn check_together(
+        &self,
+        (document, path): (&InputDocument, &str),
+    ) -> Result<(), InputError> {
+        for (side, own) in [("right", &self.right), ("left", &self.left)] {
+            let table = own.as_deref().map(|table| table.on_top_of(self));
+            let of = SideTable {
+                table: table.as_ref().unwrap_or(self),
+                document,
+                path,
+                side,
+            };
+            of.tip_relief()?;
+            of.root_relief()?;
+            of.profile_crowning()?;
+            of.end_relief()?;
+        }
+        Ok(())
     }
 
     /// The keys of one side, those of both sides where it is silent.
@@ -152,16 +178,14 @@ impl MicrogeometryTable {
 }
 
 /// The keys that act on one side of a gear's teeth.
-struct FlankTable<'a> {
+struct SideTable<'a> {
     table: &'a MicrogeometryTable,
     document: &'a InputDocument,
     path: &'a str,
     side: &'static str,
-    profile: &'a ToothGeometry,
-    face_width_m: f64,
 }
 
-impl FlankTable<'_> {
+impl SideTable<'_> {
     /// Where a key stands: in the table of the side, or in that of both.
     fn place(&self, key: &str) -> String {
         let own = format!("{}.{}.{key}", self.path, self.side);
@@ -186,117 +210,6 @@ impl FlankTable<'_> {
         let amount = amount_um.unwrap_or(0.0);
         self.require(key, amount, amount.abs() <= LARGEST_UM, "-1000 to 1000")?;
         Ok(UM * amount)
-    }
-
-    fn microgeometry(&self, folder: Option<&Path>) -> Result<Microgeometry, InputError> {
-        let table = self.table;
-        let topography = table.topography.as_ref();
-        Ok(Microgeometry {
-            form_roll_rad: self.profile.form_roll_rad,
-            tip_roll_rad: self.profile.tip_roll_rad,
-            face_width_m: self.face_width_m,
-            profile_crowning: self.profile_crowning()?,
-            tip_relief: self.tip_relief()?,
-            root_relief: self.root_relief()?,
-            profile_angle_m: self.amount_m("profile_angle_um", table.profile_angle_um)?,
-            lead_crowning_m: self.amount_m("lead_crowning_um", table.lead_crowning_um)?,
-            flank_angle_m: self.amount_m("flank_angle_um", table.flank_angle_um)?,
-            end_relief: self.end_relief()?,
-            twist_m: self.amount_m("twist_um", table.twist_um)?,
-            topography: topography
-                .map(|table| {
-                    let place = self.place("topography");
-                    table.check(&TableKeys::new(self.document, &place), self.profile, folder)
-                })
-                .transpose()?,
-        })
-    }
-
-    fn profile_crowning(&self) -> Result<Option<ProfileCrowning>, InputError> {
-        let amount = ("profile_crowning_um", self.table.profile_crowning_um);
-        let diameter = self.table.profile_crowning_diameter_mm;
-        let diameter = ("profile_crowning_diameter_mm", diameter);
-        let Some((amount_m, diameter_mm)) = self.together(amount, diameter, &[])? else {
-            return Ok(None);
-        };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm >= low && diameter_mm < high;
-        self.require_on_involute(diameter.0, diameter_mm, ok)?;
-        Ok(Some(ProfileCrowning {
-            amount_m,
-            centre_roll_rad: self.roll_rad(diameter_mm),
-        }))
-    }
-
-    fn tip_relief(&self) -> Result<Option<TipRelief>, InputError> {
-        let amount = ("tip_relief_um", self.table.tip_relief_um);
-        let start = self.table.tip_relief_start_diameter_mm;
-        let start = ("tip_relief_start_diameter_mm", start);
-        let shape = self.table.tip_relief_shape;
-        let others = [("tip_relief_shape", shape.is_some())];
-        let Some((amount_m, diameter_mm)) = self.together(amount, start, &others)? else {
-            return Ok(None);
-        };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm >= low && diameter_mm < high;
-        self.require_on_involute(start.0, diameter_mm, ok)?;
-        let start_roll_rad = self.roll_rad(diameter_mm);
-        let length_m = self.profile.base_radius_m * (self.profile.tip_roll_rad - start_roll_rad);
-        Ok(Some(TipRelief {
-            amount_m,
-            start_roll_rad,
-            shape: self.shape(shape, amount, length_m)?,
-        }))
-    }
-
-    fn root_relief(&self) -> Result<Option<RootRelief>, InputError> {
-        let amount = ("root_relief_um", self.table.root_relief_um);
-        let start = self.table.root_relief_start_diameter_mm;
-        let start = ("root_relief_start_diameter_mm", start);
-        let shape = self.table.root_relief_shape;
-        let others = [("root_relief_shape", shape.is_some())];
-        let Some((amount_m, diameter_mm)) = self.together(amount, start, &others)? else {
-            return Ok(None);
-        };
-        let (low, high) = self.involute_mm();
-        let ok = diameter_mm > low && diameter_mm <= high;
-        self.require_on_involute(start.0, diameter_mm, ok)?;
-        let start_roll_rad = self.roll_rad(diameter_mm);
-        let length_m = self.profile.base_radius_m * (start_roll_rad - self.profile.form_roll_rad);
-        Ok(Some(RootRelief {
-            amount_m,
-            start_roll_rad,
-            shape: self.shape(shape, amount, length_m)?,
-        }))
-    }
-
-    fn end_relief(&self) -> Result<Option<EndRelief>, InputError> {
-        let table = self.table;
-        let amount = ("end_relief_um", table.end_relief_um);
-        let length = ("end_relief_length_mm", table.end_relief_length_mm);
-        let others = [
-            ("end_relief_shape", table.end_relief_shape.is_some()),
-            ("end_relief_end", table.end_relief_end.is_some()),
-        ];
-        let Some((amount_m, length_mm)) = self.together(amount, length, &others)? else {
-            return Ok(None);
-        };
-        let ends = table.end_relief_end.unwrap_or_default();
-        let share = if ends == FaceEnds::Both { 0.5 } else { 1.0 };
-        let most = share * self.face_width_m / MM;
-        let ok = length_mm > 0.0 && length_mm <= most * (1.0 + 1e-12);
-        self.require(
-            length.0,
-            length_mm,
-            ok,
-            &format!("more than 0 to {most:.4}"),
-        )?;
-        Ok(Some(EndRelief {
-            amount_m,
-            length_m: MM * length_mm,
-            shape: self.shape(table.end_relief_shape, amount, MM * length_mm)?,
-            ends,
-        }))
     }
 
     /// An amount \[m\] and the length in millimetres that belongs to it; none where neither is given, nor any of `others`.
@@ -326,6 +239,169 @@ impl FlankTable<'_> {
         }
     }
 
+    /// Amount \[m\] of the tip relief and the diameter \[mm\] where it begins.
+    fn tip_relief(&self) -> Result<Option<(f64, f64)>, InputError> {
+        let table = self.table;
+        let start = table.tip_relief_start_diameter_mm;
+        self.together(
+            ("tip_relief_um", table.tip_relief_um),
+            ("tip_relief_start_diameter_mm", start),
+            &[("tip_relief_shape", table.tip_relief_shape.is_some())],
+        )
+    }
+
+    /// Amount \[m\] of the root relief and the diameter \[mm\] where it begins.
+    fn root_relief(&self) -> Result<Option<(f64, f64)>, InputError> {
+        let table = self.table;
+        let start = table.root_relief_start_diameter_mm;
+        self.together(
+            ("root_relief_um", table.root_relief_um),
+            ("root_relief_start_diameter_mm", start),
+            &[("root_relief_shape", table.root_relief_shape.is_some())],
+        )
+    }
+
+    /// Amount \[m\] of the profile crowning and the diameter \[mm\] where it is zero.
+    fn profile_crowning(&self) -> Result<Option<(f64, f64)>, InputError> {
+        let diameter = self.table.profile_crowning_diameter_mm;
+        self.together(
+            ("profile_crowning_um", self.table.profile_crowning_um),
+            ("profile_crowning_diameter_mm", diameter),
+            &[],
+        )
+    }
+
+    /// Amount \[m\] and length \[mm\] of the end relief.
+    fn end_relief(&self) -> Result<Option<(f64, f64)>, InputError> {
+        let table = self.table;
+        let others = [
+            ("end_relief_shape", table.end_relief_shape.is_some()),
+            ("end_relief_end", table.end_relief_end.is_some()),
+        ];
+        self.together(
+            ("end_relief_um", table.end_relief_um),
+            ("end_relief_length_mm", table.end_relief_length_mm),
+            &others,
+        )
+    }
+}
+
+/// The keys of one side, and the teeth that they act on.
+struct FlankTable<'a> {
+    of: SideTable<'a>,
+    profile: &'a ToothGeometry,
+    face_width_m: f64,
+}
+
+impl FlankTable<'_> {
+    fn microgeometry(&self, folder: Option<&Path>) -> Result<Microgeometry, InputError> {
+        let table = self.of.table;
+        let topography = table.topography.as_ref();
+        Ok(Microgeometry {
+            form_roll_rad: self.profile.form_roll_rad,
+            tip_roll_rad: self.profile.tip_roll_rad,
+            face_width_m: self.face_width_m,
+            profile_crowning: self.profile_crowning()?,
+            tip_relief: self.tip_relief()?,
+            root_relief: self.root_relief()?,
+            profile_angle_m: self
+                .of
+                .amount_m("profile_angle_um", table.profile_angle_um)?,
+            lead_crowning_m: self
+                .of
+                .amount_m("lead_crowning_um", table.lead_crowning_um)?,
+            flank_angle_m: self.of.amount_m("flank_angle_um", table.flank_angle_um)?,
+            end_relief: self.end_relief()?,
+            twist_m: self.of.amount_m("twist_um", table.twist_um)?,
+            topography: topography
+                .map(|table| {
+                    let place = self.of.place("topography");
+                    table.check(
+                        &TableKeys::new(self.of.document, &place),
+                        self.profile,
+                        folder,
+                    )
+                })
+                .transpose()?,
+        })
+    }
+
+    fn profile_crowning(&self) -> Result<Option<ProfileCrowning>, InputError> {
+        let diameter = "profile_crowning_diameter_mm";
+        let Some((amount_m, diameter_mm)) = self.of.profile_crowning()? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm >= low && diameter_mm < high;
+        self.require_on_involute(diameter, diameter_mm, ok)?;
+        Ok(Some(ProfileCrowning {
+            amount_m,
+            centre_roll_rad: self.roll_rad(diameter_mm),
+        }))
+    }
+
+    fn tip_relief(&self) -> Result<Option<TipRelief>, InputError> {
+        let table = self.of.table;
+        let amount = ("tip_relief_um", table.tip_relief_um);
+        let (start, shape) = ("tip_relief_start_diameter_mm", table.tip_relief_shape);
+        let Some((amount_m, diameter_mm)) = self.of.tip_relief()? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm >= low && diameter_mm < high;
+        self.require_on_involute(start, diameter_mm, ok)?;
+        let start_roll_rad = self.roll_rad(diameter_mm);
+        let length_m = self.profile.base_radius_m * (self.profile.tip_roll_rad - start_roll_rad);
+        Ok(Some(TipRelief {
+            amount_m,
+            start_roll_rad,
+            shape: self.shape(shape, amount, length_m)?,
+        }))
+    }
+
+    fn root_relief(&self) -> Result<Option<RootRelief>, InputError> {
+        let table = self.of.table;
+        let amount = ("root_relief_um", table.root_relief_um);
+        let (start, shape) = ("root_relief_start_diameter_mm", table.root_relief_shape);
+        let Some((amount_m, diameter_mm)) = self.of.root_relief()? else {
+            return Ok(None);
+        };
+        let (low, high) = self.involute_mm();
+        let ok = diameter_mm > low && diameter_mm <= high;
+        self.require_on_involute(start, diameter_mm, ok)?;
+        let start_roll_rad = self.roll_rad(diameter_mm);
+        let length_m = self.profile.base_radius_m * (start_roll_rad - self.profile.form_roll_rad);
+        Ok(Some(RootRelief {
+            amount_m,
+            start_roll_rad,
+            shape: self.shape(shape, amount, length_m)?,
+        }))
+    }
+
+    fn end_relief(&self) -> Result<Option<EndRelief>, InputError> {
+        let table = self.of.table;
+        let amount = ("end_relief_um", table.end_relief_um);
+        let Some((amount_m, length_mm)) = self.of.end_relief()? else {
+            return Ok(None);
+        };
+        let ends = table.end_relief_end.unwrap_or_default();
+        let share = if ends == FaceEnds::Both { 0.5 } else { 1.0 };
+        let most = share * self.face_width_m / MM;
+        let ok = length_mm > 0.0 && length_mm <= most * (1.0 + 1e-12);
+        self.of.require(
+            "end_relief_length_mm",
+            length_mm,
+            ok,
+            &format!("more than 0 to {most:.4}"),
+        )?;
+        Ok(Some(EndRelief {
+            amount_m,
+            length_m: MM * length_mm,
+            shape: self.shape(table.end_relief_shape, amount, MM * length_mm)?,
+            ends,
+        }))
+    }
+
     fn shape(
         &self,
         word: Option<ReliefWord>,
@@ -340,7 +416,8 @@ impl FlankTable<'_> {
                 let allowed = format!(
                     "less than {most:.1} in magnitude: an arc is not deeper than it is long"
                 );
-                self.require(key, amount, amount.abs() < most, &allowed)?;
+                self.of
+                    .require(key, amount, amount.abs() < most, &allowed)?;
                 ReliefShape::Arc { length_m }
             }
         })
@@ -359,7 +436,7 @@ impl FlankTable<'_> {
         } else {
             format!("{low:.3} to below {high:.3}: the involute part of the flank")
         };
-        self.require(key, value, ok, &allowed)
+        self.of.require(key, value, ok, &allowed)
     }
 
     /// Roll angle of the flank at a diameter in millimetres.

@@ -3,7 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
-use super::markup::escape;
+use super::markup::{escape, legend};
 use super::polar_chart::round_step;
 use std::fmt::Write as _;
 
@@ -159,20 +159,14 @@ impl FlankChart {
         let _ = write!(
             html,
             "<line x1=\"0\" y1=\"{at:.1}\" x2=\"{0:.1}\" y2=\"{at:.1}\" stroke=\"var(--faint)\" stroke-width=\"2\"/>\
-             <text x=\"{1:.1}\" y=\"{2:.1}\">{bar} mm</text>\n</svg>\n<p class=\"readout\">",
+             <text x=\"{1:.1}\" y=\"{2:.1}\">{bar} mm</text>\n</svg>\n",
             bar * scale,
             bar * scale + 6.0,
             at + 4.0
         );
-        for (number, line) in self.lines.iter().enumerate() {
-            let _ = write!(
-                html,
-                "<span class=\"key\" style=\"background: var(--c{})\"></span> {} ",
-                number + 1,
-                escape(&line.name)
-            );
-        }
-        html.push_str("</p>\n</figure>\n");
+        let lines = self.lines.iter().enumerate();
+        html.push_str(&legend(lines.map(|(k, line)| (k + 1, &line.name[..])), ""));
+        html.push_str("</figure>\n");
         Ok(())
     }
 }

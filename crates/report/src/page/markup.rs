@@ -18,6 +18,22 @@ pub(super) fn escape(text: &str) -> String {
     safe
 }
 
+/// The line below a drawing: a patch of colour and a name for each kind of curve, which are not torn apart, and what is said behind them.
+pub(super) fn legend<'a>(entries: impl Iterator<Item = (usize, &'a str)>, told: &str) -> String {
+    let entry = |(colour, name): (usize, &str)| {
+        format!(
+            "<span class=\"entry\"><span class=\"key\" style=\"background: var(--c{})\"></span> {}</span> ",
+            colour % COLOURS,
+            escape(name)
+        )
+    };
+    let entries: String = entries.map(entry).collect();
+    format!("<p class=\"legend\">{entries}{}</p>\n", escape(told))
+}
+
+/// Colours of the page's style, from `--c0` on.
+pub(super) const COLOURS: usize = 8;
+
 /// JSON that cannot end its script element or open a comment: `<`, `>` and `&` occur in strings only and are written as
 /// \u escapes.
 pub(super) fn json_for_script(value: &serde_json::Value) -> serde_json::Result<String> {

@@ -3,7 +3,7 @@
 //! Drawn as SVG in the page itself: it needs no script.
 
 use super::PageError;
-use super::markup::escape;
+use super::markup::{escape, legend};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -123,19 +123,12 @@ impl PolarChart {
                 );
             }
         }
-        html.push_str("\n</svg>\n<p class=\"readout\">");
-        for (number, series) in self.series.iter().enumerate() {
-            let _ = write!(
-                html,
-                "<span class=\"key\" style=\"background: var(--c{number})\"></span> {} ",
-                escape(&series.name)
-            );
-        }
-        let unit = escape(&self.unit);
-        let _ = writeln!(
-            html,
-            "in {unit}; circles every {step} {unit}</p>\n</figure>"
-        );
+        html.push_str("\n</svg>\n");
+        let entries = self.series.iter().enumerate();
+        let entries = entries.map(|(number, series)| (number, &series.name[..]));
+        let told = format!("in {0}; circles every {step} {0}", self.unit);
+        html.push_str(&legend(entries, &told));
+        html.push_str("</figure>\n");
         Ok(())
     }
 

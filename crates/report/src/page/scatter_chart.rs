@@ -2,7 +2,7 @@
 //!
 //! Drawn as SVG in the page itself: it needs no script.
 
-use super::markup::escape;
+use super::markup::{COLOURS, escape, legend};
 use super::polar_chart::round_step;
 use super::{Axis, PageError};
 use std::fmt::Write as _;
@@ -17,6 +17,7 @@ pub struct PointSeries {
     name: String,
     points: Vec<[f64; 2]>,
     joined: bool,
+    through: Vec<[f64; 2]>,
     labels: Vec<String>,
 }
 
@@ -27,6 +28,7 @@ impl PointSeries {
             name: name.into(),
             points,
             joined: false,
+            through: Vec::new(),
             labels: Vec::new(),
         }
     }
@@ -35,6 +37,13 @@ impl PointSeries {
     #[must_use]
     pub fn joined(mut self) -> Self {
         self.joined = true;
+        self
+    }
+
+    /// A line among the points, in their colour: what they come to in the mean.
+    #[must_use]
+    pub fn through(mut self, line: Vec<[f64; 2]>) -> Self {
+        self.through = line;
         self
     }
 
@@ -56,6 +65,7 @@ pub struct ScatterChart {
     axes: [Axis; 2],
     logarithmic: [bool; 2],
     series: Vec<PointSeries>,
+    told: String,
 }
 
 /// An axis of the drawing: where values lie, and the numbers beside it.
@@ -151,6 +161,7 @@ impl ScatterChart {
             axes: [x, y],
             logarithmic: [false; 2],
             series: Vec::new(),
+            told: String::new(),
         }
     }
 
@@ -158,6 +169,13 @@ impl ScatterChart {
     #[must_use]
     pub fn logarithmic(mut self, x: bool, y: bool) -> Self {
         self.logarithmic = [x, y];
+        self
+    }
+
+    /// What is said behind the names of the series.
+    #[must_use]
+    pub fn told(mut self, told: impl Into<String>) -> Self {
+        self.told = told.into();
         self
     }
 
@@ -169,7 +187,10 @@ impl ScatterChart {
     }
 
     pub(super) fn render(&self, html: &mut String) -> Result<(), PageError> {
-        let all = || self.series.iter().flat_map(|series| &series.points);
+        let all = || {
+            let series = self.series.iter();
+            series.flat_map(|series| series.points.iter().chain(&series.through))
+        };
         if all().next().is_none() {
             return Err(PageError::Empty {
                 block: self.title.clone(),
@@ -238,12 +259,17 @@ impl ScatterChart {
             named(&self.axes[1])
         );
         for (number, series) in self.series.iter().enumerate() {
-            if series.joined {
+            let colour = number % COLOURS;
+            let line = match series.joined {
+                true => &series.points,
+                false => &series.through,
+            };
+            if !line.is_empty() {
                 let _ = write!(
                     html,
-                    "<polyline fill=\"none\" stroke=\"var(--c{number})\" points=\""
+                    "<polyline fill=\"none\" stroke=\"var(--c{colour})\" points=\""
                 );
-                for [a, b] in &series.points {
+                for [a, b] in line {
                     let _ = write!(html, "{:.1},{:.1} ", x(*a), y(*b));
                 }
                 html.push_str("\"/>");
@@ -253,22 +279,18 @@ impl ScatterChart {
                 let label = series.labels.get(k).map_or(String::new(), |l| escape(l));
                 let _ = write!(
                     html,
-                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\" fill=\"var(--c{number})\"><title>{label}</title></circle>",
+                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\" fill=\"var(--c{colour})\"><title>{label}</title></circle>",
                     x(*a),
                     y(*b)
                 );
             }
             html.push('\n');
         }
-        html.push_str("</svg>\n<p class=\"readout\">");
-        for (number, series) in self.series.iter().enumerate() {
-            let _ = write!(
-                html,
-                "<span class=\"key\" style=\"background:var(--c{number})\"></span> {} ",
-                escape(&series.name)
-            );
-        }
-        html.push_str("</p>\n</figure>\n");
+        html.push_str("</svg>\n");
+        let entries = self.series.iter().enumerate();
+        let entries = entries.map(|(number, series)| (number, &series.name[..]));
+        html.push_str(&legend(entries, &self.told));
+        html.push_str("</figure>\n");
         Ok(())
     }
 }

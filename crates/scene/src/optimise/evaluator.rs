@@ -1,16 +1,18 @@
 //! What a choice of the variables is worth: the objectives of what scatter makes of it.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fs::create_dir_all;
 use std::sync::{Mutex, PoisonError};
 
+use gearmesh_geometry::InputError;
+use gearmesh_model::write_text;
 use rayon::prelude::*;
 
 use super::file::{Judged, Optimisation};
 use crate::study::{
-    BaseScene, Case, Design, FigureKinds, MadeFiles, RestCases, Scratch, Setting, StudyError,
-    Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number, probabilities,
-    seeded,
+    BaseScene, Case, Design, FigureKinds, MadeFile, MadeFiles, RestCases, Scratch, Setting,
+    StudyError, Subject, VaryError, Wanted, evaluate, is_without_load, known_columns, number,
+    probabilities, seeded,
 };
 use crate::system::Run;
 
@@ -270,7 +272,7 @@ impl<'a> Evaluator<'a> {
             at.extend(keys.iter().map(|key| (&key[..], *value)));
         }
         for (key, added) in &self.samples[sample] {
-            let stated = || match self.base.value(key) {
+            let stated = || match self.base.stated(key) {
                 Some(toml::Value::Float(value)) => value,
                 Some(toml::Value::Integer(value)) => value as f64,
                 _ => 0.0,
@@ -287,7 +289,49 @@ impl<'a> Evaluator<'a> {
             settings,
             ..Case::default()
         };
-        self.base.scene(&case, &mut MadeFiles::new(), Path::new(""))
+        let mut files = MadeFiles::new();
+        let subject = self.base.scene(&case, &mut files, self.scratch.folder())?;
+        self.write(&files, &case)?;
+        Ok(subject)
+    }
+
+    /// Writes the changed copies of files that a choice names. A gear is not reduced anew for a choice.
+    fn write(&self, files: &MadeFiles, case: &Case) -> Result<(), VaryError> {
+        for (path, made) in files {
+            let MadeFile::Text(text) = made else {
+                return Err(self.of_model(case));
+            };
+            let unwritten = |told: String| {
+                VaryError::Scene(InputError {
+                    file: path.display().to_string(),
+                    line: None,
+                    key: String::new(),
+                    problem: told,
+                })
+            };
+            // Named by what is in it: what is there is right.
+            if path.exists() {
+                continue;
+            }
+            if let Some(folder) = path.parent() {
+                create_dir_all(folder).map_err(|cause| unwritten(cause.to_string()))?;
+            }
+            write_text(path, text).map_err(|cause| unwritten(cause.to_string()))?;
+        }
+        Ok(())
+    }
+
+    /// Complains of the key that would change a reduced gear.
+    fn of_model(&self, case: &Case) -> VaryError {
+        let of_model = |setting: &&Setting| self.base.is_of_model(&setting.parameter);
+        let key = case.settings.iter().find(of_model);
+        let key = key.map_or_else(String::new, |setting| setting.parameter.clone());
+        VaryError::Key {
+            problem: format!(
+                "`{key}` is a key of the gear inside a reduced model, which each choice would reduce anew; a study reduces it once for each of its values"
+            ),
+            parameter: key,
+        }
     }
 }
 

@@ -265,11 +265,5 @@ fn keys_of(document: &InputDocument, at: &str, keys: &[String]) -> Result<(), In
     if keys.is_empty() {
         return Err(document.error(&at, "is empty; give at least one"));
     }
-    if let Some(key) = keys.iter().find(|key| key.contains(':')) {
-        let problem = format!(
-            "`{key}` is a key of another file: each value would ask for a model of its own; make a study of it"
-        );
-        return Err(document.error(&at, problem));
-    }
     Ok(())
 }

@@ -319,6 +319,12 @@ impl Scene {
             }
             (Some(PathWord::LineOfAction), None) => None,
         };
+        let own = [&table.gear_1.microgeometry, &table.gear_2.microgeometry];
+        for (number, own) in [1, 2].into_iter().zip(own) {
+            if let Some(own) = own {
+                own.check_together((&document, &format!("gear_{number}.microgeometry")))?;
+            }
+        }
         let PairModel::Hybrid { local, slices } = table.mesh.model;
         let notes = document.former_notes()?;
         let notes = notes.iter().map(ToString::to_string).collect();

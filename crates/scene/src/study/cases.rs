@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gearmesh_bearings::BearingError;
-use gearmesh_bevel::BevelError;
 use gearmesh_geometry::{GearDefinition, InputError};
 use gearmesh_model::{FileError, ReducedGear, write_reduced_gear, write_text};
 use rayon::prelude::*;
@@ -14,13 +13,13 @@ use super::design::Case;
 use super::figure::FigureKinds;
 use super::rest_cases::RestCases;
 use super::study_file::Study;
-use super::subject::Subject;
+use super::subject::{SeriesOver, Subject};
 use super::system_cases;
 use super::table::table;
 use super::varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};
 use crate::bevel_load::BevelLoadError;
 use crate::pair::RunError;
-use crate::system::{Run, SystemScene};
+use crate::system::SystemScene;
 use crate::system_run::{Figures, SystemRunError};
 
 /// Why a study could not be run.
@@ -37,7 +36,7 @@ pub enum StudyError {
     Pair(#[from] RunError),
     /// A case of a bevel pair.
     #[error(transparent)]
-    Bevel(#[from] BevelError),
+    Bevel(InputError),
     /// A case of a bevel pair under load.
     #[error(transparent)]
     BevelLoad(#[from] BevelLoadError),
@@ -129,6 +128,8 @@ pub struct CaseResult {
 pub struct StudyOutcome {
     /// The cases, in the order of the study; less where it was stopped.
     pub cases: Vec<CaseResult>,
+    /// What figures of series are taken over.
+    pub series_over: SeriesOver,
     /// Stopped on demand; the same command goes on.
     pub stopped: bool,
     /// Gears that were reduced on the way.
@@ -252,21 +253,19 @@ fn blamed(study: &Study, error: VaryError) -> InputError {
 
 /// `from_s` and `operation` stand where they mean something.
 fn demand_runnable(study: &Study, scene: &Subject) -> Result<(), InputError> {
-    let told = match scene {
-        Subject::System(scene) => match scene.run {
-            Run::Transient { .. } => "",
-            Run::Static { .. } => {
-                "the scene's run is \"static\": its figures are those of all its equilibria"
-            }
-            Run::Eigen { .. } => {
-                "the scene's run is \"eigen\": its figures are those of all its operating points"
-            }
-            Run::SpeedSweep(_) => {
-                "the scene's run is \"speed-sweep\": its figures are those of all its windows"
-            }
-        },
-        Subject::Pair(_) => "a gear pair is looked at at rest",
-        Subject::Bevel(_) | Subject::Bearing(_) => "this is looked at at rest",
+    let told = match (scene.series_over(), scene) {
+        (SeriesOver::Time, _) => "",
+        (SeriesOver::Equilibria, _) => {
+            "the scene's run is \"static\": its figures are those of all its equilibria"
+        }
+        (SeriesOver::OperatingPoints, _) => {
+            "the scene's run is \"eigen\": its figures are those of all its operating points"
+        }
+        (SeriesOver::Speeds, _) => {
+            "the scene's run is \"speed-sweep\": its figures are those of all its windows"
+        }
+        (SeriesOver::Nothing, Subject::Pair(_)) => "a gear pair is looked at at rest",
+        (SeriesOver::Nothing, _) => "this is looked at at rest",
     };
     if study.tables.from_s > 0.0 && !told.is_empty() {
         let problem = format!("belongs to runs in time; {told}");
@@ -288,12 +287,13 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
     let reduced = make_files(&scenes.files, options)?;
     let StudyScenes {
         cases,
+        base,
         scenes,
         scene_of,
         ..
     } = scenes;
     let (done, count) = (AtomicUsize::new(0), scenes.len());
-    let outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>> = scenes
+    let outcomes: Outcomes = scenes
         .into_par_iter()
         .map(|scene| {
             let outcome = run_case(study, scene, &rest, options);
@@ -301,7 +301,13 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
             outcome
         })
         .collect();
-    finished(study, (cases, &scene_of), outcomes, (folder, reduced))
+    let over = base.series_over();
+    finished(
+        study,
+        (cases, &scene_of),
+        (outcomes, over),
+        (folder, reduced),
+    )
 }
 
 /// Puts the outcomes of the scenes beside the cases that led to them and writes the table; `reduced`: gears that were
@@ -309,7 +315,7 @@ pub fn run_study(study: &Study, options: &StudyOptions<'_>) -> Result<StudyOutco
 pub(super) fn finished(
     study: &Study,
     (cases, scene_of): (Vec<Case>, &[usize]),
-    outcomes: Vec<Result<Option<(PathBuf, Found)>, StudyError>>,
+    (outcomes, series_over): (Outcomes, SeriesOver),
     (folder, reduced): (&Path, usize),
 ) -> Result<StudyOutcome, StudyError> {
     let stopped = outcomes.iter().any(|outcome| matches!(outcome, Ok(None)));
@@ -331,10 +337,14 @@ pub(super) fn finished(
     }
     Ok(StudyOutcome {
         cases: results,
+        series_over,
         stopped,
         reduced,
     })
 }
+
+/// What became of the scenes: file and columns; none where the study was stopped before.
+type Outcomes = Vec<Result<Option<(PathBuf, Found)>, StudyError>>;
 
 /// The study's columns, or why a result does not give them.
 pub(super) type Found = Result<Vec<Selected>, String>;

@@ -207,7 +207,7 @@ pub fn gather_study(
     finished(
         study,
         (scenes.cases, &scenes.scene_of),
-        outcomes,
+        (outcomes, scenes.base.series_over()),
         (folder, 0),
     )
 }

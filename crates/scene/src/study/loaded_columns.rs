@@ -53,7 +53,7 @@ pub(super) fn figures(
     subject: &BevelSubject,
     shelf: &ModelShelf,
 ) -> Result<RestFigures, StudyError> {
-    let mut rows = vec![rest_columns::of_bevel(subject)?];
+    let mut rows = vec![rest_columns::of_bevel(subject).map_err(StudyError::Bevel)?];
     let mut torques_nm = Vec::new();
     if let Some(load) = &subject.file.load {
         let found = loaded(subject, load, shelf)?;
@@ -77,7 +77,7 @@ fn loaded(
     load: &LoadRequest,
     shelf: &ModelShelf,
 ) -> Result<Vec<LoadedContact>, StudyError> {
-    let design = subject.file.design()?;
+    let design = rest_columns::design(subject).map_err(StudyError::Bevel)?;
     let folder = Path::new(&subject.document.file).parent();
     let read = |file: &Path| shelf.model(&folder.unwrap_or(Path::new("")).join(file));
     let models = match &load.models {

@@ -5,7 +5,7 @@
 //! | what the file says | [`Study`] | `study_file.rs` |
 //! | which values make which cases | [`Design`], [`Case`] | `design.rs`, `scatter.rs` |
 //! | what is computed | [`Subject`] | `subject.rs`, `bearing_operation.rs` |
-//! | the scene of a case | [`BaseScene`] | `varied_scene.rs` |
+//! | the scene of a case | [`BaseScene`] | `varied_scene.rs`, `changed_file.rs` |
 //! | cases, their results and figures | [`run_study`] | `cases.rs`, `system_cases.rs`, `rest_cases.rs` |
 //! | which figures there are | [`RestColumn`], [`Wanted`] | `pair_columns.rs`, `rest_columns.rs`, `loaded_columns.rs`, `figure.rs` |
 //! | cases for other machines, and the table of what they gave | [`StudyCases`], [`CaseRunner`], [`gather_study`] | `elsewhere.rs` |
@@ -17,6 +17,7 @@
 
 mod bearing_operation;
 mod cases;
+mod changed_file;
 mod design;
 mod elsewhere;
 mod evaluate;
@@ -49,5 +50,5 @@ pub use pair_columns::RestColumn;
 pub use rest_cases::{RestCases, RestFigures};
 pub use scatter::{NormalTable, SpacedTable, UniformTable};
 pub use study_file::{ParameterTable, Study, StudyTables};
-pub use subject::{BearingSubject, BevelSubject, Subject};
+pub use subject::{BearingSubject, BevelSubject, SeriesOver, Subject};
 pub use varied_scene::{BaseScene, MadeFile, MadeFiles, VaryError};

@@ -1,8 +1,9 @@
 //! The columns of bevel pairs and of bearings that are studied by themselves: a number each.
 
 use gearmesh_bearings::{BearingError, Life, QuasiStaticBearing, Ratings};
-use gearmesh_bevel::{BevelError, sensitivity, tooth_contact};
+use gearmesh_bevel::{PairDesign, sensitivity, tooth_contact};
 use gearmesh_contact::mesh_stiffness::mesh_harmonics;
+use gearmesh_geometry::InputError;
 
 use super::subject::{BearingSubject, BevelSubject};
 
@@ -34,18 +35,33 @@ pub(super) fn bevel_names() -> Vec<String> {
     names
 }
 
+/// Settings and flanks of a bevel pair, its teeth checked.
+///
+/// # Errors
+/// As [`of_bevel`].
+pub(super) fn design(subject: &BevelSubject) -> Result<PairDesign, InputError> {
+    let found = subject.file.checked_design(&subject.document);
+    Ok(found.map_err(without_line)?.0)
+}
+
+/// The text of a case is not the user's.
+fn without_line(error: InputError) -> InputError {
+    InputError {
+        line: None,
+        ..error
+    }
+}
+
 /// All columns of a bevel pair.
 ///
 /// # Errors
-/// [`BevelError`] where the flanks cannot be made or do not touch.
-pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, BevelError> {
-    let file = &subject.file;
-    let design = file.design()?;
-    for (tooth, member) in design.teeth.iter().zip(&file.members) {
-        tooth.check(member.least_top_land_m, member.point_width_m)?;
-    }
+/// [`InputError`] where the flanks cannot be made or do not touch.
+pub(super) fn of_bevel(subject: &BevelSubject) -> Result<Vec<f64>, InputError> {
+    let BevelSubject { file, document } = subject;
+    let design = design(subject)?;
     let flanks = design.flanks(file.pinion_flank);
-    let found = tooth_contact(flanks, &file.blank, &file.tca)?;
+    let found = tooth_contact(flanks, &file.blank, &file.tca)
+        .map_err(|error| without_line(error.in_file(document)))?;
     // Where only edges touch, no contact moves with the errors.
     let moved = (found.mean).and_then(|_| sensitivity(flanks, &file.blank, &file.tca.error).ok());
     let lines = mesh_harmonics(&found.error_rad, 1, HARMONICS).1;

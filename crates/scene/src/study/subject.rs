@@ -10,7 +10,7 @@ use gearmesh_geometry::input::InputDocument;
 use super::bearing_operation::BearingOperation;
 use crate::pair::Scene;
 use crate::scene_file::{InputKind, SceneFile};
-use crate::system::SystemScene;
+use crate::system::{Run, SystemScene};
 
 /// What is computed.
 #[derive(Debug, Clone)]
@@ -48,7 +48,36 @@ pub struct BearingSubject {
 /// What stands behind the keys of a bearing file while it is varied.
 pub(super) const OPERATION: &str = "operation";
 
+/// What the figures of a series are taken over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SeriesOver {
+    /// The rows of a run in time.
+    Time,
+    /// The equilibria of a static run.
+    Equilibria,
+    /// The operating points of a run that seeks natural modes.
+    OperatingPoints,
+    /// The speeds of a sweep.
+    Speeds,
+    /// Nothing: what is looked at at rest has no series.
+    Nothing,
+}
+
 impl Subject {
+    /// What the figures of its series are taken over.
+    #[must_use]
+    pub fn series_over(&self) -> SeriesOver {
+        let Self::System(scene) = self else {
+            return SeriesOver::Nothing;
+        };
+        match scene.run {
+            Run::Transient { .. } => SeriesOver::Time,
+            Run::Static { .. } => SeriesOver::Equilibria,
+            Run::Eigen { .. } => SeriesOver::OperatingPoints,
+            Run::SpeedSweep(_) => SeriesOver::Speeds,
+        }
+    }
+
     /// Checks what is in memory; other files are relative to `folder`.
     ///
     /// # Errors

@@ -11,9 +11,10 @@ use std::path::{Path, PathBuf};
 
 use gearmesh_geometry::input::InputDocument;
 use gearmesh_geometry::{GearDefinition, InputError};
-use gearmesh_model::{bytes_digest, read_reduced_gear};
+use gearmesh_model::bytes_digest;
 
 use super::bearing_operation::OperationTable;
+use super::changed_file::{absolute_names, check, file_text, is_hdf5};
 use super::design::{Case, Setting};
 use super::subject::{OPERATION, Subject, is_bearing};
 use crate::former_forms::{PAIR, SYSTEM};
@@ -112,6 +113,35 @@ impl BaseScene {
         match found_at(&self.begun, key) {
             Some(table @ toml::Value::Table(_)) => Some(table.clone()),
             _ => found_at(&self.begun, &self.document.present_path(key)).cloned(),
+        }
+    }
+
+    /// The value that stands at a key of the scene, or of a file that it names (`FILE-KEY:KEY`); none where it is not stated, or the file
+    /// cannot be read.
+    #[must_use]
+    pub fn stated(&self, key: &str) -> Option<toml::Value> {
+        let Some((file, inner)) = key.split_once(':') else {
+            return self.value(key);
+        };
+        let path = self.named_file(file)?;
+        let document = InputDocument::new(path.display().to_string(), file_text(&path).ok()?);
+        let table: toml::Value = document.glance().ok()?;
+        found_at(&table, inner).cloned()
+    }
+
+    /// Whether a key is one of the gear inside a reduced model.
+    #[must_use]
+    pub fn is_of_model(&self, key: &str) -> bool {
+        let file = key.split_once(':').map(|(file, _)| file);
+        file.and_then(|file| self.named_file(file))
+            .is_some_and(|path| is_hdf5(&path))
+    }
+
+    /// The file that a key of the scene names.
+    fn named_file(&self, key: &str) -> Option<PathBuf> {
+        match self.value(key) {
+            Some(toml::Value::String(name)) => Some(self.folder.join(name)),
+            _ => None,
         }
     }
 
@@ -217,7 +247,7 @@ impl BaseScene {
     ) -> Result<(), VaryError> {
         let first = keys[0];
         let whole = |key: &str| format!("{file}:{key}");
-        let Some(toml::Value::String(name)) = self.value(file) else {
+        let Some(path) = self.named_file(file) else {
             let known = file_keys(&self.begun);
             let problem = format!(
                 "begins with `{file}`: {}",
@@ -225,7 +255,6 @@ impl BaseScene {
             );
             return Err(of_key(first.1, &whole(first.0), &problem));
         };
-        let path = self.folder.join(name);
         let text = file_text(&path).map_err(VaryError::Scene)?;
         let shown = path.display().to_string();
         let document = InputDocument::new(shown, text);
@@ -246,19 +275,24 @@ impl BaseScene {
             .chars()
             .take(NAME_DIGITS)
             .collect();
+        let refused = |e: InputError| {
+            let own = keys.iter().find(|(key, ..)| *key == e.key);
+            let (key, parameter, _) = own.unwrap_or(&first);
+            let key = match &e.key[..] {
+                "" => whole(key),
+                at => whole(at),
+            };
+            of_key(parameter, &key, &format!("is refused: {}", e.problem))
+        };
+        let changed = InputDocument::new(format!("{} changed", document.file), &text);
         let (made, made_path) = if is_model {
-            let name = format!("{} changed", document.file);
-            let gear = GearDefinition::from_document(&InputDocument::new(name, &text));
-            let gear = gear.map_err(|e| {
-                let key = Some(&e.key[..]).filter(|key| !key.is_empty());
-                let key = whole(key.unwrap_or(first.0));
-                of_key(first.1, &key, &format!("is refused: {}", e.problem))
-            })?;
+            let gear = GearDefinition::from_document(&changed).map_err(refused)?;
             (
                 MadeFile::Model(Box::new(gear)),
                 out.join(format!("models/{digest}.h5")),
             )
         } else {
+            check(&changed).map_err(refused)?;
             (
                 MadeFile::Text(text),
                 out.join(format!("files/{digest}.toml")),
@@ -277,41 +311,6 @@ fn of_key(parameter: &str, key: &str, problem: &str) -> VaryError {
     VaryError::Key {
         parameter: parameter.to_owned(),
         problem: format!("`{key}` {problem}"),
-    }
-}
-
-fn is_hdf5(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e == "h5")
-}
-
-/// The text of a file, of a model that of its gear.
-fn file_text(path: &Path) -> Result<String, InputError> {
-    if !is_hdf5(path) {
-        return Ok(InputDocument::read(path)?.text);
-    }
-    let model = read_reduced_gear(path).map_err(|error| InputError {
-        file: path.display().to_string(),
-        line: None,
-        key: String::new(),
-        problem: error.to_string(),
-    })?;
-    Ok(model.input.text)
-}
-
-/// A copy stands elsewhere: files that it names keep their places.
-fn absolute_names(value: &mut toml::Value, named: &BTreeMap<String, PathBuf>) {
-    match value {
-        toml::Value::String(name) => {
-            if let Some(path) = named.get(name) {
-                let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
-                *name = path.display().to_string();
-            }
-        }
-        toml::Value::Array(items) => items.iter_mut().for_each(|v| absolute_names(v, named)),
-        toml::Value::Table(table) => {
-            table.iter_mut().for_each(|(_, v)| absolute_names(v, named));
-        }
-        _ => {}
     }
 }
 

@@ -133,6 +133,11 @@ impl SystemScene {
         if tables.body.is_empty() && tables.shaft.is_empty() {
             return Err(document.error("body", "is empty; a scene has at least one body or shaft"));
         }
+        for (i, body) in tables.body.iter().enumerate() {
+            if let Some(own) = &body.microgeometry {
+                own.check_together((&document, &format!("body.{i}.microgeometry")))?;
+            }
+        }
         let run = tables.run.check(&document)?;
         let solver = tables.solver.check(&document, &run)?;
         let output = tables.output.check(&document, &run)?;

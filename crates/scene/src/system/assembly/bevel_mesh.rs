@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use gearmesh_bevel::{BevelError, PairFile};
+use gearmesh_bevel::PairFile;
 use gearmesh_drivetrain::{
     BevelMesh, BevelSlices, DrivetrainError, FacetKind, FacetSize, FlankKinematics, GearMesh,
     PowerStiffness,
 };
-use gearmesh_geometry::input::TableKeys;
+use gearmesh_geometry::input::{InputDocument, TableKeys};
 use gearmesh_geometry::point_contact::contact_modulus_pa;
 use gearmesh_geometry::{Flank, InputError};
 
@@ -42,16 +42,10 @@ impl SceneBevel<'_> {
     ) -> Result<PreparedMesh, InputError> {
         self.refuse_unused(bodies, numbers)?;
         let models = self.models(bodies, numbers)?;
-        let file = PairFile::read(self.file)?;
-        let fault = |error: BevelError| {
-            let problem = format!("{}: {error}", self.file.display());
-            self.keys.error("bevel_pair", problem)
-        };
-        let design = file.design().map_err(fault)?;
-        for (tooth, member) in design.teeth.iter().zip(&file.members) {
-            let checked = tooth.check(member.least_top_land_m, member.point_width_m);
-            checked.map_err(fault)?;
-        }
+        let document = InputDocument::read(self.file)?;
+        let file = PairFile::from_document(&document)?;
+        let (design, _) = (file.checked_design(&document))
+            .map_err(|error| self.keys.error("bevel_pair", error))?;
         let seats = [
             seat(
                 &self.teeth.eccentricity_1,
@@ -66,7 +60,12 @@ impl SceneBevel<'_> {
         ];
         let at_start = pose(bodies, numbers, &seats);
         let sides = self.teeth.flanks.flanks().to_vec();
-        let fault = |e| self.keys.error("bevel_pair", e);
+        let fault = |error: DrivetrainError| match error {
+            DrivetrainError::Bevel(error) => {
+                self.keys.error("bevel_pair", error.in_file(&document))
+            }
+            error => self.keys.error("bevel_pair", error),
+        };
         let (base_radii_m, slice_width_m, corners, mesh) = match &self.table.model {
             MeshModel::Hybrid(model) => {
                 let slices = self.slices(model, models.as_ref())?;
