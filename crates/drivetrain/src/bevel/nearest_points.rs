@@ -397,29 +397,34 @@ pub(crate) fn nearest_from(
     all.find_map(|limits| nearest_within(bodies, limits, guess))
 }
 
-/// What is found from a guess.
-pub(crate) enum Outcome {
-    Contact(Nearest),
+/// Why no contact was found from a guess.
+pub(crate) enum NoContact {
     /// The flanks do not face each other, or stand too far apart.
     Apart,
-    /// They face each other, but no contact was found from this place.
+    /// They face each other, but nothing holds from this place.
     Missed([[f64; 2]; 2]),
 }
 
-/// Nearest points of two flanks with tips, toes and heels, from a guess. Apart are flanks that do not face each other, or
-/// stand farther apart than `far_m` at the guess.
-pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2], far_m: f64) -> Outcome {
+/// Nearest points of two flanks with tips, toes and heels, from a guess.
+///
+/// # Errors
+/// [`NoContact`]; apart are flanks that do not face each other, or stand farther apart than `far_m` at the guess.
+pub(crate) fn nearest(
+    bodies: &[Placed<'_>; 2],
+    guess: [[f64; 2]; 2],
+    far_m: f64,
+) -> Result<Nearest, NoContact> {
     // From the middle of a cell straight to the other flank: both points then belong together. Flanks on which neither
     // middle has a foot do not face each other.
     let foot = |held: Held| solve(bodies, held, guess);
     let foot =
         foot([guess[0].map(Some), [None; 2]]).or_else(|| foot([[None; 2], guess[1].map(Some)]));
     let Some(foot) = foot.filter(|foot| foot.gap_m <= far_m) else {
-        return Outcome::Apart;
+        return Err(NoContact::Apart);
     };
     let inside = solve(bodies, FREE, foot.at);
     if let Some(found) = inside.filter(|found| Limits::NONE.others_hold(&found.at)) {
-        return Outcome::Contact(found);
+        return Ok(found);
     }
     let start = inside.map_or(foot.at, |found| found.at);
     let elsewhere: Cell<Option<Nearest>> = Cell::new(None);
@@ -456,7 +461,7 @@ pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2], far_m: f64
     let missed = missed.and_then(|from| solve(bodies, FREE, from.at));
     let found = found.or(missed.filter(|found| Limits::NONE.others_hold(&found.at)));
     if let Some(found) = found {
-        return Outcome::Contact(found);
+        return Ok(found);
     }
     let mut found = None;
     for tip in [0, 1] {
@@ -466,5 +471,5 @@ pub(crate) fn nearest(bodies: &[Placed<'_>; 2], guess: [[f64; 2]; 2], far_m: f64
         }
     }
     let from = elsewhere.get().map_or(start, |from| from.at);
-    found.map_or(Outcome::Missed(from), Outcome::Contact)
+    found.ok_or(NoContact::Missed(from))
 }

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
 use super::nearest_points::{
-    Limits, Nearest, Outcome, Placed, nearest, nearest_from, nearest_within,
+    Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within,
 };
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::section_points::{sections, tip_of};
@@ -210,9 +210,9 @@ pub(super) fn searched(
         second.origin_m,
     )?;
     match nearest(bodies, guess, far_m) {
-        Outcome::Contact(found) => Some(found),
-        Outcome::Apart => None,
-        Outcome::Missed(from) => {
+        Ok(found) => Some(found),
+        Err(NoContact::Apart) => None,
+        Err(NoContact::Missed(from)) => {
             let found = sections(bodies, from, None, SECTIONS);
             let found = found.into_iter().flatten();
             let least = found.min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))?;
