@@ -27,6 +27,11 @@ const BEHIND: f64 = 2e-8;
 /// Points within so many distances of an end may touch with it.
 const NEAR_END: f64 = 2.5;
 
+/// Tips, toes and heels of both members.
+const EDGES: usize = 6;
+/// Leads of points near an edge stay behind that of its contact by less \[rad\].
+const PASSED_OVER_RAD: f64 = 1e-4;
+
 const WHOLE: [[f64; 2]; 2] = [[0.0, 1.0]; 2];
 
 /// A pair of flanks with the tables of the search.
@@ -124,23 +129,16 @@ impl<'a> ContactSearch<'a> {
 
     /// Where the pair touches first; none where the flanks have passed each other.
     pub(crate) fn first_touch(&self, turn: f64) -> Option<(ContactKind, Touch)> {
-        let mut best: Option<(usize, Candidate)> = None;
-        for (i, point) in self.points.iter().enumerate() {
-            let Some(found) = self.candidate(turn, point.place, &point.r) else {
-                continue;
-            };
-            if best.is_none_or(|(_, b)| found.lead_rad > b.lead_rad) {
-                best = Some((i, found));
-            }
-        }
-        let (point, best) = best?;
+        let leaders = self.leaders(turn);
+        let (point, best) = leaders[EDGES]?;
         let start = self.touch_at(turn, self.points[point].at, &best)?;
+        let at_ends = self.ahead(self.at_edges(turn, &leaders), self.at_ends(turn));
         let reaches = |touch: &Touch| self.mesh.lead_rad(touch) >= best.lead_rad - BEHIND;
         let near = self.polished(turn, &start, |member, edge| {
             self.is_near(&best, member, edge)
         });
         if let Some(found) = self
-            .ahead(near, self.at_ends(turn))
+            .ahead(near, at_ends)
             .filter(|(_, touch)| reaches(touch))
         {
             return Some(found);
@@ -152,6 +150,48 @@ impl<'a> ContactSearch<'a> {
         let lead = self.mesh.lead_rad(&start);
         let found = any.filter(|(_, touch)| self.mesh.lead_rad(touch) >= lead - BEHIND);
         Some(found.unwrap_or_else(|| (self.kind_at(&best), start)))
+    }
+
+    /// The points of the largest lead near each edge of the pinion and of the gear, and of all: number and what the gear's flank is there.
+    fn leaders(&self, turn: f64) -> [Option<(usize, Candidate)>; EDGES + 1] {
+        let mut leaders: [Option<(usize, Candidate)>; EDGES + 1] = [None; EDGES + 1];
+        for (i, point) in self.points.iter().enumerate() {
+            let Some(found) = self.candidate(turn, point.place, &point.r) else {
+                continue;
+            };
+            for (n, leader) in leaders.iter_mut().enumerate() {
+                let leads = leader.is_none_or(|(_, known)| found.lead_rad > known.lead_rad);
+                if leads && (n == EDGES || self.is_near(&found, n / 3, EdgeKind::ALL[n % 3])) {
+                    *leader = Some((i, found));
+                }
+            }
+        }
+        leaders
+    }
+
+    /// Contacts of edges that the points of the search may pass over: from the leader near each of them.
+    fn at_edges(
+        &self,
+        turn: f64,
+        leaders: &[Option<(usize, Candidate)>; EDGES + 1],
+    ) -> Option<(ContactKind, Touch)> {
+        let of_all = leaders[EDGES].map_or(f64::NEG_INFINITY, |(_, all)| all.lead_rad);
+        let mut ahead = None;
+        for (n, leader) in leaders[..EDGES].iter().enumerate() {
+            let Some((point, from)) = leader else {
+                continue;
+            };
+            if from.lead_rad < of_all - PASSED_OVER_RAD {
+                continue;
+            }
+            let own = (n / 3, EdgeKind::ALL[n % 3]);
+            let start = self.touch_at(turn, self.points[*point].at, from);
+            let found = start.and_then(|start| {
+                self.polished(turn, &start, |member, edge| (member, edge) == own)
+            });
+            ahead = self.ahead(ahead, found);
+        }
+        ahead
     }
 
     /// Contacts at the ends of tips, which may be slivers between the points of the search: corners, and tips across ends.

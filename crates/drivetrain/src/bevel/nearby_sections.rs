@@ -9,8 +9,7 @@ use gearmesh_geometry::Flank;
 use nalgebra::{Matrix3, Vector3};
 
 use super::pose_derivatives::PoseDerivatives;
-use super::section_points::{TIPS, middle};
-use super::section_points::{TipHeld, nearest_on_section, tip_of};
+use super::section_points::{TIPS, TipHeld, middle, nearest_on_section, tip_of};
 use super::sliced_mesh::{BevelSlices, nearest_first};
 use super::tooth_side::placed;
 use crate::flank_contacts::{FlankContacts, TeethLine};

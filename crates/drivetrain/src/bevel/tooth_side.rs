@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
 use super::nearest_points::{
-    Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within,
+    Held, Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within, solve,
 };
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::section_points::{sections, tip_of};
@@ -20,6 +20,8 @@ pub(super) const REACH: f64 = 3.5;
 /// Flanks that stand farther open than this share of a pitch do not touch soon, and are passed over.
 pub(super) const FAR: f64 = 0.2;
 
+/// Places along an edge from which its contact is sought.
+const ALONG_EDGES: [f64; 3] = [0.15, 0.45, 0.85];
 /// Sections that are looked at where Newton's method finds no contact of flanks that face each other.
 const SECTIONS: usize = 12;
 /// Gaps that differ by less are one \[m\].
@@ -96,10 +98,12 @@ impl Side {
         displacement_m: &Vector3<f64>,
         rotation: &Matrix3<f64>,
     ) -> Guesses {
-        let of = |table: &NominalContacts| table.guess(angle_1_rad, displacement_m, rotation);
+        let rivals = self.rivals.as_ref();
         Guesses {
-            nominal: of(&self.nominal),
-            rival: self.rivals.as_ref().and_then(of),
+            nominal: self.nominal.guess(angle_1_rad, displacement_m, rotation),
+            // Off the design they come a little earlier or later.
+            rival: rivals
+                .and_then(|table| table.guess_nearby(angle_1_rad, displacement_m, rotation)),
         }
     }
 
@@ -147,8 +151,8 @@ impl Guesses {
     }
 }
 
-/// Contacts of the pair as designed at neighbouring poses, those of the least gap and others beside them: each searched by itself, and followed from those of
-/// the pose before and after, for the search finds one at most and may miss it.
+/// Contacts of the pair as designed at neighbouring poses, those of the least gap and others beside them: each searched over the flanks and on their edges, and
+/// followed from those of the pose before and after, for a search may miss one.
 fn designed_contacts(
     patches: &[FlankPatch; 2],
     spheres: &[BoundingSpheres; 2],
@@ -157,27 +161,68 @@ fn designed_contacts(
 ) -> [Vec<Option<Nearest>>; 2] {
     let count = Cell::new(0);
     let at = |k: usize| placed(patches, [0.0; 2], (rotations[k], Vector3::zeros()), &count);
+    let add = |own: &mut Vec<Nearest>, new: Nearest| {
+        let same = |old: &Nearest| (old.gap_m - new.gap_m).abs() < SAME_M;
+        if new.gap_m <= far_m && !own.iter().any(same) {
+            own.push(new);
+            own.sort_by(|a, b| a.gap_m.total_cmp(&b.gap_m));
+            own.truncate(2);
+        }
+    };
     let last = rotations.len() - 1;
-    let mut found: Vec<Vec<Nearest>> = (0..=last)
-        .map(|k| searched(&at(k), spheres, far_m).into_iter().collect())
-        .collect();
+    let mut found: Vec<Vec<Nearest>> = Vec::with_capacity(rotations.len());
+    for k in 0..=last {
+        let mut own: Vec<Nearest> = searched(&at(k), spheres, far_m).into_iter().collect();
+        if !own.is_empty() {
+            edge_contacts(&at(k), far_m, |contact| add(&mut own, contact));
+        }
+        found.push(own);
+    }
     let onwards = (0..last).map(|k| [k, k + 1]);
     let backwards = (0..last).rev().map(|k| [k + 1, k]);
     for [from, to] in onwards.chain(backwards) {
         for known in found[from].clone() {
-            let followed = nearest_from(&at(to), Limits::of(&known.held), known.at);
-            let is_new = |new: &Nearest| {
-                let same = |own: &Nearest| (own.gap_m - new.gap_m).abs() < SAME_M;
-                new.gap_m <= far_m && !found[to].iter().any(same)
-            };
-            if let Some(new) = followed.filter(is_new) {
-                found[to].push(new);
-                found[to].sort_by(|a, b| a.gap_m.total_cmp(&b.gap_m));
-                found[to].truncate(2);
+            if let Some(new) = nearest_from(&at(to), Limits::of(&known.held), known.at) {
+                add(&mut found[to], new);
             }
         }
     }
     [0, 1].map(|k: usize| found.iter().map(|own| own.get(k).copied()).collect())
+}
+
+/// Contacts of tips, toes and heels, from some places along each of them, and of the corners beside these places.
+fn edge_contacts(bodies: &[Placed<'_>; 2], far_m: f64, mut add: impl FnMut(Nearest)) {
+    const FREE: Held = [[None; 2]; 2];
+    for member in 0..2 {
+        for (held, end) in [(1, 1.0), (0, 0.0), (0, 1.0)] {
+            for along in ALONG_EDGES {
+                let mut place = [along; 2];
+                place[held] = end;
+                let mut still = FREE;
+                still[member] = place.map(Some);
+                let mut guess = [[place[0], 1.0 - place[1]]; 2];
+                guess[member] = place;
+                let Some(foot) = solve(bodies, still, guess).filter(|foot| foot.gap_m <= far_m)
+                else {
+                    continue;
+                };
+                let mut edge = FREE;
+                edge[member][held] = Some(end);
+                let mut corner = edge;
+                corner[member][1 - held] = Some(along.round());
+                // Below the lower line is no end.
+                let is_corner = held == 1 || along > 0.5;
+                for ends in [Some(edge), is_corner.then_some(corner)]
+                    .into_iter()
+                    .flatten()
+                {
+                    if let Some(found) = nearest_within(bodies, Limits::of(&ends), foot.at) {
+                        add(found);
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// Both flanks of a side in the frame of gear 1, turned about their own axes; gear 2 with its axes and its origin \[m\] there.

@@ -12,6 +12,7 @@ use gearmesh_geometry::point_contact::{PointContact, contact_modulus_pa};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::energy::{check_energy, check_power};
+use crate::hard_pairs::{HARD, HardPair};
 use crate::mesh_common::*;
 use crate::two_bodies::{check_reaction, check_tangents, check_turned};
 use crate::{DAMPINGS, friction};
@@ -104,16 +105,16 @@ pub(crate) const MISALIGNED: [[f64; 4]; 4] = [
 /// The design at first touch turns gear 2 as the tooth contact analysis says, in every assembly, edges included.
 #[test]
 fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
-    let mut missed = 0;
-    for (name, all) in [
-        (
-            "bevel_20_20.toml",
-            &[AS_DESIGNED, [-5e-6, 5e-6, 5e-6, 2e-5]][..],
-        ),
-        ("bevel_13_35.toml", &[AS_DESIGNED][..]),
-    ] {
-        let pair = pair(name);
-        for errors in all.iter().copied() {
+    let little = [-5e-6, 5e-6, 5e-6, 2e-5];
+    let files = ["bevel_20_20.toml", "bevel_13_35.toml"].map(pair);
+    // Flanks close to undercut are less exact as patches.
+    let tolerance = |pair: &Pair| match pair.blank.data.teeth[0] {
+        11 => 5e-7,
+        _ => 2e-8,
+    };
+    for pair in files.into_iter().chain(HARD.iter().map(HardPair::pair)) {
+        let name = pair.blank.data.teeth;
+        for errors in [AS_DESIGNED, little] {
             let error = assembly(errors);
             for side in Flank::ALL {
                 let hand = pair.blank.members[0].hand;
@@ -160,26 +161,14 @@ fn bevel_flanks_touch_without_load_where_the_contact_analysis_says() {
                     .fold(f64::NEG_INFINITY, f64::max);
                 for (i, (found, expected)) in wrapped.iter().zip(&of_positions).enumerate() {
                     let off = found - most - (expected - largest);
-                    // The analysis follows edges from where its path crosses them and loses one now and then: what it
-                    // misses can only bring the gear further.
-                    let turn_1 = i as f64 * pitch / POSITIONS as f64 - azimuths[0];
-                    let on_edge = off > 1e-8 && {
-                        let turn_2 = pair.turn_2(&error, turn_1, side, 0.0);
-                        let mut there = FlankContacts::default();
-                        let pose = pair.pose(&error, [turn_1, turn_2]);
-                        pair.mesh.contacts_at(&pose, side, &mut there).unwrap();
-                        there.sections[0].roll_rad.contains(&1.0)
-                    };
                     assert!(
-                        off.abs() < 1e-8 || on_edge,
-                        "{name} {errors:?} {side:?} {i}: {off:e} rad of {expected:e}"
+                        off.abs() < tolerance(&pair),
+                        "{name:?} {errors:?} {side:?} {i}: {off:e} rad of {expected:e}"
                     );
-                    missed += usize::from(on_edge);
                 }
             }
         }
     }
-    assert!(missed <= 6, "{missed}");
 }
 
 /// Poses at which a side is pressed together or nearly so, misaligned ones too.

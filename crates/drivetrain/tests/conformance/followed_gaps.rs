@@ -2,14 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use gearmesh_bevel::PairFile;
 use gearmesh_drivetrain::flank_contacts::FlankContacts;
 use gearmesh_drivetrain::pose::Vector6;
 use gearmesh_drivetrain::*;
 use gearmesh_geometry::Flank;
-use gearmesh_geometry::input::InputDocument;
 
-use crate::bevel_pair::{AS_DESIGNED, MISALIGNED, Pair, assembly, pair, pair_of};
+use crate::bevel_pair::{AS_DESIGNED, MISALIGNED, Pair, assembly, pair};
+use crate::hard_pairs::HARD;
 
 /// What is allowed between two poses.
 struct Allowed {
@@ -120,51 +119,12 @@ fn bevel_gaps_go_on_from_flank_to_edge_to_corner() {
     assert!(followed > 4 * steps as usize, "{followed}");
 }
 
-/// Teeth, module, face, spiral angle, pressure angle, hand, cutter radius, ellipse and curvature of pairs drawn at random in which contacts were lost once: in
-/// 11/25 the search missed one in the middle of the flank, in 15/16 the tip of the gear touches beside the flank, and in 32/90 misaligned teeth reach deeper
-/// than their mates' tips as designed.
-const HARD: [(&str, [usize; 2], [f64; 7]); 3] = [
-    (
-        "left",
-        [11, 25],
-        [5.0, 20.8, 25.0, 20.0, 56.2, 5.5, 0.00185],
-    ),
-    (
-        "left",
-        [15, 16],
-        [8.0, 25.7, 40.0, 25.0, 68.1, 6.9, 0.00117],
-    ),
-    (
-        "right",
-        [32, 90],
-        [3.0, 30.0, 40.0, 25.0, 107.6, 7.4, 0.00112],
-    ),
-];
-
-fn hard_pair(
-    (hand, teeth, [module, face, spiral, pressure, cutter, ellipse, curvature]): (
-        &str,
-        [usize; 2],
-        [f64; 7],
-    ),
-) -> PairFile {
-    let shaft = if teeth == [11, 25] { 75.0 } else { 90.0 };
-    let edge = 0.1 * module;
-    let text = format!(
-        "title = \"hard\"\n[bevel]\nteeth = {teeth:?}\nouter_module_mm = {module:?}\nface_width_mm = [{face:?}, {face:?}]\nspiral_angle_deg = {spiral:?}\n\
-         pressure_angle_deg = {pressure:?}\nshaft_angle_deg = {shaft:?}\npinion_hand = \"{hand}\"\ncutter_radius_mm = {cutter:?}\n[gear]\nsettings = \"basic\"\n\
-         edge_radius_mm = {edge:?}\n[pinion]\nsettings = \"local-synthesis\"\nedge_radius_mm = {edge:?}\npath_angle_deg = [100.0, 80.0]\n\
-         ellipse_half_length_mm = [{ellipse:?}, {ellipse:?}]\ntransmission_curvature = [-{curvature:?}, -{curvature:?}]\n"
-    );
-    PairFile::from_document(&InputDocument::new("pair.toml", text)).unwrap()
-}
-
 /// As one contact of a pair of teeth, and in slices, whose rows end at edges where shares of slices do.
 #[test]
 fn contacts_of_hard_pairs_are_not_lost() {
     for hard in HARD {
-        let (name, module) = (format!("{:?}", hard.1), hard.2[0]);
-        let pair = pair_of(hard_pair(hard));
+        let (name, module) = (format!("{:?}", hard.teeth), hard.module_mm);
+        let pair = hard.pair();
         let slices = BevelSlices::new(&pair.blank, &pair.design, 9).unwrap();
         let allowed = Allowed {
             lost_m: 3e-6,

@@ -12,6 +12,7 @@ mod energy;
 mod examples;
 mod exchange;
 mod followed_gaps;
+mod hard_pairs;
 mod hertz;
 mod invariance;
 #[path = "../mesh_common/mod.rs"]
