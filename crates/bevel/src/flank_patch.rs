@@ -76,7 +76,7 @@ impl FlankPatch {
         });
         let surface = match deeper {
             Some(surface) => surface,
-            None => patch_of(flank, mate, domain(0.0), turn)?,
+            None => patch_of(flank, straight, domain(0.0), turn)?,
         };
         let blank = &tooth.blank;
         let frame = &surface.frame;
@@ -195,18 +195,17 @@ fn bottom_m(flank: &Flank, cone_m: f64) -> Result<f64, BevelError> {
     Ok(flank.place(&flank.bottom(cone_m)?.point.r)[1])
 }
 
-/// That part over a domain of s and v, turned by an angle about the axis. Where the surface does not reach down to a straight line
-/// it is the whole flank above its fillet.
+/// A flank over a domain of s and v, turned by an angle about the axis: down to the straight line of [`reach_of`], or, where the surface does not reach
+/// so deep, the whole of it above its fillet.
 ///
 /// # Errors
 /// [`BevelError::NoFlankPoint`] where the surface does not reach over it either.
 pub(crate) fn patch_of(
     flank: &Flank,
-    mate: &MemberBlank,
+    straight: SectionFrame,
     domain: [[f64; 2]; 2],
     turn_rad: f64,
 ) -> Result<AzimuthSurface, BevelError> {
-    let straight = reach_of(flank, mate)?;
     patch_over(flank, straight, domain, turn_rad).or_else(|refused| {
         let bowed = bowed_frame(flank, &domain).map_err(|_| refused)?;
         patch_over(flank, bowed, domain, turn_rad)

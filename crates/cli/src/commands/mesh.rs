@@ -5,9 +5,8 @@ use crate::failure::Failure;
 use crate::{console, memory, offline, output_name};
 use gearmesh_bevel::BevelGear;
 use gearmesh_mesh::{BevelMesh, GearMesh};
-use gearmesh_reduction::OfflineJob;
-use gearmesh_reduction::ReductionError;
 use gearmesh_reduction::bevel::bevel_model;
+use gearmesh_reduction::{OfflineJob, ReductionError};
 use serde_json::json;
 
 /// Runs the command.

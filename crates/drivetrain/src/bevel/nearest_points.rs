@@ -66,7 +66,7 @@ impl Placed<'_> {
 /// Which coordinates stand at an end: `[member][s, v]`.
 pub(crate) type Held = [[Option<f64>; 2]; 2];
 
-const FREE: Held = [[None; 2]; 2];
+pub(super) const FREE: Held = [[None; 2]; 2];
 
 /// What gives the normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::bounding_spheres::BoundingSpheres;
 use super::nearest_points::{
-    Held, Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within, solve,
+    FREE, Limits, Nearest, NoContact, Placed, nearest, nearest_from, nearest_within, solve,
 };
 use super::nominal_contacts::{Guess, NominalContacts};
 use super::section_points::{sections, tip_of};
@@ -192,7 +192,6 @@ fn designed_contacts(
 
 /// Contacts of tips, toes and heels, from some places along each of them, and of the corners beside these places.
 fn edge_contacts(bodies: &[Placed<'_>; 2], far_m: f64, mut add: impl FnMut(Nearest)) {
-    const FREE: Held = [[None; 2]; 2];
     for member in 0..2 {
         for (held, end) in [(1, 1.0), (0, 0.0), (0, 1.0)] {
             for along in ALONG_EDGES {

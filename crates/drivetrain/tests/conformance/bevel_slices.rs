@@ -64,6 +64,18 @@ fn bevel_slices_conform() {
     }
 }
 
+/// The line of contact is what its polynomials say, also where the pinion is close to undercut.
+#[test]
+fn lines_of_contact_are_smooth() {
+    for (name, most) in [("bevel_20_20.toml", 5e-3), ("bevel_8_48.toml", 0.013)] {
+        let flanks = slices(&pair(name), ALONG);
+        for side in Flank::ALL {
+            let misfit = flanks.line_misfit(side);
+            assert!(misfit < most, "{name} {side:?}: {misfit:e}");
+        }
+    }
+}
+
 /// Gaps, shares and places of slices have their gradients.
 #[test]
 fn derivatives_of_bevel_slices_agree_with_differences() {

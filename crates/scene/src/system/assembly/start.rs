@@ -104,13 +104,15 @@ pub(super) fn settle_phases(
                 stand.join(", ")
             ));
         }
-        for side in [Flank::Right, Flank::Left] {
+        let both = [Flank::Right, Flank::Left];
+        let open = [gap(bodies, both[0])?, gap(bodies, both[1])?];
+        for (side, gap_m) in both.into_iter().zip(open) {
             let share = if mesh.sides.contains(&side) {
                 THROUGH
             } else {
                 BEHIND
             };
-            let (depth_m, allowed_m) = (-gap(bodies, side)?, share * teeth.kinematics().pitch_m());
+            let (depth_m, allowed_m) = (-gap_m, share * teeth.kinematics().pitch_m());
             if depth_m > allowed_m {
                 let problem = format!(
                     "the {} flanks stand {:.3} mm in each other at the start, allowed are {:.3} mm; state other angles (cardan_deg) or places \
@@ -124,7 +126,6 @@ pub(super) fn settle_phases(
                 return Err(keys.error("", problem));
             }
         }
-        let open = [gap(bodies, Flank::Right)?, gap(bodies, Flank::Left)?];
         let (sum, pitch_m) = (open[0] + open[1], teeth.kinematics().pitch_m());
         // The gaps of a tooth in its space add up to the backlash, less than a pitch by what two tips are thick. A whole pitch: each side found another space,
         // a tooth stands in the middle of a tooth.
