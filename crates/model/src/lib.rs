@@ -73,7 +73,7 @@ pub use reduced_gear_error::ReducedGearError;
 pub use reduced_gear_file::{REDUCED_GEAR_FORMAT, read_reduced_gear, write_reduced_gear};
 pub use rigid_body::{ReferencePoint, RigidBody};
 pub use root_crack::RootCrack;
-pub use row_log::RowLog;
+pub use row_log::{LockedLog, RowLog};
 pub use seal::{bytes_digest, file_digest};
 pub use stored_gear::StoredGear;
 pub use timestamp::utc_now;

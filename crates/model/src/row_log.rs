@@ -18,40 +18,41 @@ const NUMBER_BYTES: usize = size_of::<f64>();
 /// Bytes collected before they are handed to the system.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// The file with its buffer. While it is open no other process can open it as a log.
+/// The file of a log, locked: no other process can lock it, and nothing of it has changed yet.
 #[derive(Debug)]
-pub struct RowLog {
+pub struct LockedLog {
     path: PathBuf,
     file: File,
-    columns: usize,
-    rows: u64,
-    buffer: Vec<u8>,
-    /// Digest of what was handed to the system.
-    hasher: blake3::Hasher,
 }
 
-impl RowLog {
-    /// Begins an empty log; an older one is emptied.
+impl LockedLog {
+    /// Opens the file, or makes an empty one, and locks it.
     ///
     /// # Errors
-    /// [`FileError::InUse`] if another process has it open, [`FileError::Io`].
-    pub fn create(path: &Path, columns: usize) -> Result<Self, FileError> {
-        Self::open(path, columns, 0)
+    /// [`FileError::InUse`] if another process has it locked, [`FileError::Io`].
+    pub fn open(path: &Path) -> Result<Self, FileError> {
+        let io = |action| RowLog::io(path, action);
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)
+            .map_err(io("open"))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(FileError::InUse {
+                    path: path.to_owned(),
+                });
+            }
+            Err(TryLockError::Error(source)) => return Err(io("lock")(source)),
+        }
+        let path = path.to_owned();
+        Ok(Self { path, file })
     }
 
-    /// Goes on after `rows` rows, whose [`RowLog::digest`] must be `digest`; what was written later is cut off.
-    ///
-    /// # Errors
-    /// [`FileError::InUse`], [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Altered`] if they are not
-    /// those that were written, [`FileError::Io`].
-    pub fn resume(path: &Path, columns: usize, rows: u64, digest: &str) -> Result<Self, FileError> {
-        let mut log = Self::open(path, columns, rows)?;
-        log.hasher = log.hash_rows()?;
-        log.must_have(digest, &log.hasher)?;
-        Ok(log)
-    }
-
-    /// Whether the file that is open still stands under its name. The process that had the log before may have removed
+    /// Whether the file that is locked still stands under its name. The process that had it before may have removed
     /// it between its being opened and locked here.
     pub fn has_its_name(&self) -> bool {
         #[cfg(unix)]
@@ -69,37 +70,65 @@ impl RowLog {
         }
     }
 
-    fn open(path: &Path, columns: usize, rows: u64) -> Result<Self, FileError> {
-        let io = |action| Self::io(path, action);
-        let file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(rows == 0)
-            .truncate(false)
-            .open(path)
-            .map_err(io("open"))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(FileError::InUse {
-                    path: path.to_owned(),
-                });
-            }
-            Err(TryLockError::Error(source)) => return Err(io("lock")(source)),
-        }
+    /// Begins an empty log; what the file held is cut off.
+    ///
+    /// # Errors
+    /// [`FileError::Io`].
+    pub fn create(self, columns: usize) -> Result<RowLog, FileError> {
+        RowLog::cut(self, columns, 0)
+    }
+
+    /// Goes on after `rows` rows, whose [`RowLog::digest`] must be `digest`; what was written later is cut off.
+    ///
+    /// # Errors
+    /// [`FileError::ShortLog`] if the file has fewer rows, [`FileError::Altered`] if they are not those that were
+    /// written, [`FileError::Io`].
+    pub fn resume(self, columns: usize, rows: u64, digest: &str) -> Result<RowLog, FileError> {
+        let mut log = RowLog::cut(self, columns, rows)?;
+        log.hasher = log.hash_rows()?;
+        log.must_have(digest, &log.hasher)?;
+        Ok(log)
+    }
+}
+
+/// A locked file with its buffer.
+#[derive(Debug)]
+pub struct RowLog {
+    path: PathBuf,
+    file: File,
+    columns: usize,
+    rows: u64,
+    buffer: Vec<u8>,
+    /// Digest of what was handed to the system.
+    hasher: blake3::Hasher,
+}
+
+impl RowLog {
+    /// Locks the file and begins an empty log; an older one is emptied.
+    ///
+    /// # Errors
+    /// [`FileError::InUse`] if another process has it locked, [`FileError::Io`].
+    pub fn create(path: &Path, columns: usize) -> Result<Self, FileError> {
+        LockedLog::open(path)?.create(columns)
+    }
+
+    /// The log with its first rows; what follows them is cut off.
+    fn cut(locked: LockedLog, columns: usize, rows: u64) -> Result<Self, FileError> {
+        let LockedLog { path, file } = locked;
+        let io = |action| Self::io(&path, action);
         // The count comes from a file.
         let needed = rows.saturating_mul((columns * NUMBER_BYTES) as u64);
         let found = file.metadata().map_err(io("inspect"))?.len();
         if found < needed {
             return Err(FileError::ShortLog {
-                path: path.to_owned(),
+                path,
                 found_bytes: found,
                 expected_bytes: needed,
             });
         }
         file.set_len(needed).map_err(io("cut"))?;
         let mut log = Self {
-            path: path.to_owned(),
+            path,
             file,
             columns,
             rows,
@@ -257,6 +286,10 @@ impl RowLog {
 mod tests {
     use super::*;
 
+    fn resume(path: &Path, columns: usize, rows: u64, digest: &str) -> Result<RowLog, FileError> {
+        LockedLog::open(path)?.resume(columns, rows, digest)
+    }
+
     #[test]
     fn a_log_resumes_at_the_row_it_is_told() {
         let folder = tempfile::tempdir().unwrap();
@@ -276,7 +309,7 @@ mod tests {
         let mut file = OpenOptions::new().append(true).open(&path).unwrap();
         file.write_all(&[1; 13]).unwrap();
         drop(file);
-        let mut log = RowLog::resume(&path, 3, 9_000, &digest).unwrap();
+        let mut log = resume(&path, 3, 9_000, &digest).unwrap();
         log.append(&[7.0, 8.0, 9.0]).unwrap();
         let mut rows = Vec::new();
         log.read(8_999, 100, &mut rows).unwrap();
@@ -316,14 +349,11 @@ mod tests {
         assert!(matches!(log.verify(), Err(FileError::Altered { .. })));
         drop(log);
         assert!(matches!(
-            RowLog::resume(&path, 2, 100, &digest),
+            resume(&path, 2, 100, &digest),
             Err(FileError::Altered { .. })
         ));
         flip(800);
-        RowLog::resume(&path, 2, 100, &digest)
-            .unwrap()
-            .verify()
-            .unwrap();
+        resume(&path, 2, 100, &digest).unwrap().verify().unwrap();
     }
 
     #[test]
@@ -338,7 +368,7 @@ mod tests {
             Err(FileError::InUse { .. })
         ));
         drop(log);
-        let error = RowLog::resume(&path, 1, 2, "").unwrap_err().to_string();
+        let error = resume(&path, 1, 2, "").unwrap_err().to_string();
         assert!(error.contains("8 bytes") && error.contains("16"), "{error}");
     }
 }

@@ -6,8 +6,9 @@
 //! *.tmp           the result or a checkpoint, while it is written
 //! ```
 //!
-//! Who has rows.log open and locked owns the folder. A run that ends removes the files while it holds the lock; another
-//! that has opened rows.log meanwhile sees that its file has no name any more and begins again.
+//! Who has rows.log locked owns the folder: the checkpoint is read, written and removed only under the lock. A run that
+//! ends removes the files, rows.log last; another that has opened rows.log meanwhile sees that its file has no name any
+//! more and begins again.
 //!
 //! Rows are forced to the disk before the checkpoint that counts them. Whenever the process is killed, the newest whole
 //! checkpoint finds its rows; later ones are cut off and computed again, to the same bits. Decision:
@@ -17,7 +18,7 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, RowLog};
+use gearmesh_model::{DataArray, DataTree, FileError, FileFormat, LockedLog, RowLog};
 
 use super::error::SystemRunError;
 
@@ -29,7 +30,7 @@ const FORMAT: FileFormat = FileFormat {
 const CHECKPOINT_FILE: &str = "checkpoint.h5";
 const ROWS_FILE: &str = "rows.log";
 
-/// How often a folder is opened that others remove meanwhile.
+/// How often a folder is made again that others remove meanwhile.
 const MOST_ATTEMPTS: usize = 20;
 
 const IDENTITY: &str = "run";
@@ -79,60 +80,35 @@ impl PartFolder {
                 _ => {}
             }
         }
-        let mut attempts = 0;
-        loop {
-            attempts += 1;
-            std::fs::create_dir_all(&folder).map_err(failed(&folder, "make the folder"))?;
-            let opened = Self::open_folder(&folder, identity, columns, restart);
-            let is_last = attempts == MOST_ATTEMPTS;
-            match opened {
-                Ok((part, saved)) if part.log.has_its_name() => return Ok((part, saved)),
-                Err(error) if !is_gone(&error) || is_last && has_lost_its_rows(&folder) => {
-                    return Err(error);
-                }
-                // Others come and go all the time.
-                _ if is_last => {
-                    let path = folder.join(ROWS_FILE);
-                    return Err(FileError::InUse { path }.into());
-                }
-                _ => std::thread::yield_now(),
-            }
-        }
-    }
-
-    fn open_folder(
-        folder: &Path,
-        identity: &str,
-        columns: usize,
-        restart: bool,
-    ) -> Result<(Self, Option<DataTree>), SystemRunError> {
-        let (checkpoint, rows) = (folder.join(CHECKPOINT_FILE), folder.join(ROWS_FILE));
-        let make = |log| Self {
-            folder: folder.to_owned(),
-            identity: identity.to_owned(),
-            log,
-        };
+        let locked = lock(&folder)?;
+        let checkpoint = folder.join(CHECKPOINT_FILE);
+        let identity = identity.to_owned();
         if restart || !checkpoint.exists() {
-            let part = make(RowLog::create(&rows, columns)?);
-            if part.log.has_its_name() {
-                remove_file(&checkpoint)?;
-                part.clear()?;
-            }
+            // First, so that a process killed meanwhile leaves no checkpoint without its rows.
+            remove_file(&checkpoint)?;
+            let log = locked.create(columns)?;
+            let part = Self {
+                folder,
+                identity,
+                log,
+            };
+            part.clear()?;
             return Ok((part, None));
         }
         let damaged = |source| SystemRunError::Checkpoint { source };
         let mut tree = DataTree::read(&checkpoint, &FORMAT).map_err(damaged)?;
-        if tree.attributes.get(IDENTITY).map(String::as_str) != Some(identity) {
-            let path = folder.to_owned();
-            return Err(SystemRunError::OtherRun { path });
+        if tree.attributes.get(IDENTITY) != Some(&identity) {
+            return Err(SystemRunError::OtherRun { path: folder });
         }
         let count = tree.take_scalar(&checkpoint, ROWS).map_err(damaged)? as u64;
         let digest = tree.attributes.remove(DIGEST).unwrap_or_default();
-        let log = RowLog::resume(&rows, columns, count, &digest).map_err(|error| match error {
-            FileError::InUse { .. } => error.into(),
-            _ => damaged(error),
-        })?;
-        Ok((make(log), Some(tree)))
+        let log = locked.resume(columns, count, &digest).map_err(damaged)?;
+        let part = Self {
+            folder,
+            identity,
+            log,
+        };
+        Ok((part, Some(tree)))
     }
 
     /// The rows.
@@ -197,20 +173,27 @@ impl PartFolder {
     }
 }
 
-/// Whether a file of the folder was removed while it was being opened.
-fn is_gone(error: &SystemRunError) -> bool {
-    match error {
-        SystemRunError::File(FileError::Io { source, .. })
-        | SystemRunError::Checkpoint {
-            source: FileError::Io { source, .. },
-        } => source.kind() == ErrorKind::NotFound,
-        _ => false,
+/// Makes the folder if it is not there, and locks its rows. Runs that end remove both meanwhile.
+fn lock(folder: &Path) -> Result<LockedLog, SystemRunError> {
+    let rows = folder.join(ROWS_FILE);
+    for _ in 0..MOST_ATTEMPTS {
+        match std::fs::create_dir_all(folder) {
+            // It was there when it was to be made, and was removed before it was looked at.
+            Err(error)
+                if error.kind() == ErrorKind::AlreadyExists
+                    && !folder.metadata().is_ok_and(|found| !found.is_dir()) => {}
+            made => made.map_err(failed(folder, "make the folder"))?,
+        }
+        match LockedLog::open(&rows) {
+            Ok(locked) if locked.has_its_name() => return Ok(locked),
+            Ok(_) => {}
+            Err(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(error.into()),
+        }
+        std::thread::yield_now();
     }
-}
-
-/// A run that ends removes its checkpoint before its rows: one without rows was left by somebody else.
-fn has_lost_its_rows(folder: &Path) -> bool {
-    folder.join(CHECKPOINT_FILE).exists() && !folder.join(ROWS_FILE).exists()
+    // Others come and go all the time.
+    Err(FileError::InUse { path: rows }.into())
 }
 
 /// Removes a file if it is there.
@@ -245,25 +228,30 @@ mod tests {
     fn runs_that_begin_as_others_end_are_clean() {
         let desk = tempfile::tempdir().unwrap();
         let output = desk.path().join("result.h5");
-        let (owners, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let one_run = || match PartFolder::open(&output, "same", 1, false) {
+        let owners = AtomicUsize::new(0);
+        let has_run = || match PartFolder::open(&output, "same", 1, false) {
             Ok((mut part, _)) => {
                 assert_eq!(owners.fetch_add(1, Ordering::SeqCst), 0, "two owners");
                 part.log().append(&[1.0]).unwrap();
                 part.save(DataTree::default()).unwrap();
                 owners.fetch_sub(1, Ordering::SeqCst);
                 part.finish().unwrap();
-                finished.fetch_add(1, Ordering::SeqCst);
+                true
             }
-            Err(SystemRunError::File(FileError::InUse { .. })) => {}
+            Err(SystemRunError::File(FileError::InUse { .. })) => false,
             Err(error) => panic!("{error}"),
         };
         std::thread::scope(|scope| {
             for _ in 0..4 {
-                scope.spawn(|| (0..40).for_each(|_| one_run()));
+                scope.spawn(|| {
+                    for _ in 0..20 {
+                        while !has_run() {
+                            std::thread::yield_now();
+                        }
+                    }
+                });
             }
         });
-        assert!(finished.load(Ordering::SeqCst) >= 40);
         assert_eq!(std::fs::read_dir(desk.path()).unwrap().count(), 0);
     }
 
