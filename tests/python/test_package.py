@@ -2,7 +2,6 @@
 
 import json
 import pickle
-import time
 from typing import Any
 
 import numpy as np
@@ -205,10 +204,8 @@ def test_ctrl_c_leaves_a_run_that_goes_on(tmp_path):
     output = tmp_path / "run.h5"
     part = tmp_path / "run.h5.part"
     interrupt_once(part.exists)
-    begun = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         scene.run(output)
-    assert time.monotonic() - begun < 20.0
     assert not output.exists() and part.exists()
 
 
