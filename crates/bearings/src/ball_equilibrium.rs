@@ -1,9 +1,11 @@
 //! The equilibrium of one ball between two grooves, and what it does to the inner ring.
 //!
 //! Each ball stays in its axial plane (the cage holds it there) and has two unknowns, the place of its centre b in that plane. A
-//! groove is a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r. With the
-//! distance ℓ of b from that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7)
+//! groove is half a torus: a circle of radius R, the line of the groove's centres, and round it the groove's radius r, up to contact angles of 90°. With
+//! the distance ℓ of b from that circle the approach is δ = ℓ − (r − D/2), the force Q = k δ^1.5 points to the circle. Formulas (3) to (7)
 //! of docs/theory/rolling_bearings.md.
+
+mod race_control;
 
 use nalgebra::{Matrix2, Matrix2x6, Matrix3, Matrix3x2, Matrix3x6, Vector2, Vector3};
 
@@ -12,7 +14,7 @@ use crate::ball_row::{BallRow, Groove};
 use crate::element_load::ElementLoad;
 use crate::element_place::ElementPlace;
 use crate::error::BearingError;
-use crate::operation::{Control, Operation};
+use crate::operation::Operation;
 use crate::ring_load::RingLoad;
 use crate::ring_pose::{RingPose, cross};
 
@@ -127,25 +129,6 @@ impl Ball<'_> {
         Ok(self.report(&place, &state))
     }
 
-    /// Its place and state in equilibrium, by the race that controls it.
-    fn balanced(&self, start: Vector2<f64>) -> Result<(Vector2<f64>, State), BearingError> {
-        match self.operation.control {
-            Control::OuterRace => self.equilibrium(start, RaceControl::Outer),
-            Control::LeastSpin => {
-                let (place, outer) = self.equilibrium(start, RaceControl::Outer)?;
-                if outer.motion.is_none() || outer.inner.load <= 0.0 {
-                    return Ok((place, outer));
-                }
-                let (other, inner) = self.equilibrium(place, RaceControl::Inner)?;
-                if self.spin_power(&inner) < self.spin_power(&outer) {
-                    Ok((other, inner))
-                } else {
-                    Ok((place, outer))
-                }
-            }
-        }
-    }
-
     /// Where the iteration begins, and where it begins again if that fails; none where the ball is loose and nothing presses it.
     ///
     /// Where the centrifugal force is more than what the rings press with, the ball is sought at the bottom of the outer groove: contacts that
@@ -216,11 +199,19 @@ impl Ball<'_> {
         let inner = self.inner_contact(place);
         let outer = self.outer_contact(place);
         let motion = self.operation.is_turning().then(|| {
+            let outer = (outer.n[0], outer.n[1]);
+            if inner.cosine > 0.0 {
+                let inner = (inner.cosine, inner.sine);
+                let angles = ContactAngles { inner, outer };
+                return (self.motion_at(&angles, control), control);
+            }
+            // Out of the inner groove's reach: the ball turns as one that both grooves face alike.
             let angles = ContactAngles {
-                inner: (inner.cosine, inner.sine),
-                outer: (outer.n[0], outer.n[1]),
+                inner: outer,
+                outer,
             };
-            (self.motion_at(&angles, control), control)
+            let motion = self.motion_at(&angles, control).by_outer_alone();
+            (motion, control)
         });
         let mut state = State {
             residual: -self.in_plane(&inner.n) * inner.load - outer.n * outer.load,
@@ -248,7 +239,13 @@ impl Ball<'_> {
         // Between a micrometre and a metre: no need of `hypot`, which takes five times as long.
         let length = (out * out + up * up).sqrt().max(f64::MIN_POSITIVE);
         let (cosine, sine) = (-out / length, -up / length);
-        let (load, slope) = groove.contact.load(length - groove.arm_m);
+        // A groove is the half of its torus that faces the ball.
+        let approach = if out < 0.0 {
+            length - groove.arm_m
+        } else {
+            0.0
+        };
+        let (load, slope) = groove.contact.load(approach);
         InnerContact {
             w,
             e,
@@ -269,7 +266,12 @@ impl Ball<'_> {
         let d = place - Vector2::new(groove.centre_radius_m, groove.centre_z_m);
         let length = d.norm().max(f64::MIN_POSITIVE);
         let n = d / length;
-        let (load, slope) = groove.contact.load(length - groove.arm_m);
+        let approach = if d[0] > 0.0 {
+            length - groove.arm_m
+        } else {
+            0.0
+        };
+        let (load, slope) = groove.contact.load(approach);
         OuterContact {
             n,
             m: Vector2::new(-n[1], n[0]),
@@ -454,20 +456,6 @@ impl Ball<'_> {
         block += (c.t * (by_inner + by_outer) + turned * friction) * arm;
     }
 
-    /// Σ Q a E |spin|, which the power of spin friction is proportional to under one coefficient of friction.
-    fn spin_power(&self, state: &State) -> f64 {
-        let Some((motion, _)) = &state.motion else {
-            return 0.0;
-        };
-        let share = |groove: &Groove, load: f64, spin: f64| {
-            load * groove.contact.ellipse(load).half_length_m
-                * groove.contact.second_integral
-                * spin.abs()
-        };
-        let [inner, outer] = motion.contact_spin_rad_per_s;
-        share(self.inner, state.inner.load, inner) + share(self.outer, state.outer.load, outer)
-    }
-
     fn unloaded(&self) -> ElementLoad {
         ElementLoad {
             angle_rad: self.row.angle_rad(self.number, self.operation),
@@ -484,7 +472,11 @@ impl Ball<'_> {
             angle_rad: row.angle_rad(self.number, self.operation),
             inner_load_n: state.inner.load,
             outer_load_n: state.outer.load,
-            inner_contact_angle_rad: state.inner.sine.atan2(state.inner.cosine),
+            inner_contact_angle_rad: if state.inner.cosine > 0.0 {
+                state.inner.sine.atan2(state.inner.cosine)
+            } else {
+                row.free_angle_rad
+            },
             outer_contact_angle_rad: state.outer.n[1].atan2(state.outer.n[0]),
             radial_m: place[0] - row.pitch_radius_m,
             axial_m: place[1] - row.middle_z_m,

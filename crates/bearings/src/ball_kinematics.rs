@@ -117,6 +117,16 @@ pub(crate) struct BallMotion {
     pub friction_n: ByAngles,
 }
 
+impl BallMotion {
+    /// Where α_i is taken to be α_o: derivatives by α_i count as those by α_o.
+    pub fn by_outer_alone(mut self) -> Self {
+        for value in [&mut self.centrifugal_n, &mut self.friction_n] {
+            value.by = [0.0, value.by[0] + value.by[1]];
+        }
+        self
+    }
+}
+
 /// Cosine and sine of the contact angles at the inner and outer race.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactAngles {

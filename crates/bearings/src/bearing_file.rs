@@ -57,7 +57,7 @@ struct BearingFile {
     outer_conformity: Option<f64>,
     /// "angular-contact": contact angle without load. "tapered-roller": angle of the outer race against the axis. "catalogue": of an angular-contact bearing.
     contact_angle_deg: Option<f64>,
-    /// "deep-groove", "cylindrical-roller", "catalogue": play across the axis from one side to the other; 0 where not given.
+    /// "deep-groove", "cylindrical-roller", "catalogue": play across the axis from one side to the other; negative: interference, as fits leave it; 0 where not given.
     radial_clearance_um: Option<f64>,
     /// "deep-groove", "angular-contact": diameters of the grooves' bottoms, inner and outer, instead of clearance or contact angle.
     raceway_diameters_mm: Option<[f64; 2]>,

@@ -40,7 +40,7 @@ pub(crate) fn ball_row(
 ) -> BallRow {
     let [inner, outer] = groove_contacts(g, modulus_pa(definition));
     let (d, pitch_radius_m) = (g.ball_diameter_m, 0.5 * g.pitch_diameter_m);
-    let (sine, cosine) = g.free_angle_rad.sin_cos();
+    let (sine, cosine) = (g.free_angle_rad.sin(), g.groove_cosine());
     // The grooves of a deep-groove bearing face each other; its rings stand in the middle of their axial play.
     let apart = match g.kind {
         BallBearingKind::DeepGroove => 0.0,
@@ -73,11 +73,25 @@ pub(crate) fn ball_row(
 
 /// Half the angle of a tapered roller: tan ε = (D/d_m) sin(α − ε), so that roller and races share one apex on the axis.
 pub(crate) fn half_taper_rad(g: &RollerGeometry) -> f64 {
-    let Some(taper) = g.taper else { return 0.0 };
-    let ratio = g.diameter_m / g.pitch_diameter_m;
-    let alpha = taper.contact_angle_rad;
-    // tan ε (1 + ratio cos α) = ratio sin α.
-    (ratio * alpha.sin()).atan2(1.0 + ratio * alpha.cos())
+    g.taper.map_or(0.0, |taper| {
+        half_taper_of(g.diameter_m / g.pitch_diameter_m, taper.contact_angle_rad)
+    })
+}
+
+/// As [`half_taper_rad`], from D/d_m and α.
+///
+/// The left side grows with ε, the right one falls: one solution between 0 and α, by bisection.
+pub(crate) fn half_taper_of(ratio: f64, contact_angle_rad: f64) -> f64 {
+    let (mut low, mut high) = (0.0, contact_angle_rad);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f64::tan(middle) < ratio * (contact_angle_rad - middle).sin() {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// A row of rollers.

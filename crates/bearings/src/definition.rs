@@ -84,6 +84,8 @@ pub struct BallGeometry {
     pub outer_conformity: f64,
     /// α₀: that of a ball which just touches both grooves, the rings moved apart along the axis \[rad\].
     pub free_angle_rad: f64,
+    /// By how much the balls of a deep-groove bearing are too large for its rings, across the axis from one side to the other; 0 where there is play \[m\].
+    pub interference_m: f64,
 }
 
 impl BallGeometry {
@@ -93,17 +95,24 @@ impl BallGeometry {
         (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter_m
     }
 
-    /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other \[m\].
+    /// P_d = 2 A (1 − cos α₀), play of the inner ring across the axis from one side to the other; negative: interference \[m\].
     #[must_use]
     pub fn radial_clearance_m(&self) -> f64 {
         // 1 − cos α = 2 sin²(α/2) keeps the digits of a small clearance.
         4.0 * self.groove_distance_m() * (0.5 * self.free_angle_rad).sin().powi(2)
+            - self.interference_m
+    }
+
+    /// 1 − P_d/(2A): the cosine of the free contact angle, above 1 with interference.
+    #[must_use]
+    pub fn groove_cosine(&self) -> f64 {
+        self.free_angle_rad.cos() + 0.5 * self.interference_m / self.groove_distance_m()
     }
 
     /// Diameters of the grooves' bottoms, inner and outer \[m\].
     #[must_use]
     pub fn raceway_diameters_m(&self) -> (f64, f64) {
-        let (d, cosine) = (self.ball_diameter_m, self.free_angle_rad.cos());
+        let (d, cosine) = (self.ball_diameter_m, self.groove_cosine());
         let at = |conformity: f64| 2.0 * conformity * d - (2.0 * conformity - 1.0) * d * cosine;
         (
             self.pitch_diameter_m - at(self.inner_conformity),
@@ -123,7 +132,7 @@ pub struct RollerGeometry {
     pub length_m: f64,
     /// Diameter of the circle of the rollers' middles \[m\].
     pub pitch_diameter_m: f64,
-    /// Play of the inner ring across the axis from one side to the other; of tapered bearings 0 \[m\].
+    /// Play of the inner ring across the axis from one side to the other, negative: interference; of tapered bearings 0 \[m\].
     pub radial_clearance_m: f64,
     /// Taper and rib; none for cylindrical rollers.
     pub taper: Option<Taper>,

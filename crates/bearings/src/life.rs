@@ -45,9 +45,7 @@ impl Life {
     ) -> Self {
         let ratings = Ratings::of(definition);
         let power = exponent(&definition.geometry);
-        // A ring at rest against the load wears where the load is; the other bears it all round.
-        let inner_turns = operation.inner_rad_per_s != 0.0 || operation.outer_rad_per_s == 0.0;
-        let reference = reference_mrev(definition, &ratings, loads, inner_turns);
+        let reference = reference_mrev(definition, &ratings, loads, rings_that_turn(operation));
         let reference_equivalent = ratings.dynamic_n / reference.powf(1.0 / power);
         let equivalent = equivalent_n(definition, &ratings, force_n);
         Self {
@@ -60,6 +58,20 @@ impl Life {
             }),
         }
     }
+}
+
+/// A ring that turns by less than this share of the other one's speed stands still: housings on springs rock.
+const STANDS_STILL: f64 = 0.01;
+
+/// Whether inner and outer ring turn against the load, which stands still: a ring that turns bears it all round, one that does not wears where the
+/// load is. Without any speed the inner ring is taken to turn.
+fn rings_that_turn(operation: &Operation) -> [bool; 2] {
+    let speeds = [operation.inner_rad_per_s, operation.outer_rad_per_s].map(f64::abs);
+    let fastest = speeds[0].max(speeds[1]);
+    if fastest == 0.0 {
+        return [true, false];
+    }
+    speeds.map(|speed| speed > STANDS_STILL * fastest)
 }
 
 /// p: 3 for balls, 10/3 for rollers.
@@ -84,7 +96,7 @@ fn reference_mrev(
     definition: &BearingDefinition,
     ratings: &Ratings,
     loads: &RowLoads,
-    inner_turns: bool,
+    turns: [bool; 2],
 ) -> f64 {
     let borne = |load: &ElementLoad| load.inner_load_n.max(load.outer_load_n) > NO_LOAD_N;
     if !loads.elements.iter().flatten().any(borne) {
@@ -102,17 +114,13 @@ fn reference_mrev(
                 / (ratings.rows as f64).powf(0.7)
                 / (g.balls as f64 * angle.cos().powf(0.7));
             let (inner, outer) = (row / 0.407 * share(1.0), row / 0.389 * share(-1.0));
-            let powers = if inner_turns {
-                (3.0, 10.0 / 3.0)
-            } else {
-                (10.0 / 3.0, 3.0)
-            };
+            let powers = turns.map(|turns| if turns { 3.0 } else { 10.0 / 3.0 });
             let damage: f64 = loads
                 .elements
                 .iter()
                 .map(|row| {
-                    let q_i = mean_of(row.iter().map(|e| e.inner_load_n), powers.0);
-                    let q_o = mean_of(row.iter().map(|e| e.outer_load_n), powers.1);
+                    let q_i = mean_of(row.iter().map(|e| e.inner_load_n), powers[0]);
+                    let q_o = mean_of(row.iter().map(|e| e.outer_load_n), powers[1]);
                     (q_i / inner).powf(10.0 / 3.0) + (q_o / outer).powf(10.0 / 3.0)
                 })
                 .sum();
@@ -130,13 +138,13 @@ fn reference_mrev(
             let lamina = count.powf(-7.0 / 9.0);
             let inner = row / 0.378 * share(1.0) * lamina;
             let outer = row / 0.364 * share(-1.0) * lamina;
-            let powers = if inner_turns { (4.0, 4.5) } else { (4.5, 4.0) };
+            let powers = turns.map(|turns| if turns { 4.0 } else { 4.5 });
             let mut damage = 0.0;
             for row in &loads.laminae {
                 for k in 0..g.laminae {
                     let of_lamina = || row.iter().skip(k).step_by(g.laminae);
-                    let q_i = mean_of(of_lamina().map(|q| q.0), powers.0);
-                    let q_o = mean_of(of_lamina().map(|q| q.1), powers.1);
+                    let q_i = mean_of(of_lamina().map(|q| q.0), powers[0]);
+                    let q_o = mean_of(of_lamina().map(|q| q.1), powers[1]);
                     damage += (q_i / inner).powf(4.5) + (q_o / outer).powf(4.5);
                 }
             }

@@ -29,6 +29,15 @@ pub struct AppliedBearingLoad {
 /// Most steps of Newton's method for the ring.
 const MOST_STEPS: usize = 200;
 
+/// Most proximal steps down the potential energy.
+const MOST_PROXIMAL_STEPS: usize = 200;
+
+/// Springs that hold the ring to a place; about x and y by the pitch radius' square.
+struct Anchor {
+    at: Vector5<f64>,
+    spring_n_per_m: f64,
+}
+
 impl QuasiStaticBearing {
     /// Where the inner ring comes to rest under a load.
     ///
@@ -53,11 +62,59 @@ impl QuasiStaticBearing {
             ..*operation
         };
         let start = self.first_guess(load);
-        let mut pose = self.iterate(start, load, &resting)?;
+        let mut pose = match self.iterate(start, load, &resting, None) {
+            Ok(found) => found,
+            Err(error) => self.settle(start, load, &resting, error)?,
+        };
         if operation.is_turning() {
             pose = self.speed_up(pose, load, operation)?;
         }
         Ok(pose)
+    }
+
+    /// To rest down the potential energy, where Newton's method alone stays behind an edge of it.
+    ///
+    /// One proximal step after the other: each ends where the ring would rest if springs held it to where it stood. Energy falls in every step, and
+    /// springs are softened as long as the search within a step succeeds. Newton's method without springs ends it.
+    fn settle(
+        &self,
+        start: RingPose,
+        load: &AppliedBearingLoad,
+        operation: &Operation,
+        failure: BearingError,
+    ) -> Result<RingPose, BearingError> {
+        let [x, y, z] = load.force_n;
+        let moments = match load.tilt {
+            TiltCondition::Moments([x, y]) => x.hypot(y),
+            TiltCondition::Held(_) => 0.0,
+        };
+        let size = x.hypot(y).hypot(z) + moments / self.rows[0].pitch_radius_m();
+        if size == 0.0 {
+            return Err(failure);
+        }
+        let mut pose = start;
+        // So stiff that the load moves the ring by a micrometre.
+        let mut spring = size / 1e-6;
+        for _ in 0..MOST_PROXIMAL_STEPS {
+            let anchor = Anchor {
+                at: pose.to_five(),
+                spring_n_per_m: spring,
+            };
+            match self.iterate(pose, load, operation, Some(&anchor)) {
+                Ok(next) => {
+                    pose = next;
+                    spring *= 0.5;
+                    if let Ok(found) = self.iterate(pose, load, operation, None) {
+                        return Ok(found);
+                    }
+                }
+                Err(_) => spring *= 10.0,
+            }
+            if spring > size / 1e-12 {
+                break;
+            }
+        }
+        Err(failure)
     }
 
     /// From rest to speed, in shorter steps of the square of the speed where a step fails.
@@ -75,7 +132,7 @@ impl QuasiStaticBearing {
                 outer_rad_per_s: operation.outer_rad_per_s * next.sqrt(),
                 ..*operation
             };
-            match self.iterate(pose, load, &part) {
+            match self.iterate(pose, load, &part, None) {
                 Ok(found) => {
                     (pose, done) = (found, next);
                     if done >= 1.0 {
@@ -127,6 +184,7 @@ impl QuasiStaticBearing {
         start: RingPose,
         load: &AppliedBearingLoad,
         operation: &Operation,
+        anchor: Option<&Anchor>,
     ) -> Result<RingPose, BearingError> {
         let arm = self.rows[0].pitch_radius_m();
         let scale = Vector5::new(1.0, 1.0, 1.0, arm, arm);
@@ -139,9 +197,13 @@ impl QuasiStaticBearing {
         let mut free = [true; 5];
         free[2] = self.locates;
         (free[3], free[4]) = (!held, !held);
+        let spring = anchor.map_or(0.0, |anchor| anchor.spring_n_per_m);
         // Forces, with moments over the pitch radius.
-        let residual = |ring: &RingLoad| {
+        let residual = |pose: &RingPose, ring: &RingLoad| {
             let mut r = (ring.five() + applied).component_div(&scale);
+            if let Some(anchor) = anchor {
+                r -= (pose.to_five() - anchor.at).component_mul(&scale) * spring;
+            }
             for (entry, free) in r.iter_mut().zip(free) {
                 if !free {
                     *entry = 0.0;
@@ -151,8 +213,9 @@ impl QuasiStaticBearing {
         };
         let mut pose = start;
         let mut ring = self.evaluate(&pose, operation)?;
-        let mut r = residual(&ring);
+        let mut r = residual(&pose, &ring);
         let mut lift = 0.0_f64;
+        let mut rounding_n = 0.0;
         let bearing_size = applied.component_div(&scale).norm().max(1e-9);
         for iteration in 0..MOST_STEPS {
             let size = r.norm();
@@ -168,8 +231,11 @@ impl QuasiStaticBearing {
             }
             let mut stiffest = 1e3_f64;
             for i in 0..5 {
+                matrix[(i, i)] += spring;
                 stiffest = stiffest.max(matrix[(i, i)].abs());
             }
+            // What a change of the last digit of an element's place does.
+            rounding_n = 4.0 * f64::EPSILON * arm * stiffest;
             for (i, is_free) in free.iter().enumerate() {
                 if !is_free {
                     for j in 0..5 {
@@ -185,16 +251,17 @@ impl QuasiStaticBearing {
                 continue;
             };
             let length = step.norm();
+            // Finer than the places of the elements can be told: what is unbalanced then decides.
             if length <= 1e-16 * arm {
-                return Ok(pose);
+                break;
             }
             let factor = (100e-6 / length).min(1.0);
             let next = pose.moved(&(step * factor).component_div(&scale));
             let found = self.evaluate(&next, operation);
             match found {
-                Ok(found) if residual(&found).norm() < size => {
+                Ok(found) if residual(&next, &found).norm() < size => {
                     (pose, ring) = (next, found);
-                    r = residual(&ring);
+                    r = residual(&pose, &ring);
                     lift = if lift < 1e-9 { 0.0 } else { 0.1 * lift };
                 }
                 _ => {
@@ -209,7 +276,7 @@ impl QuasiStaticBearing {
             }
         }
         let within = ring.five().component_div(&scale).norm().max(bearing_size);
-        if r.norm() <= 1e-9 * within {
+        if r.norm() <= (1e-9 * within).max(rounding_n) {
             return Ok(pose);
         }
         Err(BearingError::NoEquilibrium {

@@ -49,7 +49,7 @@ pub(super) fn geometry(
     } else {
         BallBearingKind::AngularContact
     };
-    let free_angle_rad = free_angle_rad(file, keys, (ball, pitch), (inner, outer))?;
+    let (free_angle_rad, interference_mm) = free_angle(file, keys, (ball, pitch), (inner, outer))?;
     let geometry = BallGeometry {
         kind,
         balls,
@@ -58,6 +58,7 @@ pub(super) fn geometry(
         inner_conformity: inner,
         outer_conformity: outer,
         free_angle_rad,
+        interference_m: MM * interference_mm,
     };
     if file.raceway_diameters_mm.is_some() {
         notes.push(format!(
@@ -69,16 +70,29 @@ pub(super) fn geometry(
     Ok(geometry)
 }
 
-/// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A).
-fn free_angle_rad(
+/// Balls and rollers may be too large for their rings by this share of their diameter: for balls of 8 mm 80 um, several times what tight fits take
+/// away.
+pub(super) const MOST_INTERFERENCE: f64 = 0.01;
+
+/// α₀ from the contact angle, the clearance or the raceways' diameters: cos α₀ = 1 − P_d/(2A); and how far P_d lies below zero \[mm\].
+fn free_angle(
     file: &BearingFile,
     keys: &TableKeys<'_>,
     (ball, pitch): (f64, f64),
     (inner, outer): (f64, f64),
-) -> Result<f64, InputError> {
+) -> Result<(f64, f64), InputError> {
     let distance_mm = (inner + outer - 1.0) * ball;
     // cos α = 1 − P_d/(2A) as sin²(α/2) = P_d/(4A), which keeps the digits of small clearances.
-    let angle = |clearance_mm: f64| 2.0 * (0.25 * clearance_mm / distance_mm).sqrt().asin();
+    let angle = |clearance_mm: f64| {
+        let half_sine = (0.25 * clearance_mm.max(0.0) / distance_mm).sqrt();
+        (2.0 * half_sine.asin(), (-clearance_mm).max(0.0))
+    };
+    let deep_groove = file.kind == Kind::DeepGroove;
+    let least_mm = if deep_groove {
+        -MOST_INTERFERENCE * ball
+    } else {
+        0.0
+    };
     if let Some([bottom_inner, bottom_outer]) = file.raceway_diameters_mm {
         for (key, given) in [
             ("contact_angle_deg", file.contact_angle_deg.is_some()),
@@ -94,7 +108,7 @@ fn free_angle_rad(
         let clearance = bottom_outer - bottom_inner - 2.0 * ball;
         let most = 2.0 * distance_mm;
         let pair = format!("found {bottom_inner} and {bottom_outer}");
-        if clearance < 0.0 {
+        if clearance < least_mm {
             return Err(keys.error(
                 "raceway_diameters_mm",
                 format!(
@@ -109,13 +123,14 @@ fn free_angle_rad(
                     "{pair}; {bottom_outer} - {bottom_inner} - 2 x {ball} = {clearance:.4} mm of play, but grooves of {inner} and {outer} ball diameters \
                      hold a ball with less than {most:.4} mm only: no ball touches both. Check the diameters (they are those of the grooves' \
                      bottoms), or state the {} instead",
-                    if file.kind == Kind::DeepGroove { "radial_clearance_um" } else { "contact_angle_deg" }
+                    if deep_groove { "radial_clearance_um" } else { "contact_angle_deg" }
                 ),
             ));
         }
-        let free = angle(clearance);
+        let (free, interference) = angle(clearance);
         // Ball centres that just touch both grooves lie on a circle of their own.
-        let at = |f: f64| 2.0 * f * ball - (2.0 * f - 1.0) * ball * free.cos();
+        let cosine = free.cos() + 0.5 * interference / distance_mm;
+        let at = |f: f64| 2.0 * f * ball - (2.0 * f - 1.0) * ball * cosine;
         let middle = 0.5 * (bottom_inner + at(inner) + bottom_outer - at(outer));
         if (middle - pitch).abs() > 1e-3 * pitch {
             return Err(keys.error(
@@ -123,7 +138,7 @@ fn free_angle_rad(
                 format!("found {pitch}; raceways of {bottom_inner} and {bottom_outer} mm put the balls on {middle:.4} mm"),
             ));
         }
-        return Ok(free);
+        return Ok((free, interference));
     }
     if file.kind == Kind::AngularContact {
         let degrees = keys.needed(
@@ -137,15 +152,18 @@ fn free_angle_rad(
             degrees > 0.0 && degrees <= 60.0,
             "more than 0 and at most 60",
         )?;
-        return Ok(degrees.to_radians());
+        return Ok((degrees.to_radians(), 0.0));
     }
     let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
     let most_um = 2e3 * distance_mm;
     keys.require(
         "radial_clearance_um",
         clearance_um,
-        clearance_um >= 0.0 && clearance_um < most_um,
-        &format!("0 up to, not including, {most_um:.1}: with more no ball touches both grooves, and interference (negative clearance) is not modelled"),
+        clearance_um >= 1e3 * least_mm && clearance_um < most_um,
+        &format!(
+            "{:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most_um:.1}: with more no ball touches both grooves",
+            1e3 * least_mm
+        ),
     )?;
     Ok(angle(1e-3 * clearance_um))
 }

@@ -3,6 +3,8 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
+use super::ball_keys::MOST_INTERFERENCE;
+use super::roller_keys::require_clearance;
 use super::{BearingFile, MM, UM};
 use crate::catalogue::{CATALOGUE, CatalogueLine, CatalogueType, find};
 use crate::definition::{
@@ -68,12 +70,7 @@ pub(super) fn geometry(
             ball_geometry(file, keys, &line, &estimate, clearance_m)?
         }
         CatalogueType::CylindricalRoller => {
-            keys.require(
-                "radial_clearance_um",
-                clearance_m / UM,
-                (0.0..1e-3).contains(&clearance_m),
-                "0 up to, not including, 1000; interference (negative clearance) is not modelled",
-            )?;
+            require_clearance(keys, clearance_m / UM, estimate.diameter_m / UM)?;
             for (key, given) in [
                 ("inner_conformity", file.inner_conformity.is_some()),
                 ("outer_conformity", file.outer_conformity.is_some()),
@@ -140,14 +137,17 @@ fn ball_geometry(
         }
         _ => {
             let distance_m = (inner + outer - 1.0) * estimate.diameter_m;
-            let most = 2.0 * distance_m / UM;
+            let (least, most) = (
+                -MOST_INTERFERENCE * estimate.diameter_m / UM,
+                2.0 * distance_m / UM,
+            );
             keys.require(
                 "radial_clearance_um",
                 clearance_m / UM,
-                clearance_m >= 0.0 && clearance_m < 2.0 * distance_m,
-                &format!("0 up to, not including, {most:.1}; interference (negative clearance) is not modelled"),
+                (least..most).contains(&(clearance_m / UM)),
+                &format!("{least:.1} (interference of a hundredth of the ball's diameter) up to, not including, {most:.1}"),
             )?;
-            let half_sine = (0.25 * clearance_m / distance_m).sqrt();
+            let half_sine = (0.25 * clearance_m.max(0.0) / distance_m).sqrt();
             (BallBearingKind::DeepGroove, 2.0 * half_sine.asin())
         }
     };
@@ -159,6 +159,10 @@ fn ball_geometry(
         inner_conformity: inner,
         outer_conformity: outer,
         free_angle_rad,
+        interference_m: match kind {
+            BallBearingKind::DeepGroove => (-clearance_m).max(0.0),
+            BallBearingKind::AngularContact => 0.0,
+        },
     }))
 }
 

@@ -3,7 +3,9 @@
 use gearmesh_geometry::InputError;
 use gearmesh_geometry::input::{InputDocument, TableKeys};
 
+use super::ball_keys::MOST_INTERFERENCE;
 use super::{BearingFile, Kind, MM, ProfileKind, UM};
+use crate::build_rows::half_taper_of;
 use crate::definition::{RollerGeometry, RollerProfile, Taper};
 
 /// Laminae where the file names none.
@@ -49,12 +51,7 @@ pub(super) fn geometry(
         "2 to 1000; ISO/TS 16281 asks for 30 at least",
     )?;
     let clearance_um = file.radial_clearance_um.unwrap_or(0.0);
-    keys.require(
-        "radial_clearance_um",
-        clearance_um,
-        (0.0..1000.0).contains(&clearance_um),
-        "0 up to, not including, 1000; interference (negative clearance) is not modelled",
-    )?;
+    require_clearance(keys, clearance_um, 1e3 * diameter)?;
     let taper = (file.kind == Kind::TaperedRoller)
         .then(|| taper(file, keys, (diameter, length, pitch)))
         .transpose()?;
@@ -68,6 +65,21 @@ pub(super) fn geometry(
         profile: profile(file, document, diameter)?,
         laminae,
     })
+}
+
+/// Play, or interference up to a hundredth of the roller's diameter.
+pub(super) fn require_clearance(
+    keys: &TableKeys<'_>,
+    clearance_um: f64,
+    diameter_um: f64,
+) -> Result<(), InputError> {
+    let least = -MOST_INTERFERENCE * diameter_um;
+    keys.require(
+        "radial_clearance_um",
+        clearance_um,
+        (least..1000.0).contains(&clearance_um),
+        &format!("{least:.1} (interference of a hundredth of the roller's diameter) up to, not including, 1000"),
+    )
 }
 
 fn taper(
@@ -95,7 +107,7 @@ fn taper(
     )?;
     let ratio = diameter / pitch;
     let angle = degrees.to_radians();
-    let half_taper = (ratio * angle.sin()).atan2(1.0 + ratio * angle.cos());
+    let half_taper = half_taper_of(ratio, angle);
     let apex = 0.5 * pitch / (angle - half_taper).sin();
     keys.require(
         "roller_length_mm",

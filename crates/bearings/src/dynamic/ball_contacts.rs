@@ -156,6 +156,11 @@ impl DynamicBearing {
         if touch.approach_m <= 0.0 {
             return None;
         }
+        // A groove is the half of its torus that faces the ball: it does not reach over it.
+        let across = touch.normal.dot(&w) - touch.normal.dot(&ring.axis) * w.dot(&ring.axis);
+        if (across > 0.0) == (ring.side == Side::Inner) {
+            return None;
+        }
         let law = self.effects.traction.as_ref().map(|traction| {
             let effort = self.effort.as_deref();
             move |load: f64, slip: f64| {

@@ -112,8 +112,8 @@ fn values_out_of_range_are_answered_with_the_range() {
     );
     refused(
         B6205,
-        ("balls = 9", "balls = 9\nradial_clearance_um = -1.0"),
-        &["found -1"],
+        ("balls = 9", "balls = 9\nradial_clearance_um = -80.0"),
+        &["found -80", "-79.4"],
     );
     refused(
         B6205,

@@ -181,3 +181,45 @@ fn a_catalogue_line_gives_a_6205() {
         assert!(high - low <= 8, "{name}: {found:?}");
     }
 }
+
+/// A ring that turns against the load bears it all round (power 3), one that stands bears it at one place (10/3); rings that both turn have 3 each. One that rocks on
+/// its springs stands.
+#[test]
+fn lives_ask_which_rings_turn() {
+    let definition = definition(B6205);
+    let bearing = QuasiStaticBearing::new(&definition).unwrap();
+    let force = [2000.0, 0.0, 0.0];
+    let load = AppliedBearingLoad {
+        force_n: force,
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let pose = bearing.equilibrium(&load, &Operation::default()).unwrap();
+    let (_, loads) = bearing.loads(&pose, &Operation::default()).unwrap();
+    let of = |inner_rad_per_s: f64, outer_rad_per_s: f64| {
+        let operation = Operation {
+            inner_rad_per_s,
+            outer_rad_per_s,
+            ..Operation::default()
+        };
+        Life::of(&definition, &loads, force, &operation, None).reference_mrev
+    };
+    let (inner, outer, both) = (of(10.0, 0.0), of(0.0, -10.0), of(10.0, -7.0));
+    // With u, v the damage of each ring by the power 3, and U, V by 10/3: u + V, U + v, u + v.
+    let damage = |life: f64| life.powf(-10.0 / 9.0);
+    let mean = |power: f64| {
+        let sum: f64 = loads.elements[0]
+            .iter()
+            .map(|b| b.inner_load_n.powf(power))
+            .sum();
+        (sum / 9.0).powf(1.0 / power).powf(10.0 / 3.0)
+    };
+    let share = mean(10.0 / 3.0) / mean(3.0);
+    // u + V = u + s v and U + v = s u + v.
+    let (a, b) = (damage(inner), damage(outer));
+    // Loads inside and outside differ by the square of displacement over radius.
+    close(damage(both), (a + b) / (1.0 + share), 1e-7);
+    assert!(both > inner && both > outer);
+    assert_eq!(of(0.0, 0.0), inner);
+    assert_eq!(of(10.0, 1e-4), inner);
+    assert_eq!(of(-1e-4, 10.0), outer);
+}

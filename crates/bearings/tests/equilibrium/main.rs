@@ -8,4 +8,5 @@ mod hertz;
 mod independent;
 mod lives;
 mod published;
+mod rests;
 mod tangents;

@@ -1,0 +1,223 @@
+//! Where rings come to rest: loads for which Newton's method alone finds nothing, balls that a groove does not reach, interference, the apex of
+//! tapered rollers.
+
+use crate::common::{B6205, ROLLERS, TAPERED, bearing, close, definition};
+use gearmesh_bearings::quasi_static::{Row, RowLoads};
+use gearmesh_bearings::{
+    AppliedBearingLoad, Control, Operation, QuasiStaticBearing, RingPose, TiltCondition,
+};
+
+/// Where the ring rests; what it bears there is the load, to 1e-8 of it.
+fn rests(
+    bearing: &QuasiStaticBearing,
+    load: AppliedBearingLoad,
+    operation: &Operation,
+) -> (RingPose, RowLoads) {
+    let pose = bearing
+        .equilibrium(&load, operation)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let (ring, loads) = bearing.loads(&pose, operation).unwrap();
+    let [x, y, z] = load.force_n;
+    let size = x.hypot(y).hypot(z);
+    for (axis, force) in load.force_n.into_iter().enumerate() {
+        let unbalanced = ring.load[axis] + force;
+        assert!(
+            unbalanced.abs() < 1e-8 * size,
+            "axis {axis}: {unbalanced} N"
+        );
+    }
+    if let TiltCondition::Moments(moments) = load.tilt {
+        for (axis, moment) in moments.into_iter().enumerate() {
+            let unbalanced = ring.load[3 + axis] + moment;
+            let arm = bearing.rows[0].pitch_radius_m();
+            assert!(
+                unbalanced.abs() < 1e-8 * size * arm,
+                "about {axis}: {unbalanced} N m"
+            );
+        }
+    }
+    (pose, loads)
+}
+
+fn free(force_n: [f64; 3], moment_nm: [f64; 2]) -> AppliedBearingLoad {
+    AppliedBearingLoad {
+        force_n,
+        tilt: TiltCondition::Moments(moment_nm),
+    }
+}
+
+/// Found by random trials: few balls or much play, a tilt that is free, forces and moments at once. Newton's method alone stayed behind an edge of
+/// the energy; once it said that 1.6 % of the load unbalanced were an equilibrium.
+#[test]
+fn rings_rest_under_loads_that_few_balls_bear() {
+    let ball_bearing =
+        |kind: &str, sizes: &str| bearing(&format!("name = \"drawn\"\nkind = \"{kind}\"\n{sizes}"));
+    let still = Operation::default();
+    let three_steep = ball_bearing(
+        "angular-contact",
+        "balls = 3\nball_diameter_mm = 34.4\npitch_diameter_mm = 224.0\ninner_conformity = 0.52\nouter_conformity = 0.53\ncontact_angle_deg = 13.6",
+    );
+    rests(
+        &three_steep,
+        free([7800.0, 6800.0, 19_500.0], [-380.0, 160.0]),
+        &still,
+    );
+    let three = ball_bearing(
+        "deep-groove",
+        "balls = 3\nball_diameter_mm = 15.6\npitch_diameter_mm = 71.0\ninner_conformity = 0.52\nouter_conformity = 0.53\nradial_clearance_um = 5.0",
+    );
+    rests(&three, free([-81.0, 16.0, -130.0], [0.0; 2]), &still);
+    let loose = ball_bearing(
+        "deep-groove",
+        "balls = 10\nball_diameter_mm = 11.7\npitch_diameter_mm = 80.0\ninner_conformity = 0.52\nouter_conformity = 0.53\nradial_clearance_um = 225.0",
+    );
+    for angle in 0..12 {
+        let (sine, cosine) = (0.1 + 0.05 * f64::from(angle)).sin_cos();
+        let force = [28.0 * cosine, 28.0 * sine, 1.0];
+        rests(&loose, free(force, [0.0; 2]), &still);
+    }
+}
+
+/// The inner race may control no ball that it hardly presses; the outer one then leads it.
+#[test]
+fn lightly_pressed_balls_are_found_by_least_spin() {
+    let pair = bearing(
+        "name = \"drawn\"\nkind = \"angular-contact\"\nballs = 10\nball_diameter_mm = 20.4\npitch_diameter_mm = 93.0\ninner_conformity = 0.52\n\
+         outer_conformity = 0.53\ncontact_angle_deg = 25.5\narrangement = \"X\"\nrow_distance_mm = 40.0",
+    );
+    for rad_per_s in [0.02, 0.5, 20.0] {
+        let operation = Operation {
+            inner_rad_per_s: rad_per_s,
+            control: Control::LeastSpin,
+            ..Operation::default()
+        };
+        let load = AppliedBearingLoad {
+            force_n: [1236.0, 1451.0, 516.0],
+            tilt: TiltCondition::Held([1.2e-3, -0.48e-3]),
+        };
+        rests(&pair, load, &operation);
+    }
+}
+
+/// A groove is the half of a torus that faces the balls. With much play, or pushed far aside, a ring's torus would reach over the balls on the other
+/// side, and press them from outside.
+#[test]
+fn grooves_do_not_reach_over_balls() {
+    let tight = bearing(B6205);
+    let held = TiltCondition::Held([0.0; 2]);
+    let far = AppliedBearingLoad {
+        force_n: [1e6, 0.0, 0.0],
+        tilt: held,
+    };
+    let (pose, loads) = rests(&tight, far, &Operation::default());
+    assert!(pose.centre_m.x > 1e-3);
+    for ball in &loads.elements[0] {
+        let towards = ball.angle_rad.cos() > 0.0;
+        assert_eq!(ball.inner_load_n > 0.0, towards, "{ball:?}");
+    }
+    // 60 degrees of free contact angle: 0.4 mm of play.
+    let loose = bearing(&format!("{B6205}radial_clearance_um = 396.0\n"));
+    let turning = Operation {
+        inner_rad_per_s: 25.0,
+        ..Operation::default()
+    };
+    let load = AppliedBearingLoad {
+        force_n: [1.6, -19.5, 0.0],
+        tilt: held,
+    };
+    let (_, loads) = rests(&loose, load, &turning);
+    for ball in &loads.elements[0] {
+        let towards = 1.6 * ball.angle_rad.cos() - 19.5 * ball.angle_rad.sin() > 0.0;
+        assert!(towards || ball.inner_load_n == 0.0, "{ball:?}");
+    }
+}
+
+/// Interference presses every ball by P/2 at both races together, and the bearing is stiff without load.
+#[test]
+fn interference_presses_every_ball_alike() {
+    let interference = 12e-6;
+    let text = format!("{B6205}radial_clearance_um = -12.0\n");
+    let pressed = bearing(&text);
+    let still = Operation::default();
+    let (ring, loads) = pressed.loads(&RingPose::default(), &still).unwrap();
+    let Row::Ball(row) = &pressed.rows[0] else {
+        panic!("no balls")
+    };
+    let soft = |k: f64| k.powf(-2.0 / 3.0);
+    let both =
+        soft(row.inner.contact.stiffness_n_per_m15) + soft(row.outer.contact.stiffness_n_per_m15);
+    let expected = (0.5 * interference / both).powf(1.5);
+    for ball in &loads.elements[0] {
+        close(ball.inner_load_n, expected, 1e-9);
+        close(ball.outer_load_n, expected, 1e-9);
+        assert!(ball.inner_contact_angle_rad.abs() < 1e-12);
+    }
+    // Springs at equal angles: half the sum of theirs.
+    let spring = 1.5 * expected / (0.5 * interference);
+    close(-ring.tangent[(0, 0)], 4.5 * spring, 1e-2);
+    // The same bearing told by its raceways.
+    let (inner, outer) = match &definition(&text).geometry {
+        gearmesh_bearings::definition::BearingGeometry::Ball(g) => {
+            close(g.radial_clearance_m(), -interference, 1e-12);
+            g.raceway_diameters_m()
+        }
+        _ => panic!("no balls"),
+    };
+    close(outer - inner, 2.0 * 7.938e-3 - interference, 1e-12);
+    let by_raceways = bearing(&format!(
+        "{B6205}raceway_diameters_mm = [{}, {}]\n",
+        1e3 * inner,
+        1e3 * outer
+    ));
+    let (_, same) = by_raceways.loads(&RingPose::default(), &still).unwrap();
+    close(same.elements[0][0].inner_load_n, expected, 1e-6);
+    // Less load on the ball at the load's foot than that of the same bearing with play, and it moves less.
+    let load = AppliedBearingLoad {
+        force_n: [1000.0, 0.0, 0.0],
+        tilt: TiltCondition::Held([0.0; 2]),
+    };
+    let (stiff, loads) = rests(&pressed, load, &still);
+    let (soft, with_play) = rests(
+        &bearing(&format!("{B6205}radial_clearance_um = 12.0\n")),
+        load,
+        &still,
+    );
+    assert!(loads.elements[0][0].inner_load_n < with_play.elements[0][0].inner_load_n);
+    assert!(stiff.centre_m.x < 0.5 * soft.centre_m.x);
+}
+
+/// Rollers without a profile: 35 948 L^{8/9} (P/2)^{10/9} (N, mm) each, ISO/TS 16281.
+#[test]
+fn interference_presses_every_roller_alike() {
+    let text = ROLLERS.replace("radial_clearance_um = 10.0", "radial_clearance_um = -8.0");
+    let pressed = bearing(&format!("{text}[profile]\nkind = \"straight\"\n"));
+    let (_, loads) = pressed
+        .loads(&RingPose::default(), &Operation::default())
+        .unwrap();
+    let expected = 35_948.0 * 9.0_f64.powf(8.0 / 9.0) * 4e-3_f64.powf(10.0 / 9.0);
+    for roller in &loads.elements[0] {
+        close(roller.inner_load_n, expected, 1e-9);
+        close(roller.outer_load_n, expected, 1e-9);
+    }
+}
+
+/// Rollers and races of a tapered bearing have one apex on its axis.
+#[test]
+fn tapered_rollers_and_races_share_an_apex() {
+    let tapered = bearing(&format!("{TAPERED}[profile]\nkind = \"straight\"\n"));
+    let Row::Roller(row) = &tapered.rows[0] else {
+        panic!("no rollers")
+    };
+    let (r, z) = row.axis;
+    let apex = row.pitch_radius_m / r;
+    let apex_z = row.middle_z_m - z * apex;
+    // The roller's radius, straight on to its apex.
+    let [first, last] = [row.laminae.first().unwrap(), row.laminae.last().unwrap()];
+    let slope = (last.reach_m - first.reach_m) / (last.place_m - first.place_m);
+    let reach = first.reach_m + slope * (-apex - first.place_m);
+    assert!(reach.abs() < 1e-12, "{reach}");
+    for race in [&row.inner, &row.outer] {
+        let off = race.normal.1 * apex_z - race.offset_m;
+        assert!(off.abs() < 1e-12, "{off}");
+    }
+}
