@@ -30,6 +30,9 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
     train.loads.retain(|l| used.contains(&l.shaft));
 }
 
+/// Bearings nearer to each other than this stand at one place \[mm\].
+const SAME_PLACE_MM: f64 = 0.1;
+
 /// Couplings of which the file says nothing hold shafts that lack bearings, and shafts that nothing holds across their axis are held
 /// at both ends.
 pub fn hold(source: &Source<'_>, train: &mut Train) {
@@ -38,16 +41,22 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
     let hubs: Vec<(i64, i64)> = carriers.filter_map(|s| Some((s.id, s.hub_on?))).collect();
     let places = |shaft: i64| -> usize {
         // What a shaft carries does not hold it.
-        let carries = |b: &&bearing::Bearing| {
+        let carries = |b: &&Bearing| {
             hubs.iter()
                 .any(|&(hub, on)| on == shaft && b.sides.contains(&hub))
         };
         let mine = bearings.iter().filter(|b| b.sides.contains(&shaft));
         let mine = mine.filter(|b| !carries(b));
-        let radial = mine.filter(|b| b.radial_n_per_mm > 0.0);
-        radial
-            .map(|b| if b.tilt_nm_per_rad > 0.0 { 2 } else { 1 })
-            .sum()
+        let radial: Vec<&Bearing> = mine.filter(|b| b.radial_n_per_mm > 0.0).collect();
+        if radial.iter().any(|b| b.tilt_nm_per_rad > 0.0) {
+            return 2;
+        }
+        let place = |b: &&Bearing| b.u_mm[usize::from(b.sides[0] != shaft)].unwrap_or(0.0);
+        let mut places: Vec<f64> = radial.iter().map(place).collect();
+        places.sort_by(f64::total_cmp);
+        // Two bearings at one place do not keep a shaft from tilting.
+        places.dedup_by(|a, b| (*a - *b).abs() < SAME_PLACE_MM);
+        places.len()
     };
     for coupling in &mut train.couplings {
         if coupling.is_bare && coupling.sides.iter().any(|&shaft| places(shaft) < 2) {
@@ -74,7 +83,7 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
                 only.tilt_nm_per_rad = bearing::RIGID_TILT;
                 if let Some(component) = source.model.component(only.id) {
                     let what = format!(
-                        "the only one across the axis of {name}: it holds the shaft against tilting, too, by {:e} N m/rad",
+                        "the only place that holds {name} across its axis: the bearing holds the shaft against tilting, too, by {:e} N m/rad",
                         bearing::RIGID_TILT
                     );
                     source.assume(component, what);

@@ -287,3 +287,25 @@ fn torques_that_do_not_balance_are_mended_where_power_goes_in() {
     );
     assert!(table(file(&made, "box.toml"), "machine").contains(&"torque_Nm = 50.0"));
 }
+
+#[test]
+fn one_place_that_holds_a_shaft_keeps_it_from_tilting() {
+    for places in [vec!["60"], vec!["60", "60.01"], vec!["60", "160"]] {
+        let mut further = String::new();
+        let mut relations: Vec<Relation<'_>> = vec![ON_OUT[0]];
+        let sides = [
+            [(65, "assembly"), (11, "inner_part"), (2, "outer_part")],
+            [(66, "assembly"), (11, "inner_part"), (2, "outer_part")],
+        ];
+        for (i, u) in places.iter().enumerate() {
+            let values = [("u_coordinate_on_shaft_inner_side", "mm", *u)];
+            further += &component(65 + i, "concept_bearing", &format!("b{i}"), &values);
+            relations.push(("side", &sides[i]));
+        }
+        let made = read(&two_pairs("1", "1 0 0", &further, &relations));
+        let first = table(file(&made, "box.toml"), "b0").join("\n");
+        let is_held = places != ["60", "160"];
+        assert_eq!(first.contains("tilt_stiffness"), is_held, "{first}");
+        assert_eq!(told(&made, "`b0`").contains("against tilting"), is_held);
+    }
+}
