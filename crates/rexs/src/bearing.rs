@@ -81,7 +81,7 @@ pub const RIGID: f64 = 1e7;
 /// Larger stiffness stands for rigid \[N/mm\].
 const RIGID_FROM: f64 = 1e8;
 /// The same of tilting \[N m/rad\].
-const RIGID_TILT: f64 = 1e7;
+pub const RIGID_TILT: f64 = 1e7;
 
 /// Reads a bearing; none where it has no two sides.
 ///

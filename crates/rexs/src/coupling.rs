@@ -58,7 +58,7 @@ pub fn read(
         );
         return Ok(None);
     };
-    if source.has(component, "is_engaged") && !is_engaged(source, component, shift_index) {
+    if is_open(source, component, shift_index) {
         source.leave_out(
             component,
             format!("open in gear {shift_index}: its two sides are not joined in the scene"),
@@ -94,6 +94,23 @@ pub fn read(
         u_mm,
         stiffness: [axial, radial, torsion, tilt],
     }))
+}
+
+/// The gear that is engaged, from 1 on.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn shift_index(source: &Source<'_>) -> Result<i64, RexsError> {
+    let mut found = 1;
+    for unit in source.model.of_kind(&["gear_unit"]) {
+        found = source.integer(unit, "gear_shift_index")?.unwrap_or(1);
+    }
+    Ok(found)
+}
+
+/// Whether a coupling is open in a gear.
+pub fn is_open(source: &Source<'_>, component: &Component, shift_index: i64) -> bool {
+    source.has(component, "is_engaged") && !is_engaged(source, component, shift_index)
 }
 
 /// `is_engaged` holds one word, or one for each gear.

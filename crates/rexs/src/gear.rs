@@ -1,7 +1,7 @@
 //! Cylindrical gears: teeth, tool, blank, material.
 
 use crate::error::RexsError;
-use crate::microgeometry::{self, Microgeometry};
+use crate::microgeometry::Microgeometry;
 use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
@@ -65,7 +65,7 @@ pub struct Gear {
     pub shaft_mm: Option<[f64; 2]>,
     /// Material.
     pub material: Material,
-    /// Modifications of left and right flanks.
+    /// Modifications of left and right flanks, read once it is known which way the shaft points.
     pub microgeometry: Microgeometry,
 }
 
@@ -180,10 +180,13 @@ pub fn read(
         }
     };
     let face_width_mm = source.need(component, "face_width", MM)?;
-    for (what, value) in [("module", module_mm), ("face_width", face_width_mm)] {
-        if !(1e-3..1e5).contains(&value) {
+    for (what, value, most) in [
+        ("module", module_mm, 1e3),
+        ("face_width", face_width_mm, 1e5),
+    ] {
+        if !(1e-3..=most).contains(&value) {
             return Err(missing(&format!(
-                "{what} is {value} mm; allowed is 0.001 to 100000"
+                "{what} is {value} mm; allowed is 0.001 to {most}"
             )));
         }
     }
@@ -216,7 +219,6 @@ pub fn read(
     tip_and_root(source, component, &mut gear)?;
     thickness(source, component, &mut gear)?;
     gear.bore_mm = bore(source, structure, component)?;
-    gear.microgeometry = microgeometry::read(source, structure, component, &flanks, &gear)?;
     Ok(gear)
 }
 

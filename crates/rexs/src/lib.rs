@@ -5,6 +5,7 @@
 //! loads → gear files, scenes, bearing files, bevel pair files as text ([`mod@import`]). docs/rexs.md says what becomes of what.
 
 pub mod bearing;
+pub mod bearings_and_couplings;
 pub mod bevel;
 pub mod bevel_force;
 pub mod bevel_loads;
@@ -12,11 +13,13 @@ pub mod container;
 pub mod coupling;
 pub mod error;
 pub mod gear;
+pub mod gear_bodies;
 pub mod gear_text;
 pub mod import;
 pub mod json;
 pub mod ledger;
 pub mod loads;
+pub mod loose_gears;
 pub mod microgeometry;
 pub mod model;
 pub mod placement;

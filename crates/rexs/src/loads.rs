@@ -22,6 +22,8 @@ pub struct Load {
     pub power_w: Option<f64>,
     /// Whether it takes part in the flow of power.
     pub transmits: bool,
+    /// Whether it is a brake: an engaged coupling between the shaft and the casing.
+    pub is_brake: bool,
     /// Force along u, v, w \[N\].
     pub force_n: [f64; 3],
     /// Moments about v and w \[N m\].
@@ -65,6 +67,7 @@ pub fn read(
         torque_nm: torque_nm.filter(|_| transmits && !follows),
         power_w: power_w.filter(|_| transmits && !follows),
         transmits,
+        is_brake: false,
         force_n: [
             force("u")?.unwrap_or(0.0),
             force("v")?.unwrap_or(0.0),
@@ -75,6 +78,22 @@ pub fn read(
             value("torque_around_w_axis", NM)?.unwrap_or(0.0),
         ],
     })
+}
+
+/// The torque with which a brake holds a shaft: it follows from the others.
+pub fn brake(id: i64, name: String, shaft: i64, u_mm: f64) -> Load {
+    Load {
+        id,
+        name,
+        shaft,
+        u_mm,
+        torque_nm: None,
+        power_w: None,
+        transmits: true,
+        is_brake: true,
+        force_n: [0.0; 3],
+        moment_nm: [0.0; 2],
+    }
 }
 
 /// A mass on a shaft.

@@ -6,6 +6,7 @@ use crate::model::Component;
 use crate::source::Source;
 use crate::structure::Structure;
 use crate::text::{number, numbers};
+use crate::train::Train;
 use crate::units::{MM, Unit};
 
 /// Keys of `[microgeometry]` and their values, of left and right flanks.
@@ -50,7 +51,30 @@ const UNREAD: [&str; 4] = [
     "helix_deviation",
 ];
 
-/// Reads the modifications of both flanks.
+/// Reads the modifications of all gears.
+///
+/// # Errors
+/// Those of [`Source`].
+pub fn of_train(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &mut Train,
+) -> Result<(), RexsError> {
+    for i in 0..train.gears.len() {
+        let gear = &train.gears[i].gear;
+        let Some(component) = source.model.component(gear.id) else {
+            continue;
+        };
+        let is_reversed = train
+            .shaft(train.gears[i].shaft)
+            .is_some_and(|s| s.is_reversed);
+        let found = read(source, structure, component, gear, is_reversed)?;
+        train.gears[i].gear.microgeometry = found;
+    }
+    Ok(())
+}
+
+/// Reads the modifications of both flanks. `is_reversed`: z of the gear file, which is that of the scene's shaft, is −u.
 ///
 /// # Errors
 /// Those of [`Source`].
@@ -58,12 +82,16 @@ pub fn read(
     source: &Source<'_>,
     structure: &Structure,
     component: &Component,
-    flanks: &[Option<&Component>; 2],
     gear: &Gear,
+    is_reversed: bool,
 ) -> Result<Microgeometry, RexsError> {
-    // +z of the gear file is +u. The datum face looks to -u unless the file says otherwise.
-    let datum_is_positive =
+    let flanks = structure
+        .flanks(component.id)
+        .map(|id| id.and_then(|id| source.model.component(id)));
+    // The datum face looks to -u unless the file says otherwise.
+    let datum_along_u =
         source.text(component, "datum_face_orientation").as_deref() == Some("positive");
+    let datum_is_positive = datum_along_u != is_reversed;
     let mut sides = [Vec::new(), Vec::new()];
     for (side, flank) in sides.iter_mut().zip(flanks) {
         let Some(flank) = flank else { continue };
@@ -71,6 +99,7 @@ pub fn read(
             source,
             gear,
             datum_is_positive,
+            is_reversed,
         };
         let found = |kinds: &[&str]| -> Vec<&Component> {
             let ids = structure.partners(flank.id, kinds).into_iter();
@@ -91,6 +120,18 @@ pub fn read(
         }
     }
     let [left, right] = sides;
+    if left != right {
+        source.assume(
+            component,
+            "left and right flanks as seen from the end of the shaft at higher u",
+        );
+    }
+    // Seen from the other end they change places.
+    let [left, right] = if is_reversed {
+        [right, left]
+    } else {
+        [left, right]
+    };
     Ok(Microgeometry { left, right })
 }
 
@@ -99,7 +140,10 @@ type Keys = Vec<(String, String)>;
 struct Reader<'a> {
     source: &'a Source<'a>,
     gear: &'a Gear,
+    /// Whether the datum face looks to +z.
     datum_is_positive: bool,
+    /// Whether z is −u.
+    is_reversed: bool,
 }
 
 impl Reader<'_> {
@@ -360,10 +404,18 @@ impl Reader<'_> {
         }
         self.source.assume(m, "places over the face count from the face at the lower u; positive amounts remove material");
         let half = 0.5 * self.gear.face_width_mm;
-        let z: Vec<f64> = places.iter().map(|b| b - half).collect();
+        // z increases, as u does; against u the table runs from its other end.
+        let along_z = |mut values: Vec<f64>| {
+            if self.is_reversed {
+                values.reverse();
+            }
+            values
+        };
+        let sign = if self.is_reversed { -1.0 } else { 1.0 };
+        let z = along_z(places.iter().map(|b| sign * (b - half)).collect());
         let rows: Vec<String> = amounts
             .chunks(places.len())
-            .map(|row| numbers(&row.iter().map(|mm| UM_PER_MM * mm).collect::<Vec<_>>()))
+            .map(|row| numbers(&along_z(row.iter().map(|mm| UM_PER_MM * mm).collect())))
             .collect();
         let table = format!(
             "{{ diameter_mm = {}, z_mm = {}, removed_um = [{}] }}",

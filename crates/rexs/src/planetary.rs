@@ -184,7 +184,9 @@ fn is_driven(source: &Source<'_>, train: &Train, part: &i64, shaft: i64) -> bool
         let speed = source.number(c, "rotational_speed", RPM).ok().flatten();
         speed == Some(0.0) && matches!(source.flag(c, "defines_speed"), Ok(Some(true)))
     });
-    let loads = train.loads.iter().any(|l| l.shaft == shaft && l.transmits);
+    let mine = train.loads.iter().filter(|l| l.shaft == shaft);
+    let loads = mine.clone().any(|l| l.transmits && !l.is_brake);
+    let stands = stands || { mine }.any(|l| l.is_brake);
     let is_mate = |mesh: &crate::train::Mesh| {
         let mut gears = mesh.gears.iter().map(|&i| &train.gears[i]);
         gears.any(|g| g.shaft == shaft && g.gear.id != *part)

@@ -30,16 +30,25 @@ pub struct Flow {
     pub speed_rpm: BTreeMap<i64, f64>,
     /// Torque of each [`TorqueOn`].
     pub torque_nm: Vec<f64>,
-    /// Torque that each shaft brings to each link, about z: of the first and of the second shaft. None in loops, where
-    /// it depends on stiffness.
+    /// Torque that each shaft brings to each link, about z: of the first and of the second shaft. None for the links of a
+    /// loop, where it depends on stiffness.
     pub link_nm: Vec<Option<[f64; 2]>>,
     /// Shafts whose speed was assumed.
     pub assumed_speed: Vec<i64>,
-    /// Trains whose stated torques do not balance: a shaft, and the power that is left over by its speed \[N m\].
-    pub unbalanced: Vec<(i64, f64)>,
+    /// Trains whose stated torques do not balance: the torque where most power goes in, and by how much it was changed so that they
+    /// do \[N m\].
+    pub unbalanced: Vec<(usize, f64)>,
     /// Torques that were given the other sign, because only then the power balances.
     pub turned: Vec<usize>,
+    /// Links that close a loop with another ratio than the rest of it has: the link, and the speed of its second shaft over that
+    /// of the first one by the rest.
+    pub locked: Vec<(usize, f64)>,
+    /// Shafts whose stated speed \[1/min\] is not what follows from that of another one.
+    pub other_speed: Vec<(i64, f64)>,
 }
+
+/// Speeds that differ by less are the same: files round them.
+const SAME_SPEED: f64 = 1e-3;
 
 /// Speed that is taken where none is stated \[1/min\].
 pub const ASSUMED_RPM: f64 = 1000.0;
@@ -90,7 +99,7 @@ fn train(
     }];
     seen.push(root);
     let mut in_tree = vec![false; links.len()];
-    let mut has_loop = false;
+    let mut closing: Vec<usize> = Vec::new();
     let mut next = 0;
     while next < reached.len() {
         let (shaft, relative) = (reached[next].shaft, reached[next].relative);
@@ -106,7 +115,9 @@ fn train(
                 continue;
             }
             if seen.contains(&other) {
-                has_loop = true;
+                if !closing.contains(&i) {
+                    closing.push(i);
+                }
                 continue;
             }
             in_tree[i] = true;
@@ -122,7 +133,18 @@ fn train(
     let mine: Vec<usize> = (0..torques.len())
         .filter(|&i| relative.contains_key(&torques[i].shaft))
         .collect();
+    for &i in &closing {
+        let [a, b] = links[i].shafts.map(|s| relative[&s]);
+        if (b / a / links[i].ratio - 1.0).abs() > SAME_SPEED {
+            found.locked.push((i, b / a));
+        }
+    }
+    // What nothing drives stands: pins and axles.
+    let stands = mine.is_empty() && reached.len() == 1;
     let root_rpm = stated_rpm.get(&root).copied().unwrap_or_else(|| {
+        if stands {
+            return 0.0;
+        }
         found.assumed_speed.push(root);
         // Power goes in at the first torque that is stated.
         let first = mine.iter().find(|&&i| found.torque_nm[i] != 0.0);
@@ -133,11 +155,14 @@ fn train(
     });
     for (&shaft, ratio) in &relative {
         found.speed_rpm.insert(shaft, root_rpm * ratio);
+        let stated = stated_rpm.get(&shaft).copied();
+        let other = |n: &f64| (n / (root_rpm * ratio) - 1.0).abs() > SAME_SPEED;
+        found
+            .other_speed
+            .extend(stated.filter(other).map(|n| (shaft, n)));
     }
-    balance(root, root_rpm, torques, &mine, &relative, found);
-    if has_loop {
-        return;
-    }
+    balance(root_rpm, torques, &mine, &relative, found);
+    let in_loop = loops(&reached, links, &closing);
     // From the leaves to the root: what comes together behind a link goes through it.
     let mut behind: BTreeMap<i64, f64> = relative.keys().map(|&s| (s, 0.0)).collect();
     for &i in &mine {
@@ -149,6 +174,9 @@ fn train(
         let power = behind[&r.shaft];
         *behind.entry(parent).or_insert(0.0) += power;
         let [child_nm, parent_nm] = [power / r.relative, -power / relative[&parent]];
+        if in_loop[link] {
+            continue;
+        }
         let is_first = links[link].shafts[0] == r.shaft;
         found.link_nm[link] = Some(if is_first {
             [child_nm, parent_nm]
@@ -158,9 +186,33 @@ fn train(
     }
 }
 
+/// Which links are part of a loop: those that close one, and the way from both of their shafts up to where they come together.
+fn loops(reached: &[Reached], links: &[Link], closing: &[usize]) -> Vec<bool> {
+    let mut found = vec![false; links.len()];
+    let up = |shaft: i64| {
+        let own = reached.iter().find(|r| r.shaft == shaft);
+        own.and_then(|r| r.by)
+    };
+    let way = |shaft: i64| {
+        let first = up(shaft);
+        std::iter::successors(first, |&(_, parent)| up(parent)).map(|(link, _)| link)
+    };
+    for &i in closing {
+        found[i] = true;
+        let [a, b] = links[i].shafts.map(|s| way(s).collect::<Vec<_>>());
+        // What both ways have in common lies between the loop and the root.
+        for &link in a.iter().filter(|l| !b.contains(l)) {
+            found[link] = true;
+        }
+        for &link in b.iter().filter(|l| !a.contains(l)) {
+            found[link] = true;
+        }
+    }
+    found
+}
+
 /// Torques by power, and those that follow from the others.
 fn balance(
-    root: i64,
     root_rpm: f64,
     torques: &[TorqueOn],
     mine: &[usize],
@@ -204,5 +256,12 @@ fn balance(
             return;
         }
     }
-    found.unbalanced.push((root, left));
+    // What holds the train in the scene bears what is left over; flanks and axial forces follow from that.
+    let power = |i: usize| found.torque_nm[i] * of(i) * root_rpm;
+    let input = mine.iter().copied();
+    if let Some(i) = input.max_by(|&a, &b| power(a).total_cmp(&power(b))) {
+        let change = -left / of(i);
+        found.torque_nm[i] += change;
+        found.unbalanced.push((i, change));
+    }
 }

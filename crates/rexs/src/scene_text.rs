@@ -2,6 +2,7 @@
 
 use crate::bearing::AxialSupport;
 use crate::bevel_loads::{BevelLoad, bevel_loads};
+use crate::gear_bodies::gear_bodies;
 use crate::placement::Frame;
 use crate::shaft::Shaft;
 use crate::source::Source;
@@ -63,16 +64,14 @@ pub fn scene(
         text.push_str(&format!("gravity_m_per_s2 = {}\n", numbers(&g)));
     }
     text.push_str("\n[run]\nkind = \"static\"\n");
-    for seated in train.gears.iter().filter(|g| g.shaft >= 0) {
-        text.push_str(&format!(
-            "\n[[body]]\nname = {}\ngear = {}\n",
-            quoted(&seated.gear.name),
-            quoted(&with.gear(&seated.gear.file))
-        ));
-    }
-    let groups = groups(train);
-    for shaft in &train.shafts {
-        shaft_table(&mut text, train, shaft, &groups);
+    text.push_str(&gear_bodies(source, train, |g| with.gear(&g.gear.file)));
+    let groups = joined(train, |_| true);
+    // Springs of couplings tell no speed.
+    let turning = joined(train, |i| {
+        !(train.couplings.iter()).any(|c| c.sides == train.links[i].shafts)
+    });
+    for shaft in train.shafts.iter().filter(|s| s.hub_on.is_none()) {
+        shaft_table(&mut text, train, shaft, &turning);
     }
     let bevel_loads = bevel_loads(source, train);
     let supports = axial_supports(source, train, &bevel_loads);
@@ -86,8 +85,8 @@ pub fn scene(
     text
 }
 
-/// Trains that are joined by meshes of the scene and couplings: the number of each shaft's train.
-fn groups(train: &Train) -> BTreeMap<i64, usize> {
+/// Trains that are joined by meshes of the scene and couplings, as far as these links are wanted: the number of each shaft's train.
+fn joined(train: &Train, wanted: impl Fn(usize) -> bool) -> BTreeMap<i64, usize> {
     let mut group: BTreeMap<i64, usize> = train
         .shafts
         .iter()
@@ -99,7 +98,7 @@ fn groups(train: &Train) -> BTreeMap<i64, usize> {
         .links
         .iter()
         .enumerate()
-        .filter(|(i, _)| !apart.contains(i))
+        .filter(|(i, _)| !apart.contains(i) && wanted(*i))
     {
         let [Some(&a), Some(&b)] = link.shafts.map(|s| group.get(&s)) else {
             continue;
@@ -136,6 +135,7 @@ fn shaft_table(text: &mut String, train: &Train, shaft: &Shaft, groups: &BTreeMa
     let first = train
         .shafts
         .iter()
+        .filter(|s| s.hub_on.is_none())
         .find(|s| groups.get(&s.id) == groups.get(&shaft.id));
     if let Some(&speed) = train.flow.speed_rpm.get(&shaft.id).filter(|n| **n != 0.0)
         && first.is_some_and(|s| s.id == shaft.id)
@@ -201,6 +201,11 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
             *axial_n.entry(seated.shaft).or_insert(0.0) += force;
         }
     }
+    // What pushes a loose gear goes on to the shaft that carries it.
+    for (hub, on) in train.shafts.iter().filter_map(|s| Some((s.id, s.hub_on?))) {
+        let pushed = axial_n.get(&hub).copied().unwrap_or(0.0);
+        *axial_n.entry(on).or_insert(0.0) += pushed;
+    }
     for load in &train.loads {
         let sign = train.shaft(load.shaft).map_or(1.0, Shaft::sign);
         *axial_n.entry(load.shaft).or_insert(0.0) += sign * load.force_n[0];
@@ -211,8 +216,10 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
         .map(|b| b.axial == AxialSupport::Both)
         .collect();
     for shaft in &train.shafts {
+        let carried = |id: &i64| train.shaft(*id).is_some_and(|s| s.hub_on == Some(shaft.id));
         let mine: Vec<usize> = (0..train.bearings.len())
             .filter(|&i| train.bearings[i].sides.contains(&shaft.id))
+            .filter(|&i| !train.bearings[i].sides.iter().any(carried))
             .collect();
         let along_u = shaft.sign() * axial_n.get(&shaft.id).copied().unwrap_or(0.0);
         for &i in &mine {
@@ -250,7 +257,7 @@ fn axial_supports(source: &Source<'_>, train: &Train, bevel_loads: &[BevelLoad])
         }
     }
     if !is_known && let Some(unit) = source.model.of_kind(&["gear_unit"]).next() {
-        source.assume(unit, "the train has loops: torques of its meshes depend on stiffness, flanks are `both`, one-way supports as without axial tooth forces");
+        source.assume(unit, "the train has loops: torques of their meshes depend on stiffness, their flanks are `both`, one-way supports as without their axial tooth forces");
     }
     holds
 }
@@ -336,14 +343,18 @@ fn drive(text: &mut String, source: &Source<'_>, train: &Train, groups: &BTreeMa
         .collect();
     for seat in train.torque_seats() {
         // What the shaft brings to the link, the link takes from the shaft.
-        if let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() {
-            torques.push(Torque {
-                shaft: seat.shaft,
-                u_mm: seat.u_mm,
-                nm: -link[seat.link.1],
-                name: format!("torque at {}", seat.name),
-            });
-        }
+        let Some(link) = train.flow.link_nm.get(seat.link.0).copied().flatten() else {
+            if let Some(component) = source.model.component(seat.shaft) {
+                source.leave_out(component, format!("the torque at {}, which is part of a loop: it depends on stiffness, which a stage without a mesh in the scene does not have. Nothing acts there, what is behind it bears no load", seat.name));
+            }
+            continue;
+        };
+        torques.push(Torque {
+            shaft: seat.shaft,
+            u_mm: seat.u_mm,
+            nm: -link[seat.link.1],
+            name: format!("torque at {}", seat.name),
+        });
     }
     let mut done: Vec<usize> = Vec::new();
     for shaft in &train.shafts {

@@ -36,6 +36,8 @@ pub struct Shaft {
     pub sections: Vec<Section>,
     /// Material.
     pub material: Material,
+    /// The shaft on which a gear turns loose whose hub this is; none for shafts of the file.
+    pub hub_on: Option<i64>,
     /// Stated speed about u \[1/min\], where it defines those of the others.
     pub speed_rpm: Option<f64>,
     /// Places of stations along u \[mm\].
@@ -145,6 +147,10 @@ impl Shaft {
 
     /// Body of a station: what is seated there, else its own.
     pub fn station_body(&self, station: usize) -> String {
+        // The body of a hub is the gear itself.
+        if self.hub_on.is_some() {
+            return self.name.clone();
+        }
         let own = || format!("{}/{station}", self.name);
         self.seated(station).map_or_else(own, str::to_owned)
     }
@@ -242,6 +248,7 @@ pub fn read(
         }
     }
     sections.sort_by(|a, b| a.start_mm.total_cmp(&b.start_mm));
+    let mut sections = part_overlaps(source, component, sections);
     close_gaps(source, component, &mut sections);
     let speed = source.number(component, "rotational_speed", RPM)?;
     let defines = source.flag(component, "defines_speed")?;
@@ -252,11 +259,55 @@ pub fn read(
         is_reversed: false,
         sections,
         material: material(source, structure, component)?,
+        hub_on: None,
         speed_rpm: speed.filter(|n| *n != 0.0 && defines != Some(false)),
         points_mm: Vec::new(),
         seated: Vec::new(),
         faces_mm: Vec::new(),
     })
+}
+
+/// Where pieces overlap, all of them are there, as a collar that is drawn over a shaft.
+fn part_overlaps(
+    source: &Source<'_>,
+    component: &Component,
+    sections: Vec<Section>,
+) -> Vec<Section> {
+    let mut reach = f64::MIN;
+    let mut has_overlap = false;
+    for section in &sections {
+        has_overlap |= reach - section.start_mm > 1e-6;
+        reach = reach.max(section.end_mm);
+    }
+    if !has_overlap {
+        return sections;
+    }
+    source.assume(
+        component,
+        "sections overlap: there the largest outer and the smallest inner diameter count",
+    );
+    let mut borders: Vec<f64> = sections
+        .iter()
+        .flat_map(|s| [s.start_mm, s.end_mm])
+        .collect();
+    borders.sort_by(f64::total_cmp);
+    borders.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let piece = |w: &[f64]| {
+        let middle = 0.5 * (w[0] + w[1]);
+        let here = || {
+            sections
+                .iter()
+                .filter(move |s| s.start_mm < middle && middle < s.end_mm)
+        };
+        here().next()?;
+        Some(Section {
+            start_mm: w[0],
+            end_mm: w[1],
+            outer_mm: here().map(|s| s.outer_mm).fold(0.0, f64::max),
+            inner_mm: here().map(|s| s.inner_mm).fold(f64::MAX, f64::min),
+        })
+    };
+    borders.windows(2).filter_map(piece).collect()
 }
 
 /// Each piece ends where the next one begins.

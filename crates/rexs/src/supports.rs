@@ -14,7 +14,9 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
     let mut used: Vec<i64> = Vec::new();
     used.extend(train.gears.iter().map(|g| g.shaft));
     used.extend(train.bevels.iter().map(|b| b.shaft));
-    used.extend(train.loads.iter().map(|l| l.shaft));
+    // A brake alone holds nothing that turns.
+    let loads = train.loads.iter().filter(|l| !l.is_brake);
+    used.extend(loads.map(|l| l.shaft));
     used.extend(train.masses.iter().map(|m| m.shaft));
     used.extend(train.bearings.iter().flat_map(|b| b.sides));
     used.extend(train.couplings.iter().flat_map(|c| c.sides));
@@ -25,18 +27,36 @@ pub fn leave_out_bare(source: &Source<'_>, train: &mut Train) {
         source.leave_out(component, what);
     }
     train.shafts.retain(|s| used.contains(&s.id));
+    train.loads.retain(|l| used.contains(&l.shaft));
 }
+
+/// Bearings nearer to each other than this stand at one place \[mm\].
+const SAME_PLACE_MM: f64 = 0.1;
 
 /// Couplings of which the file says nothing hold shafts that lack bearings, and shafts that nothing holds across their axis are held
 /// at both ends.
 pub fn hold(source: &Source<'_>, train: &mut Train) {
     let bearings = train.bearings.clone();
+    let carriers = train.shafts.iter();
+    let hubs: Vec<(i64, i64)> = carriers.filter_map(|s| Some((s.id, s.hub_on?))).collect();
     let places = |shaft: i64| -> usize {
+        // What a shaft carries does not hold it.
+        let carries = |b: &&Bearing| {
+            hubs.iter()
+                .any(|&(hub, on)| on == shaft && b.sides.contains(&hub))
+        };
         let mine = bearings.iter().filter(|b| b.sides.contains(&shaft));
-        let radial = mine.filter(|b| b.radial_n_per_mm > 0.0);
-        radial
-            .map(|b| if b.tilt_nm_per_rad > 0.0 { 2 } else { 1 })
-            .sum()
+        let mine = mine.filter(|b| !carries(b));
+        let radial: Vec<&Bearing> = mine.filter(|b| b.radial_n_per_mm > 0.0).collect();
+        if radial.iter().any(|b| b.tilt_nm_per_rad > 0.0) {
+            return 2;
+        }
+        let place = |b: &&Bearing| b.u_mm[usize::from(b.sides[0] != shaft)].unwrap_or(0.0);
+        let mut places: Vec<f64> = radial.iter().map(place).collect();
+        places.sort_by(f64::total_cmp);
+        // Two bearings at one place do not keep a shaft from tilting.
+        places.dedup_by(|a, b| (*a - *b).abs() < SAME_PLACE_MM);
+        places.len()
     };
     for coupling in &mut train.couplings {
         if coupling.is_bare && coupling.sides.iter().any(|&shaft| places(shaft) < 2) {
@@ -53,7 +73,22 @@ pub fn hold(source: &Source<'_>, train: &mut Train) {
     for i in 0..train.shafts.len() {
         let shaft = &train.shafts[i];
         let (id, name) = (shaft.id, shaft.name.clone());
-        if places(id) > 0 || held.contains(&id) {
+        let count = places(id);
+        if count > 1 || held.contains(&id) || shaft.hub_on.is_some() {
+            continue;
+        }
+        if count == 1 {
+            let only = |b: &&mut Bearing| b.sides.contains(&id) && b.radial_n_per_mm > 0.0;
+            if let Some(only) = train.bearings.iter_mut().find(only) {
+                only.tilt_nm_per_rad = bearing::RIGID_TILT;
+                if let Some(component) = source.model.component(only.id) {
+                    let what = format!(
+                        "the only place that holds {name} across its axis: the bearing holds the shaft against tilting, too, by {:e} N m/rad",
+                        bearing::RIGID_TILT
+                    );
+                    source.assume(component, what);
+                }
+            }
             continue;
         }
         let [start, end] = ends(train, i);

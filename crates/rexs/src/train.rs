@@ -1,11 +1,14 @@
 //! The gearbox of a model: shafts with what stands on them, stages, and how the power flows.
 
-use crate::bearing::{self, Bearing};
+use crate::bearing::Bearing;
+use crate::bearings_and_couplings::bearings_and_couplings;
 use crate::bevel::{self, BevelStage};
 use crate::coupling::{self, Coupling};
 use crate::error::RexsError;
 use crate::gear::{self, Gear};
 use crate::loads::{self, AddedMass, Load};
+use crate::loose_gears::{self, Seat};
+use crate::microgeometry;
 use crate::model::Component;
 use crate::placement::frame;
 use crate::planetary;
@@ -171,6 +174,7 @@ pub fn read(source: &Source<'_>, structure: &Structure, stem: &str) -> Result<Tr
     hold(source, &mut train);
     finish_shafts(source, &mut train);
     finish_gears(source, &mut train);
+    microgeometry::of_train(source, structure, &mut train)?;
     train.flow = power(source, &train);
     Ok(train)
 }
@@ -192,19 +196,29 @@ fn seat_gears(
             format!("{}s have no model", component.kind.replace('_', " ")),
         );
     }
+    let shift_index = coupling::shift_index(source)?;
     for component in source.model.of_kind(&["cylindrical_gear"]) {
         let name = names.unique(&component.name, component.id);
         let file = files.unique(&format!("{stem}_{}", file_stem(&name)), component.id);
         let file = format!("{}.toml", file_stem(&file));
         let gear = gear::read(source, structure, component, name, file)?;
-        let shafts = structure.partners(component.id, &["shaft"]);
-        let seat = shafts.iter().find(|&&id| train.shaft(id).is_some());
+        let seat = loose_gears::seat(source, structure, train, component, shift_index);
         let start = source.number(component, "u_coordinate_on_shaft", MM)?;
+        let shaft = match seat {
+            Some(Seat::Fixed(id)) => id,
+            Some(Seat::Loose(id)) => {
+                let carrier = train.shaft(id);
+                let hub = carrier.map(|s| loose_gears::hub(component, &gear.name, s));
+                train.shafts.extend(hub);
+                component.id
+            }
+            None => -1,
+        };
         let mid_mm = start.map_or(f64::NAN, |u| u + 0.5 * gear.face_width_mm);
         // A gear that sits on nothing is a file all the same.
         train.gears.push(SeatedGear {
             gear,
-            shaft: seat.copied().unwrap_or(-1),
+            shaft,
             mid_mm,
         });
         if seat.is_none() {
@@ -250,6 +264,12 @@ fn join_stages(
                     );
                     continue;
                 };
+                let same = |m: &&Mesh| m.gears == [a, b] || m.gears == [b, a];
+                if let Some(first) = train.meshes.iter().find(same) {
+                    let what = format!("its gears are in mesh already in {}", first.name);
+                    source.leave_out(stage, what);
+                    continue;
+                }
                 let [first, second] = [&train.gears[a], &train.gears[b]];
                 demand_mates(stage, [&first.gear, &second.gear])?;
                 train.links.push(Link {
@@ -364,85 +384,6 @@ fn bevel_stage(
             name,
             stage: found.clone(),
         });
-    }
-    Ok(())
-}
-
-fn bearings_and_couplings(
-    source: &Source<'_>,
-    structure: &Structure,
-    train: &mut Train,
-    names: &mut Names,
-    files: &mut Names,
-) -> Result<(), RexsError> {
-    let units = source.model.of_kind(&["gear_unit"]);
-    let mut shift_index = 1;
-    for unit in units {
-        shift_index = source.integer(unit, "gear_shift_index")?.unwrap_or(1);
-    }
-    for component in source.model.of_kind(&bearing::KINDS) {
-        let name = names.unique(&component.name, component.id);
-        let file = files.unique(&format!("bearing_{}", file_stem(&name)), component.id);
-        let found = bearing::read(
-            source,
-            structure,
-            component,
-            name,
-            format!("{}.toml", file_stem(&file)),
-        )?;
-        let Some(mut found) = found else { continue };
-        let own = frame(source, component)?;
-        let mut on_shaft = false;
-        for side in 0..2 {
-            let Some(shaft) = train.shaft(found.sides[side]) else {
-                let kind = source
-                    .model
-                    .component(found.sides[side])
-                    .map_or("", |c| c.kind.as_str());
-                on_shaft |= kind == "shaft";
-                found.u_mm[side] = None;
-                continue;
-            };
-            if found.u_mm[side].is_none() {
-                let by_vector = own.and_then(|own| Some(shaft.frame?.u_of(own.origin_mm)));
-                source.assume(
-                    component,
-                    format!(
-                        "no place on {} given: {}",
-                        shaft.name,
-                        by_vector.map_or("u = 0".to_owned(), |u| format!(
-                            "u = {u} mm, from its support vector"
-                        ))
-                    ),
-                );
-                found.u_mm[side] = Some(by_vector.unwrap_or(0.0));
-            }
-        }
-        if on_shaft || found.u_mm == [None, None] {
-            source.leave_out(component, "on no shaft of the scene");
-        } else {
-            train.bearings.push(found);
-        }
-    }
-    for component in source.model.of_kind(&coupling::KINDS) {
-        let name = names.unique(&component.name, component.id);
-        let Some(mut found) = coupling::read(source, structure, component, name, shift_index)?
-        else {
-            continue;
-        };
-        if found.sides.iter().any(|&id| train.shaft(id).is_none()) {
-            source.leave_out(component, "does not join two shafts of the scene: a gear is fixed to its shaft, a casing is the ground");
-            continue;
-        }
-        found.u_mm = found.u_mm.map(|u| Some(u.unwrap_or(0.0)));
-        train.links.push(Link {
-            shafts: found.sides,
-            ratio: 1.0,
-        });
-        train.couplings.push(found);
-    }
-    for component in source.model.of_kind(&coupling::JOINTS) {
-        source.leave_out(component, "joints of shaft and hub are rigid in the scene");
     }
     Ok(())
 }

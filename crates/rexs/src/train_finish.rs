@@ -2,11 +2,11 @@
 
 use crate::gear::Gear;
 use crate::loads::Load;
-use crate::placement::{add, dot};
+use crate::placement::{Frame, add, dot};
 use crate::power_flow::{ASSUMED_RPM, Flow, TorqueOn, flow};
 use crate::shaft::{self, Shaft};
 use crate::source::Source;
-use crate::train::{Mesh, Train};
+use crate::train::{Mesh, SeatedGear, Train};
 use crate::units::MM;
 use std::collections::BTreeMap;
 
@@ -53,6 +53,9 @@ pub fn finish_shafts(source: &Source<'_>, train: &mut Train) {
         }
         for seated in train.gears.iter().filter(|g| g.shaft == id) {
             shaft.seat(seated.mid_mm, &seated.gear.name);
+        }
+        if shaft.hub_on.is_some() {
+            continue;
         }
         if let Some(component) = source.model.component(shaft.id) {
             let mine: Vec<f64> = bores
@@ -130,6 +133,7 @@ pub fn finish_gears(source: &Source<'_>, train: &mut Train) {
         let along = dot(between, fa.axes[0]);
         let distance = (dot(between, between) - along * along).max(0.0).sqrt();
         told_distance(source, mesh, distance);
+        told_apart(source, mesh, [&train.gears[a], &train.gears[b]], [fa, fb]);
         let [ga, gb] = [&train.gears[a].gear, &train.gears[b].gear];
         let reference = 0.5 * (ga.reference_diameter_mm() + gb.reference_diameter_mm());
         let module = ga.module_mm;
@@ -187,6 +191,27 @@ fn told_distance(source: &Source<'_>, mesh: &Mesh, distance_mm: f64) {
     }
 }
 
+/// Says so where the axes of mates are not parallel, or their faces do not overlap: the scene refuses such meshes by its own names.
+fn told_apart(source: &Source<'_>, mesh: &Mesh, gears: [&SeatedGear; 2], frames: [Frame; 2]) {
+    let Some(stage) = source.model.component(mesh.stage) else {
+        return;
+    };
+    let [a, b] = gears;
+    let names = format!("{} and {}", a.gear.name, b.gear.name);
+    let cosine = dot(frames[0].axes[0], frames[1].axes[0]).abs();
+    if cosine < 1.0 - 1e-5 {
+        let angle = cosine.min(1.0).acos().to_degrees();
+        source.leave_out(stage, format!("the axes of {names} stand {angle:.3} deg from parallel: the scene will refuse this mesh; mend u_axis_vector of their shafts"));
+        return;
+    }
+    let there = frames[1].point([b.mid_mm, 0.0, 0.0]);
+    let offset = (frames[0].u_of(there) - a.mid_mm).abs();
+    let reach = 0.5 * (a.gear.face_width_mm + b.gear.face_width_mm);
+    if offset >= reach {
+        source.leave_out(stage, format!("the middles of the faces of {names} stand {offset:.3} mm apart along the axis, they overlap below {reach:.3} mm: the scene will refuse this mesh; mend u_coordinate_on_shaft or support_vector"));
+    }
+}
+
 /// Thinnest shaft that holds a gear cut into it, over the gear's root: what gear files allow.
 const LEAST_END: f64 = 0.1;
 
@@ -199,10 +224,13 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         let Some(component) = source.model.component(gear.id) else {
             continue;
         };
-        let mut shaft = train.shafts.iter_mut().find(|s| s.id == seated.shaft);
-        let outer = shaft
-            .as_ref()
-            .map_or(0.0, |s| s.diameters_mm(seated.mid_mm)[0]);
+        let on = |id: i64| train.shafts.iter().position(|s| s.id == id);
+        let place = on(seated.shaft);
+        // A gear that turns loose is as wide inside as the shaft that carries it.
+        let carrier = place.and_then(|i| train.shafts[i].hub_on).map_or(place, on);
+        let outer = carrier.map_or(0.0, |i| train.shafts[i].diameters_mm(seated.mid_mm)[0]);
+        let is_hub = carrier != place;
+        let mut shaft = place.map(|i| &mut train.shafts[i]);
         let most = gear.root_diameter_mm() - 3.0 * gear.module_mm;
         let wanted = gear.bore_mm.unwrap_or(outer);
         if wanted > 0.0 && wanted <= most {
@@ -215,7 +243,7 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         }
         let root = gear.root_diameter_mm();
         let half = 0.5 * gear.face_width_mm;
-        if let Some(shaft) = shaft.as_mut() {
+        if let Some(shaft) = shaft.as_mut().filter(|_| !is_hub) {
             // Just beyond each face, along z; a millimetre is no shaft's length.
             let ends = [-1.0, 1.0].map(|side| {
                 let u = seated.mid_mm + shaft.sign() * side * (half + 1.0);
@@ -248,6 +276,14 @@ fn bores(source: &Source<'_>, train: &mut Train) {
         if shaft.is_none() {
             let what = format!(
                 "on no shaft of the scene: a ring from a bore of {bore:.3} mm, half its root diameter, on"
+            );
+            source.assume(component, what);
+            gear.bore_mm = Some(bore);
+            continue;
+        }
+        if is_hub {
+            let what = format!(
+                "a bore of {wanted} mm leaves too little below the teeth (root {root:.3} mm): {bore:.3} mm"
             );
             source.assume(component, what);
             gear.bore_mm = Some(bore);
@@ -291,13 +327,19 @@ fn torque_sides(train: &Train, gear: usize) -> [bool; 2] {
 pub fn power(source: &Source<'_>, train: &Train) -> Flow {
     let ids: Vec<i64> = train.shafts.iter().map(|s| s.id).collect();
     let sign = |id: i64| train.shaft(id).map_or(1.0, Shaft::sign);
+    // A brake bears what is left over where nothing else does.
+    let open = |l: &&Load| l.transmits && l.torque_nm.is_none() && l.power_w.is_none();
+    let has_open = train.loads.iter().filter(open).any(|l| !l.is_brake);
     let torques: Vec<TorqueOn> = train
         .loads
         .iter()
         .filter(|l| l.transmits)
         .map(|l| TorqueOn {
             shaft: l.shaft,
-            torque_nm: l.torque_nm.map(|t| sign(l.shaft) * t),
+            torque_nm: match l.torque_nm {
+                None if l.is_brake && has_open => Some(0.0),
+                torque => torque.map(|t| sign(l.shaft) * t),
+            },
             power_w: l.power_w,
         })
         .collect();
@@ -332,9 +374,41 @@ pub fn power(source: &Source<'_>, train: &Train) -> Flow {
             );
         }
     }
-    for &(shaft, rest) in &found.unbalanced {
+    for &(shaft, stated) in &found.other_speed {
+        let follows = found.speed_rpm.get(&shaft).copied().unwrap_or(0.0) * sign(shaft);
+        let stated = stated * sign(shaft);
         if let Some(shaft) = component(shaft) {
-            source.assume(shaft, format!("the torques of its train do not balance, {rest:.4} N m at its speed are left over: what holds the train in the scene takes them"));
+            source.assume(shaft, format!("rotational_speed is {stated} 1/min, but {follows:.4} 1/min follow by the ratios from the shaft that comes first: the latter"));
+        }
+    }
+    for &(link, rest) in &found.locked {
+        let own = train.links[link].ratio;
+        let names = train.links[link]
+            .shafts
+            .map(|id| train.shaft(id).map_or("", |s| s.name.as_str()));
+        let mesh = train.meshes.iter().find(|m| m.link == link);
+        let coupling = train
+            .couplings
+            .iter()
+            .find(|c| c.sides == train.links[link].shafts);
+        let id = mesh.map(|m| m.stage).or(coupling.map(|c| c.id));
+        let what = format!(
+            "THE GEARBOX IS LOCKED: {} turns {own:.6} times as fast as {} by it, and {rest:.6} times by the other way between them. Loads in the scene come of teeth that jam. Open a coupling (is_engaged) or mend the numbers of teeth",
+            names[1], names[0]
+        );
+        match id
+            .or(train.links[link].shafts.first().copied())
+            .and_then(component)
+        {
+            Some(subject) => source.assume(subject, what),
+            None => continue,
+        }
+    }
+    for &(i, change) in &found.unbalanced {
+        let load = transmitting[i];
+        if let Some(component) = component(load.id) {
+            let sign = sign(load.shaft);
+            source.assume(component, format!("the torques of its train do not balance: {:.4} N m about u in place of {:.4} N m here, where most power goes in", sign * found.torque_nm[i], sign * (found.torque_nm[i] - change)));
         }
     }
     found

@@ -26,7 +26,7 @@ pub fn place_shafts(
     }
     let mut has_news = true;
     while has_news {
-        has_news = false;
+        has_news = follow_hubs(train);
         for mesh in 0..train.meshes.len() {
             let gears = train.meshes[mesh].gears.map(|g| train.gears[g].clone());
             let frames = [0, 1].map(|i| train.shaft(gears[i].shaft).and_then(|s| s.frame));
@@ -81,6 +81,27 @@ pub fn place_shafts(
         }
     }
     Ok(())
+}
+
+/// Hubs of loose gears stand where the shafts do that carry them, and the other way round.
+fn follow_hubs(train: &mut Train) -> bool {
+    let mut has_news = false;
+    for i in 0..train.shafts.len() {
+        let Some(carrier) = train.shafts[i].hub_on else {
+            continue;
+        };
+        let known = train.shafts[i].frame;
+        let Some(on) = train.shaft_mut(carrier) else {
+            continue;
+        };
+        match (known, on.frame) {
+            (Some(frame), None) => on.frame = Some(frame),
+            (None, Some(frame)) => train.shafts[i].frame = Some(frame),
+            _ => continue,
+        }
+        has_news = true;
+    }
+    has_news
 }
 
 /// Middles of the faces: programs write the start of the face or its middle as `u_coordinate_on_shaft`; the support vector is

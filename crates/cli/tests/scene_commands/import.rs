@@ -323,3 +323,27 @@ fn bearings_of_a_bevel_stage_carry_its_forces() {
         assert!(off < 5.0, "{bearing}: {found:?} {expected:?}");
     }
 }
+
+/// An idler that turns on a needle bearing on its axle, between two gears of 20 teeth on either side: 30 N m at the working pitch radius
+/// of 60.05 mm/3 push it the same way twice, and the axle's bearings bear what the needle bearing hands on.
+#[test]
+fn an_idler_on_a_bearing_loads_its_axle() {
+    let desk = Desk::new();
+    let model = desk.path("idler.rexs");
+    std::fs::write(&model, include_str!("idler_on_bearing.rexs")).unwrap();
+    let (folder, output) = (desk.path("imported"), desk.path("result.h5"));
+    succeeds(&["import", argument(&model), "-o", argument(&folder)]);
+    let scene = folder.join("idler.toml");
+    succeeds(&["run", argument(&scene), "-o", argument(&output)]);
+    let result = SystemResult::open(&output).unwrap();
+    let force = |bearing: &str, axis: &str| {
+        let column = format!("elements/{bearing}/force_world_{axis}_N");
+        result.rows.read(&column).unwrap()[0]
+    };
+    let by_hand = 2.0 * 30.0 / (60.05e-3 / 3.0);
+    let needle = force("needle", "z");
+    let axle = force("axle b0", "z") + force("axle b1", "z");
+    assert!((needle / by_hand - 1.0).abs() < 1e-3, "{needle} {by_hand}");
+    assert!((axle / by_hand + 1.0).abs() < 1e-3, "{axle} {by_hand}");
+    assert!(force("needle", "y").abs() < 1e-3 * by_hand);
+}

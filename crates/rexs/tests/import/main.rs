@@ -7,6 +7,7 @@ mod bevel_force;
 mod containers;
 mod dialects;
 mod incomplete;
+mod loose_gears;
 mod other_gearboxes;
 mod planetary;
 mod power;

@@ -89,3 +89,29 @@ fn loops_leave_torques_open_and_power_gives_a_torque() {
     );
     assert!((found.torque_nm[0] - 100.0).abs() < 1e-9 && (found.torque_nm[1] - 200.0).abs() < 1e-9);
 }
+
+/// A stage before a loop of two equal paths: its torque is known, those of the loop are not.
+#[test]
+fn what_is_before_and_behind_a_loop_has_its_torque() {
+    let links = [
+        link(1, 2, -0.5),
+        link(2, 3, -0.5),
+        link(2, 3, -0.5),
+        link(3, 4, -1.0),
+    ];
+    let found = flow(
+        &[1, 2, 3, 4],
+        &links,
+        &[torque(1, Some(10.0)), torque(4, None)],
+        &BTreeMap::from([(1, 100.0), (4, 30.0)]),
+    );
+    assert_eq!(
+        found.link_nm,
+        [Some([10.0, 20.0]), None, None, Some([40.0, 40.0])]
+    );
+    assert!(found.locked.is_empty());
+    assert_eq!(found.other_speed, [(4, 30.0)]);
+    let other = [link(1, 2, -0.5), link(1, 2, -1.0)];
+    let found = flow(&[1, 2], &other, &[], &BTreeMap::new());
+    assert_eq!(found.locked, [(1, -0.5)]);
+}

@@ -1,0 +1,130 @@
+//! Gears that turn loose on their shafts: idlers on bearings, and gears of gearboxes with several speeds whose clutch is open. Each has a
+//! shaft of its own in the train, its hub, along the line of the shaft that carries it; in the scene this is the gear's body.
+
+use crate::bearing::{self, AxialSupport, Bearing};
+use crate::coupling;
+use crate::model::Component;
+use crate::shaft::Shaft;
+use crate::source::Source;
+use crate::structure::Structure;
+use crate::train::Train;
+
+/// Where a gear sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seat {
+    /// Fixed to a shaft.
+    Fixed(i64),
+    /// Loose on a shaft.
+    Loose(i64),
+}
+
+/// The other side of a component that stands between a gear and a shaft of the scene.
+fn other_side(structure: &Structure, train: &Train, between: i64, gear: i64) -> Option<i64> {
+    let sides = structure.sides(between)?;
+    let own = sides.iter().position(|&side| side == gear)?;
+    let other = sides[1 - own];
+    train.shaft(other).map(|_| other)
+}
+
+/// The shaft on which a gear sits, and whether it turns loose on it: all clutches between the two are open, or there are bearings
+/// between them and nothing else that joins them.
+pub fn seat(
+    source: &Source<'_>,
+    structure: &Structure,
+    train: &Train,
+    gear: &Component,
+    shift_index: i64,
+) -> Option<Seat> {
+    let between = |kinds: &[&str]| -> Vec<(&Component, i64)> {
+        let all = source.model.components.iter();
+        all.filter(|c| kinds.contains(&c.kind.as_str()))
+            .filter_map(|c| Some((c, other_side(structure, train, c.id, gear.id)?)))
+            .collect()
+    };
+    let couplings = between(&coupling::KINDS);
+    let is_open = |c: &Component| coupling::is_open(source, c, shift_index);
+    if let Some((_, shaft)) = couplings.iter().find(|(c, _)| !is_open(c)) {
+        return Some(Seat::Fixed(*shaft));
+    }
+    let shafts = structure.partners(gear.id, &["shaft"]);
+    let shaft = *shafts.iter().find(|&&id| train.shaft(id).is_some())?;
+    let is_joined = !between(&coupling::JOINTS).is_empty();
+    let has_bearing = !between(&bearing::KINDS).is_empty();
+    let is_loose = !couplings.is_empty() || (has_bearing && !is_joined);
+    Some(if is_loose {
+        Seat::Loose(shaft)
+    } else {
+        Seat::Fixed(shaft)
+    })
+}
+
+/// The hub of a gear that turns loose on a shaft: its number is that of the gear.
+pub fn hub(gear: &Component, name: &str, carrier: &Shaft) -> Shaft {
+    let mut hub = carrier.clone();
+    hub.id = gear.id;
+    name.clone_into(&mut hub.name);
+    hub.hub_on = Some(carrier.id);
+    hub.speed_rpm = None;
+    hub
+}
+
+/// Bearings between a shaft and a gear: on the hub of one that turns loose, at the same place as on the shaft where none is given.
+/// False for a bearing inside of a gear that is fixed to the shaft, which carries nothing.
+pub fn stand_on_hubs(
+    source: &Source<'_>,
+    train: &Train,
+    component: &Component,
+    sides: &mut [i64; 2],
+    u_mm: &mut [Option<f64>; 2],
+) -> bool {
+    for side in 0..2 {
+        let own = sides[side];
+        let Some(gear) = train.gears.iter().find(|g| g.gear.id == own) else {
+            continue;
+        };
+        if gear.shaft == sides[1 - side] {
+            let what = "between a shaft and a gear that is fixed to it: carries nothing";
+            source.leave_out(component, what);
+            return false;
+        }
+        sides[side] = gear.shaft;
+        u_mm[side] = u_mm[side].or(u_mm[1 - side]);
+    }
+    true
+}
+
+/// Hubs without bearings are held on their shafts, free about the axis; those with one of them do not tilt on it.
+pub fn hold_hubs(source: &Source<'_>, train: &mut Train) {
+    for i in 0..train.gears.len() {
+        let seated = &train.gears[i];
+        let (id, mid_mm, name) = (seated.gear.id, seated.mid_mm, seated.gear.name.clone());
+        let Some(carrier) = train.shaft(id).and_then(|hub| hub.hub_on) else {
+            continue;
+        };
+        let on = train
+            .shaft(carrier)
+            .map_or(String::new(), |s| s.name.clone());
+        let radial = |b: &&mut Bearing| b.sides.contains(&id) && b.radial_n_per_mm > 0.0;
+        let mut mine: Vec<&mut Bearing> = train.bearings.iter_mut().filter(radial).collect();
+        let is_bare = mine.is_empty();
+        let words = match mine.as_mut_slice() {
+            [] => "nothing else holds it there: rigid across and along the axis, free about it",
+            [only] if only.tilt_nm_per_rad == 0.0 => {
+                only.tilt_nm_per_rad = bearing::RIGID_TILT;
+                "its one bearing there holds it against tilting, too"
+            }
+            _ => "on its bearings there",
+        };
+        if let Some(component) = source.model.component(id) {
+            source.assume(component, format!("turns loose on {on}: {words}"));
+        }
+        if is_bare {
+            let sides = [carrier, id];
+            let name = format!("{name} on {on}");
+            let mut held = Bearing::rigid(id, name, sides, mid_mm, AxialSupport::Both);
+            held.u_mm[1] = Some(mid_mm);
+            held.tilt_nm_per_rad = bearing::RIGID_TILT;
+            train.bearings.push(held);
+        }
+    }
+}
