@@ -154,12 +154,12 @@ pub(super) fn thickness_words(tooth: &Tooth, file: &PairFile) -> Option<String> 
     }
     let origin = found.origin_m.map_or_else(String::new, |m| {
         format!(
-            " An origin {:+.3} mm along the axis would explain it (points_origin_mm).",
+            " An origin {:+.3} mm farther towards the heel would explain it.",
             1e3 * m
         )
     });
     Some(format!(
-        "warning: {figures}. Are backlash_mm and thickness_shift those of the part, and the tables' origin at the pitch apex?{origin} It says nothing where both tables \
+        "warning: {figures}. Are backlash_mm and thickness_shift those of the part, and points_origin_mm the place of the tables' origin?{origin} It says nothing where both tables \
          do not count their azimuths from one place."
     ))
 }
